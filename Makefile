@@ -10,8 +10,8 @@ WEB := factory/report/site/web
 demo: $(VENV)/.ready                ## the main job on the example meshes
 	$(BIN)/factory build --input examples/meshes examples/generated --sim sapien --output out/
 
-test: $(VENV)/.ready-dev            ## every test
-	$(BIN)/python -m pytest
+test: $(VENV)/.ready-dev            ## every test, two files at a time
+	$(BIN)/python -m pytest -n 2 --dist loadfile
 
 test-full: $(VENV)/.ready-dev       ## the few that run the released networks at full size
 	$(BIN)/python -m pytest -m full
@@ -42,7 +42,7 @@ format: $(VENV)/.ready-dev
 	$(BIN)/ruff format .
 
 bench: $(VENV)/.ready-dev           ## one JSON line per claim
-	for script in $(filter-out benchmarks/real_objects.py,$(wildcard benchmarks/*.py)); do $(BIN)/python $$script || exit 1; done
+	for script in $(filter-out benchmarks/real_objects.py benchmarks/real_yield.py,$(wildcard benchmarks/*.py)); do $(BIN)/python $$script || exit 1; done
 
 soak: $(VENV)/.ready-dev            ## hours: kills, full disks, thousands of assets; one JSON line each
 	for script in kill_build full_disk long_build scaling fuzz_readers; do \

@@ -59,7 +59,7 @@ def make_asset(
         verdict = validate(draft.bundle, config.simulators, judge, told, draft.inspected, stages)
         verdict = with_kept(verdict, draft.reading, draft.asset.articulation)
         with stages.clock.stage("model"):
-            write_model(draft.asset, draft.bundle.folder)
+            write_model(draft.asset, draft.bundle.folder, draft.before)
         made = Made(draft.asset, draft.bundle, verdict, draft.plan)
         return finished(origin, intake, made, stages)
     except InputRejected as rejection:
@@ -112,7 +112,7 @@ def _draft(
         inspected = inspect(bundle, judge, findings, stages)
         return ReadingDraft(articulation, asset, bundle, plan, findings, inspected)
 
-    draft = made(first_plan(articulation, spare), "0")
+    first = draft = made(first_plan(articulation, spare), "0")
     for attempt in range(config.max_rounds):
         late = stages.clock.busy > config.within_s
         repaired = (
@@ -124,8 +124,8 @@ def _draft(
     many = draft.asset.hull_count > stages.config.hulls.most
     if draft.passes and many:
         lighter = made(replace(draft.plan, fewer=True), "fewer")
-        return lighter if lighter.passes else draft
-    return draft
+        draft = lighter if lighter.passes else draft
+    return draft if draft is first else replace(draft, before=first.asset)
 
 
 def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:

@@ -193,12 +193,13 @@ class SeparateConfig:
         overlap_poses: of those, how many are tested for overlap of the meshes.
         most_cut: largest share of a part's collision volume that may be cut away for one pair.
         visible_m: what is cut off deeper than this is told, and its area counted [m].
-        bared_m: how much may be cut off two parts together where nothing excuses it [m].
+        bared_m: how much may be cut off two parts together where nothing excuses it [m]; what a
+            joint that is hung well runs into on its way is planed instead.
         hinge_m: how far from a hinge's line lies what may be planed off so that it can turn [m].
-        planed_m, planed_share: most that may be planed off two parts together, beside their hinge
-            or where they overlap and no joint holds one in the other: [m], and as a share of the
-            diagonal of what the hinge holds, else of the smaller part. A hinge that is off by a
-            twentieth of its part needs more.
+        planed_m, planed_share: most that may be planed off two parts together, beside their hinge,
+            where their joint is hung well, or where they overlap and no joint holds one in the
+            other: [m], and as a share of the diagonal of what the hinge holds, else of the smaller
+            part. A hinge that is off by a twentieth of its part needs more.
         planed_volume, planed_area: largest shares of a solid part's collision volume, and of any
             part's visible surface, that planing may take.
     """

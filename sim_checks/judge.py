@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import TracebackType
 from typing import Any
 
@@ -15,6 +16,7 @@ from .checks.result import CheckResult
 from .config import CheckConfig
 from .description import Description, DescriptionError
 from .processes.isolation import Failure, Outcome, WarmChild
+from .read.usd.as_urdf import is_usd, write_as_urdf
 from .report import KILLED, Finding, Report, Severity
 
 #: Raised when the same files and settings would give another report.
@@ -40,7 +42,7 @@ class Examination:
 
 
 class Judge:
-    """Judges URDF and MJCF files one after another; close it, or use it as a context manager.
+    """Judges URDF, MJCF and USD files one after another; close it, or use it as a context manager.
 
     A report is the same whatever was judged before, in whatever order, and however many simulators
     ran at once.
@@ -120,6 +122,8 @@ class Judge:
         for name in simulators:
             simulator(name)
         path = Path(path)
+        if is_usd(path):
+            return self._check_usd(path, simulators)
         if examined is None:
             examined = self.examine(path)
         findings = list(examined.findings)
@@ -135,6 +139,24 @@ class Judge:
         absent = {finding.simulator for finding in findings if finding.code in ABSENT}
         took_part = tuple(name for name in simulators if name not in absent)
         return Report(path.name, took_part, tuple(findings), measurements, differences)
+
+    def _check_usd(self, path: Path, simulators: Sequence[str]) -> Report:
+        """Judge the URDF that says what a USD asset says: no engine here reads USD."""
+        with TemporaryDirectory() as folder:
+            limits = self._config.child.limits
+            outcome = self._child("static").call(write_as_urdf, path, Path(folder), limits=limits)
+            if outcome.value is None:
+                error = outcome.error
+                finding = (
+                    Finding(error.code, Severity.HARD, error.message)
+                    if isinstance(error, DescriptionError)
+                    else _failure(outcome, path)
+                )
+                return Report(path.name, (), (finding,), {}, ())
+            report = self.check(outcome.value, simulators)
+        words = f"{path.name} was judged as the URDF that says the same: no engine here reads USD"
+        told = Finding("read_as_urdf", Severity.SOFT, words)
+        return replace(report, description=path.name, findings=(told, *report.findings))
 
     def _ask(self, description: Description, simulators: Sequence[str]) -> Iterator[CheckResult]:
         from .checks.in_simulator import judge_in_simulator

@@ -165,6 +165,7 @@ SOFT: Mapping[str, str] = {
     "not_driven": "a joint without a range, which the simulators did not drive",
     "friction_ignored": "the simulator drops joint friction",
     "damping_ignored": "the simulator drops joint damping",
+    "read_as_urdf": "a USD asset, judged as the URDF that says the same",
     "format_not_loaded": "the simulator does not read this format",
     "loader_warning": "a loader's warning, in its own words",
     "engine_warning": "an engine's warning, in its own words",

@@ -21,7 +21,7 @@ from .flags import DEFAULT_SIMULATORS, simulators_named
 
 @dataclass(frozen=True)
 class Check:
-    """Judge URDF or MJCF files, anyone's.
+    """Judge URDF, MJCF or USD files, anyone's.
 
     Exit codes: 0 every file got a verdict; 3 some file could not be judged; 2 wrong usage;
     1 something was rejected and --strict was given.
@@ -30,7 +30,7 @@ class Check:
     """
 
     files: Positional[tuple[Path, ...]]
-    """URDF or MJCF files, or folders of them."""
+    """URDF, MJCF or USD files, or folders of them."""
     sim: str = DEFAULT_SIMULATORS
     """Simulators that judge, separated by commas; 'all' is sapien,mujoco,pybullet."""
     json: Path | None = None
@@ -74,17 +74,21 @@ def _described(paths: Sequence[Path]) -> list[tuple[Path, str | None]]:
     found: list[tuple[Path, str | None]] = []
     for path in paths:
         if path.is_dir():
-            from ..intake.discover import find_inputs, is_description
+            from ..intake.discover import LAYERS, find_inputs, is_description
 
-            inside = [file for file in find_inputs((path,)) if is_description(file)]
+            inside = [
+                file
+                for file in find_inputs((path,))
+                if is_description(file) or file.suffix.lower() in LAYERS
+            ]
             found += [(file, file.relative_to(path).as_posix()) for file in inside]
         elif path.is_file():
             found.append((path, None))
         else:
             raise ConfigError(
-                f"{path}: no such file; want a URDF or an MJCF file, or a folder of them"
+                f"{path}: no such file; want a URDF, MJCF or USD file, or a folder of them"
             )
     if not found:
         where = f"in {', '.join(map(str, paths))}" if paths else "given"
-        raise ConfigError(f"no URDF or MJCF file {where}; want at least one")
+        raise ConfigError(f"no URDF, MJCF or USD file {where}; want at least one")
     return found

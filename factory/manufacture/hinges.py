@@ -21,11 +21,18 @@ ACROSS = 0.02
 STRAIGHT = float(np.cos(np.radians(12.0)))
 #: and nearer than this they do [cosine of a tenth of a degree].
 STRAIGHT_ALREADY = float(np.cos(np.radians(0.1)))
+#: What is off by less than this is as straight as people annotate [cosine of 3 degrees].
+CROOKED = float(np.cos(np.radians(3.0)))
 
 
 def is_askew(axis: FloatArray) -> bool:
     """Whether a unit axis is a little off a principal direction of the object frame."""
     return STRAIGHT <= float(np.abs(axis).max()) < STRAIGHT_ALREADY
+
+
+def is_crooked(axis: FloatArray) -> bool:
+    """Whether a unit axis is further off a principal direction than annotators are careless."""
+    return is_askew(axis) and float(np.abs(axis).max()) < CROOKED
 
 
 def at_front_edge(articulation: Articulation, joint: Joint) -> Joint | None:

@@ -7,6 +7,9 @@ import numpy as np
 from ..articulation import Articulation, Joint
 from ..mesh import FloatArray
 
+#: Beyond a turn of so many quarters poses grow sparser.
+MOST_QUARTERS = 2.0
+
 
 def relative_poses(articulation: Articulation, a: int, b: int, count: int) -> list[FloatArray]:
     """Where part ``b`` is as seen from ``a``, [4, 4] each.
@@ -17,14 +20,17 @@ def relative_poses(articulation: Articulation, a: int, b: int, count: int) -> li
         articulation: parts and joints.
         a: index of a part.
         b: of another.
-        count: poses along each joint.
+        count: poses along each joint; along a hinge that turns further than a quarter turn, in
+            each quarter.
     """
     lower = {joint.name: joint.lower for joint in articulation.movable_joints}
     values: list[dict[str, float]] = [{}, lower]
     for joint in joints_between(articulation, a, b):
+        quarters = joint.range / (np.pi / 2.0) if joint.turns else 1.0
+        steps = int(np.ceil((count - 1) * min(max(quarters, 1.0), MOST_QUARTERS)))
         values += [
             {**lower, joint.name: float(q)}
-            for q in np.linspace(joint.lower, joint.upper, count)[1:]
+            for q in np.linspace(joint.lower, joint.upper, steps + 1)[1:]
         ]
     relative = []
     for given in values:
@@ -49,5 +55,16 @@ def joints_between(articulation: Articulation, a: int, b: int) -> list[Joint]:
 
 
 def jointed(articulation: Articulation, a: int, b: int) -> bool:
-    """Whether one joint holds one of two parts in the other."""
-    return any({joint.parent, joint.child} == {a, b} for joint in articulation.joints)
+    """Whether one of two parts is held in the other by a joint, or by several without a body.
+
+    A cap that turns and lifts hangs on a link without geometry between its two joints.
+    """
+    return b == _holder(articulation, a) or a == _holder(articulation, b)
+
+
+def _holder(articulation: Articulation, part: int) -> int | None:
+    """The next part above one that has a body."""
+    joint = articulation.parent_joint(part)
+    while joint is not None and not len(articulation.parts[joint.parent].faces):
+        joint = articulation.parent_joint(joint.parent)
+    return None if joint is None else joint.parent

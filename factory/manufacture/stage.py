@@ -17,6 +17,7 @@ from ..runtime.packing import contents
 from ..runtime.stages import Stages
 from .decompose.decompose import PartHulls, decompose
 from .decompose.fewer import fewer
+from .decompose.room import room_around
 from .inertia import carrier_inertial, part_inertial
 from .plan import Plan, as_planned
 from .separate import Separation, separate
@@ -53,7 +54,8 @@ def manufacture(
     with stages.clock.stage("decompose"):
         pieces = decompose(planned, stages.config.decompose, stages.store, built.pieces)
         if plan.fewer:
-            pieces = fewer(pieces, stages.config, stages.store)
+            rooms = [room_around(planned, part) for part in range(len(planned.parts))]
+            pieces = fewer(pieces, stages.config, stages.store, rooms)
     density = intake.provenance.density or stages.config.inertia.density
     # By content: other settings of the decomposition that give the same hulls change nothing more.
     shapes = contents((planned.mesh.vertices, planned.mesh.faces, planned.parts, planned.joints))

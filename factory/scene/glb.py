@@ -1,6 +1,7 @@
 """A scene as one GLB file: what everybody's viewer opens, and what ours reads back.
 
-The first glTF scene holds what is seen, the second one the hulls, each on the same chain of links.
+The first glTF scene holds what is seen, the second one the hulls, a third one those that repairs
+replaced, if any; each on the same chain of links.
 One animation opens and closes every joint. What glTF has no word for, such as limits, is in
 ``extras``.
 """
@@ -22,17 +23,20 @@ SECONDS = 4.0
 Z_UP = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]
 VISUALS = 0
 HULLS = 1
+REPLACED = 2
 
 
 def glb_of(scene: SceneGraph) -> bytes:
     """The file's bytes: the same for the same scene."""
     writer = _Writer()
-    roots = [_chain(writer, scene, surfaces) for surfaces in (scene.visuals, scene.hulls)]
+    shown = {"visuals": scene.visuals, "hulls": scene.hulls}
+    if scene.replaced:
+        shown["replaced"] = scene.replaced
+    roots = [_chain(writer, scene, surfaces) for surfaces in shown.values()]
     document: dict[str, Any] = {
         "scene": VISUALS,
         "scenes": [
-            {"name": "visuals", "nodes": [roots[0][0]]},
-            {"name": "hulls", "nodes": [roots[1][0]]},
+            {"name": name, "nodes": [root]} for name, (root, _) in zip(shown, roots, strict=True)
         ],
         "nodes": writer.nodes,
         "extras": {

@@ -15,8 +15,13 @@ from .scene import UNLIMITED, Color, SceneGraph, SceneJoint, SceneSurface
 MAX_TEXTURE = 1024
 
 
-def scene_of(asset: Asset) -> SceneGraph:
-    """Links in the order of parts, surfaces by material, link frames as in the asset's URDF."""
+def scene_of(asset: Asset, before: Asset | None = None) -> SceneGraph:
+    """Links in the order of parts, surfaces by material, link frames as in the asset's URDF.
+
+    Args:
+        asset: what became of an input.
+        before: what it was before repairs, whose other hulls are shown too.
+    """
     articulation = asset.articulation
     visuals: list[SceneSurface] = []
     hulls: list[SceneSurface] = []
@@ -49,7 +54,26 @@ def scene_of(asset: Asset) -> SceneGraph:
             )
         )
     names = tuple(part.name for part in articulation.parts)
-    return SceneGraph(asset.name, names, tuple(joints), tuple(visuals), tuple(hulls))
+    replaced = _replaced(asset, before) if before else []
+    return SceneGraph(
+        asset.name, names, tuple(joints), tuple(visuals), tuple(hulls), tuple(replaced)
+    )
+
+
+def _replaced(asset: Asset, before: Asset) -> list[SceneSurface]:
+    """Hulls that are no more, on the links of their parts, else on the root, where they rested."""
+    kept = {hull.vertices.tobytes() for body in asset.bodies for hull in body.hulls}
+    links = {part.name: number for number, part in enumerate(asset.articulation.parts)}
+    found = []
+    for part, body in zip(before.articulation.parts, before.bodies, strict=True):
+        link = links.get(part.name, 0)
+        frame = asset.articulation.link_frame(link)
+        found += [
+            plain_surface(link, hull.vertices - frame, hull.faces)
+            for hull in body.hulls
+            if hull.vertices.tobytes() not in kept
+        ]
+    return found
 
 
 def scene_of_mesh(name: str, mesh: Mesh) -> SceneGraph:

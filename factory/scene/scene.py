@@ -118,6 +118,7 @@ class SceneGraph:
         joints: parents first; each link but the root is the child of one.
         visuals: what is seen.
         hulls: convex pieces, what engines collide with.
+        replaced: those that repairs took away or made otherwise.
     """
 
     name: str
@@ -125,6 +126,7 @@ class SceneGraph:
     joints: tuple[SceneJoint, ...]
     visuals: tuple[SceneSurface, ...]
     hulls: tuple[SceneSurface, ...] = ()
+    replaced: tuple[SceneSurface, ...] = ()
 
     def __post_init__(self) -> None:
         seen = {0}
@@ -134,8 +136,12 @@ class SceneGraph:
             seen.add(joint.child)
         if len(seen) != len(self.links):
             raise ValueError(f"{len(self.links) - len(seen)} links hang on no joint")
-        if any(surface.link not in seen for surface in (*self.visuals, *self.hulls)):
+        if any(surface.link not in seen for surface in self._surfaces):
             raise ValueError("a surface is on no link")
+
+    @property
+    def _surfaces(self) -> tuple[SceneSurface, ...]:
+        return (*self.visuals, *self.hulls, *self.replaced)
 
     @cached_property
     def movable(self) -> tuple[SceneJoint, ...]:

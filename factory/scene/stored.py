@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .glb import HULLS, VISUALS, flipped
+from .glb import HULLS, REPLACED, VISUALS, flipped
 from .gltf import BINARY_CHUNK, GENERATOR, JSON_CHUNK, MAGIC
 from .scene import SceneGraph, SceneJoint, SceneSurface
 
@@ -48,7 +48,8 @@ def scene_from(data: bytes) -> SceneGraph:
         joints = tuple(SceneJoint(**told) for told in extras["joints"])
         visuals = tuple(_surfaces(document, binary, VISUALS, len(extras["links"])))
         hulls = tuple(_surfaces(document, binary, HULLS, len(extras["links"])))
-        return SceneGraph(extras["name"], tuple(extras["links"]), joints, visuals, hulls)
+        replaced = tuple(_surfaces(document, binary, REPLACED, len(extras["links"])))
+        return SceneGraph(extras["name"], tuple(extras["links"]), joints, visuals, hulls, replaced)
     except (KeyError, IndexError, TypeError, AttributeError, struct.error, RecursionError) as error:
         raise ValueError(f"no scene of ours: {type(error).__name__}: {error}") from error
 
@@ -74,6 +75,8 @@ def _chunks(data: bytes) -> tuple[dict[str, Any], bytes]:
 def _surfaces(
     document: dict[str, Any], binary: bytes, which: int, links: int
 ) -> Iterator[SceneSurface]:
+    if which >= len(document["scenes"]):
+        return
     # The nodes of a chain stand one after another behind their root, in the order of links.
     first = document["scenes"][which]["nodes"][0] + 1
     for link, node in enumerate(document["nodes"][first : first + links]):

@@ -26,6 +26,7 @@ class ReadingDraft:
         plan: what repairs changed.
         findings: the factory's own.
         inspected: what the judge says of it without simulators.
+        before: what it was before repairs, if there were any.
     """
 
     reading: Articulation
@@ -34,6 +35,7 @@ class ReadingDraft:
     plan: Plan
     findings: tuple[Finding, ...]
     inspected: Verdict
+    before: Asset | None = None
 
     @property
     def passes(self) -> bool:

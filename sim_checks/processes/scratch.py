@@ -14,6 +14,10 @@ from filelock import lock_descriptor
 
 #: How scratch folders begin; a name that nobody else gives to theirs.
 PREFIX = "asset-factory-"
+#: A socket's path may have 104 bytes on some systems, of which its own name takes 18.
+LONGEST_WITH_SOCKETS = 80
+#: Where sockets lie when temporary files have too long a way.
+SHORT = Path("/tmp")  # noqa: S108 - the folder made there is its owner's alone
 
 
 def held_folder(parent: Path, prefix: str = "") -> tuple[Path, int]:
@@ -85,8 +89,17 @@ def scratch() -> Path:
     # The lock lasts as long as the process.
     folder, _ = held_folder(parent, PREFIX)
     _own[os.getpid()] = folder
+    _remove_at_the_end(folder)
     # The socket of a fork server that is yet to be started shall lie there too.
-    vars(multiprocessing.current_process()).get("_config", {}).setdefault("tempdir", str(folder))
+    sockets = folder
+    if len(os.fsencode(folder)) > LONGEST_WITH_SOCKETS:
+        sweep(SHORT)
+        sockets, _ = held_folder(SHORT, PREFIX)
+        _remove_at_the_end(sockets)
+    vars(multiprocessing.current_process()).get("_config", {}).setdefault("tempdir", str(sockets))
+    return folder
+
+
+def _remove_at_the_end(folder: Path) -> None:
     # After multiprocessing's own; in a child these alone are called.
     multiprocessing.util.Finalize(None, shutil.rmtree, (folder, True), exitpriority=-200)
-    return folder

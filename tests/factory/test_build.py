@@ -303,3 +303,13 @@ def test_without_an_interior_nothing_is_hollow(tmp_path):
     kinds = {each["kind"] for each in manifest["invented"]}
     assert "slab back" in kinds
     assert "hollow" not in kinds
+
+
+@pytest.mark.full
+def test_every_example_of_the_demo_passes(tmp_path):
+    done, summary = build(
+        tmp_path, "--input", EXAMPLES, EXAMPLES.parent / "generated", "--sim", "sapien"
+    )
+    assert done.returncode == 0
+    assert {row["status"] for row in summary["assets"]} == {"passed"}, summary["assets"]
+    assert len(summary["assets"]) == 11

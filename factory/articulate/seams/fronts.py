@@ -15,6 +15,7 @@ from .evidence import Seams, level_seams, upright_seams
 from .handles import Face, cleared
 from .rectangles import SHORTEST, Rectangle, lines_of, rectangles_of
 from .relief import Relief
+from .sight import Sight, sight_of
 
 AROUND = (Side.FRONT, Side.RIGHT, Side.BACK, Side.LEFT)
 OPPOSITE = {
@@ -38,6 +39,11 @@ class Front:
     relief: Relief
     face: Face
     behind: Relief
+
+    @cached_property
+    def sight(self) -> Sight:
+        """What a picture network sees on it."""
+        return sight_of(self.relief)
 
     @cached_property
     def level(self) -> Seams:

@@ -15,6 +15,7 @@ from .handles import GripShape, Protrusion
 from .learned import load_judge
 from .panels import FrontPanel
 from .relief import Relief
+from .sight import Sight
 
 #: What is less deep than this share of a panel's shorter side holds no drawer.
 SHALLOW = 0.3
@@ -48,8 +49,13 @@ class Opening:
         return self.ways[0][0]
 
 
-def openings_of(scene: FrontScene, panels: Sequence[FrontPanel]) -> tuple[Opening, ...]:
-    """The ways in which each panel of a side may open."""
+def openings_of(
+    scene: FrontScene, panels: Sequence[FrontPanel], sight: Sight
+) -> tuple[Opening, ...]:
+    """The ways in which each panel of a side may open, as three judges see it, each counting alike.
+
+    Rules, a judge of rectangles that learned, and the picture network.
+    """
     if not panels:
         return ()
     every = [panel.rectangle for panel in panels]
@@ -59,7 +65,8 @@ def openings_of(scene: FrontScene, panels: Sequence[FrontPanel]) -> tuple[Openin
     for panel, said in zip(panels, learned, strict=True):
         ruled = _weights(scene.relief, panel, panels)
         values = np.array([ruled[way] for way in OpensBy])
-        weights = dict(zip(OpensBy, (_logs(values) + _logs(said)) / 2.0, strict=True))
+        seen = np.log(sight.ways_of(panel.rectangle))
+        weights = dict(zip(OpensBy, (_logs(values) + _logs(said) + seen) / 3.0, strict=True))
         found.append(Opening(panel, _ranked(_possible(scene.relief, panel, weights))))
     return tuple(found)
 

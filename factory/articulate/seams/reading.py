@@ -10,6 +10,7 @@ import numpy as np
 from ...geometry.crossings import Side
 from ...mesh import IntArray, Mesh
 from .fronts import AROUND, Front, fronts_of
+from .glimpses import glimpsed
 from .layouts import layout_of, value_of
 from .lids import Lid, find_lids
 from .motions import Opening, openings_of
@@ -31,6 +32,8 @@ SHEET = 0.02
 LEAST_OTHER = 0.1
 #: By how much what was learned must prefer its own panels to those of the rules, in log-odds.
 MARGIN = 2.0
+#: A panel of which the picture network sees less than this share is none.
+LEAST_SEEN = 0.2
 #: Value of a panel that is right as often as not, and how fast confidence grows with it.
 EVEN = 1.5
 SLOPE = 0.8
@@ -82,7 +85,7 @@ def read_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[MeshReading, ...]:
     layouts = {side: layout_of(seen.fronts[side].scene, seen.found[side]) for side in AROUND}
     side = max(AROUND, key=lambda each: layouts[each].value + USUAL_FRONT[each])
     if layouts[side].value <= max((odds if by_rules else 0.0) + MARGIN, 0.0):
-        return by_rules
+        return by_rules or _glimpsed_readings(seen.fronts)
     learned = _front_readings(seen.fronts[side], layouts[side].panels, _learned_confidence)
     return (*learned[: MOST_READINGS - 1], *by_rules)[:MOST_READINGS]
 
@@ -136,6 +139,13 @@ class _Sides:
         return _front_readings(self.front, self.panels, _ruled_confidence)
 
 
+def _glimpsed_readings(fronts: Mapping[Side, Front]) -> tuple[MeshReading, ...]:
+    """Of the side on which the picture network alone is surest of most."""
+    panels = {side: glimpsed(fronts[side]) for side in AROUND}
+    side = max(AROUND, key=lambda each: _front_value(panels[each], each))
+    return _front_readings(fronts[side], panels[side], _learned_confidence)
+
+
 def _front_value(panels: Sequence[FrontPanel], side: Side) -> float:
     return sum(panel.value for panel in panels) + USUAL_FRONT[side] if panels else 0.0
 
@@ -169,7 +179,11 @@ def _lid_readings(fronts: Mapping[Side, Front], lids: list[Lid]) -> tuple[MeshRe
 def _front_readings(
     front: Front, panels: Sequence[FrontPanel], confidence: Callable[[FrontPanel], float]
 ) -> tuple[MeshReading, ...]:
-    openings = openings_of(front.scene, panels)
+    seen = [panel for panel in panels if front.sight.shows(panel.rectangle) >= LEAST_SEEN]
+    if not seen:
+        return ()
+
+    openings = openings_of(front.scene, seen, front.sight)
     best = _reading(front, openings, confidence)
     found = [best]
     for index, opening in enumerate(openings):

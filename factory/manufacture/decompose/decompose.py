@@ -23,7 +23,7 @@ from .room import Room, room_around
 #: Its version is raised when the same part would get other hulls.
 DECOMPOSE = Stage(
     "decompose",
-    version=5,
+    version=6,
     settings=("decompose",),
     libraries=("coacd", "vhacdx", "manifold3d", "scipy"),
 )

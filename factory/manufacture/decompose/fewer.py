@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from ...asset import Hull
@@ -12,11 +13,12 @@ from ...runtime.store import Store
 from .convex import aspect, limit_vertices
 from .decompose import OBLONG_ASPECT, PartHulls, packed, unpacked
 from .merge import merge
+from .room import NOWHERE, Room
 
 #: Its version is raised when the same hulls would be joined otherwise.
 FEWER = Stage(
     "fewer",
-    version=1,
+    version=2,
     settings=("hulls", "decompose.max_vertices"),
     libraries=("manifold3d", "scipy"),
 )
@@ -27,7 +29,10 @@ FEW = 8
 
 
 def fewer(
-    pieces: tuple[PartHulls, ...], config: BuildConfig, store: Store | None = None
+    pieces: tuple[PartHulls, ...],
+    config: BuildConfig,
+    store: Store | None = None,
+    rooms: Sequence[Room] = (),
 ) -> tuple[PartHulls, ...]:
     """The same parts with their hulls joined, those of most hulls first, until all are few enough.
 
@@ -37,6 +42,7 @@ def fewer(
         pieces: hulls per part.
         config: how many an asset may have, and the decomposition's error.
         store: results are kept here by content; without it everything is computed anew.
+        rooms: of each part, what others take: no joined hull takes more of it; empty: of none.
     """
     joined = list(pieces)
     many = sorted(range(len(pieces)), key=lambda part: -len(pieces[part].hulls))
@@ -45,26 +51,30 @@ def fewer(
             if sum(len(piece.hulls) for piece in joined) <= config.hulls.most:
                 return tuple(joined)
             if len(pieces[part].hulls) >= FEW:
-                joined[part] = _kept(pieces[part], times * config.decompose.error_m, config, store)
+                room = rooms[part] if rooms else NOWHERE
+                error_m = times * config.decompose.error_m
+                joined[part] = _kept(pieces[part], error_m, config, store, room)
     return tuple(joined)
 
 
-def _kept(piece: PartHulls, error_m: float, config: BuildConfig, store: Store | None) -> PartHulls:
+def _kept(
+    piece: PartHulls, error_m: float, config: BuildConfig, store: Store | None, room: Room
+) -> PartHulls:
     if store is None:
-        return _joined(piece, error_m, config)
-    key = FEWER.key(config, *contents(piece), error_m)
+        return _joined(piece, error_m, config, room)
+    key = FEWER.key(config, *contents(piece), error_m, room.points)
     known = store.load(key)
     if known is not None:
         return unpacked(known)
-    made = _joined(piece, error_m, config)
+    made = _joined(piece, error_m, config, room)
     store.save(key, packed(made))
     return made
 
 
-def _joined(piece: PartHulls, error_m: float, config: BuildConfig) -> PartHulls:
+def _joined(piece: PartHulls, error_m: float, config: BuildConfig, room: Room) -> PartHulls:
     hulls: tuple[Hull, ...] = tuple(
         limit_vertices(hull, config.decompose.max_vertices)
-        for hull in merge(list(piece.hulls), error_m)
+        for hull in merge(list(piece.hulls), error_m, None, room)
     )
     told = (
         f"{len(piece.hulls)} hulls joined to {len(hulls)} with an error of {1000 * error_m:g} mm, "

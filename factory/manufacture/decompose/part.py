@@ -18,7 +18,7 @@ from .methods import FAITHFUL, SolidPieces, slot_of, split_solid
 from .refine import refined
 from .room import NOWHERE, Room
 from .sheets import slabs
-from .shells import as_shell, narrow_openings
+from .shells import as_shell, narrow_openings, opens_up
 from .simplify import lighter
 from .solids import Gated, OpenSurface, contains, gate, union
 
@@ -128,8 +128,12 @@ def split_part(
 
 def _closed(sheet: OpenSurface, room: Room) -> Manifold | None:
     """The solid that a surface nearly encloses, where closing it keeps nobody out."""
+    narrow = narrow_openings(sheet)
+    # A bowl or a bottle that a hand gets into from above stays hollow.
+    if not narrow and opens_up(sheet):
+        return None
     solid = capped(sheet)
-    if solid is not None or not narrow_openings(sheet):
+    if solid is not None or not narrow:
         return solid
     solid = capped(sheet, NARROW_SHARE)
     return None if solid is None or room.within(solid) else solid

@@ -83,6 +83,8 @@ def room_around(articulation: Articulation, part: int) -> Room:
         part: index of the part whose hulls are to be made.
     """
     own = articulation.part_mesh(part)
+    if not len(own.faces):
+        return NOWHERE
     low = own.vertices[np.unique(own.faces)].min(axis=0)
     high = own.vertices[np.unique(own.faces)].max(axis=0)
     found = [_nowhere()]

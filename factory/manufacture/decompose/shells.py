@@ -31,7 +31,7 @@ def as_shell(surface: OpenSurface, error_m: float, room: Room) -> Hull | None:
     hull = hull_of(surface.vertices)
     if hull is None or concavity(surface.vertices, surface.faces, hull) > error_m:
         return None
-    shallow = thickness(hull.vertices, planes_of(hull)) <= HAND_M / 2.0 and not _holds(surface)
+    shallow = thickness(hull.vertices, planes_of(hull)) <= HAND_M / 2.0 and not opens_up(surface)
     if not shallow and not narrow_openings(surface):
         return None
     return None if room.entered(hull) else hull
@@ -43,7 +43,7 @@ def narrow_openings(surface: OpenSurface) -> bool:
     return bool(loops) and all(_width(surface.vertices[loop]) < HAND_M for loop in loops)
 
 
-def _holds(surface: OpenSurface) -> bool:
+def opens_up(surface: OpenSurface) -> bool:
     """Whether it is open towards the top, as a tray is, whichever way it is wound."""
     corners = surface.vertices[surface.faces]
     vectors = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2.0

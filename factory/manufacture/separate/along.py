@@ -38,11 +38,20 @@ def cut_apart_along(
 
 
 def carved_apart_along(
-    a: Sequence[Hull], b: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
+    a: Sequence[Hull],
+    b: Sequence[Hull],
+    poses: Sequence[FloatArray],
+    clearance_m: float,
+    whole: tuple[float, float] = (1.0, 1.0),
 ) -> tuple[list[Hull], list[Hull]]:
     """The same, but a hull may become several around what another takes of it.
 
-    Arguments: :func:`cut_apart_along`.
+    Args:
+        a: hulls of one part, object frame at rest.
+        b: hulls of another.
+        poses: where the second part is as seen from the first, [4, 4] each.
+        clearance_m: to be left between them [m].
+        whole: what a cut takes of each part is weighed against this [m3].
     """
     pieces_a = [[PlanedHull.of(hull)] for hull in a]
     pieces_b = [[PlanedHull.of(hull)] for hull in b]
@@ -53,7 +62,7 @@ def carved_apart_along(
         ):
             when.setdefault(pair, []).append(pose)
     for (i, j), way in sorted(when.items(), key=lambda found: found[0]):
-        pieces_a[i], pieces_b[j] = _all_apart(pieces_a[i], pieces_b[j], way, clearance_m)
+        pieces_a[i], pieces_b[j] = _all_apart(pieces_a[i], pieces_b[j], way, clearance_m, whole)
     return [solid.hull for solids in pieces_a for solid in solids], [
         solid.hull for solids in pieces_b for solid in solids
     ]
@@ -68,7 +77,11 @@ def hull_depth(a: Sequence[Hull], b: Sequence[Hull], pose: FloatArray) -> float:
 
 
 def _all_apart(
-    ones: list[PlanedHull], others: list[PlanedHull], way: list[FloatArray], clearance_m: float
+    ones: list[PlanedHull],
+    others: list[PlanedHull],
+    way: list[FloatArray],
+    clearance_m: float,
+    whole: tuple[float, float],
 ) -> Sides:
     """The pieces of one hull cut apart from those of another."""
     i = 0
@@ -76,7 +89,7 @@ def _all_apart(
         j = 0
         while j < len(others):
             # What is apart stays so however it is cut, so nothing is looked at twice for long.
-            first, second = _apart(ones[i], others[j], way, clearance_m)
+            first, second = _apart(ones[i], others[j], way, clearance_m, whole)
             ones[i : i + 1] = first
             others[j : j + 1] = second
             if not first:
@@ -87,7 +100,13 @@ def _all_apart(
     return ones, others
 
 
-def _apart(one: PlanedHull, other: PlanedHull, way: list[FloatArray], clearance_m: float) -> Sides:
+def _apart(
+    one: PlanedHull,
+    other: PlanedHull,
+    way: list[FloatArray],
+    clearance_m: float,
+    whole: tuple[float, float],
+) -> Sides:
     """Two hulls in as few pieces as it takes: both cut by planes, pose by pose, or one carved."""
     depths = [meeting(one, other, pose).depth for pose in way]
     met = [pose for pose, depth in zip(way, depths, strict=True) if depth > -clearance_m]
@@ -105,7 +124,7 @@ def _apart(one: PlanedHull, other: PlanedHull, way: list[FloatArray], clearance_
         (carved(one, ahead, clearance_m), [other]),
         ([one], carved(other, back, clearance_m)),
     )
-    return min(ways, key=lambda sides: _cost(sides, (one.hull.volume, other.hull.volume)))
+    return min(ways, key=lambda sides: _cost(sides, (one, other), whole))
 
 
 def _planed(
@@ -120,9 +139,11 @@ def _planed(
     return one, other
 
 
-def _cost(sides: Sides, whole: tuple[float, float]) -> float:
-    """Volume lost [m3], more pieces counted in."""
-    lost = sum(whole) - sum(piece.hull.volume for pieces in sides for piece in pieces)
+def _cost(sides: Sides, before: tuple[PlanedHull, PlanedHull], whole: tuple[float, float]) -> float:
+    """Share of what is whole that is lost, more pieces counted in."""
+    lost = 0.0
+    for pieces, hull, of in zip(sides, before, whole, strict=True):
+        lost += (hull.hull.volume - sum(piece.hull.volume for piece in pieces)) / of
     extra = sum(max(0, len(pieces) - 1) for pieces in sides)
     return lost * (1.0 + PIECE_SHARE * extra)
 

@@ -90,6 +90,11 @@ class Loss:
     bared_m: float
     planed_m: float
 
+    @property
+    def deepest_m(self) -> float:
+        """Deepest that its visible surface lies bare, excused or not [m]."""
+        return max(self.bared_m, self.planed_m)
+
 
 def loss(
     surface: SeenSurface,

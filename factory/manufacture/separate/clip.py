@@ -10,6 +10,11 @@ from ...asset import Hull
 from ...mesh import FloatArray
 from ..decompose.convex import hull_of, planes_of
 
+#: A hull no thicker than this is a sheet [m].
+SHEET_M = 0.003
+#: Of which at least this much is to be left by a cut [m].
+LEFT_M = 0.001
+
 
 @dataclass(frozen=True)
 class PlanedHull:
@@ -74,14 +79,15 @@ def cut_apart(
     for number, direction in enumerate(met.directions if deep else met.directions[:1]):
         needed = float(met.reaches[number]) + clearance_m
         for share in (0.0, 0.5, 1.0) if deep else (_thicker_gives(a, b, pose, direction),):
-            first = clipped(a.hull, direction, float(met.first_ends[number]) - share * needed)
+            cut = clipped if deep else given_way
+            first = cut(a.hull, direction, float(met.first_ends[number]) - share * needed)
             back = direction @ pose[:3, :3]
             start = (
                 float(met.second_starts[number])
                 + (1.0 - share) * needed
                 - float(direction @ pose[:3, 3])
             )
-            second = clipped(b.hull, -back, -start)
+            second = cut(b.hull, -back, -start)
             lost = _lost(a.hull, first) + _lost(b.hull, second)
             if best is None or lost < best[0]:
                 best = lost, _solid(a, first), _solid(b, second)
@@ -105,6 +111,18 @@ def _solid(before: PlanedHull, after: Hull | None) -> PlanedHull | None:
     if after is before.hull:
         return before
     return None if after is None else PlanedHull.of(after)
+
+
+def given_way(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
+    """The same as :func:`clipped`, but a sheet of which hardly any would be left is moved instead.
+
+    It stands for a surface whose other side nobody knows; shaved away it would leave a hole.
+    """
+    along = hull.vertices @ normal
+    over = float(along.max()) - offset
+    if over <= 0.0 or float(np.ptp(along)) > SHEET_M or float(along.min()) < offset - LEFT_M:
+        return clipped(hull, normal, offset)
+    return Hull(hull.vertices - over * normal, hull.faces)
 
 
 def clipped(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:

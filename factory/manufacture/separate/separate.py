@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from manifold3d import Manifold
@@ -15,16 +15,22 @@ from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..decompose.convex import limit_vertices
 from ..decompose.decompose import PartHulls
-from ..hinges import is_askew
+from ..hinges import is_crooked
 from ..poses import jointed, joints_between, relative_poses
 from .along import carved_apart_along, cut_apart_along, hull_depth
 from .budget import Excuse, Loss, SeenSurface, loss
 from .overlap import overlap, part_solids
 
 Pair = tuple[str, str]
+#: See :func:`cut_apart_along`.
+Cut = Callable[..., tuple[list[Hull], list[Hull]]]
 
 #: Hulls that get so much deeper along a joint are in each other's way, however fat they are [m].
 HOPELESS_M = 0.06
+#: A part that reaches beyond its axis by this share of its reach turns about its middle.
+MIDDLE_SHARE = 0.5
+#: A slide no longer than this is a button, which is pressed into what it stands on [m].
+PRESSED_M = 0.012
 
 
 @dataclass(frozen=True)
@@ -159,6 +165,9 @@ class _Bench:
             reason = self._cut_along(pair, poses, cut_apart_along)
             if reason is not None and jointed(self.articulation, a, b):
                 reason = self._cut_along(pair, poses, carved_apart_along)
+            if reason is not None and self._pressed(a, b) > 0.0:
+                dug = self._cut_along(pair, poses, self._carved_by_share(a, b))
+                reason = None if dug is None else reason
         cut = reason is None
 
         if reason is not None:
@@ -175,11 +184,16 @@ class _Bench:
         if cut and at_rest > self.config.tolerance_m:
             self.hidden[pair] = at_rest
 
+    def _carved_by_share(self, a: int, b: int) -> Cut:
+        """Carving that takes as small a share of either part as can be: a pit behind a button."""
+        whole_a, whole_b = (sum(h.volume for h in self.hulls[part]) for part in (a, b))
+        return partial(carved_apart_along, whole=(whole_a, whole_b))
+
     def _cut_along(
         self,
         pair: Pair,
         poses: list[FloatArray],
-        cut: Callable[..., tuple[list[Hull], list[Hull]]],
+        cut: Cut,
     ) -> str | None:
         """Cut, or why not."""
         a, b = (self._index(name) for name in pair)
@@ -191,9 +205,9 @@ class _Bench:
             return reason
         self.hulls[a], self.hulls[b] = after
         planed = tuple(
-            Planed(name, each.planed_m, each.share, each.area)
+            Planed(name, each.deepest_m, each.share, each.area)
             for name, each in zip(pair, losses, strict=True)
-            if each.planed_m > self.config.visible_m
+            if each.deepest_m > self.config.visible_m
         )
         if planed:
             self.planed[pair] = planed
@@ -215,20 +229,30 @@ class _Bench:
         """Joints at an edge of what they turn, the one against the other part."""
         turning = [joint for joint in joints_between(self.articulation, a, b) if joint.turns]
         # What a crooked hinge needs is not planed off: its axis is to be mended.
-        if any(is_askew(joint.axis) for joint in turning):
+        if any(is_crooked(joint.axis) for joint in turning):
             return []
         return [joint for joint in turning if self._at_an_edge(joint)]
 
     def _at_an_edge(self, joint: Joint) -> bool:
         """Whether a part reaches no further beyond its axis than may be planed off."""
         surface = self.surfaces[joint.child]
+        return surface is not None and self._reach(joint)[1] <= self._share_of(surface.diagonal)
+
+    def _about_its_middle(self, joint: Joint) -> bool:
+        """Whether a part reaches about as far to one side of its axis as to the other."""
+        ahead, behind = self._reach(joint)
+        return behind > MIDDLE_SHARE * ahead
+
+    def _reach(self, joint: Joint) -> tuple[float, float]:
+        """How far what a joint turns reaches from its axis [m], and how far beyond the axis."""
+        surface = self.surfaces[joint.child]
         if surface is None:
-            return False
+            return np.inf, np.inf
         arms = surface.points - joint.origin
         arms -= np.outer(arms @ joint.axis, joint.axis)
         middle = (arms.min(axis=0) + arms.max(axis=0)) / 2.0
-        heel = -float((arms @ middle).min() / max(float(np.linalg.norm(middle)), 1e-9))
-        return heel <= self._share_of(surface.diagonal)
+        along = arms @ middle / max(float(np.linalg.norm(middle)), 1e-9)
+        return float(along.max()), -float(along.min())
 
     def _share_of(self, diagonal: float) -> float:
         config = self.config
@@ -243,6 +267,7 @@ class _Bench:
         one = self.solids[a]
         other = self.solids[b]
         limit = self._limit(a, b) if self._hinges(a, b) else self.config.tolerance_m
+        limit = max(limit, self._free_limit(a, b) - self.config.clearance_m, self._pressed(a, b))
         what = "meshes"
         if one is None or other is None:
             what = "hulls"
@@ -281,12 +306,36 @@ class _Bench:
                 losses.append(loss(surface, old, new, excuse, self.config))
         return losses
 
+    def _free_limit(self, a: int, b: int) -> float:
+        """How much may be cut off two parts together where nothing excuses it [m].
+
+        What a joint that is hung straight runs into on its way is planed off like the edge beside
+        a hinge; a crooked joint is to be mended.
+        """
+        between = joints_between(self.articulation, a, b)
+        if not jointed(self.articulation, a, b) or not all(map(self._well_hung, between)):
+            return self.config.bared_m
+        return max(self.config.bared_m, self._limit(a, b) + self.config.clearance_m)
+
+    def _well_hung(self, joint: Joint) -> bool:
+        """Whether a joint runs straight, and turns its part about an edge or its middle."""
+        if is_crooked(joint.axis):
+            return False
+        return not joint.turns or self._at_an_edge(joint) or self._about_its_middle(joint)
+
+    def _pressed(self, a: int, b: int) -> float:
+        """How far a button goes into what holds it [m]; 0 for all that is no button."""
+        between = joints_between(self.articulation, a, b)
+        if len(between) != 1 or between[0].turns or not jointed(self.articulation, a, b):
+            return 0.0
+        return between[0].range if between[0].range <= PRESSED_M else 0.0
+
     def _overdone(self, a: int, b: int, losses: list[Loss]) -> str | None:
         """Why a cut takes too much, or what can be seen; ``None`` if it does neither."""
         config = self.config
         names = [self.articulation.parts[part].name for part in (a, b)]
         for depths, limit in (
-            ([each.bared_m for each in losses], config.bared_m),
+            ([each.bared_m for each in losses], self._free_limit(a, b)),
             ([each.planed_m for each in losses], self._limit(a, b) + config.clearance_m),
         ):
             if sum(depths) > limit:
@@ -297,7 +346,7 @@ class _Bench:
                 )
         for part, name, each in zip((a, b), names, losses, strict=True):
             # An open surface has no volume to speak of: the slabs over it come and go whole.
-            planed = each.planed_m > config.visible_m and self.solids[part] is not None
+            planed = each.deepest_m > config.visible_m and self.solids[part] is not None
             most = config.planed_volume if planed else config.most_cut
             if each.share > most:
                 return (

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from ...geometry.crossings import BoolArray
@@ -33,13 +35,12 @@ def hollow(lattice: Lattice, room: BoolArray, column: Box, frame: FloatArray) ->
     Returns:
         Boxes in the panel's frame, the first one at the column's front; none without room.
     """
-    step = column.size[2] / SLICES
+    # Slices share their ends to the last bit, or a skin would be left between them.
+    depths = np.linspace(column.low[2], column.high[2], SLICES + 1)
     found: list[Box] = []
-    for number in range(SLICES):
-        low = column.low.copy()
-        high = column.high.copy()
-        low[2] = column.low[2] + number * step
-        high[2] = low[2] + step
+    for front, back in pairwise(depths):
+        low = np.append(column.low[:2], front)
+        high = np.append(column.high[:2], back)
         if found:
             low[:2] = np.maximum(low[:2], found[-1].low[:2])
             high[:2] = np.minimum(high[:2], found[-1].high[:2])

@@ -1,19 +1,30 @@
-"""Learn what panels look like and how they open, for ``configs/seams.toml``.
+"""Learn what panels look like and how they open, from pictures of generated objects.
 
-python -m asset_factory.factory.training.elevations seams.toml --objects 1200 --rows rows/
+The picture network, for ``configs/weights/seams.npz``, takes an hour or two on one core; the
+judges of rectangles, for ``configs/seams.toml``, some minutes more than the pictures:
+
+    python -m asset_factory.factory.training.elevations see seams.npz --kept views/ --rounds 20
+    python -m asset_factory.factory.training.elevations judge seams.toml --kept rows/
 """
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
-from ..objects import make_object
+from ...articulation import Articulation
+from ...errors import InputRejected
+from ...geometry.posing import closed, turned
+from ..objects import CATEGORIES, make_object
+from ..sources.description import find_descriptions, read_description
+from ..sources.settings import SourceSettings
 from .fitting import fit, report
 from .rows import Rows, rows_of
 from .table import table_of
+from .views import views_of, write_views
 
 #: Kinds with panels, with lids, and with neither.
 PANELLED = (
@@ -31,22 +42,68 @@ OTHER = (
     "office_chair", "bookcase", "table", "clock", "monitor", "fan", "desk_lamp", "cart", "camera",
     "bottle", "valve", "door", "printer", "stapler", "switch_panel", "hood",
 )  # fmt: skip
+#: Objects of a folder are looked at so often, each time in other looks.
+LOOKS = 3
 
 
 def main() -> None:
-    """Parse, make rows, fit, write."""
+    """Parse, then do what was asked."""
     parser = argparse.ArgumentParser(
         prog="python -m asset_factory.factory.training.elevations",
         description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("output", type=Path, help="table to write")
-    parser.add_argument("--objects", type=int, default=1200, help="how many to learn from")
-    parser.add_argument("--rows", type=Path, required=True, help="where rows are kept")
-    parser.add_argument("--seed", type=int, default=0, help="of objects, looks and weights")
+    commands = parser.add_subparsers(required=True)
+    see = commands.add_parser("see", help="the picture network")
+    see.set_defaults(run=_see)
+    see.add_argument("--rounds", type=int, default=20, help="of training")
+    see.add_argument("--described", type=Path, help="folder with objects to learn from as well")
+    see.add_argument(
+        "--turn", type=float, default=-90.0, help="that brings their fronts to -Y [deg]"
+    )
+    judge = commands.add_parser("judge", help="of panels and of how they open")
+    judge.set_defaults(run=_judge)
+    for command, objects in ((see, 3000), (judge, 1200)):
+        command.add_argument("output", type=Path, help="file to write")
+        command.add_argument("--objects", type=int, default=objects, help="generated to learn from")
+        command.add_argument("--kept", type=Path, required=True, help="where pictures are kept")
+        command.add_argument("--seed", type=int, default=0, help="of objects, looks and weights")
     options = parser.parse_args()
-    options.rows.mkdir(parents=True, exist_ok=True)
-    rows = [_kept(options.rows, options.seed, number) for number in range(options.objects)]
+    options.kept.mkdir(parents=True, exist_ok=True)
+    options.run(options)
+
+
+def _see(options: argparse.Namespace) -> None:
+    from .seeing import learn_to_see
+
+    for number in range(options.objects):
+        path = options.kept / f"{options.seed}_{number}.npz"
+        if not path.is_file():
+            rng = np.random.default_rng([options.seed, number])
+            write_views(path, views_of(_made(number, rng), rng))
+    if options.described is not None:
+        for name, articulation in _described(options.described, options.turn):
+            for look in range(LOOKS):
+                rng = np.random.default_rng([options.seed, look, len(articulation.mesh.faces)])
+                path = options.kept / f"{name.replace('/', '__')}_{look}.npz"
+                if not path.is_file():
+                    write_views(path, views_of(articulation, rng))
+    state = options.kept / "state.pt"
+    learn_to_see(options.kept, state, options.output, options.rounds, options.seed)
+
+
+def _described(folder: Path, degrees: float) -> Iterator[tuple[str, Articulation]]:
+    for item in find_descriptions(folder):
+        try:
+            whole = closed(read_description(item, SourceSettings()))
+        except InputRejected as error:
+            print(f"{item.name} left out: {error}")
+            continue
+        yield item.name, turned(whole, float(np.radians(degrees)))
+
+
+def _judge(options: argparse.Namespace) -> None:
+    rows = [_kept(options.kept, options.seed, number) for number in range(options.objects)]
     judges = fit(rows, options.seed)
     options.output.write_text(table_of(judges, options.objects), encoding="utf-8")
     print(report(rows, options.seed))
@@ -55,17 +112,16 @@ def main() -> None:
 def _kept(folder: Path, seed: int, number: int) -> Rows:
     path = folder / f"{seed}_{number}.npz"
     if not path.is_file():
-        made = _made(seed, number)
-        np.savez_compressed(path, **vars(made))
-    with np.load(path) as data:
+        rng = np.random.default_rng([seed, number])
+        np.savez_compressed(path, **vars(rows_of(_made(number, rng), rng)))
+    with np.load(path, allow_pickle=False) as data:
         return Rows(**{name: data[name] for name in data.files})
 
 
-def _made(seed: int, number: int) -> Rows:
-    rng = np.random.default_rng([seed, number])
+def _made(number: int, rng: np.random.Generator) -> Articulation:
     kinds = (PANELLED, LIDDED, PANELLED, OTHER, PANELLED)[number % 5]
-    kind = str(rng.choice(kinds))
-    return rows_of(make_object(kind, int(rng.integers(2**31))), rng)
+    kind = str(rng.choice(CATEGORIES if number % 10 == 3 else kinds))
+    return make_object(kind, int(rng.integers(2**31)))
 
 
 if __name__ == "__main__":

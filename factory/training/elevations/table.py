@@ -11,7 +11,7 @@ from ...mesh import FloatArray
 NAMES = {"panel": features.NAMES, "motion": features.MOTION_NAMES}
 HEAD = """# What the articulator of one-piece meshes learned from pictures of {objects} generated
 # objects (see articulate/seams/learned.py). Made by:
-# python -m asset_factory.factory.training.elevations configs/seams.toml --rows FOLDER
+# python -m asset_factory.factory.training.elevations judge configs/seams.toml --kept FOLDER
 """
 
 

@@ -33,6 +33,8 @@ def shorten_or_freeze(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         share = (end - joint.lower) / (joint.upper - joint.lower)
         # What is never clear of anything jams wherever it ends; it goes if it can be spared.
         ends = free is not None or joint.joint not in evidence.spare.joints
+        # Nor may it end before the pose as modelled.
+        ends = ends and end >= 0.0
         long_enough = ends and share >= evidence.config.least_range_share
         if joint.joint not in plan.upper and long_enough:
             upper[joint.joint] = end
@@ -60,7 +62,9 @@ def _free_end(asset: Asset | None, name: str, clear_until: float) -> float | Non
     hulls = [body.hulls for body in asset.bodies]
     for share in SHORTER:
         shorter = replace(joint, upper=joint.lower + share * (clear_until - joint.lower))
-        swept = swept_m(asset.articulation, hulls, shorter, FREE_M, GAP_M)
-        if shorter.upper >= 0.0 and swept <= FREE_M:
+        # The pose as modelled is never left out.
+        if shorter.upper < 0.0:
+            continue
+        if swept_m(asset.articulation, hulls, shorter, FREE_M, GAP_M) <= FREE_M:
             return shorter.upper
     return None

@@ -100,6 +100,6 @@ def test_missing_files_and_empty_folders_are_wrong_usage(
     assert run(["check", str(tmp_path / "nowhere.urdf")]) == 2
     assert "nowhere.urdf: no such file" in capsys.readouterr().err
     assert run(["check", str(tmp_path)]) == 2
-    assert f"no URDF or MJCF file in {tmp_path}" in capsys.readouterr().err
+    assert f"no URDF, MJCF or USD file in {tmp_path}" in capsys.readouterr().err
     assert run(["check"]) == 2
-    assert "no URDF or MJCF file given" in capsys.readouterr().err
+    assert "no URDF, MJCF or USD file given" in capsys.readouterr().err

@@ -13,6 +13,7 @@ from asset_factory.factory.manufacture.decompose.decompose import PartHulls
 from asset_factory.factory.manufacture.poses import relative_poses
 from asset_factory.factory.manufacture.separate import separate
 from asset_factory.factory.manufacture.separate.along import hull_depth
+from asset_factory.factory.manufacture.separate.clip import PlanedHull, meeting
 from asset_factory.factory.mesh import Mesh, concatenate
 
 CONFIG = SeparateConfig()
@@ -127,3 +128,83 @@ def test_neighbours_whose_edges_overlap_are_planed_apart_and_broad_overlaps_are_
         pieces = tuple(PartHulls((each,), "exact", (), True) for each in (back, left, right))
         result = separate(tree, pieces, [("left", "right")], CONFIG, 64)
         assert (("left", "right") in result.refused) == refused
+
+
+def two(base, moving, joint, carrier=False):
+    """Hulls of two parts, the second held by a joint, or by two with a link in between."""
+    meshes = [Mesh.from_triangles(each.vertices, each.faces) for each in (*base, moving)]
+    count = 12 * len(base)
+    body, mover = Part("body", np.arange(count)), Part("mover", np.arange(count, count + 12))
+    joints = (joint,)
+    parts = (body, mover)
+    pieces = [PartHulls(tuple(base), "exact", (), True), PartHulls((moving,), "exact", (), True)]
+    if carrier:
+        parts = (body, Part("carrier", np.arange(0)), mover)
+        joints = (joint, Joint("turn", "continuous", 1, 2, [0, 0, 1], [0, 0, 0], -np.pi, np.pi))
+        pieces.insert(1, PartHulls((), "none", (), True))
+    tree = Articulation(concatenate(meshes), parts, joints, "test")
+    return tree, separate(tree, tuple(pieces), [("body", "mover")], CONFIG, 64)
+
+
+def deepest(tree, result):
+    hulls = [list(piece.hulls) for piece in result.pieces]
+    last = len(hulls) - 1
+    way = relative_poses(tree, 0, last, 150)
+    return max(hull_depth(hulls[0], hulls[last], pose) for pose in way)
+
+
+def test_a_door_whose_far_edge_scrapes_its_frame_is_planed_there():
+    # The hinge lies on the front, but the door reaches 4 mm into the opposite side.
+    low, high = DOOR.vertices.min(axis=0), DOOR.vertices.max(axis=0)
+    wide = box(low, high + np.array([GAP + 0.004, 0.0, 0.0]))
+    tree, result = cut(replace(HINGE, origin=[GAP, 0.0, HEIGHT / 2]), wide)
+    assert result.refused == {}
+    hulls = [list(piece.hulls) for piece in result.pieces]
+    assert max(hull_depth(*hulls, pose) for pose in relative_poses(tree, 0, 1, 200)) == 0.0
+
+
+def test_a_cap_that_turns_and_lifts_is_held_by_its_bottle():
+    # It lies 10 mm in the neck, with nothing but a link without a body between.
+    neck, cap = box((-0.1, -0.1, 0), (0.1, 0.1, 0.3)), box((-0.04, -0.04, 0.29), (0.04, 0.04, 0.34))
+    lift = Joint("lift", "prismatic", 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 0.05)
+    tree, result = two([neck], cap, lift, carrier=True)
+    assert result.refused == {}
+    assert result.hidden[("body", "mover")] == pytest.approx(0.01)
+    assert deepest(tree, result) == 0.0
+
+
+@pytest.mark.parametrize(("travel", "dug"), [(0.004, True), (0.03, False)])
+def test_a_button_digs_a_pit_for_itself_and_what_is_no_button_does_not(travel, dug):
+    panel, button = (
+        box((-0.2, -0.2, -0.02), (0.2, 0.2, 0)),
+        box((-0.01, -0.01, 0), (0.01, 0.01, 0.006)),
+    )
+    press = Joint("press", "prismatic", 0, 1, [0, 0, -1], [0, 0, 0], 0.0, travel)
+    tree, result = two([panel], button, press)
+    assert (("body", "mover") not in result.refused) is dug
+    if dug:
+        assert deepest(tree, result) == 0.0
+        assert result.pieces[1].hulls[0].volume > 0.5 * button.volume
+
+
+def test_a_sheet_that_lies_on_a_rim_gives_way_and_stays():
+    rim, lid = box((-0.5, -0.5, -0.2), (0.5, 0.5, 0)), box((-0.5, -0.5, 0), (0.5, 0.5, 0.0015))
+    thin = box((-0.5, -0.5, -0.0015), (0.5, 0.5, 0))
+    lift = Joint("lift", "prismatic", 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 0.05)
+    for base in ([rim], [thin]):
+        tree, result = two(base, lid, lift)
+        assert result.refused == {}
+        assert [len(piece.hulls) for piece in result.pieces] == [1, 1]
+        assert deepest(tree, result) == 0.0
+
+
+def test_a_hinge_that_turns_half_a_turn_keeps_its_clearance_all_the_way():
+    tree, result = cut(replace(HINGE, upper=np.pi))
+    sides, door = ([PlanedHull.of(hull) for hull in piece.hulls] for piece in result.pieces)
+    gap = min(
+        -meeting(one, other, pose).depth
+        for pose in relative_poses(tree, 0, 1, 150)
+        for one in sides
+        for other in door
+    )
+    assert gap > 0.0022

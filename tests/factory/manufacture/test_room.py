@@ -105,3 +105,11 @@ def test_the_gap_behind_a_handle_stays_open_on_a_large_door() -> None:
     whole = trimesh.boolean.union([door, bar, *feet], engine="manifold")
     part = decompose(two_parts(box((0.1, 0.1, 0.1), (0, 3, 0)), whole), CONFIG)[1]
     assert deepest(part, [[0.8, -0.033, 0.0]]) < 0.0
+
+
+def test_a_bottle_that_a_hand_gets_into_from_above_stays_hollow() -> None:
+    # Its mouth is a fiftieth of its surface.
+    bottle = cap(radius=0.04, height=0.6)
+    bottle.apply_transform(trimesh.transformations.rotation_matrix(np.pi, [1, 0, 0]))
+    part = decompose(two_parts(box((0.5, 0.5, 0.02), (0, 0, -0.5)), bottle), CONFIG)[1]
+    assert deepest(part, [[0.0, 0.0, 0.0], [0.0, 0.0, 0.2]]) < 0.0

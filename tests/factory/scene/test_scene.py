@@ -5,12 +5,12 @@ from __future__ import annotations
 import io
 import json
 import struct
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
 import trimesh
-from export_samples import cabinet, image
+from export_samples import box, boxes_asset, cabinet, hull_of, image
 
 from asset_factory.factory.mesh import Material
 from asset_factory.factory.scene.glb import KEYS, glb_of
@@ -53,6 +53,32 @@ def test_a_glb_says_the_whole_scene(scene):
     assert again.poses({"hinge": 1.0}) == pytest.approx(scene.poses({"hinge": 1.0}))
     assert glb_of(scene) == glb_of(scene)
     assert glb_of(again) == glb_of(scene)
+
+
+def test_hulls_that_repairs_replaced_are_shown_where_they_rested():
+    before = cabinet()
+    thinner = hull_of(box([0.0, -0.21, 0.25], [0.56, 0.016, 0.46]))
+    bodies = list(before.bodies)
+    bodies[1] = replace(bodies[1], hulls=(thinner, *bodies[1].hulls[1:]))
+    scene = scene_of(replace(before, bodies=tuple(bodies)), before)
+    (gone,) = scene.replaced
+    frame = before.articulation.link_frame(1)
+    assert gone.link == 1
+    assert gone.vertices + frame == pytest.approx(before.bodies[1].hulls[0].vertices, abs=1e-6)
+    assert len(scene.hulls) == 4
+    again = scene_from(glb_of(scene))
+    assert len(again.replaced) == 1
+    assert np.array_equal(again.replaced[0].vertices, gone.vertices)
+    assert glb_of(again) == glb_of(scene)
+
+
+def test_a_part_that_is_no_more_leaves_its_hulls_on_the_root():
+    before = cabinet()
+    whole = boxes_asset([box([0.0, 0.0, 0.4], [0.6, 0.4, 0.8])], ())
+    scene = scene_of(whole, before)
+    assert {surface.link for surface in scene.replaced} == {0}
+    low = min(surface.vertices[:, 1].min() for surface in scene.replaced)
+    assert low + whole.articulation.link_frame(0)[1] == pytest.approx(-0.252, abs=1e-6)
 
 
 def test_other_readers_see_the_same_object(scene):

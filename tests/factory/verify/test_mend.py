@@ -142,3 +142,12 @@ def test_a_closed_end_that_lies_in_something_is_pulled_in():
     assert "began hinge at" in plan.steps[-1]
     begins = as_planned(asset.articulation, plan).joints[0].lower
     assert -0.1 < begins <= 0.0
+
+
+def test_no_joint_ends_before_the_pose_as_modelled():
+    asset = cabinet(axis=(0.0, 0.0, -1.0), lower=-0.5)
+    measured = replace(joint(upper=1.5, clear_until=-0.3), lower=-0.5)
+    given = verdict(hard("sweep_penetration", name="hinge"), joints=[measured])
+    started = Plan(separate=frozenset({("base", "door")}))
+    plan = next_plan(given, started, CONFIG, Spare(), asset)
+    assert plan is None or "hinge" not in plan.upper

@@ -10,10 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from asset_factory.sim_checks.processes.scratch import PREFIX, sweep
+from asset_factory.sim_checks.processes.scratch import PREFIX, SHORT, sweep
 
 SCRIPT = (
     "import os\n"
+    "from multiprocessing.util import get_temp_dir\n"
     "from asset_factory.sim_checks.processes.isolation import Limits, WarmChild\n"
     "if __name__ == '__main__':\n"
     "    with WarmChild() as child:\n"
@@ -63,3 +64,23 @@ def test_what_a_killed_process_leaves_is_swept(asker, tmp_path) -> None:
     assert len(names(tmp_path / "tmp")) == 2
     assert sweep(tmp_path / "tmp") == 1
     assert names(tmp_path / "tmp") == ["of-somebody-else"]
+
+
+def test_sockets_have_a_short_way_where_temporary_files_have_a_long_one(tmp_path) -> None:
+    far = tmp_path / ("deep" * 25)
+    far.mkdir()
+    script = tmp_path / "asks.py"
+    script.write_text(SCRIPT.replace("'asked'", "get_temp_dir()"))
+    asked = subprocess.run(
+        [sys.executable, script],
+        input="\n",
+        env={**os.environ, "TMPDIR": str(far)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert asked.returncode == 0, asked.stderr
+    sockets = Path(asked.stdout.strip())
+    assert sockets.parent == SHORT
+    assert not sockets.exists()
+    assert names(far) == []

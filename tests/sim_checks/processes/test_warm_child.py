@@ -80,6 +80,13 @@ def keep_asking(path: str) -> None:
         cold.spin()
 
 
+def ask_and_die(path: str) -> None:
+    child = WarmChild()
+    child.call(cold.double, 1, limits=GENEROUS)
+    Path(path).write_text(str(child.pid))
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
 def test_one_process_answers_many_calls() -> None:
     with WarmChild() as child:
         answers = [child.call(remember, i, limits=GENEROUS).unwrap() for i in range(4)]
@@ -224,7 +231,7 @@ def test_nothing_is_left_behind() -> None:
 
 def test_a_warm_child_dies_with_its_parent(tmp_path: Path) -> None:
     note = tmp_path / "pid"
-    run_isolated(keep_asking, str(note), limits=Limits(wall_s=5.0))
+    assert run_isolated(ask_and_die, str(note), limits=GENEROUS).failure
     assert cold.wait_until_gone(int(note.read_text()))
 
 

@@ -7,7 +7,7 @@ import { Viewer } from "./viewer.js";
 const find = (selector) => document.querySelector(selector);
 const SWITCHES = [
   ["visuals", "Surface", "v"], ["hulls", "Hulls", "h"], ["axes", "Axes", "a"], ["limits", "Limits", "l"],
-  ["contacts", "Contacts", "x"],
+  ["contacts", "Contacts", "x"], ["replaced", "Before repairs", "b"],
 ];
 
 function make(name, attributes = {}, ...children) {
@@ -45,7 +45,7 @@ class Page {
 
   switches() {
     for (const [name, label, key] of SWITCHES) {
-      if (name === "hulls" && !this.model.hulls.length) continue;
+      if (["hulls", "replaced"].includes(name) && !this.model[name].length) continue;
       const box = make("input", { type: "checkbox", id: `show-${name}` });
       box.checked = this.viewer.shown[name];
       box.addEventListener("change", () => {

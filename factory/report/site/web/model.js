@@ -38,6 +38,7 @@ export class Model {
     this.materials = (this.document.materials ?? []).map((told) => this.material(told));
     this.visuals = this.meshes(0);
     this.hulls = this.meshes(1);
+    this.replaced = this.document.scenes.length > 2 ? this.meshes(2) : [];
     this.values = new Map();
     this.pose(this.opened(0));
   }

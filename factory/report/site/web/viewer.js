@@ -7,12 +7,12 @@ import {
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { jointOverlay, mark } from "./overlays.js";
 
-/** Shows a model on a canvas. `shown` says what: visuals, hulls, axes, limits, contacts. */
+/** Shows a model on a canvas. `shown` says what: visuals, hulls, axes, limits, contacts, replaced. */
 export class Viewer {
   constructor(canvas, model, front) {
     this.canvas = canvas;
     this.model = model;
-    this.shown = { visuals: true, hulls: false, axes: false, limits: false, contacts: true };
+    this.shown = { visuals: true, hulls: false, axes: false, limits: false, contacts: true, replaced: false };
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
@@ -126,6 +126,14 @@ export class Viewer {
       const edges = new LineBasicMaterial({ color: 0x16181c, transparent: true, opacity: 0.4 });
       mesh.add(new LineSegments(new EdgesGeometry(mesh.geometry, 12), edges));
     });
+    for (const mesh of model.replaced) {
+      mesh.material = new MeshStandardMaterial({
+        color: 0xd9822b, roughness: 0.9, transparent: true, opacity: 0.45, depthWrite: false,
+      });
+      mesh.renderOrder = 3;
+      const edges = new LineBasicMaterial({ color: 0x8a4a0f, transparent: true, opacity: 0.7 });
+      mesh.add(new LineSegments(new EdgesGeometry(mesh.geometry, 12), edges));
+    }
     for (const joint of model.movable) {
       const box = new Box3();
       for (const mesh of [...model.visuals, ...model.hulls]) {
@@ -153,6 +161,7 @@ export class Viewer {
     for (const mesh of this.model.visuals) {
       mesh.visible = shown.visuals;
     }
+    for (const mesh of this.model.replaced) mesh.visible = shown.replaced;
     for (const mesh of this.model.hulls) {
       const met = shown.contacts && mesh.userData.met;
       mesh.visible = shown.hulls || met;

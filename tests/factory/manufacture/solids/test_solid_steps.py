@@ -106,6 +106,20 @@ def test_a_tapered_room_is_hollowed_in_steps() -> None:
     assert widths == sorted(widths, reverse=True)
 
 
+@pytest.mark.parametrize("depth", [0.0776, 0.31, 0.9])
+def test_between_the_steps_of_a_hollow_there_is_no_skin(depth: float) -> None:
+    cells = lattice(cells=50)
+    x, _, z = np.meshgrid(*cells.middles, indexing="ij")
+    room = (np.abs(x - 0.5) < 0.1 + 0.3 * z / depth) & (z < depth)
+    column = Box(np.array([0.0, 0.0, -depth]), np.array([1.0, 1.0, 0.0]))
+    boxes = hollow(cells, room, column, Side.TOP.frame)
+    assert len(boxes) > 1
+    corners = inside_of(boxes, boxes[0].low[2])
+    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2] / 2.0
+    mouth = boxes[0].size[0] * boxes[0].size[1]
+    assert np.abs(areas).sum() == pytest.approx(mouth, rel=1e-6)
+
+
 def test_no_room_no_hollow() -> None:
     cells = lattice()
     nothing = np.zeros(cells.shape, dtype=bool)

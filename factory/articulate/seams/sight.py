@@ -1,0 +1,194 @@
+"""What a small picture network sees on a side: which pixels open, where they end, and how.
+
+Its figures come from ``training/elevations``; it runs in numpy, so that reading a mesh needs no
+framework and gives the same answer everywhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+
+import numpy as np
+from scipy import ndimage
+
+from ...mesh import FloatArray
+from .rectangles import Rectangle
+from .relief import Relief
+
+FILE = "weights/seams.npz"
+#: What is given to the network, and what it answers, by name and in order.
+CUES = (
+    *("seen", "height", "groove", "bump", "slope_right", "slope_up", "light", "red", "yellow"),
+    *("up", "aside", "deep"),
+)
+ANSWERS = ("panel", "lid", "level", "upright", "left", "right", "bottom", "top", "out")
+#: It answers for squares of so many pixels, and halves its picture so often.
+SQUARE = 2
+HALVINGS = 4
+GRID = SQUARE * 2**HALVINGS
+#: Windows that tell grooves and bumps from the rest [pixels].
+GROOVE = 9
+BUMP = 17
+
+#: Added to what all squares together say of each way: a glance at few decides nothing.
+LEAST_CHANCE = 10.0
+
+Weights = Mapping[str, FloatArray]
+
+
+@dataclass(frozen=True, eq=False)
+class Sight:
+    """Probabilities by square, 0 to 1, shape [rows, columns] each; a square is two pixels wide.
+
+    Attributes:
+        panel: that it belongs to a door, drawer or flap.
+        lid: that it belongs to a lid.
+        level, upright: that something which opens ends here, below or above, left or right.
+        ways: how it opens, in the order of ``ANSWERS``, shape [5, rows, columns].
+    """
+
+    panel: FloatArray
+    lid: FloatArray
+    level: FloatArray
+    upright: FloatArray
+    ways: FloatArray
+
+    def shows(self, rectangle: Rectangle) -> float:
+        """Share of a rectangle that belongs to a door, drawer or flap, 0 to 1; 0 of a tiny one."""
+        inside = self.panel[_squares_in(rectangle)]
+        return float(inside.mean()) if inside.size else 0.0
+
+    def ways_of(self, rectangle: Rectangle) -> FloatArray:
+        """How likely what is in a rectangle opens in each way; even chances in a tiny one."""
+        squares = _squares_in(rectangle)
+        weights = self.panel[squares]
+        chances = LEAST_CHANCE + (self.ways[:, *squares] * weights).sum(axis=(1, 2))
+        return np.asarray(chances / chances.sum())
+
+
+def _squares_in(rectangle: Rectangle) -> tuple[slice, slice]:
+    first_row, first_column = rectangle.low // SQUARE + 1
+    last_row, last_column = rectangle.high // SQUARE
+    return slice(first_row, last_row), slice(first_column, last_column)
+
+
+def sight_of(relief: Relief) -> Sight:
+    """What is seen on one side."""
+    answer = network_answer(shipped_weights(), cues_of(relief))
+    squares = tuple(-(-length // SQUARE) for length in relief.shape)
+    answer = answer[:, : squares[0], : squares[1]]
+    yes = 1.0 / (1.0 + np.exp(-answer[:4]))
+    ways = np.exp(answer[4:] - answer[4:].max(axis=0))
+    panel, lid, level, upright = yes
+    return Sight(panel, lid, level, upright, ways / ways.sum(axis=0))
+
+
+def cues_of(relief: Relief) -> FloatArray:
+    """What the network is given of a side, shape [cue_count, rows, columns], padded to its grid."""
+    seen = relief.seen
+    height = relief.height
+    rows = np.flatnonzero(seen.any(axis=1))
+    columns = np.flatnonzero(seen.any(axis=0))
+    tall = max(int(np.ptp(rows)), 1)
+    up = np.clip((np.arange(seen.shape[0]) - rows[0]) / tall, 0.0, 1.0)
+    across = (np.arange(seen.shape[1]) - columns[0]) / max(int(np.ptp(columns)), 1)
+    aside = np.abs(2.0 * np.clip(across, 0.0, 1.0) - 1.0)
+    slope_up, slope_right = np.gradient(height)
+    light, red, yellow = np.moveaxis(relief.lab, -1, 0)
+    deep = np.log(max(relief.depth / relief.raster.pixel, 1.0) / tall)
+    groove = ndimage.grey_closing(height, size=(GROOVE, GROOVE)) - height
+    bump = height - ndimage.grey_opening(height, size=(BUMP, BUMP))
+    cues = np.stack(
+        [
+            np.ones(seen.shape),
+            np.clip((height - np.percentile(height[seen], 97.0)) / 12.0, -3.0, 1.0),
+            np.clip(groove, 0.0, 4.0) / 2.0,
+            np.clip(bump, 0.0, 12.0) / 6.0,
+            np.clip(slope_right, -2.0, 2.0),
+            np.clip(slope_up, -2.0, 2.0),
+            (light - light[seen].mean()) / 25.0,
+            red / 40.0,
+            yellow / 40.0,
+            np.broadcast_to(up[:, None], seen.shape),
+            np.broadcast_to(aside, seen.shape),
+            np.full(seen.shape, deep),
+        ]
+    )
+    room = [(0, -length % GRID) for length in seen.shape]
+    return np.pad(np.where(seen, cues, 0.0), ((0, 0), *room))
+
+
+def network_answer(weights: Weights, cues: FloatArray) -> FloatArray:
+    """Log-odds of every answer for every square, shape [answer_count, rows / 2, columns / 2].
+
+    A U-Net (Ronneberger et al., MICCAI 2015) of one coarse first layer, pairs of layers at each
+    of four halved sizes, and likewise up again.
+
+    Args:
+        weights: by layer, normalisations folded in.
+        cues: as :func:`cues_of` gives them.
+    """
+    levels = [_layer(weights, "first", cues, step=SQUARE)]
+    for number in range(HALVINGS):
+        levels.append(_pair(weights, f"down_{number}", _halved(levels[-1])))
+    inner = levels.pop()
+    for number in reversed(range(1, HALVINGS)):
+        beside = levels.pop()
+        inner = _pair(weights, f"up_{number}", np.concatenate([_doubled(inner), beside]))
+    inner = _layer(weights, "last", np.concatenate([_doubled(inner), levels.pop()]))
+    return _convolved(inner, weights["answer.weight"], weights["answer.bias"])
+
+
+@cache
+def shipped_weights() -> Weights:
+    """Those that come with the package, by name."""
+    path = resources.files("asset_factory") / "configs" / FILE
+    with path.open("rb") as file, np.load(file, allow_pickle=False) as stored:
+        return {name: stored[name].astype(np.float32) for name in stored.files}
+
+
+def _pair(weights: Weights, name: str, values: FloatArray) -> FloatArray:
+    return _layer(weights, f"{name}.1", _layer(weights, f"{name}.0", values))
+
+
+def _layer(weights: Weights, name: str, values: FloatArray, step: int = 1) -> FloatArray:
+    """A convolution, cut off below 0."""
+    found = _convolved(values, weights[f"{name}.weight"], weights[f"{name}.bias"], step)
+    return np.maximum(found, 0.0)
+
+
+def _convolved(
+    values: FloatArray, kernel: FloatArray, bias: FloatArray, step: int = 1
+) -> FloatArray:
+    """Cross-correlation with zeros around.
+
+    Args:
+        values: shape [channels, rows, columns].
+        kernel: shape [answers, channels, width, width], ``width`` odd.
+        bias: shape [answers].
+        step: between two places of the answer.
+    """
+    width = kernel.shape[-1]
+    rows, columns = (length // step for length in values.shape[1:])
+    room = (width // 2, width // 2)
+    padded = np.pad(values.astype(np.float32), ((0, 0), room, room))
+    found = np.repeat(bias[:, None], rows * columns, axis=1)
+    for row in range(width):
+        for column in range(width):
+            part = padded[:, row::step, column::step][:, :rows, :columns]
+            found += kernel[:, :, row, column] @ part.reshape(len(part), -1)
+    shaped: FloatArray = found.reshape(-1, rows, columns)
+    return shaped
+
+
+def _halved(values: FloatArray) -> FloatArray:
+    """The greatest of every four."""
+    channels, rows, columns = values.shape
+    return np.asarray(values.reshape(channels, rows // 2, 2, columns // 2, 2).max(axis=(2, 4)))
+
+
+def _doubled(values: FloatArray) -> FloatArray:
+    return values.repeat(2, axis=1).repeat(2, axis=2)

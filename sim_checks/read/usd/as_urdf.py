@@ -1,0 +1,203 @@
+"""A USD stage written as the URDF that says the same, so that every engine can be asked."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+
+from ...description import DescriptionError, FloatArray, LinkInertia
+from .bodies import WORLD, PhysicsBody
+from .joints import PhysicsJoint
+from .layers import SUFFIXES, require_inside
+from .shapes import PhysicsSurface
+from .stage import PhysicsStage, read_stage
+
+NAME = "asset.urdf"
+#: Below this cosine of the pitch, roll and yaw are one and the same.
+UPRIGHT = 1e-9
+
+
+def is_usd(path: Path) -> bool:
+    """Whether a file is called like a USD layer."""
+    return path.suffix.lower() in SUFFIXES
+
+
+def write_as_urdf(path: Path, folder: Path) -> Path:
+    """Write what a USD asset says as a URDF with meshes beside it.
+
+    A body becomes a link, with its frame where its joint is; what is fastened to nothing by a
+    joint is one more link, ``world``.
+
+    Args:
+        path: of the root layer; everything that it is composed of lies in or below its folder.
+        folder: an empty one.
+
+    Returns:
+        The URDF.
+
+    Raises:
+        DescriptionError: with a stable code, whatever is wrong with the file.
+    """
+    if importlib.util.find_spec("pxr") is None:
+        raise DescriptionError(
+            "unknown_format", f"{path.name}: reading USD needs usd-core: pip install usd-core"
+        )
+    require_inside(path)
+    stage = read_stage(path)
+    if not any(body.visuals or body.collisions for body in stage.bodies.values()):
+        raise DescriptionError("no_links", f"{path.name}: holds no surface")
+    file = folder / NAME
+    file.write_bytes(_Urdf(stage, folder).document(path.stem))
+    return file
+
+
+class _Urdf:
+    def __init__(self, stage: PhysicsStage, folder: Path) -> None:
+        self._stage = stage
+        self._folder = folder
+        self._hung = _hung(stage)
+        self._names = _names([path for path in stage.bodies if self._is_link(path)])
+
+    def _is_link(self, path: str) -> bool:
+        """The world is a link only where something is seen of it or moves against it."""
+        if path != WORLD:
+            return True
+        world = self._stage.bodies[WORLD]
+        movable = any(j.kind != "fixed" and WORLD in j.bodies for j in self._stage.joints)
+        return bool(world.visuals or world.collisions or movable)
+
+    def document(self, name: str) -> bytes:
+        """The whole file."""
+        root = ElementTree.Element("robot", name=re.sub(r"\W", "_", name))
+        for path in self._names:
+            self._link(root, self._stage.bodies[path])
+        for joint, child in self._hung:
+            self._joint(root, joint, child)
+        written: bytes = ElementTree.tostring(root, encoding="utf-8")
+        return written
+
+    def _frame(self, path: str) -> FloatArray:
+        """A link's frame in its body's: where its joint is; of a root, the world's own."""
+        for joint, child in self._hung:
+            if joint.bodies[child] == path:
+                return joint.frames[child]
+        return np.asarray(np.linalg.inv(self._stage.bodies[path].pose))
+
+    def _link(self, root: ElementTree.Element, body: PhysicsBody) -> None:
+        link = ElementTree.SubElement(root, "link", name=self._names[body.path])
+        back = np.asarray(np.linalg.inv(self._frame(body.path)), dtype=np.float64)
+        if body.inertia is not None:
+            _write_inertia(link, body.inertia, back)
+        for what, surfaces in (("visual", body.visuals), ("collision", body.collisions)):
+            for number, surface in enumerate(surfaces):
+                file = f"{self._names[body.path]}_{what}_{number}.obj"
+                _write_obj(self._folder / file, surface, back)
+                shape = ElementTree.SubElement(link, what, name=surface.name)
+                geometry = ElementTree.SubElement(shape, "geometry")
+                ElementTree.SubElement(geometry, "mesh", filename=file)
+
+    def _joint(self, root: ElementTree.Element, joint: PhysicsJoint, child: int) -> None:
+        parent = joint.bodies[1 - child]
+        if parent not in self._names:
+            return
+        kind = joint.kind
+        if kind == "revolute" and None in (joint.lower, joint.upper):
+            kind = "continuous"
+        element = ElementTree.SubElement(root, "joint", name=joint.name, type=kind)
+        ElementTree.SubElement(element, "parent", link=self._names[parent])
+        ElementTree.SubElement(element, "child", link=self._names[joint.bodies[child]])
+        origin = np.linalg.inv(self._frame(parent)) @ joint.frames[1 - child]
+        ElementTree.SubElement(element, "origin", _place(origin))
+        if kind == "fixed":
+            return
+        # Values count how body1 moves as body0 sees it.
+        axis = joint.axis if child == 1 else -joint.axis
+        ElementTree.SubElement(element, "axis", xyz=_text(axis))
+        ElementTree.SubElement(
+            element, "dynamics", damping=f"{joint.damping:.9g}", friction=f"{joint.friction:.9g}"
+        )
+        if joint.lower is not None and joint.upper is not None:
+            ElementTree.SubElement(
+                element,
+                "limit",
+                lower=f"{joint.lower:.9g}",
+                upper=f"{joint.upper:.9g}",
+                effort="1000",
+                velocity="10",
+            )
+
+
+def _hung(stage: PhysicsStage) -> list[tuple[PhysicsJoint, int]]:
+    """Every joint, with which of its bodies hangs on the other, from the roots down.
+
+    A joint that would hang a body twice keeps ``body1`` below: the judge says that it is no tree.
+    """
+    waiting = list(stage.joints)
+    held = {joint.bodies[1] for joint in waiting}
+    known = {WORLD} | {path for path in stage.bodies if path not in held}
+    found = []
+    while waiting:
+        ready = next((j for j in waiting if known & set(j.bodies)), waiting[0])
+        waiting.remove(ready)
+        child = 0 if ready.bodies[1] in known and ready.bodies[0] not in known else 1
+        known |= set(ready.bodies)
+        found.append((ready, child))
+    return found
+
+
+def _names(paths: list[str]) -> dict[str, str]:
+    """A link name for each body: the prim's own, made different where two are alike."""
+    names: dict[str, str] = {}
+    for path in paths:
+        name = re.sub(r"\W", "_", path.rpartition("/")[2]) or "world"
+        while name in names.values():
+            name += "_"
+        names[path] = name
+    return names
+
+
+def _write_inertia(link: ElementTree.Element, inertia: LinkInertia, back: FloatArray) -> None:
+    element = ElementTree.SubElement(link, "inertial")
+    center = back[:3, :3] @ inertia.center + back[:3, 3]
+    tensor = back[:3, :3] @ inertia.tensor @ back[:3, :3].T
+    ElementTree.SubElement(element, "origin", xyz=_text(center))
+    ElementTree.SubElement(element, "mass", value=f"{inertia.mass:.9g}")
+    entries = {
+        "ixx": tensor[0, 0],
+        "ixy": tensor[0, 1],
+        "ixz": tensor[0, 2],
+        "iyy": tensor[1, 1],
+        "iyz": tensor[1, 2],
+        "izz": tensor[2, 2],
+    }
+    written = {name: f"{value:.9g}" for name, value in entries.items()}
+    ElementTree.SubElement(element, "inertia", written)
+
+
+def _write_obj(file: Path, surface: PhysicsSurface, back: FloatArray) -> None:
+    vertices = surface.vertices @ back[:3, :3].T + back[:3, 3]
+    lines = [f"v {_text(vertex)}" for vertex in vertices]
+    lines += [f"f {a} {b} {c}" for a, b, c in (surface.faces + 1).tolist()]
+    file.write_text("\n".join(lines) + "\n")
+
+
+def _place(pose: FloatArray) -> dict[str, str]:
+    """As URDF writes a pose: a place, and angles about the fixed x, y and z axis."""
+    turn = pose[:3, :3]
+    level = float(np.hypot(turn[0, 0], turn[1, 0]))
+    pitch = np.arctan2(-turn[2, 0], level)
+    if level > UPRIGHT:
+        roll = np.arctan2(turn[2, 1], turn[2, 2])
+        yaw = np.arctan2(turn[1, 0], turn[0, 0])
+    else:
+        roll = np.arctan2(-turn[1, 2], turn[1, 1])
+        yaw = 0.0
+    return {"xyz": _text(pose[:3, 3]), "rpy": _text(np.array([roll, pitch, yaw]))}
+
+
+def _text(values: FloatArray) -> str:
+    return " ".join(f"{value:.9g}" for value in values)

@@ -1,0 +1,100 @@
+"""Panels that the picture network alone is sure of, and how it counts among three judges."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.samples import one_piece
+
+from asset_factory.factory.articulate.seams import fronts as fronts_module
+from asset_factory.factory.articulate.seams.fronts import Front, fronts_of
+from asset_factory.factory.articulate.seams.glimpses import glimpsed
+from asset_factory.factory.articulate.seams.motions import OpensBy, openings_of
+from asset_factory.factory.articulate.seams.panels import FrontPanel
+from asset_factory.factory.articulate.seams.reading import read_reliefs
+from asset_factory.factory.articulate.seams.rectangles import Rectangle
+from asset_factory.factory.articulate.seams.relief import Relief, reliefs_of
+from asset_factory.factory.articulate.seams.sight import SQUARE, Sight
+from asset_factory.factory.geometry.crossings import Side
+
+#: First row and column of the two doors, and those after the last, in squares.
+DOORS = (((10, 12), (90, 42)), ((10, 43), (90, 73)))
+
+
+def seen_as(relief: Relief, panel: float = 0.95, end: float = 0.95) -> Sight:
+    """Two doors beside each other on every side, hinged on their left."""
+    shape = tuple(-(-length // SQUARE) for length in relief.shape)
+    nothing = np.zeros(shape)
+    doors, level, upright = nothing.copy(), nothing.copy(), nothing.copy()
+    for (bottom, left), (top, right) in DOORS:
+        doors[bottom:top, left:right] = panel
+        level[[bottom - 1, top], left:right] = end
+        upright[bottom:top, [left - 1, right]] = end
+    ways = np.zeros((len(OpensBy), *shape))
+    ways[0] = 1.0
+    return Sight(doors, nothing, level, upright, ways)
+
+
+@pytest.fixture
+def box() -> Front:
+    """Of a box on which nothing is seen but what a test says."""
+    return fronts_of(reliefs_of(one_piece.plain_box(), None))[Side.FRONT]
+
+
+def with_sight(front: Front, **seen: float) -> Front:
+    told = replace(front)
+    told.__dict__["sight"] = seen_as(front.relief, **seen)
+    return told
+
+
+def test_two_doors_end_where_an_end_is_seen(box: Front) -> None:
+    panels = glimpsed(with_sight(box))
+    corners = sorted((*each.rectangle.low, *each.rectangle.high) for each in panels)
+    expected = [
+        [
+            SQUARE * (low[0] - 1),
+            SQUARE * (low[1] - 1),
+            SQUARE * (high[0] + 1),
+            SQUARE * (high[1] + 1),
+        ]
+        for low, high in DOORS
+    ]
+    assert np.array(corners) == pytest.approx(np.array(expected))
+    assert all(each.value > 1.0 for each in panels)
+
+
+@pytest.mark.parametrize("doubt", [{"panel": 0.7}, {"end": 0.5}])
+def test_what_is_doubtful_is_no_panel(box: Front, doubt: dict[str, float]) -> None:
+    assert not glimpsed(with_sight(box, **doubt))
+
+
+def test_an_outline_that_is_no_rectangle_is_no_panel(box: Front) -> None:
+    front = with_sight(box)
+    front.sight.panel[10:60, 12:32] = 0.0
+    assert len(glimpsed(front)) == 1
+
+
+def test_where_nothing_else_is_found_it_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    reliefs = reliefs_of(one_piece.plain_box(), None)
+    assert read_reliefs(reliefs) == ()
+    monkeypatch.setattr(fronts_module, "sight_of", seen_as)
+    movers = read_reliefs(reliefs)[0].movers
+    assert len(movers) == 2
+    assert all(mover.confidence > 0.8 for mover in movers)
+
+
+def test_it_counts_for_one_of_three_in_how_a_panel_opens(box: Front) -> None:
+    rectangle = Rectangle(np.array([20, 24]), np.array([180, 84]), np.ones(4), np.ones(4))
+    panel = FrontPanel(rectangle, (), 1.0)
+    chances = {}
+    for number, way in ((0, OpensBy.LEFT), (4, OpensBy.OUT)):
+        sight = seen_as(box.relief)
+        sight.ways[:] = 0.0
+        sight.ways[number] = 1.0
+        opening = openings_of(box.scene, [panel], sight)[0]
+        assert sum(chance for _, chance in opening.ways) == pytest.approx(1.0)
+        chances[way] = dict(opening.ways)
+    assert chances[OpensBy.LEFT][OpensBy.LEFT] > 2.0 * chances[OpensBy.OUT][OpensBy.LEFT]
+    assert chances[OpensBy.OUT][OpensBy.OUT] > 2.0 * chances[OpensBy.LEFT][OpensBy.OUT]

@@ -1,0 +1,121 @@
+"""The picture network: its arithmetic against other libraries, and what the shipped one sees."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy import signal
+from tests.samples import one_piece
+
+from asset_factory.factory.articulate.seams import sight
+from asset_factory.factory.articulate.seams.reading import read_reliefs
+from asset_factory.factory.articulate.seams.rectangles import Rectangle
+from asset_factory.factory.articulate.seams.relief import Relief, relief_of, reliefs_of
+from asset_factory.factory.articulate.seams.sight import (
+    ANSWERS,
+    CUES,
+    GRID,
+    SQUARE,
+    Sight,
+    cues_of,
+    network_answer,
+    shipped_weights,
+    sight_of,
+)
+from asset_factory.factory.geometry.crossings import Side
+from asset_factory.factory.training.elevations.pictures import pictures_of
+from asset_factory.factory.training.objects import make_object
+
+
+@pytest.fixture(scope="module")
+def fridge() -> Relief:
+    return relief_of(make_object("fridge", 1).mesh, Side.FRONT)
+
+
+def test_a_convolution_is_a_cross_correlation() -> None:
+    rng = np.random.default_rng(0)
+    values = rng.normal(size=(3, 8, 6))
+    kernel = rng.normal(size=(2, 3, 3, 3))
+    bias = rng.normal(size=2)
+    found = sight._convolved(values, kernel.astype(np.float32), bias.astype(np.float32))
+    expected = [
+        sum(signal.correlate2d(values[c], kernel[k, c], mode="same") for c in range(3)) + bias[k]
+        for k in range(2)
+    ]
+    assert found == pytest.approx(np.stack(expected), abs=1e-5)
+    halved = sight._convolved(values, kernel.astype(np.float32), bias.astype(np.float32), step=2)
+    assert halved == pytest.approx(np.stack(expected)[:, ::2, ::2], abs=1e-5)
+
+
+def test_it_computes_what_was_trained() -> None:
+    torch = pytest.importorskip("torch")
+    from asset_factory.factory.training.elevations.network import PictureNetwork
+
+    torch.manual_seed(3)
+    network = PictureNetwork()
+    cues = torch.randn(2, len(CUES), 4 * GRID, 3 * GRID)
+    # Normalisations learn from what they see before they are folded in.
+    network(3.0 * cues + 1.0)
+    network.eval()
+    with torch.no_grad():
+        expected = network(cues)[0].numpy()
+    assert network_answer(network.folded(), cues[0].numpy()) == pytest.approx(expected, abs=1e-4)
+
+
+def test_what_is_given_does_not_depend_on_size(fridge: Relief) -> None:
+    large = make_object("fridge", 1).mesh.transformed(np.diag([3.0, 3.0, 3.0, 1.0]))
+    assert cues_of(relief_of(large, Side.FRONT)) == pytest.approx(cues_of(fridge), abs=1e-6)
+
+
+def test_what_is_given_fits_the_grid(fridge: Relief) -> None:
+    cues = cues_of(fridge)
+    assert cues.shape[0] == len(CUES)
+    assert cues.shape[1] % GRID == cues.shape[2] % GRID == 0
+    assert not cues[:, fridge.shape[0] :].any()
+    assert np.isfinite(cues).all()
+
+
+def test_answers_are_probabilities(fridge: Relief) -> None:
+    seen = sight_of(fridge)
+    for each in (seen.panel, seen.lid, seen.level, seen.upright):
+        assert each.shape == tuple(-(-length // 2) for length in fridge.shape)
+        assert each.min() >= 0.0
+        assert each.max() <= 1.0
+    assert len(seen.ways) == len(ANSWERS) - 4
+    assert seen.ways.sum(axis=0) == pytest.approx(1.0)
+
+
+def test_a_rectangle_shows_a_panel_as_far_as_it_covers_one() -> None:
+    panel = np.zeros((40, 30))
+    panel[:20] = 1.0
+    seen = Sight(panel, panel, panel, panel, np.zeros((5, 40, 30)))
+    assert seen.shows(_rectangle((2, 2), (38, 58))) == 1.0
+    assert seen.shows(_rectangle((42, 2), (78, 58))) == 0.0
+    assert seen.shows(_rectangle((2, 2), (78, 58))) == pytest.approx(0.5, abs=0.02)
+    assert seen.shows(_rectangle((2, 2), (3, 3))) == 0.0
+
+
+def _rectangle(low: tuple[int, int], high: tuple[int, int]) -> Rectangle:
+    return Rectangle(np.array(low), np.array(high), np.ones(4), np.ones(4))
+
+
+def test_what_the_network_does_not_see_is_no_panel(monkeypatch: pytest.MonkeyPatch) -> None:
+    reliefs = reliefs_of(one_piece.fridge(), None)
+    assert read_reliefs(reliefs)[0].movers
+    monkeypatch.setattr(Sight, "shows", lambda self, rectangle: 0.0)
+    assert read_reliefs(reliefs) == ()
+
+
+@pytest.mark.parametrize("kind", ["fridge", "filing_cabinet", "base_cabinet"])
+def test_the_shipped_network_tells_what_opens_from_what_stays(kind: str) -> None:
+    pictures = pictures_of(make_object(kind, 40_001), np.random.default_rng(1), (Side.FRONT,))
+    relief = pictures[Side.FRONT].relief
+    part = pictures[Side.FRONT].part
+    panel = sight_of(relief).panel.repeat(SQUARE, axis=0).repeat(SQUARE, axis=1)
+    panel = panel[: relief.shape[0], : relief.shape[1]]
+    assert panel[part > 0].mean() > panel[part == 0].mean() + 0.3
+
+
+def test_the_shipped_network_is_whole() -> None:
+    assert all(np.isfinite(each).all() for each in shipped_weights().values())
+    assert shipped_weights()["answer.weight"].shape[0] == len(ANSWERS)
