@@ -6,8 +6,8 @@ does. Prints a JSON line for each number of workers: assets a second, how busy t
 store are, and whichever of them is busiest; the last line adds up what ten million meshes take.
 
 Times are of ``logs/builds.jsonl`` of a registry, which can be named; else of the eleven example
-meshes on one of two shared processors. The head's share of an asset is an assumption: some 4 ms
-that ``ray_overhead.py`` says of a call, the rest for fetching, verifying and registering.
+meshes on one of two shared processors. The head's share of an asset is what ``build_overhead.py``
+(28 ms) and ``ray_overhead.py`` (4 ms) say on a busy machine. Sizes, losses and the line are assumed.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Costs:
         loss: share of builds whose worker is lost in the middle.
     """
 
-    head_s: float = 0.030
+    head_s: float = 0.032
     bundle_bytes: float = 1.0e6
     store_bytes_s: float = 125e6
     row_bytes: float = 600.0
