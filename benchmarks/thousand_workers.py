@@ -7,7 +7,8 @@ store are, and whichever of them is busiest; the last line adds up what ten mill
 
 Times are of ``logs/builds.jsonl`` of a registry, which can be named; else of the eleven example
 meshes on one of two shared processors. The head's share of an asset is what ``build_overhead.py``
-(28 ms) and ``ray_overhead.py`` (4 ms) say on a busy machine. Sizes, losses and the line are assumed.
+(28 ms) and ``ray_overhead.py`` (4 ms) say on a busy machine. Sizes, losses and the line's speed are
+assumed.
 """
 
 from __future__ import annotations
