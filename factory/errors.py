@@ -9,7 +9,8 @@
     ├── ConfigError           a preset, flag or sidecar says something that cannot be
     ├── RegistryError         the output directory is not a registry, or an id is not in it
     │   └── DamagedDatabaseError   its database is broken (registry/database.py)
-    └── ClusterLost           the Ray cluster went away in the middle of a job (jobs/ray_cluster.py)
+    └── ClusterLost           the Ray cluster went away in the middle of a job (jobs/ray/cluster.py)
+        └── NoNodeLeft        none of its nodes can be used (jobs/ray/nodes.py)
 
 A bad asset is data and ends in a report; every other exception is a broken program.
 """

@@ -128,6 +128,9 @@ UNJUDGED: Mapping[str, str] = {
     "build_timeout": "the asset was not built in time",
 }
 
+#: Codes of what PhysX does not take on a GPU, or simulates badly there.
+GPU_LIMITS = frozenset({"oblong_hull", "many_hulls", "many_hull_vertices"})
+
 #: Worth knowing, no reason to reject.
 SOFT: Mapping[str, str] = {
     "hinge_overlap": "the knuckle of a hinge; MuJoCo is told not to collide that pair [mm]",

@@ -58,7 +58,7 @@ class Build:
     output: Path
     """The registry's folder; made if it is not there."""
     sim: str = DEFAULT_SIMULATORS
-    """Simulators that judge, separated by commas, or 'all'."""
+    """Simulators that judge, separated by commas; 'all' is sapien,mujoco,pybullet."""
     formats: str = "urdf,mjcf"
     """What assets are written in, separated by commas: urdf and mjcf always, sdf, usd, glb."""
     workers: int | None = None

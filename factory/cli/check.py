@@ -32,7 +32,7 @@ class Check:
     files: Positional[tuple[Path, ...]]
     """URDF, MJCF or USD files, or folders of them."""
     sim: str = DEFAULT_SIMULATORS
-    """Simulators that judge, separated by commas, or 'all'."""
+    """Simulators that judge, separated by commas; 'all' is sapien,mujoco,pybullet."""
     json: Path | None = None
     """Where to write the report; a list of reports for several files or a folder. '-' prints it."""
     config: str = "default"

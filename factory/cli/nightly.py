@@ -34,7 +34,7 @@ class Nightly:
     output: Path | None = None
     """The registry's folder; made if it is not there."""
     sim: str | None = None
-    """Simulators that judge, separated by commas, or 'all'."""
+    """Simulators that judge, separated by commas; 'all' is sapien,mujoco,pybullet."""
     repairs: str | None = None
     """What may be repaired: none, geometry (collision geometry only), or all (joints too)."""
     workers: int | None = None

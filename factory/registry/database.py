@@ -13,17 +13,18 @@ from ..errors import RegistryError
 from ..runtime.layout import DATABASE
 
 #: Raised when a table's columns change; older databases are brought up to it, newer ones refused.
-SCHEMA_VERSION = 4
+SCHEMA_VERSION = 5
 BUSY_TIMEOUT_S = 30.0
 #: Memory that a connection may use for pages [KiB].
 CACHE_KIB = 65_536
 
-#: A row's columns; tags have a table of their own. ``digest`` is the SHA-256 of the asset's
-#: report.json.
-COLUMNS = (
+#: An entry's columns; tags have a table of their own.
+ENTRY_COLUMNS = (
     *("id", "name", "category", "status", "reason", "parts", "joints", "hulls"),
-    *("key", "message", "license", "split", "solved", "digest"),
+    *("key", "message", "license", "split", "solved"),
 )
+#: ``gpu_ready`` is ``yes``, ``no`` or empty; ``digest`` the SHA-256 of the asset's report.json.
+COLUMNS = (*ENTRY_COLUMNS, "gpu_ready", "digest")
 # Without row ids every index ends with the id: what an index finds comes out sorted as lists are.
 _TABLES = (
     (
@@ -35,10 +36,10 @@ _TABLES = (
 #: Columns by which rows are found; of several that would do, the first is the narrowest.
 INDICES = (
     *(("category", "reason"), ("category", "status"), ("reason",), ("category",)),
-    *(("license",), ("solved",), ("status",), ("key",)),
+    *(("license",), ("solved",), ("gpu_ready",), ("status",), ("key",)),
 )
 #: Columns by which rows are counted.
-COUNTED = ("status", "category", "reason", "split", "solved", "license")
+COUNTED = ("status", "category", "reason", "split", "solved", "license", "gpu_ready")
 _DAMAGED = (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB)
 _DISK_ERRORS = {sqlite3.SQLITE_FULL: errno.ENOSPC, sqlite3.SQLITE_IOERR: errno.EIO}
 _PRIMARY_CODE = 0xFF

@@ -63,13 +63,14 @@ def read_record(folder: Path, note: Path) -> RegistryRow:
         files = stored.files
         noted = read_note(note)
         entry = entry_from(stored.entry, tags=noted.tags, solved=noted.solved_with(files))
+        gpu_ready = stored.gpu_ready
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise RegistryError(f"{folder / REPORT}: {error}") from error
     if entry.id != folder.name:
         raise RegistryError(f"{folder / REPORT}: is of {entry.id!r}, not of its folder")
     if (entry.status is Status.PASSED) != (folder.parent.name == ASSETS):
         raise RegistryError(f"{folder}: is {entry.status}, which belongs in another folder")
-    return RegistryRow(entry, stored.digest)
+    return RegistryRow(entry, stored.digest, gpu_ready)
 
 
 def _written(folder: Path) -> int:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from asset_factory.sim_checks import Report
+from asset_factory.sim_checks.reasons import GPU_LIMITS
 
 from ..errors import RegistryError
 from ..runtime.layout import REPORT
@@ -68,6 +69,14 @@ class StoredReport:
     def clean(self) -> bool:
         """Whether it passed without any finding."""
         return self.passed and self.data.get("findings") == []
+
+    @property
+    def gpu_ready(self) -> str:
+        """``yes`` or ``no``: whether PhysX takes its hulls on a GPU; empty if it did not pass."""
+        if not self.passed:
+            return ""
+        codes = {str(finding["code"]) for finding in self.data.get("findings", ())}
+        return "yes" if codes.isdisjoint(GPU_LIMITS) else "no"
 
     @property
     def repairs(self) -> tuple[str, ...]:

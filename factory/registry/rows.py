@@ -6,11 +6,11 @@ import sqlite3
 from collections.abc import Iterable
 from dataclasses import dataclass, fields
 
-from .database import COLUMNS, COUNTED, INDICES, index_name
+from .database import COLUMNS, COUNTED, ENTRY_COLUMNS, INDICES, index_name
 from .entry import Entry
 
 _SELECT = (
-    f"SELECT {', '.join(f'assets.{name}' for name in COLUMNS[:-1])}, "  # noqa: S608
+    f"SELECT {', '.join(f'assets.{name}' for name in ENTRY_COLUMNS)}, "  # noqa: S608
     "(SELECT group_concat(own.tag) FROM tags AS own WHERE own.id = assets.id)"
 )
 _TAKEN_OVER = ", ".join(f"{name} = excluded.{name}" for name in COLUMNS[1:])
@@ -20,10 +20,18 @@ _HIGHEST = "\U0010ffff"
 
 @dataclass(frozen=True)
 class RegistryRow:
-    """An entry, and the SHA-256 of the report.json that it was read from."""
+    """An entry, and what else is known of it.
+
+    Attributes:
+        entry: the entry.
+        digest: SHA-256 of the report.json that it was read from.
+        gpu_ready: ``yes`` or ``no``: whether PhysX takes its hulls on a GPU; empty if it was not
+            judged, or did not pass.
+    """
 
     entry: Entry
     digest: str
+    gpu_ready: str = ""
 
 
 @dataclass(frozen=True)
@@ -33,6 +41,7 @@ class Filters:
     Attributes:
         status, category, reason, split, solved, license: as the entry has it.
         tag: one of its tags.
+        gpu_ready: as the row has it.
     """
 
     status: str | None = None
@@ -42,6 +51,7 @@ class Filters:
     split: str | None = None
     solved: str | None = None
     license: str | None = None
+    gpu_ready: str | None = None
 
     def query(self, *, after: str = "") -> tuple[str, list[str]]:
         """What follows SELECT columns: the tables, the conditions, and their values."""
@@ -80,7 +90,8 @@ def insert(connection: sqlite3.Connection, records: Iterable[RegistryRow]) -> No
     marks = ", ".join("?" for _ in COLUMNS)
     for record in records:
         entry = record.entry
-        values = [*(getattr(entry, name) for name in COLUMNS[:-1]), record.digest]
+        own = (getattr(entry, name) for name in ENTRY_COLUMNS)
+        values = [*own, record.gpu_ready, record.digest]
         names = ", ".join(COLUMNS)
         # Replacing would count rows twice: it drops the old one without telling triggers.
         statement = (
@@ -155,7 +166,7 @@ def near(connection: sqlite3.Connection, asset_id: str) -> tuple[str, ...]:
 
 
 def _entry(row: tuple[str | int | None, ...]) -> Entry:
-    named = dict(zip(COLUMNS[:-1], row[:-1], strict=True))
+    named = dict(zip(ENTRY_COLUMNS, row[:-1], strict=True))
     del named["split"]
     tags = str(row[-1]).split(",") if row[-1] is not None else ()
     return Entry(**named, tags=tuple(tags))  # type: ignore[arg-type]

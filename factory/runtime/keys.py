@@ -63,7 +63,7 @@ class Stage:
             self.version,
             [f"{library} {installed_version(library)}" for library in self.libraries],
             [_table_digest(name) for name in self.data],
-            [_code_digest(package) for package in self.code],
+            [code_digest(package) for package in self.code],
             self.also(config),
         ]
 
@@ -112,7 +112,8 @@ def _table_digest(name: str) -> str:
 
 
 @lru_cache(maxsize=4)
-def _code_digest(package: str) -> str:
+def code_digest(package: str) -> str:
+    """Of all sources of a package, without importing it; ``absent`` where it is not installed."""
     spec = find_spec(package)
     if spec is None or spec.origin is None:
         return "absent"

@@ -8,14 +8,25 @@ from importlib.metadata import PackageNotFoundError, version
 from types import MappingProxyType
 
 from .mujoco_backend import MujocoSimulator
+from .newton_backend import NewtonSimulator
 from .pybullet_backend import PybulletSimulator
 from .sapien_backend import SapienSimulator
 from .simulator import Simulator
 
 SIMULATORS: Mapping[str, Simulator] = MappingProxyType(
-    {engine.name: engine for engine in (SapienSimulator(), MujocoSimulator(), PybulletSimulator())}
+    {
+        engine.name: engine
+        for engine in (
+            SapienSimulator(),
+            MujocoSimulator(),
+            PybulletSimulator(),
+            NewtonSimulator(),
+        )
+    }
 )
 """Every engine, in the order in which they are asked."""
+USUAL = ("sapien", "mujoco", "pybullet")
+"""Those that ``all`` means; others are asked by name."""
 
 
 def simulator(name: str) -> Simulator:

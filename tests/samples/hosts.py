@@ -19,6 +19,8 @@ _TOKEN = "0123456789abcdef0123456789abcdef"  # noqa: S105 - of a cluster that li
 #: Ray's own of a node; small, for only small answers go through it [bytes].
 _STORE = "--object-store-memory=80000000"
 _COMES_UP_S = 90.0
+#: A worker that starts under the address of one that died just now may be refused.
+_TRIES = 8
 #: A node that does not answer for so long is dead to the others.
 _IMPATIENT = {
     "RAY_health_check_initial_delay_ms": "2000",
@@ -30,7 +32,7 @@ _IMPATIENT = {
 _OWN_FILES = """
 set -e
 mount --bind "$INPUTS" /mnt
-mount -t tmpfs none /tmp
+mount -t tmpfs -o "size=$ROOM" none /tmp
 mkdir -p "$INPUTS"
 mount --bind /mnt "$INPUTS"
 mount -o remount,ro,bind "$INPUTS"
@@ -69,18 +71,24 @@ class Hosts:
         """Ray's head, which does no work itself."""
         more = ["--head", f"--port={_PORT}", f"--node-ip-address={self.head}", "--num-cpus=0"]
         more += [f"--temp-dir={self._folder}", "--include-dashboard=false"]
-        self._hosts[1] = self._started(more, ())
+        self._hosts[1] = self._started(more, (), {})
 
-    def start(self, number: int) -> None:
-        """A worker of one processor, from 2 on; one that died comes back under its address."""
+    def start(self, number: int, *, room: str = "50%", sources: Path | None = None) -> None:
+        """A worker of one processor, from 2 on; one that died comes back under its address.
+
+        Args:
+            number: the last one of its address.
+            room: of its /tmp, as tmpfs is told.
+            sources: of another version of the package.
+        """
         name = self._name(number)
         if number not in self._networks:
             self._networks.add(number)
             self._connect(number, name)
         own = ("ip", "netns", "exec", name, "unshare", "--mount", "sh", "-c", _OWN_FILES, "own")
-        address = self.head.rpartition(".")[0]
-        more = [f"--address={self.address}", f"--node-ip-address={address}.{number}"]
-        self._hosts[number] = self._started([*more, "--num-cpus=1"], own)
+        more = [f"--address={self.address}", f"--node-ip-address={self.address_of(number)}"]
+        told = {"ROOM": room} | ({} if sources is None else {"PYTHONPATH": str(sources)})
+        self._hosts[number] = self._started([*more, "--num-cpus=1"], own, told)
 
     def come_up(self, workers: int) -> None:
         """The head and so many workers, with the environment as it is now."""
@@ -90,13 +98,17 @@ class Hosts:
             self.start(number)
         self.await_nodes(1 + workers)
 
-    def await_nodes(self, count: int) -> None:
+    def address_of(self, number: int) -> str:
+        """A worker's own."""
+        return f"{self.head.rpartition('.')[0]}.{number}"
+
+    def await_nodes(self, count: int, seconds: float = _COMES_UP_S) -> None:
         """Until so many nodes are in the cluster, the head counted."""
         asked = (
             "import ray, sys; ray.init(sys.argv[1], log_to_driver=False, logging_level='error'); "
         )
         asked += "print(sum(node['Alive'] for node in ray.nodes()))"
-        until = time.monotonic() + _COMES_UP_S
+        until = time.monotonic() + seconds
         told = ""
         while time.monotonic() < until:
             command = [sys.executable, "-c", asked, self.address]
@@ -112,15 +124,52 @@ class Hosts:
             time.sleep(1.0)
         raise AssertionError(f"{count} nodes did not come up: {told}")
 
+    def restore(self, workers: int) -> None:
+        """Start what died, end what is too much, until there are the head and so many workers."""
+        wanted = range(2, 2 + workers)
+        for number in set(self._hosts) - {1, *wanted}:
+            self.kill(number)
+        for _ in range(_TRIES):
+            for number in wanted:
+                if number in self._hosts and self._hosts[number].poll() is not None:
+                    self.kill(number)
+                if number not in self._hosts:
+                    self.start(number)
+            with suppress(AssertionError):
+                return self.await_nodes(1 + workers, seconds=10.0)
+        raise AssertionError(f"{workers} workers did not come up")
+
     def kill(self, number: int) -> None:
         """As if somebody pulled the plug."""
         process = self._hosts.pop(number)
-        for pid in _pids_in(self._name(number)) if number > 1 else ():
+        for pid in _pids_in(self._name(number)) if number > 1 else _below(process.pid):
             with suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGKILL)
         with suppress(ProcessLookupError):
             os.killpg(process.pid, signal.SIGKILL)
         process.wait()
+
+    def fill_disk(self, number: int) -> None:
+        """Write to a worker's /tmp until there is no room left."""
+        pid = _pids_in(self._name(number))[0]
+        write = ["dd", "if=/dev/zero", "of=/tmp/filler", "bs=1M"]
+        inside = ["nsenter", f"--target={pid}", "--mount", *write]
+        subprocess.run(inside, check=False, capture_output=True)
+
+    def slow_down(self, number: int) -> str:
+        """Give a worker a slow line, both ways; says what kind."""
+        late = ["netem", "delay", "100ms", "20ms", "loss", "1%", "rate", "8mbit"]
+        narrow = ["tbf", "rate", "8mbit", "burst", "16kbit", "latency", "500ms"]
+        here = ["tc", "qdisc", "add", "dev", f"{self._tag}v{number}", "root"]
+        there = ["ip", "netns", "exec", self._name(number), "tc", "qdisc", "add", "dev", "eth0"]
+        for kind in (late, narrow):
+            try:
+                _run(*here, *kind)
+            except subprocess.CalledProcessError:
+                continue
+            _run(*there, "root", *kind)
+            return kind[0]
+        return ""
 
     def cut_off(self, number: int, *, back: bool = False) -> None:
         """Pull a worker's network cable, or put it back in."""
@@ -139,7 +188,7 @@ class Hosts:
 
     def _connect(self, number: int, name: str) -> None:
         here = f"{self._tag}v{number}"
-        address = f"{self.head.rpartition('.')[0]}.{number}/24"
+        address = f"{self.address_of(number)}/24"
         _run("ip", "netns", "add", name)
         _run("ip", "link", "add", here, "type", "veth", "peer", "name", "eth0", "netns", name)
         _run("ip", "link", "set", here, "master", self._tag, "up")
@@ -147,10 +196,12 @@ class Hosts:
         _run("ip", "-n", name, "link", "set", "eth0", "up")
         _run("ip", "-n", name, "link", "set", "lo", "up")
 
-    def _started(self, more: list[str], own: tuple[str, ...]) -> subprocess.Popen[bytes]:
+    def _started(
+        self, more: list[str], own: tuple[str, ...], told: dict[str, str]
+    ) -> subprocess.Popen[bytes]:
         ray = str(Path(sys.executable).with_name("ray"))
         command = [*own, ray, "start", *more, _STORE, "--block", "--disable-usage-stats"]
-        environment = {**os.environ, **_IMPATIENT, "INPUTS": str(self._inputs)}
+        environment = {**os.environ, **_IMPATIENT, "INPUTS": str(self._inputs), **told}
         quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
         return subprocess.Popen(command, env=environment, start_new_session=True, **quiet)
 
@@ -158,7 +209,7 @@ class Hosts:
 @contextmanager
 def hosts(inputs: Path, folder: Path) -> Iterator[Hosts]:
     """Joined, and none of them up yet. Skips, with a word, where the kernel says no."""
-    for program in ("ip", "unshare"):
+    for program in ("ip", "nsenter", "tc", "unshare"):
         if shutil.which(program) is None:
             pytest.skip(f"no {program} here: apt-get install iproute2 util-linux")
     try:
@@ -184,6 +235,19 @@ def _pids_in(namespace: str) -> list[int]:
         check=False,
     )
     return [int(pid) for pid in told.stdout.split()]
+
+
+def _below(pid: int) -> list[int]:
+    """All that a process started, and what that started."""
+    parents: dict[int, list[int]] = {}
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):
+            parent = int(stat.read_text().rpartition(")")[2].split()[1])
+            parents.setdefault(parent, []).append(int(stat.parent.name))
+    found = [pid]
+    for each in found:
+        found += parents.get(each, [])
+    return found[1:]
 
 
 def _run(*command: str) -> None:

@@ -6,16 +6,18 @@ import pickle
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Generic, TypeVar
 
 from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcome
 
 from ..executor import AHEAD, Call
+from .alike import LEAST_FREE, difference, looking_first, versions
 from .cluster import LOCAL, ClusterLost, connected
 from .exchange import Exchange, Transfer
 from .network import Asked, Networks
-from .worker import WorkerSettings, work
+from .nodes import FULL_S, Nodes, say
+from .worker import WorkerSettings
 
 T = TypeVar("T")
 
@@ -42,6 +44,8 @@ class RayExecutor:
         modules: what every child needs, imported once per process of Ray's.
         exchange: how folders that calls fill come back; ``None`` where calls fill none.
         network: that calls ask; ``None`` where they ask none, or each its own.
+        least_free: a node with less room for temporary files is given no work for a while [bytes].
+        say: told, in a sentence, of each node that is given no work, and why.
     """
 
     workers: int | None = None
@@ -55,6 +59,8 @@ class RayExecutor:
     modules: tuple[str, ...] = ()
     exchange: Exchange | None = None
     network: Asked | None = None
+    least_free: int = LEAST_FREE
+    say: Callable[[str], None] = say
 
     def run(
         self, function: Callable[..., T], calls: Iterable[Call], limits: Limits
@@ -63,7 +69,7 @@ class RayExecutor:
 
         Raises:
             ConfigError: there is no such cluster.
-            ClusterLost: the cluster as a whole went away.
+            ClusterLost: the cluster as a whole went away, or none of its nodes can be used.
         """
         with connected(self.address, self.workers) as ray:
             tasks: _Tasks[T] = _Tasks(self, ray, function, limits)
@@ -91,6 +97,7 @@ class _Task:
     number: int = 0
     started: float = field(default_factory=time.monotonic)
     transfer: Transfer | None = None
+    node: str = ""
 
 
 class _Tasks(Generic[T]):
@@ -106,7 +113,9 @@ class _Tasks(Generic[T]):
         room: dict[str, Any] = {"num_cpus": executor.processors, "max_retries": 0}
         if executor.memory_bytes:
             room["memory"] = executor.memory_bytes
-        self._work = ray.remote(work).options(**room)
+        self._work = ray.remote(looking_first())
+        self._room_of_one = room
+        self._nodes = Nodes(ray, executor.say)
         self._settings = WorkerSettings(
             executor.retries, executor.calls, executor.resident_bytes, executor.modules
         )
@@ -125,6 +134,7 @@ class _Tasks(Generic[T]):
             self._looked = time.monotonic()
             processors = self._told(self._ray.cluster_resources).get("CPU", 0.0)
             self._room = max(1, int(processors / self._executor.processors))
+            self._told(self._nodes.require_fit)
             if self._networks is not None:
                 self._told(self._networks.look)
         if self._executor.workers is None:
@@ -142,12 +152,16 @@ class _Tasks(Generic[T]):
                 arguments = self._networks.told(arguments)
             if self._executor.exchange is not None:
                 function, arguments, transfer = self._executor.exchange.sent(function, arguments)
-            under_way = self._work.remote(function, arguments, self._limits, self._settings)
+            packed = self._ray.cloudpickle.dumps(
+                (function, arguments, self._limits, self._settings)
+            )
+            placed = self._work.options(**self._room_of_one, **self._nodes.options(task.node))
+            under_way = placed.remote(packed, versions(), self._executor.least_free)
         except (TypeError, ValueError, AttributeError, pickle.PicklingError) as error:
             detail = f"cannot be sent to a node: {_sentence(error)}"
             self._failed.append((task.call, Outcome(None, Failure.RAISED, detail, "", 0.0, error)))
             return
-        self._under_way[under_way] = _Task(task.call, task.number, task.started, transfer)
+        self._under_way[under_way] = replace(task, transfer=transfer)
 
     def finished(self) -> Iterator[tuple[Call, Outcome[T]]]:
         """Calls that have an outcome by now; waits a moment for the first."""
@@ -177,8 +191,14 @@ class _Tasks(Generic[T]):
         """The outcome of a try that is over; ``None`` if it was lost and is made again."""
         errors = self._ray.exceptions
         try:
-            outcome: Outcome[Any] = self._ray.get(under_way, timeout=FETCH_S)
+            word, node, answer = self._ray.get(under_way, timeout=FETCH_S)
+            if word != "done":
+                self._refused(task, word, node, answer)
+                return None
+            outcome: Outcome[Any] = answer
             return outcome if task.transfer is None else task.transfer.opened(outcome)
+        except ClusterLost:
+            raise
         except errors.RayTaskError as error:
             # Our own function returns whatever happens, so its arguments did not arrive as they
             # were sent.
@@ -191,11 +211,29 @@ class _Tasks(Generic[T]):
             return Outcome(None, Failure.RAISED, detail, "", self._age(task), error)
         if task.transfer is not None:
             task.transfer.drop()
+        if task.node:
+            self._nodes.died(task.node, task.call.name)
         if task.number < self._executor.losses:
-            self.start(_Task(task.call, task.number + 1, task.started))
+            node = self._told(self._nodes.next)
+            self.start(_Task(task.call, task.number + 1, task.started, node=node))
             return None
         detail = f"lost {task.number + 1} times on the cluster, the last time: {why}"
         return Outcome(None, Failure.CRASHED, detail, "", self._age(task), None, task.number + 1)
+
+    def _refused(self, task: _Task, word: str, node: str, answer: Any) -> None:
+        """A node would not do for a call: another one makes it."""
+        if task.transfer is not None:
+            task.transfer.drop()
+        same = "; install the same versions everywhere"
+        if word == "absent":
+            self._nodes.set_aside(node, f"asset-factory cannot be imported: {answer}{same}")
+        elif word == "other":
+            self._nodes.set_aside(node, f"it has {difference(versions(), answer)}{same}")
+        else:
+            room = f"{answer / 1e6:.0f} MB are free for temporary files"
+            want = f"want {self._executor.least_free / 1e6:.0f}"
+            self._nodes.set_aside(node, f"{room}, {want}", FULL_S)
+        self.start(_Task(task.call, task.number, task.started))
 
     def _age(self, task: _Task) -> float:
         return time.monotonic() - task.started

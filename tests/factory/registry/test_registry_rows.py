@@ -1,12 +1,17 @@
 """Filters, pages, keys and notes."""
 
+import json
 from dataclasses import replace
 
 import pytest
 from registry_samples import BAD_REPORT, PASSED, REJECTED, named, publish
 
+from asset_factory.factory.cli.commands import run as run_command
 from asset_factory.factory.errors import RegistryError
 from asset_factory.factory.registry import Registry, split_of
+from asset_factory.factory.registry.rebuild import rebuild
+from asset_factory.factory.registry.report_file import BuildReport
+from asset_factory.sim_checks import Finding, Report, Severity
 
 
 @pytest.fixture
@@ -46,6 +51,28 @@ def test_filters(registry, filters, expected):
     registry.note("cabinet-2", tags=("blue", "tall"), solved="yes")
     registry.note("fridge-2", tags=("blue",))
     assert ids(registry.entries(**filters)) == expected
+
+
+@pytest.mark.parametrize("code", ["many_hulls", "many_hull_vertices", "oblong_hull"])
+def test_what_physx_does_not_take_on_a_gpu_is_filtered_out(registry, code, capsys):
+    beyond = Finding(code, Severity.SOFT, "beyond what a GPU takes", value=65.0, limit=64.0)
+    harmless = Finding("collision_gap", Severity.SOFT, "a gap", value=12.0, unit="mm", limit=10.0)
+    for asset_id, finding in (("shelf-1", beyond), ("shelf-2", harmless)):
+        with registry.staging_folder() as staging:
+            bundle = staging / "bundle"
+            bundle.mkdir()
+            (bundle / "asset.urdf").write_text("<robot name='shelf'/>")
+            told = BuildReport(Report("asset.urdf", findings=(finding,)))
+            registry.publish(replace(PASSED, id=asset_id), bundle, told)
+    ready = ["cabinet-1", "cabinet-2", "fridge-1", "shelf-2"]
+    for _ in range(2):
+        assert ids(registry.entries(gpu_ready="yes")) == ready
+        assert ids(registry.entries(gpu_ready="no")) == ["shelf-1"]
+        # Of what did not pass nothing is said.
+        assert ids(registry.entries(gpu_ready="")) == ["fridge-2"]
+        rebuild(registry.root)
+    assert run_command(["list", "--output", str(registry.root), "--gpu-ready", "--json"]) == 0
+    assert [row["id"] for row in json.loads(capsys.readouterr().out)] == ready
 
 
 def test_the_split_follows_from_the_id(registry):

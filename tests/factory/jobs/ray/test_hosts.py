@@ -6,6 +6,7 @@ real S3 server, over TCP.
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -18,7 +19,9 @@ import trimesh
 from hosts import hosts
 from s3_server import BUCKET, s3_server
 
+import asset_factory
 from asset_factory.factory.registry import Registry
+from asset_factory.factory.registry.cleaning import collect_garbage
 from asset_factory.factory.registry.verify import verify
 from asset_factory.factory.runtime.store import folder_digests
 
@@ -29,12 +32,19 @@ pytestmark = [
     pytest.mark.filterwarnings("ignore:unclosed:ResourceWarning"),
 ]
 FLAGS = ("--articulator", "rigid", "--sim", "mujoco", "--no-report", "--quiet")
-COUNT = 10
+COUNT = 6
 
 
 @pytest.fixture(scope="module")
-def inputs(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("meshes")
+def seen(tmp_path_factory):
+    """What all hosts see."""
+    return tmp_path_factory.mktemp("seen")
+
+
+@pytest.fixture(scope="module")
+def inputs(seen):
+    folder = seen / "meshes"
+    folder.mkdir()
     for number in range(COUNT):
         trimesh.creation.box((0.3 + 0.05 * number, 0.4, 0.5)).export(folder / f"box_{number}.stl")
     (folder / "nothing.stl").write_bytes(b"solid nothing\nendsolid nothing\n")
@@ -48,19 +58,19 @@ def undisturbed(inputs, tmp_path_factory):
     return output
 
 
-def begun(inputs, output, *more):
+def begun(inputs, output, *more, said=None):
     """The command, in a process of its own: Ray reads the environment once and for all."""
     command = [sys.executable, "-m", "asset_factory.factory.cli", "build", *FLAGS, *more]
     command += ["--input", inputs, "--output", output]
-    return subprocess.Popen(command)
+    return subprocess.Popen(command, stderr=said)
 
 
 @pytest.fixture(scope="module")
-def cluster(inputs):
+def started(seen):
     # Ray's sockets lie in it, and their paths may not be long.
     with (
         tempfile.TemporaryDirectory(prefix="hosts-", dir="/tmp", ignore_cleanup_errors=True) as own,
-        hosts(inputs, Path(own)) as made,
+        hosts(seen, Path(own)) as made,
         s3_server(made.head),
     ):
         import fsspec
@@ -70,17 +80,34 @@ def cluster(inputs):
         yield made
 
 
-def built(cluster, inputs, output, disturb=None):
-    """Build over the hosts; what disturbs it happens after the first two inputs."""
+@pytest.fixture
+def cluster(started):
+    """A head and three workers, whatever befell them before."""
+    started.restore(workers=3)
+    return started
+
+
+def built(cluster, inputs, output, disturb=None, *, code=0):
+    """Build over the hosts; what disturbs it happens after the first two inputs.
+
+    Returns:
+        What the command said to whoever started it.
+    """
     Registry(output, create=True)
     more = ["--executor", "ray", "--ray-address", cluster.address]
-    process = begun(inputs, output, *more, "--ray-exchange", f"s3://{BUCKET}/between")
-    if disturb is not None:
-        while Registry(output).count() < 2 and process.poll() is None:
-            time.sleep(0.05)
-        assert process.poll() is None, "it was over before it was disturbed"
-        disturb()
-    assert process.wait(300.0) == 0
+    more += ["--ray-exchange", f"s3://{BUCKET}/between"]
+    with tempfile.TemporaryFile("w+") as said:
+        process = begun(inputs, output, *more, said=said)
+        if disturb is not None:
+            while Registry(output).count() < 2 and process.poll() is None:
+                time.sleep(0.05)
+            assert process.poll() is None, "it was over before it was disturbed"
+            disturb()
+        ended = process.wait(300.0)
+        said.seek(0)
+        told = said.read()
+    assert ended == code, told
+    return told
 
 
 def require_same(output, undisturbed):
@@ -101,8 +128,6 @@ def test_the_registry_is_that_of_one_host(cluster, inputs, undisturbed, tmp_path
 def test_a_host_that_dies_in_the_middle(cluster, inputs, undisturbed, tmp_path):
     built(cluster, inputs, tmp_path / "out", disturb=lambda: cluster.kill(2))
     require_same(tmp_path / "out", undisturbed)
-    cluster.start(2)
-    cluster.await_nodes(4)
 
 
 def test_a_host_that_is_cut_off_for_a_while(cluster, inputs, undisturbed, tmp_path):
@@ -118,10 +143,92 @@ def test_a_host_that_is_cut_off_for_a_while(cluster, inputs, undisturbed, tmp_pa
 
 
 def test_hosts_that_join_and_leave(cluster, inputs, undisturbed, tmp_path):
-    cluster.start(5)
-
     def disturb():
+        cluster.start(5)
         cluster.kill(4)
 
+    cluster.kill(3)
     built(cluster, inputs, tmp_path / "out", disturb=disturb)
+    require_same(tmp_path / "out", undisturbed)
+
+
+def test_a_host_whose_disk_fills_up(cluster, inputs, undisturbed, tmp_path):
+    # With one other host it cannot be that all is done before the full one is asked.
+    for number in (2, 3):
+        cluster.kill(number)
+    cluster.start(7, room="400m")
+    cluster.await_nodes(3)
+    built(cluster, inputs, tmp_path / "out", disturb=lambda: cluster.fill_disk(7))
+    require_same(tmp_path / "out", undisturbed)
+
+
+def test_a_host_without_room_is_given_no_work(cluster, inputs, undisturbed, tmp_path):
+    cluster.start(8, room="60m")
+    cluster.await_nodes(5)
+    said = built(cluster, inputs, tmp_path / "out")
+    assert said.startswith(f"factory: a node is given no work; node {cluster.address_of(8)}: ")
+    assert said.endswith(" MB are free for temporary files, want 67\n")
+    require_same(tmp_path / "out", undisturbed)
+
+
+@pytest.fixture
+def other_version(seen):
+    """The package as it was before some change."""
+    folder = seen / "other"
+    package = Path(asset_factory.__file__).parent
+    shutil.copytree(package, folder / "asset_factory", ignore=shutil.ignore_patterns("__pycache__"))
+    init = folder / "asset_factory" / "__init__.py"
+    text = init.read_text()
+    init.write_text(text.replace(asset_factory.__version__, "0.0.9"))
+    yield folder
+    shutil.rmtree(folder)
+
+
+def test_a_host_with_another_version_is_given_no_work(
+    cluster, inputs, undisturbed, tmp_path, other_version
+):
+    cluster.start(6, sources=other_version)
+    cluster.await_nodes(5)
+    said = built(cluster, inputs, tmp_path / "out")
+    here = f"asset-factory 0.0.9, here {asset_factory.__version__}"
+    assert said == (
+        f"factory: a node is given no work; node {cluster.address_of(6)}: it has {here}; "
+        "install the same versions everywhere\n"
+    )
+    require_same(tmp_path / "out", undisturbed)
+    for number in (2, 3, 4):
+        cluster.kill(number)
+    cluster.await_nodes(2)
+    said = built(cluster, inputs, tmp_path / "none", code=2)
+    assert said.endswith(
+        f"no node of the cluster can be given work: node {cluster.address_of(6)}: "
+        f"it has {here}; install the same versions everywhere\n"
+    )
+    assert Registry(tmp_path / "none").count() == 0
+
+
+def test_a_slow_line(cluster, inputs, undisturbed, tmp_path):
+    kind = cluster.slow_down(4)
+    if not kind:
+        pytest.skip("neither netem nor tbf in this kernel")
+    built(cluster, inputs, tmp_path / "out")
+    require_same(tmp_path / "out", undisturbed)
+    if kind != "netem":
+        pytest.skip("no netem in this kernel: the line was narrow, but neither late nor lossy")
+
+
+def test_a_head_that_starts_anew(cluster, inputs, undisturbed, tmp_path):
+    """It takes the cluster with it; the same command goes on over the new one."""
+    # What workers have already they finish without a head: they shall not have all of it.
+    for number in (3, 4):
+        cluster.kill(number)
+    cluster.await_nodes(2)
+    built(cluster, inputs, tmp_path / "out", disturb=lambda: cluster.kill(1), code=1)
+    finished = Registry(tmp_path / "out").count()
+    assert 2 <= finished < COUNT + 1
+    cluster.kill(2)
+    cluster.come_up(workers=3)
+    built(cluster, inputs, tmp_path / "out")
+    # Ray ended the first command at once: what it left is cleared as after any that died.
+    collect_garbage(tmp_path / "out")
     require_same(tmp_path / "out", undisturbed)

@@ -3,6 +3,7 @@
 Children and nodes may die.
 """
 
+import os
 import signal
 import threading
 import time
@@ -11,6 +12,7 @@ from pathlib import Path
 import pytest
 import ray_calls
 
+import asset_factory
 from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.jobs.executor import AHEAD, Call
@@ -33,7 +35,11 @@ pytestmark = [
 @pytest.fixture(scope="module", autouse=True)
 def _nodes_find_the_calls():
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("PYTHONPATH", str(Path(__file__).parents[3] / "samples"))
+        folders = (
+            Path(__file__).parents[3] / "samples",
+            Path(asset_factory.__file__).parent.parent,
+        )
+        patch.setenv("PYTHONPATH", os.pathsep.join(map(str, folders)))
         for name, value in SETTINGS.items():
             patch.setenv(name, value)
         yield

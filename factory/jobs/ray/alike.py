@@ -1,0 +1,81 @@
+"""What a node has in common with the machine that registers, or it makes other assets."""
+
+from __future__ import annotations
+
+import pickle
+import shutil
+import tempfile
+from collections.abc import Callable
+from functools import lru_cache
+from typing import Any
+
+from asset_factory import __version__
+
+from ...registry.keys import STAGES
+from ...runtime.keys import code_digest, installed_version
+
+#: Less room for temporary files than this, and a node is given no work [bytes].
+LEAST_FREE = 64 * 1024**2
+_PACKAGES = ("factory", "sim_checks")
+
+Versions = tuple[tuple[str, str], ...]
+"""Names and versions of whatever can change an asset."""
+
+
+@lru_cache(maxsize=1)
+def versions() -> Versions:
+    """Of this package, its sources, and the libraries that its stages declare, on this machine."""
+    sources = (
+        (f"sources of {name}", code_digest(f"asset_factory.{name}")[:12]) for name in _PACKAGES
+    )
+    libraries = sorted({library for stage in STAGES for library in stage.libraries})
+    found = ((library, installed_version(library)) for library in libraries)
+    return (("asset-factory", __version__), *sources, *found)
+
+
+def difference(here: Versions, there: Versions) -> str:
+    """What a node has otherwise, in words; its first three are enough to see why."""
+    other = dict(there)
+    words = [
+        f"{name} {other.get(name, 'absent')}, here {version}"
+        for name, version in here
+        if other.get(name, "absent") != version
+    ]
+    more = f", and {len(words) - 3} more" if len(words) > 3 else ""
+    return "; ".join(words[:3]) + more
+
+
+def room() -> int:
+    """Room for temporary files [bytes]."""
+    return shutil.disk_usage(tempfile.gettempdir()).free
+
+
+def looking_first() -> Callable[..., tuple[str, str, Any]]:
+    """The function that Ray is given; it travels as code, since a node may have another package.
+
+    It answers with a word, the node's id and a value: ``done`` and what :func:`~.worker.work` says,
+    ``absent`` and why this package cannot be imported, ``other`` and the node's versions, or
+    ``full`` and the bytes that are left there.
+    """
+
+    def look_and_work(packed: bytes, wanted: Any, least_free: int) -> tuple[str, str, Any]:
+        import ray
+
+        node = str(ray.get_runtime_context().get_node_id())
+        try:
+            from asset_factory.factory.jobs.ray.alike import room, versions
+            from asset_factory.factory.jobs.ray.worker import work
+
+            there = versions()
+        except ImportError as error:
+            return "absent", node, str(error)
+        if there != wanted:
+            return "other", node, there
+        left = room()
+        if left < least_free:
+            return "full", node, left
+        outcome = work(*pickle.loads(packed))  # noqa: S301 - from the one who gives the work
+        left = room()
+        return ("full", node, left) if left < least_free else ("done", node, outcome)
+
+    return look_and_work

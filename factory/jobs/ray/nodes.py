@@ -1,0 +1,101 @@
+"""Which of a cluster's nodes are given work."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable
+from typing import Any
+
+from .cluster import ClusterLost
+
+#: A node whose disk was full, or where processes died, is asked again after so long [s].
+FULL_S = 600.0
+#: So many calls that were sent to a node by name died there, and it is set aside.
+MOST_DEATHS = 2
+
+
+class NoNodeLeft(ClusterLost):
+    """No node of the cluster can be given work; says why of each."""
+
+
+def say(sentence: str) -> None:
+    """To whoever started the job."""
+    print(f"factory: {sentence}", file=sys.stderr, flush=True)
+
+
+class Nodes:
+    """The nodes of one run.
+
+    Args:
+        ray: connected.
+        say: told, once of each node, why it is set aside.
+    """
+
+    def __init__(self, ray: Any, say: Callable[[str], None] = say) -> None:
+        self._ray = ray
+        self._say = say
+        self._aside: dict[str, tuple[str, float]] = {}
+        self._deaths: dict[str, set[str]] = {}
+        self._turn = 0
+
+    def set_aside(self, node: str, why: str, seconds: float = float("inf")) -> None:
+        """Give a node no work, for good or for a while [s].
+
+        Raises:
+            NoNodeLeft: it was the last one.
+        """
+        told = node in self._aside
+        address = self._alive().get(node, {}).get("NodeManagerAddress", node)
+        self._aside[node] = (f"node {address}: {why}", time.monotonic() + seconds)
+        if not told:
+            self._say(f"a node is given no work; {self._aside[node][0]}")
+        self.require_fit()
+
+    def require_fit(self) -> None:
+        """Raises NoNodeLeft if there are nodes, and each of them is set aside."""
+        working = self._working()
+        aside = self._aside_now()
+        if working and all(name in aside for name in working):
+            reasons = "; ".join(self._aside[name][0] for name in working)
+            raise NoNodeLeft(f"no node of the cluster can be given work: {reasons}")
+
+    def next(self) -> str:
+        """The node whose turn it is, for a call that was lost nobody knows where; or none."""
+        aside = self._aside_now()
+        fit = [name for name in self._working() if name not in aside]
+        self._turn += 1
+        return fit[self._turn % len(fit)] if fit else ""
+
+    def died(self, node: str, call: str) -> None:
+        """Ray's process died with a call that was sent to that node by name.
+
+        A node whose disk is full takes every call, and loses it: no process of Ray's can begin.
+        The last node is kept: it may be the calls.
+        """
+        calls = self._deaths.setdefault(node, set())
+        calls.add(call)
+        aside = self._aside_now()
+        others = [name for name in self._working() if name not in aside and name != node]
+        if others and node in self._alive() and len(calls) >= MOST_DEATHS:
+            calls.clear()
+            self.set_aside(node, f"{MOST_DEATHS} calls died there with Ray's processes", FULL_S)
+
+    def options(self, node: str = "") -> dict[str, Any]:
+        """Where a task may run, as Ray is told; on that node, as long as it is there."""
+        if node:
+            affinity = self._ray.util.scheduling_strategies.NodeAffinitySchedulingStrategy
+            return {"scheduling_strategy": affinity(node, soft=True)}
+        aside = ",".join(sorted(self._aside_now()))
+        return {"label_selector": {"ray.io/node-id": f"!in({aside})"}} if aside else {}
+
+    def _working(self) -> list[str]:
+        alive = sorted(self._alive().items())
+        return [name for name, each in alive if each["Resources"].get("CPU", 0.0) > 0.0]
+
+    def _aside_now(self) -> frozenset[str]:
+        now = time.monotonic()
+        return frozenset(node for node, (_, until) in self._aside.items() if until > now)
+
+    def _alive(self) -> dict[str, Any]:
+        return {each["NodeID"]: each for each in self._ray.nodes() if each["Alive"]}
