@@ -195,6 +195,7 @@ class SeparateConfig:
         visible_m: what is cut off deeper than this is told, and its area counted [m].
         bared_m: how much may be cut off two parts together where nothing excuses it [m]; what a
             joint that is hung well runs into on its way is planed instead.
+        scraped_m: most of that, clearance included [m].
         hinge_m: how far from a hinge's line lies what may be planed off so that it can turn [m].
         planed_m, planed_share: most that may be planed off two parts together, beside their hinge,
             where their joint is hung well, or where they overlap and no joint holds one in the
@@ -212,6 +213,7 @@ class SeparateConfig:
     visible_m: float = 0.005
     bared_m: float = 0.006
     hinge_m: float = 0.06
+    scraped_m: float = 0.013
     planed_m: float = 0.025
     planed_share: float = 0.035
     planed_volume: float = 0.05

@@ -234,25 +234,21 @@ class _Bench:
         return [joint for joint in turning if self._at_an_edge(joint)]
 
     def _at_an_edge(self, joint: Joint) -> bool:
-        """Whether a part reaches no further beyond its axis than may be planed off."""
+        """Whether a part reaches to its axis, and no further beyond it than may be planed off."""
         surface = self.surfaces[joint.child]
-        return surface is not None and self._reach(joint)[1] <= self._share_of(surface.diagonal)
+        if surface is None:
+            return False
+        arms = _arms(surface, joint)
+        near = max(float(np.linalg.norm(arms, axis=1).min()), _reach(arms)[1])
+        return near <= self._share_of(surface.diagonal)
 
     def _about_its_middle(self, joint: Joint) -> bool:
         """Whether a part reaches about as far to one side of its axis as to the other."""
-        ahead, behind = self._reach(joint)
-        return behind > MIDDLE_SHARE * ahead
-
-    def _reach(self, joint: Joint) -> tuple[float, float]:
-        """How far what a joint turns reaches from its axis [m], and how far beyond the axis."""
         surface = self.surfaces[joint.child]
         if surface is None:
-            return np.inf, np.inf
-        arms = surface.points - joint.origin
-        arms -= np.outer(arms @ joint.axis, joint.axis)
-        middle = (arms.min(axis=0) + arms.max(axis=0)) / 2.0
-        along = arms @ middle / max(float(np.linalg.norm(middle)), 1e-9)
-        return float(along.max()), -float(along.min())
+            return True
+        ahead, behind = _reach(_arms(surface, joint))
+        return behind > MIDDLE_SHARE * ahead
 
     def _share_of(self, diagonal: float) -> float:
         config = self.config
@@ -315,7 +311,8 @@ class _Bench:
         between = joints_between(self.articulation, a, b)
         if not jointed(self.articulation, a, b) or not all(map(self._well_hung, between)):
             return self.config.bared_m
-        return max(self.config.bared_m, self._limit(a, b) + self.config.clearance_m)
+        most = min(self._limit(a, b) + self.config.clearance_m, self.config.scraped_m)
+        return max(self.config.bared_m, most)
 
     def _well_hung(self, joint: Joint) -> bool:
         """Whether a joint runs straight, and turns its part about an edge or its middle."""
@@ -359,3 +356,16 @@ class _Bench:
                     f"at most {config.planed_area:.0%} may be"
                 )
         return None
+
+
+def _arms(surface: SeenSurface, joint: Joint) -> FloatArray:
+    """From a joint's axis to each point of a surface, across the axis [m], shape [n, 3]."""
+    arms = surface.points - joint.origin
+    return np.asarray(arms - np.outer(arms @ joint.axis, joint.axis))
+
+
+def _reach(arms: FloatArray) -> tuple[float, float]:
+    """How far from an axis points reach towards their middle [m], and how far beyond the axis."""
+    middle = (arms.min(axis=0) + arms.max(axis=0)) / 2.0
+    along = arms @ middle / max(float(np.linalg.norm(middle)), 1e-9)
+    return float(along.max()), -float(along.min())

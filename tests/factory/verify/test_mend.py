@@ -151,3 +151,13 @@ def test_no_joint_ends_before_the_pose_as_modelled():
     started = Plan(separate=frozenset({("base", "door")}))
     plan = next_plan(given, started, CONFIG, Spare(), asset)
     assert plan is None or "hinge" not in plan.upper
+
+
+def test_a_joint_that_is_never_free_gets_no_end():
+    asset = cabinet(axis=(0.0, 0.0, -1.0))
+    given = verdict(
+        hard("sweep_penetration", name="hinge"), joints=[joint(upper=1.5, clear_until=0.0)]
+    )
+    started = Plan(separate=frozenset({("base", "door")}))
+    plan = next_plan(given, started, CONFIG, Spare(), asset)
+    assert plan is None or "hinge" not in plan.upper
