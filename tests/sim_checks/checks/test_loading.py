@@ -246,11 +246,14 @@ def test_an_engine_that_does_not_answer_in_time_is_a_finding(description: Descri
 
 
 def test_an_unknown_engine_is_answered_with_the_ones_there_are() -> None:
-    with pytest.raises(ValueError, match=r"sapien, mujoco, pybullet; did you mean 'mujoco'\?"):
+    with pytest.raises(
+        ValueError, match=r"sapien, mujoco, pybullet, newton; did you mean 'mujoco'\?"
+    ):
         simulator("mujcoo")
 
 
 def test_every_engine_has_an_install_line() -> None:
     assert [install_line(name) for name in SIMULATORS] == [
-        f"pip install 'asset-factory[{name}]'" for name in ("sapien", "mujoco", "pybullet")
+        f"pip install 'asset-factory[{name}]'"
+        for name in ("sapien", "mujoco", "pybullet", "newton")
     ]
