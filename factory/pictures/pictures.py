@@ -14,7 +14,7 @@ from ..geometry.colors import linear_of
 from ..scene.scene import SceneGraph
 from .camera import Camera, Viewpoint
 from .casting import Caster
-from .shading import Coloring, paint, shaded
+from .shading import PASSING, RAYS, Coloring, paint, shaded
 
 #: Of the pictures of a grid [pixels].
 WIDTH = 256
@@ -125,7 +125,8 @@ def frames(look: Coloring, camera: Camera, count: int) -> list[Pixels]:
     for amount in np.linspace(0.0, 1.0, count):
         values = scene.opened(float(amount))
         hits = look.caster.see(camera, values, rest, moving)
-        made.append(shaded(look, camera, values, hits, under))
+        rays = PASSING if 0.0 < amount < 1.0 else RAYS
+        made.append(shaded(look, camera, values, hits, under, rays))
     return made
 
 
@@ -147,7 +148,7 @@ def webp(pixels: Pixels) -> bytes:
     from PIL import Image
 
     buffer = io.BytesIO()
-    Image.fromarray(pixels).save(buffer, format="WEBP", quality=84, method=2)
+    Image.fromarray(pixels).save(buffer, format="WEBP", quality=84, method=0)
     return buffer.getvalue()
 
 
@@ -168,7 +169,7 @@ def animated(pixels: list[Pixels]) -> bytes:
         duration=times,
         loop=0,
         quality=70,
-        method=1,
+        method=0,
         minimize_size=False,
         allow_mixed=False,
     )

@@ -28,7 +28,10 @@ CORNER_DEPTH = 0.035
 #: Darkening of the lines between shapes.
 LINE = 0.55
 #: Rays per pixel where shapes end: a rotated grid.
-_WITHIN = np.array([[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]])
+_WITHIN = np.array([[0.375, 0.125], [0.625, 0.875], [0.875, 0.375], [0.125, 0.625]])
+RAYS = len(_WITHIN)
+#: Of a picture that is seen for a moment only.
+PASSING = 2
 _BANDS = 4096
 _UP = np.array([0.0, 0.0, 1.0], dtype=np.float32)
 #: Linear light as it is shown.
@@ -69,6 +72,7 @@ def shaded(
     values: Mapping[str, float],
     hits: Hits,
     under: Painted | None = None,
+    rays: int = RAYS,
 ) -> npt.NDArray[np.uint8]:
     """The picture, sRGB with alpha, shape [height, width, 4].
 
@@ -78,8 +82,9 @@ def shaded(
         values: the pose.
         hits: of the middles of all pixels.
         under: the same picture without the links that move.
+        rays: per pixel where shapes end.
     """
-    painted = paint(look, camera, values, hits, under)
+    painted = paint(look, camera, values, hits, under, rays)
     factor = _corners(hits, (camera.height, camera.width)).reshape(-1)
     factor *= np.where(painted.ends, 1.0 - LINE * 0.6, 1.0).astype(np.float32)
     # Colours are kept multiplied by alpha while they are averaged.
@@ -96,6 +101,7 @@ def paint(
     values: Mapping[str, float],
     hits: Hits,
     under: Painted | None = None,
+    rays: int = RAYS,
 ) -> Painted:
     """The colours of all pixels; arguments as :func:`shaded` has them."""
     shape = (camera.height, camera.width)
@@ -115,7 +121,7 @@ def paint(
     color[seen, :3] = _lit(look, camera, values, hits, seen)
     color[seen, 3] = 1.0
     if len(edge):
-        color[edge] = _smooth(look, camera, values, edge)
+        color[edge] = _smooth(look, camera, values, edge, rays)
     return Painted(hits, color, ends)
 
 
@@ -231,18 +237,23 @@ def _borders(hits: Hits, shape: tuple[int, int]) -> npt.NDArray[np.bool_]:
 
 
 def _smooth(
-    look: Coloring, camera: Camera, values: Mapping[str, float], edge: npt.NDArray[np.int64]
+    look: Coloring,
+    camera: Camera,
+    values: Mapping[str, float],
+    edge: npt.NDArray[np.int64],
+    rays: int,
 ) -> FloatRows:
     """Colour with alpha of pixels where shapes end, several rays each."""
+    within = _WITHIN[:rays]
     rows, columns = np.divmod(edge, camera.width)
     starts = np.stack([columns, rows], axis=1).astype(np.float64)
-    pixels = (starts[:, None] + _WITHIN[None]).reshape(-1, 2)
+    pixels = (starts[:, None] + within[None]).reshape(-1, 2)
     hits = look.caster.cast(camera, values, pixels)
     seen = np.flatnonzero(hits.link >= 0)
     color = np.zeros((len(pixels), 4), dtype=np.float32)
     color[seen, :3] = _lit(look, camera, values, hits, seen)
     color[seen, 3] = 1.0
-    return np.asarray(color.reshape(len(edge), len(_WITHIN), 4).mean(axis=1), dtype=np.float32)
+    return np.asarray(color.reshape(len(edge), rays, 4).mean(axis=1), dtype=np.float32)
 
 
 def _corners(hits: Hits, shape: tuple[int, int]) -> FloatArray:
