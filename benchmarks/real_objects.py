@@ -26,7 +26,7 @@ from asset_factory.factory.registry.report_file import read_report
 from asset_factory.factory.runtime.layout import ASSETS, REJECTED
 from asset_factory.sim_checks import Status
 from asset_factory.sim_checks.measurements import penetrations
-from asset_factory.sim_checks.simulators.catalog import SIMULATORS
+from asset_factory.sim_checks.simulators.catalog import USUAL
 
 TABLE = Path(__file__).with_suffix(".csv")
 #: Where the data usually lies: beside the repository.
@@ -90,7 +90,7 @@ def main() -> int:
 def built(rows: Sequence[Outcome], options: argparse.Namespace) -> Iterator[Outcome]:
     """Build the objects of some rows from nothing, with every simulator."""
     for articulator in dict.fromkeys(row.articulator for row in rows):
-        config = replace(BuildConfig(), articulator=articulator, simulators=tuple(SIMULATORS))
+        config = replace(BuildConfig(), articulator=articulator, simulators=USUAL)
         names = {
             str(options.data / row.input): row for row in rows if row.articulator == articulator
         }

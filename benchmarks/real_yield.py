@@ -29,7 +29,7 @@ from asset_factory.factory.jobs import run_builds
 from asset_factory.factory.registry.report_file import read_report
 from asset_factory.factory.runtime.layout import ASSETS, LOGS, REJECTED
 from asset_factory.sim_checks import Status
-from asset_factory.sim_checks.simulators.catalog import SIMULATORS
+from asset_factory.sim_checks.simulators.catalog import USUAL
 
 #: Where the data usually lies: beside the repository.
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
@@ -108,7 +108,7 @@ def source_of(path: Path) -> str:
 
 def built(inputs: Sequence[Path], kinds: str, workers: int) -> Iterator[Made]:
     """Every object made from nothing and judged by every simulator."""
-    config = replace(BuildConfig(), articulator="annotated", simulators=tuple(SIMULATORS))
+    config = replace(BuildConfig(), articulator="annotated", simulators=USUAL)
     config = replace(config, repair=replace(config.repair, kinds=kinds))
     with tempfile.TemporaryDirectory(prefix="real-") as folder:
         output = Path(folder)
