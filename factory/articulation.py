@@ -191,6 +191,14 @@ class Articulation:
         """The joint that holds part ``part``; ``None`` for the root."""
         return None if part == 0 else self.joints[part - 1]
 
+    def carried(self, part: int) -> tuple[int, ...]:
+        """``part`` and all its descendants, in tree order."""
+        found = {part}
+        for joint in self.joints[part:]:
+            if joint.parent in found:
+                found.add(joint.child)
+        return tuple(sorted(found))
+
     def link_frame(self, part: int) -> FloatArray:
         """Origin of a part's link frame at rest [m], shape [3]; its axes are the object frame's."""
         joint = self.parent_joint(part)

@@ -16,7 +16,8 @@ from .checks.result import CheckResult
 from .config import CheckConfig
 from .description import Description, DescriptionError
 from .processes.isolation import Failure, Outcome, WarmChild
-from .read.usd.as_urdf import is_usd, write_as_urdf
+from .read.usd.as_urdf import write_as_urdf
+from .read.usd.layers import is_usd
 from .report import KILLED, Finding, Report, Severity
 
 #: Raised when the same files and settings would give another report.

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 UNREADABLE: Mapping[str, str] = {
     "invalid_xml": "no XML",
     "forbidden_doctype": "XML with entities or a document type, which can be made to explode",
-    "unknown_format": "neither a URDF nor an MJCF",
+    "unknown_format": "neither a URDF nor an MJCF; or USD whose files cannot be told beforehand",
     "too_large": "more bytes than the limit",
     "missing_element": "the format demands an element that is not there",
     "missing_name": "a link or joint without a name",

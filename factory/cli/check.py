@@ -11,6 +11,7 @@ from typing import Any
 from tyro.conf import Positional
 
 from asset_factory.sim_checks import Status
+from asset_factory.sim_checks.read.usd.layers import is_usd
 
 from ..errors import ConfigError, Exit
 from ..presets import load_config
@@ -74,13 +75,9 @@ def _described(paths: Sequence[Path]) -> list[tuple[Path, str | None]]:
     found: list[tuple[Path, str | None]] = []
     for path in paths:
         if path.is_dir():
-            from ..intake.discover import LAYERS, find_inputs, is_description
+            from ..intake.discover import find_inputs, is_description
 
-            inside = [
-                file
-                for file in find_inputs((path,))
-                if is_description(file) or file.suffix.lower() in LAYERS
-            ]
+            inside = [file for file in find_inputs((path,)) if is_description(file) or is_usd(file)]
             found += [(file, file.relative_to(path).as_posix()) for file in inside]
         elif path.is_file():
             found.append((path, None))

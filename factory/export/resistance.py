@@ -33,7 +33,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..articulation import Articulation, Joint
+from ..articulation import Joint
 from ..asset import Asset
 from ..mesh import FloatArray
 
@@ -97,19 +97,10 @@ def resistance_notes(asset: Asset, resistances: tuple[Resistance, ...]) -> tuple
     return tuple(notes)
 
 
-def carried_parts(articulation: Articulation, part: int) -> tuple[int, ...]:
-    """``part`` and all its descendants, in tree order."""
-    carried = {part}
-    for joint in articulation.joints[part:]:
-        if joint.parent in carried:
-            carried.add(joint.child)
-    return tuple(sorted(carried))
-
-
 def _resistance(asset: Asset, joint: Joint, closed: FloatArray) -> Resistance:
     if not joint.movable:
         return Resistance(0.0, 0.0, 0.0)
-    carried = carried_parts(asset.articulation, joint.child)
+    carried = asset.articulation.carried(joint.child)
     mass = sum(asset.bodies[part].inertial.mass for part in carried)
     weight = WEIGHT_SHARE * mass * GRAVITY
     if joint.turns:

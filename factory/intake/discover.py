@@ -9,6 +9,8 @@ from contextlib import suppress
 from pathlib import Path
 from xml.parsers import expat
 
+from asset_factory.sim_checks.read.usd.layers import is_usd
+
 from ..errors import ConfigError
 from ..runtime.layout import ASSETS, DATABASE, REJECTED, WITHDRAWN
 from .formats.catalog import is_mesh
@@ -22,9 +24,8 @@ ALL = "*"
 REFERENCE = re.compile(r"""\b(filename|file|meshdir|assetdir)\s*=\s*["']([^"']*)["']""")
 #: Documents included in one another are followed so far.
 DEEPEST = 3
-#: USD layers, and what the one to begin with is called.
-LAYERS = (".usd", ".usda", ".usdc", ".usdz")
-USUAL = ("instance", "model", "asset")
+#: What the USD layer to begin with is called, if not like its folder.
+MAIN_LAYERS = ("instance", "model", "asset")
 
 
 def find_inputs(paths: Sequence[Path]) -> tuple[Path, ...]:
@@ -95,8 +96,8 @@ def _inputs_below(folder: Path) -> Iterator[Path]:
 
 def _is_main_layer(path: Path) -> bool:
     """Whether a USD layer is the one to begin with, by its name."""
-    usual = path.stem in USUAL or path.stem == path.parent.name
-    return path.suffix.lower() in LAYERS and usual
+    usual = path.stem in MAIN_LAYERS or path.stem == path.parent.name
+    return is_usd(path) and usual
 
 
 def _taken(description: Path) -> set[tuple[Path, str]]:

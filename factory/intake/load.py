@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from asset_factory.sim_checks.read.usd.layers import SUFFIXES as USD_SUFFIXES
+from asset_factory.sim_checks.read.usd.layers import is_usd
+
 from ..config import IntakeConfig
 from ..runtime.keys import Stage
 from .importers.load import load_description
 from .importers.usd import load_usd
-from .importers.usd_layers import SUFFIXES as USD_SUFFIXES
 from .intake import Intake
 from .loading import load_mesh
 
@@ -33,7 +35,7 @@ def load(path: Path, config: IntakeConfig) -> Intake:
     Raises:
         InputRejected: with a reason code.
     """
-    if path.suffix.lower() in USD_SUFFIXES:
+    if is_usd(path):
         return load_usd(path, config)
     if path.suffix.lower() in DESCRIPTION_SUFFIXES:
         return load_description(path, config)

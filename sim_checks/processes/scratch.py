@@ -14,7 +14,7 @@ from filelock import lock_descriptor
 
 #: How scratch folders begin; a name that nobody else gives to theirs.
 PREFIX = "asset-factory-"
-#: A socket's path may have 104 bytes on some systems, of which its own name takes 18.
+#: A socket's path may have 104 bytes on some systems, of which 24 are left for names below.
 LONGEST_WITH_SOCKETS = 80
 #: Where sockets lie when temporary files have too long a way.
 SHORT = Path("/tmp")  # noqa: S108 - the folder made there is its owner's alone
@@ -72,6 +72,7 @@ def sweep(parent: Path | None = None) -> int:
 
 
 _own: dict[int, Path] = {}
+_short: dict[int, Path] = {}
 
 
 def scratch() -> Path:
@@ -91,13 +92,22 @@ def scratch() -> Path:
     _own[os.getpid()] = folder
     _remove_at_the_end(folder)
     # The socket of a fork server that is yet to be started shall lie there too.
-    sockets = folder
-    if len(os.fsencode(folder)) > LONGEST_WITH_SOCKETS:
-        sweep(SHORT)
-        sockets, _ = held_folder(SHORT, PREFIX)
-        _remove_at_the_end(sockets)
-    vars(multiprocessing.current_process()).get("_config", {}).setdefault("tempdir", str(sockets))
+    vars(multiprocessing.current_process()).get("_config", {}).setdefault("tempdir", str(sockets()))
     return folder
+
+
+def sockets() -> Path:
+    """This process's folder for sockets: its scratch folder, or one on a shorter way."""
+    folder = scratch()
+    if len(os.fsencode(folder)) <= LONGEST_WITH_SOCKETS:
+        return folder
+    short = _short.get(os.getpid())
+    if short is None or not short.is_dir():
+        sweep(SHORT)
+        short, _ = held_folder(SHORT, PREFIX)
+        _short[os.getpid()] = short
+        _remove_at_the_end(short)
+    return short
 
 
 def _remove_at_the_end(folder: Path) -> None:

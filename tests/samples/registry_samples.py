@@ -51,6 +51,15 @@ def publish(registry: Registry, content: str = "one", entry: Entry = PASSED) -> 
         return registry.publish(entry, bundle, REPORT)
 
 
+def three_entries(root: Path) -> Registry:
+    """Two assets that passed, and one that did not."""
+    made = Registry(root, create=True)
+    publish(made)
+    publish(made, entry=named("fridge-1"))
+    made.reject(replace(REJECTED, id="chest-1"), BAD_REPORT)
+    return made
+
+
 def dump(registry: Registry) -> list[tuple[object, ...]]:
     """Every byte of every row."""
     from asset_factory.factory.registry.database import connected

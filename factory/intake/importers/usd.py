@@ -51,16 +51,34 @@ def load_usd(path: Path, config: IntakeConfig) -> Intake:
     digests = [digest_read(layer) for layer in layers]
     digest = digest_bytes("\n".join([*digests, *files.digests]).encode())
     require_allowed(path.name, sidecar.license, config.allowed_licenses, digest)
-    stage = read_stage(path, config.max_faces)
+    mesh, annotation, transform = read_annotated(path, config.max_faces)
+    require_sensible_size(path.name, mesh.bounds)
+    return _intake(path, mesh, annotation, transform, digest, sidecar.license)
+
+
+def read_annotated(path: Path, max_faces: int) -> tuple[Mesh, Annotation, FloatArray]:
+    """All surfaces of a stage as one mesh, its parts and joints, and how it was turned and scaled.
+
+    Args:
+        path: of the root layer; see :func:`.usd_layers.require_own_layers` for what to ask before.
+        max_faces: most triangles.
+
+    Returns:
+        The mesh in metres, z up; parts and joints in the stage's frame and units; the transform
+        from there, shape [4, 4].
+
+    Raises:
+        InputRejected: ``unreadable``, ``empty``, ``too_large``, ``not_a_tree``,
+            ``unsupported_joint``.
+    """
+    stage = read_stage(path, max_faces)
     if not stage.pieces:
         raise InputRejected("empty", f"{path.name}: holds no surface that is shown")
     whole = concatenate([mesh for _, mesh in stage.pieces])
-    require_at_most(path.name, len(whole.faces), config.max_faces, "faces")
+    require_at_most(path.name, len(whole.faces), max_faces, "faces")
     transform = np.eye(4)
     transform[:3, :3] = stage.metres * rotation_to_z_up(stage.up)
-    mesh = whole.transformed(transform)
-    require_sensible_size(path.name, mesh.bounds)
-    return _intake(path, mesh, annotation_of(stage, path.name), transform, digest, sidecar.license)
+    return whole.transformed(transform), annotation_of(stage, path.name), transform
 
 
 def _intake(

@@ -8,15 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from asset_factory.sim_checks.read.usd.prims import AXES, joint_kind
+
 from ...articulation import rotation_about
 from ...errors import InputRejected
 from ...mesh import FloatArray
 
-AXES = {
-    "X": np.array([1.0, 0.0, 0.0]),
-    "Y": np.array([0.0, 1.0, 0.0]),
-    "Z": np.array([0.0, 0.0, 1.0]),
-}
 ALIGNED = np.radians(2.0)
 """Angle between two bodies' joint frames, about another axis than the joint's, to match [rad].
 
@@ -130,19 +127,12 @@ def joint_of(prim: Any, frames: BodyFrames) -> UsdJoint:
 
 
 def _kind(prim: Any) -> str:
-    from pxr import UsdPhysics
-
-    for kind, schema in (
-        ("revolute", UsdPhysics.RevoluteJoint),
-        ("prismatic", UsdPhysics.PrismaticJoint),
-        ("fixed", UsdPhysics.FixedJoint),
-    ):
-        if prim.IsA(schema):
-            return kind
+    kind = joint_kind(prim)
+    if kind in ("revolute", "prismatic", "fixed"):
+        return kind
     raise InputRejected(
         "unsupported_joint",
-        f"joint {prim.GetName()!r}: is a {prim.GetTypeName()}; "
-        "want a revolute, prismatic or fixed joint",
+        f"joint {prim.GetName()!r}: is a {kind}; want a revolute, prismatic or fixed joint",
     )
 
 

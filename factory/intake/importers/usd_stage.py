@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from asset_factory.sim_checks.read.usd.prims import is_joint_in_use, is_rigid_body, is_shown
+
 from ...mesh import Mesh
 from ..limits import require_at_most, unreadable
 from .usd_joints import BodyFrames, UsdJoint, joint_of
@@ -55,7 +57,7 @@ def read_stage(path: Path, max_faces: int) -> UsdStage:
     if not 0.0 < metres < float("inf"):
         raise unreadable(path.name, f"metersPerUnit is {metres}, want a positive number")
     prims = list(Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()))
-    joints = [prim for prim in prims if prim.IsA(UsdPhysics.Joint) and _is_in_use(prim)]
+    joints = [prim for prim in prims if is_joint_in_use(prim)]
     bodies = _Bodies(prims, joints)
     frames = BodyFrames(stage, UsdGeom.XformCache(), bodies.of)
     return UsdStage(
@@ -72,17 +74,6 @@ def read_stage(path: Path, max_faces: int) -> UsdStage:
     )
 
 
-def _is_in_use(joint: Any) -> bool:
-    """Whether a joint is enabled and in the tree: loop-closing ones are left out."""
-    from pxr import UsdPhysics
-
-    schema = UsdPhysics.Joint(joint)
-    return (
-        schema.GetJointEnabledAttr().Get() is not False
-        and schema.GetExcludeFromArticulationAttr().Get() is not True
-    )
-
-
 class _Bodies:
     """Which rigid body a prim belongs to: the nearest one above it, itself included.
 
@@ -92,12 +83,7 @@ class _Bodies:
     def __init__(self, prims: list[Any], joints: list[Any]) -> None:
         from pxr import UsdPhysics
 
-        rigid = {
-            str(prim.GetPath())
-            for prim in prims
-            if prim.HasAPI(UsdPhysics.RigidBodyAPI)
-            and UsdPhysics.RigidBodyAPI(prim).GetRigidBodyEnabledAttr().Get() is not False
-        }
+        rigid = {str(prim.GetPath()) for prim in prims if is_rigid_body(prim)}
         if not rigid:
             ends = (UsdPhysics.Joint(prim) for prim in joints)
             rels = (rel for joint in ends for rel in (joint.GetBody0Rel(), joint.GetBody1Rel()))
@@ -124,7 +110,7 @@ def _pieces(
     found: list[tuple[str, bool, Mesh]] = []
     faces = 0
     for prim in prims:
-        if not prim.IsA(UsdGeom.Gprim) or not _is_shown(prim):
+        if not prim.IsA(UsdGeom.Gprim) or not is_shown(prim):
             continue
         mesh = mesh_of(prim, cache)
         if mesh is not None:
@@ -133,16 +119,6 @@ def _pieces(
             found.append((bodies.of(prim), _is_collider(prim), mesh))
     seen = {body for body, collider, _ in found if not collider}
     return tuple((body, mesh) for body, collider, mesh in found if not collider or body not in seen)
-
-
-def _is_shown(prim: Any) -> bool:
-    from pxr import UsdGeom
-
-    image = UsdGeom.Imageable(prim)
-    purpose = image.ComputePurpose()
-    return purpose in (UsdGeom.Tokens.default_, UsdGeom.Tokens.render) and (
-        image.ComputeVisibility() != UsdGeom.Tokens.invisible
-    )
 
 
 def _is_collider(prim: Any) -> bool:

@@ -37,7 +37,7 @@ def swept_m(
     """
     joints = tuple(joint if each.name == joint.name else each for each in articulation.joints)
     tried = replace(articulation, joints=joints)
-    moved = _carried(tried, joint.child)
+    moved = tried.carried(joint.child)
     solids = [[PlanedHull.of(hull) for hull in each] for each in hulls]
     closed = {each.name: each.lower for each in tried.movable_joints}
     poses = [
@@ -73,11 +73,3 @@ def _deepening(
         if worst > enough_m:
             break
     return worst
-
-
-def _carried(articulation: Articulation, part: int) -> set[int]:
-    carried = {part}
-    for joint in articulation.joints:
-        if joint.parent in carried:
-            carried.add(joint.child)
-    return carried

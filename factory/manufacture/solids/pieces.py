@@ -83,6 +83,11 @@ class Matter:
         return TRIFLE * float(volumes[self.solid].sum()) + TRIFLE_OF_ALL * float(volumes.sum())
 
     @cached_property
+    def unwanted(self) -> Weights:
+        """How bad it is to fill a cell: one that must stay free, or air; 0: not."""
+        return np.asarray(self.free + (~self.whole & ~self.solid).astype(np.uint8))
+
+    @cached_property
     def corners(self) -> BoolArray:
         """Corners of cells that touch the matter and lie within the skin; one more each way."""
         outside = _any_around(np.pad(~self.whole, 1, constant_values=True))[1:-1, 1:-1, 1:-1]
@@ -255,13 +260,18 @@ def _waste(matter: Matter, span: Span, hull: Hull) -> float:
     volumes = matter.lattice.volumes[span]
     own = float((volumes * matter.solid[span]).sum())
     spare = max(hull.volume - FULLER * own, 0.0)
-    blocked = np.argwhere(matter.free[span])
-    if not len(blocked):
-        return spare
+    return spare + filled(matter.lattice, matter.free, span, hull)
+
+
+def filled(lattice: Lattice, weights: Weights, span: Span, hull: Hull) -> float:
+    """Volume of cells within a span that a hull fills, each times its weight [m3]."""
+    cells = np.argwhere(weights[span])
+    if not len(cells):
+        return 0.0
     start = np.array([part.start for part in span])
-    deep = depth_below(hull, matter.lattice.centers(blocked + start)) > REACH_M
-    at = tuple(blocked[deep].T)
-    return spare + float((volumes[at] * matter.free[span][at]).sum())
+    deep = depth_below(hull, lattice.centers(cells + start)) > REACH_M
+    at = tuple(cells[deep].T)
+    return float((lattice.volumes[span][at] * weights[span][at]).sum())
 
 
 def _best_cut(matter: Matter, node: _Node) -> tuple[Span, ...]:

@@ -10,7 +10,7 @@ from ...asset import Hull
 from ...mesh import FloatArray
 from ..decompose.convex import depth_below, hull_of, limit_vertices
 from .box import Box
-from .pieces import MOST_CORNERS, REACH_M, Matter
+from .pieces import MOST_CORNERS, Matter, filled
 
 #: What is seen may lie so far outside all pieces [m].
 FAR_M = 0.006
@@ -57,13 +57,5 @@ def _stretched(matter: Matter, hull: Hull, points: FloatArray) -> Hull:
 
 def _filled(matter: Matter, hull: Hull) -> float:
     """What it fills of what must stay free, by weight, and of air [m3]."""
-    box = Box(hull.vertices.min(axis=0), hull.vertices.max(axis=0))
-    span = matter.lattice.span(box)
-    weights = matter.free[span] + (~matter.whole[span] & ~matter.solid[span])
-    cells = np.argwhere(weights)
-    if not len(cells):
-        return 0.0
-    start = np.array([part.start for part in span])
-    deep = depth_below(hull, matter.lattice.centers(cells + start)) > REACH_M
-    at = tuple(cells[deep].T)
-    return float((matter.lattice.volumes[span][at] * weights[at]).sum())
+    span = matter.lattice.span(Box(hull.vertices.min(axis=0), hull.vertices.max(axis=0)))
+    return filled(matter.lattice, matter.unwanted, span, hull)

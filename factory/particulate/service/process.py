@@ -10,7 +10,7 @@ from pathlib import Path
 from types import TracebackType
 
 from asset_factory.sim_checks.processes.isolation import Failure, Limits, WarmChild, processors
-from asset_factory.sim_checks.processes.scratch import scratch
+from asset_factory.sim_checks.processes.scratch import sockets
 
 from ...config import ParticulateConfig
 from ...runtime.store import digest_file
@@ -25,8 +25,6 @@ LIFE_S = 7 * 86400.0
 #: Deaths within a minute of the start, in a row, after which it is given up.
 MOST_DEATHS = 3
 YOUNG_S = 60.0
-#: A socket's path may have 108 characters.
-MOST_PATH = 100
 
 
 class ModelService:
@@ -44,10 +42,7 @@ class ModelService:
     def __init__(self, config: ParticulateConfig, at_once: int | None = None) -> None:
         self._config = config
         self._at_once = at_once or (processors() if config.device == "cpu" else 1)
-        self._folder = Path(tempfile.mkdtemp(prefix="model-", dir=scratch()))
-        if len(str(self._folder)) > MOST_PATH:
-            self._folder.rmdir()
-            self._folder = Path(tempfile.mkdtemp(prefix="model-", dir="/tmp"))
+        self._folder = Path(tempfile.mkdtemp(prefix="model-", dir=sockets()))
         self._stopping = threading.Event()
         self._child = WarmChild()
         self._keeper = threading.Thread(target=self._keep, name="model-service", daemon=True)

@@ -13,15 +13,14 @@ from pathlib import Path
 
 import numpy as np
 
+from asset_factory.sim_checks.read.usd.layers import is_usd
+
 from ...articulate.annotated import AnnotatedArticulator
 from ...articulation import Articulation
 from ...errors import ConfigError, InputRejected
-from ...intake.importers.usd_layers import SUFFIXES, require_own_layers
-from ...intake.importers.usd_stage import read_stage
-from ...intake.importers.usd_tree import annotation_of
-from ...intake.limits import require_at_most
-from ...intake.orientation import rotation_to_z_up
-from ...mesh import concatenate
+from ...intake.discover import MAIN_LAYERS
+from ...intake.importers.usd import read_annotated
+from ...intake.importers.usd_layers import require_own_layers
 from .categories import categories_of
 from .item import SourceItem, find_items
 from .settings import SourceSettings
@@ -49,16 +48,9 @@ def read_usd(item: SourceItem, settings: SourceSettings) -> Articulation:
             ``no_movable_joint``.
     """
     require_own_layers(item.main, item.folder, settings.max_bytes)
-    stage = read_stage(item.main, settings.max_faces)
-    if not stage.pieces:
-        raise InputRejected("empty", f"{item.main.name}: holds no surface that is shown")
-    whole = concatenate([mesh for _, mesh in stage.pieces])
-    require_at_most(item.main.name, len(whole.faces), settings.max_faces, "faces")
-    transform = np.eye(4)
-    transform[:3, :3] = stage.metres * rotation_to_z_up(stage.up)
-    annotation = annotation_of(stage, item.main.name)
-    articulator = AnnotatedArticulator(annotation, transform, np.arange(len(whole.faces)))
-    articulation = articulator.articulate(whole.transformed(transform))
+    mesh, annotation, transform = read_annotated(item.main, settings.max_faces)
+    articulator = AnnotatedArticulator(annotation, transform, np.arange(len(mesh.faces)))
+    articulation = articulator.articulate(mesh)
     if not articulation.movable_joints:
         raise InputRejected(
             "no_movable_joint", f"{item.name}: nothing moves; want a joint to learn from", value=0.0
@@ -68,13 +60,12 @@ def read_usd(item: SourceItem, settings: SourceSettings) -> Articulation:
 
 def _mains(files: Sequence[Path]) -> list[Path]:
     """The file called like its folder first, then the names that asset packs use."""
-    usual = ("instance", "model", "asset")
 
     def rank(path: Path) -> tuple[bool, int, str]:
         return (
             path.stem != path.parent.name,
-            usual.index(path.stem) if path.stem in usual else len(usual),
+            MAIN_LAYERS.index(path.stem) if path.stem in MAIN_LAYERS else len(MAIN_LAYERS),
             path.name,
         )
 
-    return sorted((path for path in files if path.suffix.lower() in SUFFIXES), key=rank)
+    return sorted((path for path in files if is_usd(path)), key=rank)

@@ -38,7 +38,7 @@ def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     for measured in evidence.joints():
         if measured.clear_until is None or measured.joint in plan.mended:
             continue
-        joint = next(each for each in asset.articulation.joints if each.name == measured.joint)
+        joint = asset.articulation.joint(measured.joint)
         # Guesses are hung anew by those who made them.
         if joint.confidence is not None:
             continue

@@ -58,7 +58,7 @@ def _free_end(asset: Asset | None, name: str, clear_until: float) -> float | Non
     """Where a joint still touches nothing, before it fails; ``None`` if that is nowhere."""
     if asset is None:
         return clear_until
-    joint = next(each for each in asset.articulation.joints if each.name == name)
+    joint = asset.articulation.joint(name)
     hulls = [body.hulls for body in asset.bodies]
     for share in SHORTER:
         shorter = replace(joint, upper=joint.lower + share * (clear_until - joint.lower))

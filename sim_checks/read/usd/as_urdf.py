@@ -12,18 +12,13 @@ import numpy as np
 from ...description import DescriptionError, FloatArray, LinkInertia
 from .bodies import WORLD, PhysicsBody
 from .joints import PhysicsJoint
-from .layers import SUFFIXES, require_inside
+from .layers import require_inside
 from .shapes import PhysicsSurface
 from .stage import PhysicsStage, read_stage
 
 NAME = "asset.urdf"
 #: Below this cosine of the pitch, roll and yaw are one and the same.
 UPRIGHT = 1e-9
-
-
-def is_usd(path: Path) -> bool:
-    """Whether a file is called like a USD layer."""
-    return path.suffix.lower() in SUFFIXES
 
 
 def write_as_urdf(path: Path, folder: Path) -> Path:

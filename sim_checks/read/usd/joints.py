@@ -9,12 +9,7 @@ import numpy as np
 
 from ...description import FloatArray
 from .bodies import WORLD, PhysicsBody, rotation_of
-
-AXES = {
-    "X": np.array([1.0, 0.0, 0.0]),
-    "Y": np.array([0.0, 1.0, 0.0]),
-    "Z": np.array([0.0, 0.0, 1.0]),
-}
+from .prims import AXES, joint_kind
 
 
 @dataclass(frozen=True)
@@ -54,7 +49,7 @@ def read_joint(prim: Any, bodies: dict[str, PhysicsBody]) -> PhysicsJoint:
         _frame(joint.GetLocalPos0Attr(), joint.GetLocalRot0Attr(), bodies[first]),
         _frame(joint.GetLocalPos1Attr(), joint.GetLocalRot1Attr(), bodies[second]),
     )
-    kind = _kind(prim)
+    kind = joint_kind(prim)
     if kind not in ("revolute", "prismatic"):
         return PhysicsJoint(
             str(prim.GetName()), kind, (first, second), frames, AXES["X"], None, None, 0.0, 0.0
@@ -89,19 +84,6 @@ def _frame(position: Any, rotation: Any, body: PhysicsBody) -> FloatArray:
     frame[:3, :3] = rotation_of(rotation.Get())
     frame[:3, 3] = np.array(position.Get() or (0.0, 0.0, 0.0), dtype=np.float64) * body.scale
     return frame
-
-
-def _kind(prim: Any) -> str:
-    from pxr import UsdPhysics
-
-    for kind, schema in (
-        ("revolute", UsdPhysics.RevoluteJoint),
-        ("prismatic", UsdPhysics.PrismaticJoint),
-        ("fixed", UsdPhysics.FixedJoint),
-    ):
-        if prim.IsA(schema):
-            return kind
-    return str(prim.GetTypeName())
 
 
 def _limit(attribute: Any, unit: float) -> float | None:

@@ -1,7 +1,9 @@
-"""What a USD layer leads to, followed before anything is composed: nothing outside its folder."""
+"""Which files compose a USD asset, found before composing: none may be outside its folder."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -10,69 +12,132 @@ from ...description import DescriptionError
 SUFFIXES = frozenset({".usd", ".usda", ".usdc", ".usdz"})
 MOST_LAYERS = 4096
 MOST_BYTES = 2**30
+_SCHEME = re.compile(r"^[A-Za-z][A-Za-z0-9+.-]+:")
 
 
-def require_inside(path: Path) -> None:
-    """Refuse an asset of which a sublayer, reference or payload lies outside its folder.
+def is_usd(path: Path) -> bool:
+    """Whether a file is called like a USD layer."""
+    return path.suffix.lower() in SUFFIXES
+
+
+def layer_files(main: Path, folder: Path) -> Iterator[Path]:
+    """The file of each layer that an asset is composed of, before it is opened.
+
+    It is followed through sublayers, references and payloads. Opening a layer opens no other; only
+    composing does, and that comes later. Textures and materials named in attributes are never
+    opened.
+
+    Args:
+        main: the layer to begin with.
+        folder: everything lies in or below it, symbolic links followed.
 
     Raises:
-        DescriptionError: ``outside_folder``, ``missing_file``, ``too_large``, ``unreadable``.
+        DescriptionError: ``outside_folder``, ``missing_file``, ``unreadable``, ``unknown_format``
+            (other files; value clips and computed references, whose files cannot be known
+            beforehand).
     """
     from pxr import Sdf, Tf
 
-    folder = path.resolve().parent
-    waiting = [str(path.resolve())]
-    seen: set[str] = set()
-    total = 0
+    root = folder.resolve()
+    waiting = [str(main.resolve())]
+    seen = set()
     while waiting:
-        name = waiting.pop()
-        if name in seen:
+        identifier = waiting.pop()
+        if identifier in seen:
             continue
-        seen.add(name)
-        total += _file(name, folder).stat().st_size
-        if len(seen) > MOST_LAYERS or total > MOST_BYTES:
+        seen.add(identifier)
+        yield _own_file(identifier, root)
+        name = Path(identifier).name
+        try:
+            layer = Sdf.Layer.FindOrOpen(identifier)
+        except Tf.ErrorException as error:
+            words = " ".join(str(error).replace(str(root), "").split())
+            raise DescriptionError("unreadable", f"{name}: {words[:240]}") from error
+        if layer is None:
+            raise DescriptionError("unreadable", f"{name}: is no USD layer")
+        _refuse_clips(layer)
+        for reference in layer.GetCompositionAssetDependencies():
+            if reference:
+                waiting.append(_identifier(reference, layer))
+
+
+def require_inside(path: Path) -> None:
+    """Refuse an asset that leads out of its folder, or is too large.
+
+    Raises:
+        DescriptionError: ``too_large``, and those of :func:`layer_files`.
+    """
+    total = 0
+    for number, file in enumerate(layer_files(path, path.parent), start=1):
+        total += file.stat().st_size
+        if number > MOST_LAYERS or total > MOST_BYTES:
             raise DescriptionError(
                 "too_large",
                 f"{path.name}: over {MOST_LAYERS} layers, or {MOST_BYTES} bytes together",
             )
-        try:
-            layer = Sdf.Layer.FindOrOpen(name)
-        except Tf.ErrorException:
-            layer = None
-        if layer is None:
-            raise DescriptionError("unreadable", f"{Path(name).name}: is no USD layer")
-        _refuse_clips(layer)
-        for reference in layer.GetCompositionAssetDependencies():
-            if reference:
-                if "`" in reference:
-                    raise DescriptionError("outside_folder", "a layer computes which file it needs")
-                outer, _ = Sdf.Layer.SplitIdentifier(reference)
-                waiting.append(str(layer.ComputeAbsolutePath(outer)))
 
 
-def _file(name: str, folder: Path) -> Path:
-    """The file that a layer is in; of a package, the package."""
-    file = Path(name.partition("[")[0]).resolve()
-    if not file.is_relative_to(folder) or file.suffix.lower() not in SUFFIXES:
+def _identifier(reference: str, layer: Any) -> str:
+    """What a reference in a layer would open, without opening it."""
+    from pxr import Sdf
+
+    path, _ = Sdf.Layer.SplitIdentifier(reference)
+    if "`" in path:
         raise DescriptionError(
-            "outside_folder", f"{name[-160:]!r}: want a USD file in the asset's own folder or below"
+            "unknown_format", f"reference {reference[:160]!r}: is computed; want a plain file name"
         )
-    if not file.is_file():
-        raise DescriptionError("missing_file", f"{file.name}: there is no such file")
-    return file
+    if _SCHEME.match(path) or "\0" in path:
+        raise _outside(reference)
+    found = str(Sdf.ComputeAssetPathRelativeToLayer(layer, path))
+    # What is not beside the layer would be looked for elsewhere: here it is only missed.
+    return (
+        found
+        if Path(found).is_absolute() or not layer.realPath
+        else str(Path(layer.realPath).parent / found)
+    )
+
+
+def _own_file(identifier: str, root: Path) -> Path:
+    """The file that holds a layer, or the package that holds it."""
+    from pxr import Ar
+
+    outer = identifier
+    while Ar.IsPackageRelativePath(outer):
+        outer = Ar.SplitPackageRelativePathOuter(outer)[0]
+    path = Path(outer)
+    if not path.is_absolute() or not path.resolve().is_relative_to(root):
+        raise _outside(outer)
+    if not is_usd(path):
+        raise DescriptionError(
+            "unknown_format", f"{path.name}: want one of {', '.join(sorted(SUFFIXES))}"
+        )
+    if not path.is_file():
+        raise DescriptionError("missing_file", f"{path.name}: is named by a layer and not there")
+    return path.resolve()
 
 
 def _refuse_clips(layer: Any) -> None:
-    """Which files value clips open is known only once they are open."""
+    """Clips name files in ways that only composition knows."""
     from pxr import Sdf
 
-    clipped: list[str] = []
+    found: list[str] = []
 
     def look(path: Any) -> None:
-        prim = layer.GetPrimAtPath(path)
-        if prim is not None and prim.HasInfo("clips"):
-            clipped.append(str(path))
+        is_prim = path.IsPrimPath() or path.IsPrimVariantSelectionPath()
+        spec = layer.GetPrimAtPath(path) if is_prim else None
+        if spec is not None and spec.HasInfo("clips"):
+            found.append(str(path))
 
     layer.Traverse(Sdf.Path.absoluteRootPath, look)
-    if clipped:
-        raise DescriptionError("outside_folder", f"{clipped[0]}: takes values from other files")
+    if found:
+        raise DescriptionError(
+            "unknown_format", f"prim {found[0]}: has value clips; want geometry that stands still"
+        )
+
+
+def _outside(reference: str) -> DescriptionError:
+    name = Path(reference).name[:160]
+    return DescriptionError(
+        "outside_folder",
+        f"reference to {name!r} leads outside the object's folder; put the file there",
+    )

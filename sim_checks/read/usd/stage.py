@@ -11,6 +11,7 @@ import numpy as np
 from ...description import DescriptionError, FloatArray, LinkInertia
 from .bodies import WORLD, PhysicsBody, rotation_of
 from .joints import PhysicsJoint, read_joint
+from .prims import is_joint_in_use, is_on, is_rigid_body, is_shown
 from .shapes import read_surface
 
 
@@ -56,27 +57,15 @@ def read_stage(path: Path) -> PhysicsStage:
     prims = list(Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()))
     bodies = {WORLD: PhysicsBody(WORLD, np.eye(4), np.full(3, metres))}
     for prim in prims:
-        if prim.HasAPI(UsdPhysics.RigidBodyAPI) and _on(
-            UsdPhysics.RigidBodyAPI(prim).GetRigidBodyEnabledAttr()
-        ):
+        if is_rigid_body(prim):
             pose, scale = _rigid(pose_of(prim))
             name = str(prim.GetPath())
             bodies[name] = PhysicsBody(name, pose, scale, _inertia(prim, scale, kilograms))
     for prim in prims:
         if prim.IsA(UsdGeom.Gprim):
             _add_surface(prim, bodies[_body_of(prim, bodies)], pose_of(prim))
-    joints = tuple(
-        read_joint(prim, bodies)
-        for prim in prims
-        if prim.IsA(UsdPhysics.Joint)
-        and _on(UsdPhysics.Joint(prim).GetJointEnabledAttr())
-        and UsdPhysics.Joint(prim).GetExcludeFromArticulationAttr().Get() is not True
-    )
+    joints = tuple(read_joint(prim, bodies) for prim in prims if is_joint_in_use(prim))
     return PhysicsStage(bodies, joints)
-
-
-def _on(attribute: Any) -> bool:
-    return attribute.Get() is not False
 
 
 def _body_of(prim: Any, bodies: dict[str, PhysicsBody]) -> str:
@@ -88,14 +77,10 @@ def _body_of(prim: Any, bodies: dict[str, PhysicsBody]) -> str:
 
 
 def _add_surface(prim: Any, body: PhysicsBody, pose: FloatArray) -> None:
-    from pxr import UsdGeom, UsdPhysics
+    from pxr import UsdPhysics
 
-    image = UsdGeom.Imageable(prim)
-    seen = image.ComputeVisibility() != UsdGeom.Tokens.invisible and image.ComputePurpose() in (
-        UsdGeom.Tokens.default_,
-        UsdGeom.Tokens.render,
-    )
-    touched = prim.HasAPI(UsdPhysics.CollisionAPI) and _on(
+    seen = is_shown(prim)
+    touched = prim.HasAPI(UsdPhysics.CollisionAPI) and is_on(
         UsdPhysics.CollisionAPI(prim).GetCollisionEnabledAttr()
     )
     if not (seen or touched):

@@ -11,7 +11,6 @@ from asset_factory.factory.asset import Asset, Inertial
 from asset_factory.factory.export.links import safe_tensor
 from asset_factory.factory.export.resistance import (
     GRAVITY,
-    carried_parts,
     joint_resistances,
     resistance_notes,
 )
@@ -105,8 +104,8 @@ def test_carried_parts_are_the_whole_subtree() -> None:
         for i, parent in ((1, 0), (2, 1), (3, 0), (4, 2))
     )
     asset = boxes_asset([box([0, 0, i], [0.5, 0.5, 0.5]) for i in range(5)], chain)
-    assert carried_parts(asset.articulation, 1) == (1, 2, 4)
-    assert carried_parts(asset.articulation, 3) == (3,)
+    assert asset.articulation.carried(1) == (1, 2, 4)
+    assert asset.articulation.carried(3) == (3,)
 
 
 def test_a_flat_plate_is_lifted_off_the_border_of_the_triangle_inequality() -> None:

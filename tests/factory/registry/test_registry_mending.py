@@ -4,10 +4,9 @@ import shutil
 from dataclasses import replace
 
 import pytest
-from registry_samples import BAD_REPORT, REJECTED, named, publish
+from registry_samples import publish, three_entries
 
 from asset_factory.factory.intake.discover import find_inputs
-from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry import mending as mending_module
 from asset_factory.factory.registry.database import writing
 from asset_factory.factory.registry.mending import Settled, mend_rows, settle, withdraw
@@ -18,11 +17,7 @@ from asset_factory.factory.runtime.store import folder_digests
 
 @pytest.fixture
 def registry(tmp_path):
-    made = Registry(tmp_path / "out", create=True)
-    publish(made)
-    publish(made, entry=named("fridge-1"))
-    made.reject(replace(REJECTED, id="chest-1"), BAD_REPORT)
-    return made
+    return three_entries(tmp_path / "out")
 
 
 def mended(registry, *, final=True):

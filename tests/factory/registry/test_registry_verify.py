@@ -1,12 +1,10 @@
 """Every file that is not as it was published is named."""
 
 import shutil
-from dataclasses import replace
 
 import pytest
-from registry_samples import BAD_REPORT, REJECTED, named, publish
+from registry_samples import three_entries
 
-from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.database import writing
 from asset_factory.factory.registry.rows import delete
 from asset_factory.factory.registry.verify import verify
@@ -14,11 +12,7 @@ from asset_factory.factory.registry.verify import verify
 
 @pytest.fixture
 def registry(tmp_path):
-    made = Registry(tmp_path / "out", create=True)
-    publish(made)
-    publish(made, entry=named("fridge-1"))
-    made.reject(replace(REJECTED, id="chest-1"), BAD_REPORT)
-    return made
+    return three_entries(tmp_path / "out")
 
 
 def alter(folder):

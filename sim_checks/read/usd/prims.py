@@ -1,0 +1,64 @@
+"""What a prim of a USD stage is to physics, and whether it is shown."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+#: Directions that joints' axes are named by.
+AXES = {
+    "X": np.array([1.0, 0.0, 0.0]),
+    "Y": np.array([0.0, 1.0, 0.0]),
+    "Z": np.array([0.0, 0.0, 1.0]),
+}
+
+
+def is_on(attribute: Any) -> bool:
+    """Whether a switch is on, as it is where nobody says anything."""
+    return attribute.Get() is not False
+
+
+def is_rigid_body(prim: Any) -> bool:
+    """Whether it is a body of its own that physics moves."""
+    from pxr import UsdPhysics
+
+    return bool(prim.HasAPI(UsdPhysics.RigidBodyAPI)) and is_on(
+        UsdPhysics.RigidBodyAPI(prim).GetRigidBodyEnabledAttr()
+    )
+
+
+def is_joint_in_use(prim: Any) -> bool:
+    """Whether it is a joint that is enabled and in the tree: loop-closing ones are left out."""
+    from pxr import UsdPhysics
+
+    if not prim.IsA(UsdPhysics.Joint):
+        return False
+    joint = UsdPhysics.Joint(prim)
+    left_out = joint.GetExcludeFromArticulationAttr().Get() is True
+    return is_on(joint.GetJointEnabledAttr()) and not left_out
+
+
+def joint_kind(prim: Any) -> str:
+    """``revolute``, ``prismatic``, ``fixed``, or the file's word for any other joint."""
+    from pxr import UsdPhysics
+
+    for kind, schema in (
+        ("revolute", UsdPhysics.RevoluteJoint),
+        ("prismatic", UsdPhysics.PrismaticJoint),
+        ("fixed", UsdPhysics.FixedJoint),
+    ):
+        if prim.IsA(schema):
+            return kind
+    return str(prim.GetTypeName())
+
+
+def is_shown(prim: Any) -> bool:
+    """Whether a surface is visible, and made to be looked at."""
+    from pxr import UsdGeom
+
+    image = UsdGeom.Imageable(prim)
+    purpose = image.ComputePurpose()
+    return purpose in (UsdGeom.Tokens.default_, UsdGeom.Tokens.render) and (
+        image.ComputeVisibility() != UsdGeom.Tokens.invisible
+    )
