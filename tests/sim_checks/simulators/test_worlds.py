@@ -67,6 +67,21 @@ def written(folder: Path, text: str, name: str = "object.urdf") -> Path:
 
 
 @pytest.mark.parametrize("engine", ENGINES)
+def test_what_has_no_limits_turns_on_after_a_whole_turn(tmp_path: Path, engine: str) -> None:
+    spinner = PENDULUM.replace('type="revolute"', 'type="continuous"').replace(
+        'axis xyz="0 1 0"', 'axis xyz="0 0 1"'
+    )
+    with opened(written(tmp_path, spinner), engine) as world:
+        world.place(np.array([6.2]))
+        angles = []
+        for _ in range(120):
+            world.step(world.balance() + 20.0 * (10.0 - world.velocities()))
+            angles.append(float(world.positions()[0]))
+        assert angles[-1] > 7.5
+        assert np.abs(np.diff(angles)).max() < 0.1
+
+
+@pytest.mark.parametrize("engine", ENGINES)
 def test_a_pendulum_keeps_its_energy_and_a_weightless_one_its_place(
     tmp_path: Path, engine: str
 ) -> None:
