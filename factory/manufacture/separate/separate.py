@@ -37,6 +37,8 @@ PRESSED_M = 0.012
 SOCKET_SHARE = 0.05
 SOCKET_PIECES = 24
 SOCKET_RIM = 0.01
+#: What is nearer than the clearance by less is so by rounding [m].
+ROUNDING_M = 1e-5
 
 
 @dataclass(frozen=True)
@@ -114,6 +116,9 @@ def separate(
     bench = _Bench(articulation, [list(piece.hulls) for piece in pieces], config)
     for pair in wanted:
         bench.cut(pair)
+    # A sheet between two others that made way for the second may have come too near to the first.
+    for pair in filter(bench.nears, wanted):
+        bench.cut(pair)
     after = tuple(
         _with_hulls(piece, tuple(kept), max_vertices)
         for piece, kept in zip(pieces, bench.hulls, strict=True)
@@ -189,6 +194,16 @@ class _Bench:
             self.refused[pair] = SeparationRefusal(reason, known and hidden, cut)
         if cut and at_rest > self.config.tolerance_m:
             self.hidden[pair] = at_rest
+
+    def nears(self, pair: Pair) -> bool:
+        """Whether two parts that were cut apart are nearer at rest than they may be."""
+        if pair in self.refused:
+            return False
+        a, b = (self._index(name) for name in pair)
+        least = self.config.clearance_m
+        poses = relative_poses(self.articulation, a, b, self.config.poses)[:2]
+        hulls = self.hulls[a], self.hulls[b]
+        return max(hull_depth(*hulls, pose, least) for pose in poses) > ROUNDING_M - least
 
     def _carved_by_share(self, a: int, b: int) -> Cut:
         """Carving that takes as small a share of either part as can be: a pit behind a button."""
