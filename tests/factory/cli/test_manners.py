@@ -41,6 +41,16 @@ def test_a_mistyped_command_is_recognised(typed, told, capsys) -> None:
     assert told in capsys.readouterr().err
 
 
+def test_a_flag_that_is_there_twice_is_told_and_not_half_obeyed(capsys, tmp_path) -> None:
+    with pytest.raises(SystemExit) as left:
+        run(["build", "--input", "a.glb", "--input", "b.glb", "--output", str(tmp_path)])
+    assert left.value.code == 2
+    assert "--input is there twice" in capsys.readouterr().err
+    to = str(tmp_path / "to")
+    run(["demos", "--to", to, "--output", to, "--category", "oven", "--category", "fridge"])
+    assert "twice" not in capsys.readouterr().err
+
+
 def test_shells_can_complete_commands_and_flags(capsys) -> None:
     with pytest.raises(SystemExit) as left:
         run(["--tyro-print-completion", "bash"])
