@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from asset_factory.factory.cli import run
+from asset_factory.factory.cli.commands import parse
 from asset_factory.factory.cli.evaluation_printing import COLUMNS, _fitting
 from asset_factory.factory.report import machine
 from asset_factory.factory.report.machine import Health, Library, abilities
@@ -46,9 +47,8 @@ def test_a_flag_that_is_there_twice_is_told_and_not_half_obeyed(capsys, tmp_path
         run(["build", "--input", "a.glb", "--input", "b.glb", "--output", str(tmp_path)])
     assert left.value.code == 2
     assert "--input is there twice" in capsys.readouterr().err
-    to = str(tmp_path / "to")
-    run(["demos", "--to", to, "--output", to, "--category", "oven", "--category", "fridge"])
-    assert "twice" not in capsys.readouterr().err
+    _, flags = parse(["demos", "--to", "d", "--category", "oven", "--category", "fridge"])
+    assert flags.category == ("oven", "fridge")
 
 
 def test_shells_can_complete_commands_and_flags(capsys) -> None:
