@@ -32,7 +32,6 @@ _IMPATIENT = {
 #: A package of its own is kept, for reading.
 _OWN_FILES = """
 set -e
-if [ -n "$GROUP" ]; then echo $$ > "$GROUP/cgroup.procs"; fi
 if [ -n "$SOURCES" ]; then mount --bind "$SOURCES" /mnt; fi
 mount -t tmpfs -o "size=$ROOM" none /tmp
 mkdir -p "$HIDDEN"
@@ -79,21 +78,13 @@ class Hosts:
         more += [f"--temp-dir={self._folder}", "--include-dashboard=false"]
         self._hosts[1] = self._started(more, (), {})
 
-    def start(
-        self,
-        number: int,
-        *,
-        room: str = "50%",
-        sources: Path | None = None,
-        group: Path | None = None,
-    ) -> None:
+    def start(self, number: int, *, room: str = "50%", sources: Path | None = None) -> None:
         """A worker of one processor, from 2 on; one that died comes back under its address.
 
         Args:
             number: the last one of its address.
             room: of its /tmp, as tmpfs is told.
             sources: of another version of the package.
-            group: control group of all its processes.
         """
         name = self._name(number)
         if number not in self._networks:
@@ -101,7 +92,7 @@ class Hosts:
             self._connect(number, name)
         own = ("ip", "netns", "exec", name, "unshare", "--mount", "sh", "-c", _OWN_FILES, "own")
         more = [f"--address={self.address}", f"--node-ip-address={self.address_of(number)}"]
-        told = {"ROOM": room, "SOURCES": str(sources or ""), "GROUP": str(group or "")}
+        told = {"ROOM": room, "SOURCES": str(sources or "")}
         told |= {} if sources is None else {"PYTHONPATH": str(sources)}
         self._hosts[number] = self._started([*more, "--num-cpus=1"], own, told)
 
@@ -170,6 +161,12 @@ class Hosts:
         listing = ["nsenter", f"--target={pid}", "--mount", "find", folder, "-type", "f"]
         told = subprocess.run(listing, capture_output=True, text=True, check=True)
         return told.stdout.split()
+
+    def confine(self, number: int, group: Path) -> None:
+        """Put all of a worker's processes into a control group; what they start is in it too."""
+        for pid in _pids_in(self._name(number)):
+            with suppress(ProcessLookupError):
+                (group / "cgroup.procs").write_text(str(pid))
 
     def fill_disk(self, number: int) -> None:
         """Write to a worker's /tmp until there is no room left."""
