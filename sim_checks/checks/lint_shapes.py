@@ -204,6 +204,7 @@ def _cover_findings(
     touchable = _sampled(link.collisions, config.samples, generator)
     if len(visible) == 0 or len(touchable) == 0:
         return [], {}
+
     low = visible.min(axis=0)
     high = visible.max(axis=0)
     diagonal = float(np.linalg.norm(high - low))
@@ -212,62 +213,66 @@ def _cover_findings(
     empty = np.maximum(0.0, np.asarray(cKDTree(visible).query(touchable)[0]) - spacing)
     uncovered, overhang = (float(np.quantile(values, QUANTILE)) for values in (bare, empty))
     shift = _shift(low, high, hulls)
-    missed = float((bare > config.gap_m).mean())
+    covered = 1.0 - float((bare > config.gap_m).mean())
     numbers = {
         "uncovered_mm": round(1000 * uncovered, 3),
         "overhang_mm": round(1000 * overhang, 3),
         "shift_mm": round(1000 * shift, 3),
-        "covered": round(1.0 - missed, 4),
+        "covered": round(covered, 4),
     }
-    parts = (link.name,)
-    if shift > config.offset_share * diagonal:
-        limit = round(1000 * config.offset_share * diagonal, 3)
-        message = (
-            f"collision geometry of link {link.name!r} lies {1000 * shift:.1f} "
-            "mm beside what is visible"
-        )
-        return [
-            Finding(
-                "collision_offset",
-                Severity.HARD,
-                message,
-                None,
-                None,
-                parts,
-                round(1000 * shift, 3),
-                "mm",
-                limit,
-            )
-        ], numbers
-    allowed = max(config.gap_m, config.gap_share * diagonal)
+    most_shift = config.offset_share * diagonal
+    if shift > most_shift:
+        return [_offset_finding(link, shift, most_shift)], numbers
+
     findings = []
-    if missed > 1.0 - config.least_covered:
-        message = (
-            f"link {link.name!r}: {missed:.0%} of the visible surface lies more than "
-            f"{1000 * config.gap_m:g} mm outside its collision geometry, where nothing is felt; "
-            f"want {config.least_covered:.0%} covered"
-        )
-        share = round(1.0 - missed, 4)
-        limit = config.least_covered
-        findings.append(
-            Finding("collision_gap", Severity.HARD, message, parts=parts, value=share, limit=limit)
-        )
+    if covered < config.least_covered:
+        findings.append(_bare_finding(link, covered, config))
         uncovered = 0.0
+    allowed = max(config.gap_m, config.gap_share * diagonal)
     for gap, words in (
-        (uncovered, "visible surface lies outside"),
-        (overhang, "collision surface lies away from"),
+        (uncovered, "visible surface lies outside its collision geometry"),
+        (overhang, "collision surface lies away from what is visible"),
     ):
         if gap > allowed:
-            other = "its collision geometry" if gap is uncovered else "what is visible"
-            message = f"link {link.name!r}: {words} {other} by up to {1000 * gap:.1f} mm"
-            value = round(1000 * gap, 3)
-            limit = round(1000 * allowed, 3)
-            findings.append(
-                Finding(
-                    "collision_gap", Severity.SOFT, message, None, None, parts, value, "mm", limit
-                )
-            )
+            findings.append(_gap_finding(link, words, gap, allowed))
     return findings, numbers
+
+
+def _offset_finding(link: Link, shift: float, most: float) -> Finding:
+    message = (
+        f"collision geometry of link {link.name!r} lies {1000 * shift:.1f} "
+        "mm beside what is visible"
+    )
+    value = round(1000 * shift, 3)
+    limit = round(1000 * most, 3)
+    return Finding(
+        "collision_offset", Severity.HARD, message, None, None, (link.name,), value, "mm", limit
+    )
+
+
+def _bare_finding(link: Link, covered: float, config: LintConfig) -> Finding:
+    message = (
+        f"link {link.name!r}: {1.0 - covered:.0%} of the visible surface lies more than "
+        f"{1000 * config.gap_m:g} mm outside its collision geometry, where nothing is felt; "
+        f"want {config.least_covered:.0%} covered"
+    )
+    return Finding(
+        "collision_gap",
+        Severity.HARD,
+        message,
+        parts=(link.name,),
+        value=round(covered, 4),
+        limit=config.least_covered,
+    )
+
+
+def _gap_finding(link: Link, words: str, gap: float, allowed: float) -> Finding:
+    message = f"link {link.name!r}: {words} by up to {1000 * gap:.1f} mm"
+    value = round(1000 * gap, 3)
+    limit = round(1000 * allowed, 3)
+    return Finding(
+        "collision_gap", Severity.SOFT, message, None, None, (link.name,), value, "mm", limit
+    )
 
 
 def _shift(low: FloatArray, high: FloatArray, hulls: list[CollisionHull]) -> float:

@@ -81,12 +81,14 @@ class Loss:
     Attributes:
         share: of its collision volume.
         area: share of its visible surface that is neither hidden nor covered any more.
+        bare_area: share of it that is not covered any more, hidden or not.
         bared_m: deepest that its visible surface lies bare where nothing excuses it [m].
         planed_m: the same beside a hinge, or in a part that no joint holds it in [m].
     """
 
     share: float
     area: float
+    bare_area: float
     bared_m: float
     planed_m: float
 
@@ -113,7 +115,7 @@ def loss(
         config: what is near, and what is told.
     """
     if not after:
-        return Loss(1.0, 1.0, np.inf, np.inf)
+        return Loss(1.0, 1.0, 1.0, np.inf, np.inf)
     share = 1.0 - sum(hull.volume for hull in after) / sum(hull.volume for hull in before)
     bare = surface.outside(after) - surface.outside(before)
     looked = np.flatnonzero(bare > SHAVED_M)
@@ -127,10 +129,12 @@ def loss(
     hidden = within & excuse.held
     planed = ~hidden & (within | _beside(points, excuse.hinges, config.hinge_m))
     free = ~hidden & ~planed
-    lost = ~hidden & (bare > config.visible_m) & (looked < surface.spread)
+    bared = (bare > config.visible_m) & (looked < surface.spread)
+    lost = ~hidden & bared
     return Loss(
         share,
         float(lost.sum()) / surface.spread,
+        float(bared.sum()) / surface.spread,
         float(bare[free].max(initial=0.0)),
         float(bare[planed].max(initial=0.0)),
     )

@@ -23,7 +23,8 @@ from .overlap import overlap, part_solids
 
 Pair = tuple[str, str]
 #: See :func:`cut_apart_along`.
-Cut = Callable[..., tuple[list[Hull], list[Hull]]]
+Sides = tuple[list[Hull], list[Hull]]
+Cut = Callable[..., Sides]
 
 #: Hulls that get so much deeper along a joint are in each other's way, however fat they are [m].
 HOPELESS_M = 0.06
@@ -31,6 +32,13 @@ HOPELESS_M = 0.06
 MIDDLE_SHARE = 0.5
 #: A slide no longer than this is a button, which is pressed into what it stands on [m].
 PRESSED_M = 0.012
+#: A part of whose surface a cut would bare more than this is kept whole in a socket, of so many
+#: pieces more at most and so little of what is seen around it.
+SOCKET_SHARE = 0.05
+SOCKET_PIECES = 24
+SOCKET_RIM = 0.01
+#: What is nearer than the clearance by less is so by rounding [m].
+ROUNDING_M = 1e-5
 
 
 @dataclass(frozen=True)
@@ -108,6 +116,9 @@ def separate(
     bench = _Bench(articulation, [list(piece.hulls) for piece in pieces], config)
     for pair in wanted:
         bench.cut(pair)
+    # A sheet between two others that made way for the second may have come too near to the first.
+    for pair in filter(bench.nears, wanted):
+        bench.cut(pair)
     after = tuple(
         _with_hulls(piece, tuple(kept), max_vertices)
         for piece, kept in zip(pieces, bench.hulls, strict=True)
@@ -184,6 +195,16 @@ class _Bench:
         if cut and at_rest > self.config.tolerance_m:
             self.hidden[pair] = at_rest
 
+    def nears(self, pair: Pair) -> bool:
+        """Whether two parts that were cut apart are nearer at rest than they may be."""
+        if pair in self.refused:
+            return False
+        a, b = (self._index(name) for name in pair)
+        least = self.config.clearance_m
+        poses = relative_poses(self.articulation, a, b, self.config.poses)[:2]
+        hulls = self.hulls[a], self.hulls[b]
+        return max(hull_depth(*hulls, pose, least) for pose in poses) > ROUNDING_M - least
+
     def _carved_by_share(self, a: int, b: int) -> Cut:
         """Carving that takes as small a share of either part as can be: a pit behind a button."""
         whole_a, whole_b = (sum(h.volume for h in self.hulls[part]) for part in (a, b))
@@ -203,6 +224,10 @@ class _Bench:
         reason = self._overdone(a, b, losses)
         if reason is not None:
             return reason
+        if max(each.bare_area for each in losses) > SOCKET_SHARE and jointed(
+            self.articulation, a, b
+        ):
+            after, losses = self._socketed(a, b, poses, (after, losses))
         self.hulls[a], self.hulls[b] = after
         planed = tuple(
             Planed(name, each.deepest_m, each.share, each.area)
@@ -212,6 +237,25 @@ class _Bench:
         if planed:
             self.planed[pair] = planed
         return None
+
+    def _socketed(
+        self, a: int, b: int, poses: list[FloatArray], planed: tuple[Sides, list[Loss]]
+    ) -> tuple[Sides, list[Loss]]:
+        """A stem kept whole in a socket where planes would take it off, if that takes few pieces.
+
+        Planes had little enough to take for the joint to be sound; of what the socket takes only
+        its rim is looked at.
+        """
+        before = self.hulls[a], self.hulls[b]
+        after = self._carved_by_share(a, b)(*before, poses, self.config.clearance_m)
+        losses = self._losses(a, b, before, after)
+        more = sum(map(len, after)) - sum(map(len, before))
+        kept = max(each.bare_area for each in losses) <= SOCKET_SHARE
+        rim = max(each.area for each in losses) <= SOCKET_RIM
+        deep = max(each.deepest_m for each in losses) > self.config.planed_m
+        if more > SOCKET_PIECES or deep or not (kept and rim):
+            return planed
+        return after, losses
 
     def _index(self, name: str) -> int:
         return next(i for i, part in enumerate(self.articulation.parts) if part.name == name)

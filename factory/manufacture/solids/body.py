@@ -1,4 +1,4 @@
-"""Knobs, what is neither panel nor knob, and the body that holds them all."""
+"""What is neither panel nor knob, and the body that holds them all."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from ...mesh import FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from .box import Box
 from .carve import surface_points
+from .knobs import clear_of_bumps, keep_clear
 from .lattice import closed_up, marked
 from .pieces import INSIDE, MOST_CORNERS, PATH, Matter, convex_pieces
 from .reach import reaching
@@ -24,35 +25,6 @@ CLEAR_M = 0.003
 MOVED_M = 0.002
 #: A part of so few cells along its longest side is one hull.
 FEW_CELLS = 5
-
-
-def make_bumps(work: Workpiece) -> None:
-    """Knobs, buttons and wheels as one hull each, with room in what holds them."""
-    for part, bump in work.bumps.items():
-        work.hulls[part] = (bump.hull,)
-        joint = work.joints[part - 1]
-        host = work.host(part)
-        low = bump.hull.vertices.min(axis=0)
-        high = bump.hull.vertices.max(axis=0)
-        around = work.lattice.span(Box(low, high).grown(CLEAR_M))
-        if bump.normal is None:
-            inside = entered(work.lattice, [bump.hull], [np.eye(4)], CLEAR_M)
-            work.block(host, inside, PATH)
-            work.owner[inside & (work.owner == host)] = -1
-            continue
-        heights = sum(
-            (bump.normal[axis] * work.lattice.middles[axis][around[axis]]).reshape(
-                [-1 if axis == other else 1 for other in range(3)]
-            )
-            for axis in range(3)
-        )
-        owner = work.owner[around]
-        work.owner[around] = np.where((heights > bump.base) & (owner == host), -1, owner)
-        pressed = joint.kind is JointKind.PRISMATIC and host == 0
-        poses = motions(joint, 8) if pressed else [np.eye(4)]
-        inside = entered(work.lattice, [bump.hull], poses, CLEAR_M)
-        work.block(host, inside, PATH)
-        work.owner[inside & (work.owner == host)] = -1
 
 
 def share_out(work: Workpiece) -> None:
@@ -102,6 +74,7 @@ def make_rest(work: Workpiece, most: int) -> None:
             if whole is None
             else (limit_vertices(whole, MOST_CORNERS),)
         )
+        keep_clear(work, part)
         if not work.hulls[part]:
             continue
         joint = work.joints[part - 1]
@@ -139,12 +112,13 @@ def hang_panels(work: Workpiece) -> None:
 def make_body(work: Workpiece, part: int, most: int) -> None:
     """Pieces of the body, or of another part that nothing moves: walls around what is free."""
     points = surface_points(work, part)
-    points = points[~_in_free(work, points)]
+    points = points[~_in_free(work, points) & clear_of_bumps(work, part, points)]
     block_insides(work, part, points)
     blocked = work.blocked(part)
     solid = _cells(work, part, points) & (blocked == 0)
     matter = Matter(work.lattice, solid, work.whole, blocked, points)
     work.hulls[part] = reaching(matter, convex_pieces(matter, most))
+    keep_clear(work, part)
 
 
 def _cells(work: Workpiece, part: int, points: FloatArray) -> BoolArray:

@@ -15,10 +15,11 @@ from ...mesh import FloatArray
 from ...runtime.keys import Stage
 from ..decompose.convex import aspect
 from ..decompose.decompose import OBLONG_ASPECT, PartHulls
-from .body import hang_panels, make_body, make_bumps, make_rest, share_out
+from .body import hang_panels, make_body, make_rest, share_out
 from .carve import carve_panel, hollow_behind, make_slab, planes_of_panels
 from .clear import cleared
 from .frame import turned_hull, working_frame
+from .knobs import make_bumps, planes_of_bumps
 from .lattice import Lattice, enclosed
 from .panel import PanelKind
 from .recognize import cut_bases, recognize, recognize_bumps
@@ -29,7 +30,7 @@ from .work import Workpiece, host_of
 #: Its version is raised when the same skin would get other solids.
 SOLIDS = Stage(
     "solids",
-    version=2,
+    version=3,
     settings=("solids",),
     libraries=("numpy", "scipy", "manifold3d", "pillow"),
 )
@@ -105,7 +106,14 @@ def _prepared(
     hosts = {part: host_of(articulation, part) for part in bumps}
     skin = cut_bases(seen.skin, bumps, hosts)
     joints = list(articulation.joints)
-    planes = planes_of_panels(seen.panels, joints, config)
+    planes = [
+        of_panels + of_bumps
+        for of_panels, of_bumps in zip(
+            planes_of_panels(seen.panels, joints, config),
+            planes_of_bumps(bumps, joints),
+            strict=True,
+        )
+    ]
     lattice = Lattice.over(articulation.mesh.bounds, config.cells, planes)
     whole = enclosed(articulation.mesh, lattice)
     owner = np.where(whole, 0, -1).astype(np.int64)
@@ -130,12 +138,12 @@ def _made(work: Workpiece) -> None:
     share_out(work)
     for part in order:
         carve_panel(work, part)
+    make_bumps(work)
     for part in order:
         make_slab(work, part)
     if work.config.interior:
         for part in order:
             hollow_behind(work, part)
-    make_bumps(work)
     hang_panels(work)
     make_rest(work, work.config.most_pieces // 2)
     make_body(work, 0, work.config.most_pieces)

@@ -20,8 +20,6 @@ LEAST_LEFT = 0.35
 TURNS = 24
 #: Directions with a smaller cosine are across a joint.
 ACROSS = 0.25
-#: Share of its height that a button keeps above the way it is pressed.
-PRESSED = 0.2
 #: What turns further than this is round [rad].
 SPINNING = 3.5
 
@@ -35,7 +33,7 @@ class Bump:
         rule: ``cut_base``: cut flat before what it stands on; ``lathe``: what its skin sweeps about
             its axis.
         normal: outward direction of the base, shape [3]; ``None`` for what has none.
-        base: of the base along ``normal`` [m]; the hull of a button begins above it.
+        base: of the base along ``normal`` [m].
     """
 
     hull: Hull
@@ -55,11 +53,7 @@ def find_bump(points: FloatArray, rim: FloatArray, joint: Joint) -> Bump | None:
     Returns:
         ``None`` where it is none: it would not turn on the spot.
     """
-    options = [
-        cut
-        for cut in (_cut(points, rim, way, _pressed(joint, way)) for way in _ways(joint))
-        if cut is not None
-    ]
+    options = [cut for cut in (_cut(points, rim, way) for way in _ways(joint)) if cut is not None]
     if options:
         return max(options, key=lambda bump: bump.hull.volume)
     return _turned(points, joint) if joint.turns and joint.range > SPINNING else None
@@ -74,13 +68,7 @@ def _ways(joint: Joint) -> list[FloatArray]:
     return ways
 
 
-def _pressed(joint: Joint, way: FloatArray) -> float:
-    """How far a button is pressed into what it stands on [m]."""
-    inward = -float(joint.axis @ way) if joint.kind is JointKind.PRISMATIC else 0.0
-    return max(inward * joint.upper, 0.0)
-
-
-def _cut(points: FloatArray, rim: FloatArray, way: FloatArray, pressed: float) -> Bump | None:
+def _cut(points: FloatArray, rim: FloatArray, way: FloatArray) -> Bump | None:
     if len(rim) < 3:
         return None
     height = points @ way
@@ -88,13 +76,10 @@ def _cut(points: FloatArray, rim: FloatArray, way: FloatArray, pressed: float) -
     whole = float(np.ptp(height))
     if height.max() - base < max(LEAST_LEFT * whole, CLEAR_M):
         return None
-    room = float(height.max()) - base
-    # A button's pieces begin where its stem does not enter what it stands on.
-    foot_height = base + (pressed if pressed <= (1.0 - PRESSED) * room else 0.0)
-    above = points[height >= foot_height]
+    above = points[height >= base]
     # The section at the base is not known where the skin has no corners: the lowest ones stand in.
-    foot = points[(height < foot_height) & (height > base - 0.5 * whole)]
-    foot = foot + np.outer(foot_height - foot @ way, way)
+    foot = points[(height < base) & (height > base - 0.5 * whole)]
+    foot = foot + np.outer(base - foot @ way, way)
     hull = hull_of(np.concatenate([above, foot]))
     return None if hull is None else Bump(limit_vertices(hull, MOST_CORNERS), "cut_base", way, base)
 

@@ -10,13 +10,15 @@ from ...asset import Hull
 from ...config import SolidsConfig
 from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray
+from ..decompose.convex import depth_below
 from .box import Box
 from .cavity import hollow
 from .drawer import drawer_box
+from .knobs import clear_of_bumps, keep_clear
 from .lattice import closed_up, marked
 from .panel import FlatPanel, PanelKind
 from .pieces import INSIDE, PATH, Matter, convex_pieces
-from .reach import reaching
+from .reach import FAR_M, reaching
 from .slab import FLUSH_M, FrontRelief, handles, relief
 from .work import Workpiece
 
@@ -30,6 +32,9 @@ FILLED = 0.5
 #: What lies this close behind a panel's back is its own inner side [m].
 BEHIND_BACK_M = 0.05
 MOST_PIECES = 10
+MOST_FITTED = 12
+#: Share of a panel's surface behind its slab that is worth pieces of its own.
+BARE_SHARE = 0.1
 #: Points of a skin lie no further apart than this share of a cell.
 SPACING = 1.5
 
@@ -106,24 +111,42 @@ def make_slab(work: Workpiece, part: int) -> None:
     """A panel's pieces: its slab, hollowed where it is thick, and its handles."""
     panel = work.panels[part]
     frame = panel.side.frame
-    local = surface_points(work, part) @ frame.T
+    points = surface_points(work, part)
+    local = points[clear_of_bumps(work, part, points)] @ frame.T
     slab = panel.reach(-work.config.gap_m, panel.back)
-    local = local[slab.holds(local, 1e-9)]
+    within = slab.holds(local, 1e-9)
+    behind = local[~within]
+    local = local[within]
     face = relief(work.views[panel.side], panel)
     proud = handles(face, local)
     kept = local[face.above(local) < FLUSH_M]
     solid, whole = _behind_face(work, panel, face)
-    blocked = np.zeros(work.lattice.shape, dtype=np.uint8)
+    blocked = work.blocked(part)
     if work.config.interior:
         work.lids[part] = _lid_hollow(work, panel)
         for box in work.lids[part]:
-            blocked[work.lattice.span(box.turned(frame.T))] = INSIDE
+            work.block_box(part, box.turned(frame.T), INSIDE)
     for box in work.lids.get(part, ()):
         kept = kept[~box.holds(kept, -1e-9)]
     matter = Matter(work.lattice, solid & (blocked == 0), whole, blocked, kept @ frame)
     pieces = reaching(matter, convex_pieces(matter, MOST_PIECES))
     hulls = [*pieces, *(_turned(hull, frame) for hull in proud)]
+    hulls += _fitted(work, part, hulls, behind @ frame)
     work.hulls[part] = tuple(hulls)
+    keep_clear(work, part)
+
+
+def _fitted(work: Workpiece, part: int, hulls: list[Hull], points: FloatArray) -> tuple[Hull, ...]:
+    """Pieces of what is a panel's own behind its slab: shelves in a door, a knife's other side."""
+    if not len(points):
+        return ()
+    far = np.max([depth_below(hull, points) for hull in hulls], axis=0) < -FAR_M if hulls else None
+    bare = points if far is None else points[far]
+    if len(bare) < BARE_SHARE * len(surface_points(work, part)):
+        return ()
+    solid = marked(work.lattice, bare) & (work.blocked(part) == 0)
+    matter = Matter(work.lattice, solid, work.whole, work.blocked(part), bare)
+    return reaching(matter, convex_pieces(matter, MOST_FITTED))
 
 
 def _behind_face(

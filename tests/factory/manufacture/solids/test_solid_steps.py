@@ -8,9 +8,11 @@ from hypothesis import strategies as st
 from labelled_skins import SIZE, box_skin, chest, cupboard
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.config import SolidsConfig
 from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.solids.box import Box
+from asset_factory.factory.manufacture.solids.build import solids
 from asset_factory.factory.manufacture.solids.bump import CLEAR_M, find_bump
 from asset_factory.factory.manufacture.solids.cavity import hollow
 from asset_factory.factory.manufacture.solids.drawer import BOTTOM_M, HEIGHT, STOP_M, drawer_box
@@ -170,14 +172,27 @@ def test_a_knob_begins_clear_of_what_it_stands_on() -> None:
     assert bump.hull.volume == pytest.approx(np.pi * 0.02**2 * (0.03 - CLEAR_M), rel=0.02)
 
 
-def test_a_button_is_cut_as_far_as_it_is_pressed() -> None:
-    knob = trimesh.creation.cylinder(0.02, 0.03, sections=32)
-    points = np.asarray(knob.vertices) + np.array([0, 0, 0.015])
-    rim = points[points[:, 2] < 1e-6]
-    joint = Joint("press", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, 0], 0.0, 0.01)
-    bump = find_bump(points, rim, joint)
-    assert bump is not None
-    assert bump.hull.vertices[:, 2].min() == pytest.approx(CLEAR_M + 0.01)
+def test_a_button_keeps_its_height_and_its_host_a_pit_for_it() -> None:
+    vertices, faces = box_skin((0.4, 0.4, 0.4), 0.02)
+    button = (np.abs(vertices[:, :2]) < 0.05).all(axis=1) & (vertices[:, 2] > 0.39)
+    vertices = vertices + np.array([0.0, 0.0, 0.04]) * button[:, None]
+    raised = button[faces].any(axis=1)
+    joint = Joint("press", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, 0], 0.0, 0.02)
+    articulation = Articulation(
+        Mesh.from_triangles(vertices, faces),
+        (Part("body", np.flatnonzero(~raised)), Part("button", np.flatnonzero(raised))),
+        (joint,),
+        "test",
+    )
+    made = solids(articulation, SolidsConfig())
+    body, pressed = made.pieces
+    assert body is not None
+    assert pressed is not None
+    (hull,) = pressed.hulls
+    assert np.ptp(hull.vertices[:, 2]) == pytest.approx(0.04 - CLEAR_M, abs=1e-3)
+    way = hull.vertices - np.array([0.0, 0.0, 0.02])
+    assert max(depth_below(each, way).max() for each in body.hulls) < -0.002
+    assert sum(each.volume for each in body.hulls) > 0.9 * 0.4**3
 
 
 def test_half_a_wheel_is_turned_into_a_whole_one() -> None:

@@ -1,0 +1,128 @@
+"""Knobs, buttons and wheels, and the room that what holds them keeps free for them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...articulation import Joint, JointKind
+from ...asset import Hull
+from ...geometry.crossings import BoolArray
+from ...mesh import FloatArray
+from ..decompose.convex import depth_below, hull_of
+from ..separate.carve import carved
+from ..separate.clip import PlanedHull, clipped, meeting
+from .box import Box
+from .bump import Bump
+from .pieces import PATH
+from .sweep import entered, motions
+from .work import Workpiece
+
+#: Around what turns or slides within its host, before the exact cut [m].
+CLEAR_M = 0.003
+#: Thickness of the layer of cells at the foot of a knob [m].
+LAYER_M = 0.006
+#: Poses along the way of a button.
+PRESSES = 8
+#: A piece of which one plane leaves this share is not worth several.
+WELL_LEFT = 0.98
+
+
+def planes_of_bumps(bumps: dict[int, Bump], joints: list[Joint]) -> list[list[float]]:
+    """Where the lattice must have planes for rooms to end by knobs and buttons [m], per axis."""
+    planes: list[list[float]] = [[], [], []]
+    for part, bump in bumps.items():
+        room = _box(_passed(bump, joints[part - 1]))
+        foot = () if bump.normal is None else (bump.base, bump.base + LAYER_M)
+        across = -1 if bump.normal is None else int(np.abs(bump.normal).argmax())
+        for axis in range(3):
+            ends = [float(room.low[axis]), float(room.high[axis])]
+            if bump.normal is not None and axis == across:
+                # Pieces that end a little too high are seen to enter a thin layer at its foot; a
+                # thin one below would be a foil of its own.
+                at = [height * float(np.sign(bump.normal[axis])) for height in foot]
+                ends = [*at, *(end for end in ends if abs(end - at[0]) > LAYER_M)]
+            planes[axis] += ends
+    return planes
+
+
+def make_bumps(work: Workpiece) -> None:
+    """Knobs, buttons and wheels as one hull each, with room in what holds them."""
+    for part, bump in work.bumps.items():
+        work.hulls[part] = (bump.hull,)
+        host = work.host(part)
+        if bump.normal is not None:
+            _free_above(work, host, bump)
+        inside = entered(work.lattice, [bump.hull], _way(work.joints[part - 1]), CLEAR_M)
+        work.block(host, inside, PATH)
+        work.owner[inside & (work.owner == host)] = -1
+
+
+def _way(joint: Joint) -> list[FloatArray]:
+    """Where a knob or a button is, at rest and as it is pressed; it turns on the spot."""
+    slides = joint.kind is JointKind.PRISMATIC
+    return [np.eye(4), *motions(joint, PRESSES)] if slides else [np.eye(4)]
+
+
+def _passed(bump: Bump, joint: Joint) -> FloatArray:
+    """Its corners all along its way [m], shape [n, 3]."""
+    corners = bump.hull.vertices
+    return np.concatenate([corners @ pose[:3, :3].T + pose[:3, 3] for pose in _way(joint)])
+
+
+def _box(points: FloatArray) -> Box:
+    return Box(points.min(axis=0), points.max(axis=0)).grown(CLEAR_M)
+
+
+def _free_above(work: Workpiece, host: int, bump: Bump) -> None:
+    """What the skin has around a knob above its base is no part of what it stands on."""
+    if bump.normal is None:
+        return
+    around = work.lattice.span(_box(bump.hull.vertices))
+    heights = sum(
+        (bump.normal[axis] * work.lattice.middles[axis][around[axis]]).reshape(
+            [-1 if axis == other else 1 for other in range(3)]
+        )
+        for axis in range(3)
+    )
+    owner = work.owner[around]
+    work.owner[around] = np.where((heights > bump.base) & (owner == host), -1, owner)
+
+
+def clear_of_bumps(work: Workpiece, host: int, points: FloatArray) -> BoolArray:
+    """Which points of a host's skin [m] lie clear of the way of all knobs on it, shape [n]."""
+    clear = np.ones(len(points), dtype=bool)
+    for part, bump in work.bumps.items():
+        if work.host(part) != host:
+            continue
+        for pose in _way(work.joints[part - 1]):
+            clear &= depth_below(bump.hull, (points - pose[:3, 3]) @ pose[:3, :3]) < -CLEAR_M
+    return clear
+
+
+def keep_clear(work: Workpiece, host: int) -> None:
+    """Cut the pieces of what holds knobs where these pass; the knobs stay whole."""
+    for part, bump in work.bumps.items():
+        if work.host(part) == host:
+            passed = _passed(bump, work.joints[part - 1])
+            pieces = (_around(hull, passed) for hull in work.hulls.get(host, ()))
+            work.hulls[host] = tuple(piece for some in pieces for piece in some)
+
+
+def _around(hull: Hull, passed: FloatArray) -> list[Hull]:
+    """What is left of a hull: cut by one plane where that takes little, else several pieces."""
+    room = hull_of(passed)
+    solid = PlanedHull.of(hull)
+    met = None if room is None else meeting(solid, PlanedHull.of(room), np.eye(4))
+    if met is None or met.depth <= -CLEAR_M:
+        return [hull]
+    cuts = [
+        clipped(hull, direction, float(start) - CLEAR_M)
+        for direction, start in zip(met.directions, met.second_starts, strict=True)
+    ]
+    best = max((cut for cut in cuts if cut), key=lambda cut: cut.volume, default=None)
+    if best is not None and best.volume >= WELL_LEFT * hull.volume:
+        return [best]
+    pieces = [piece.hull for piece in carved(solid, passed, CLEAR_M)]
+    if best is not None and sum(piece.volume for piece in pieces) < best.volume:
+        return [best]
+    return pieces
