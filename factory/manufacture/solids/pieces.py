@@ -41,6 +41,11 @@ TRIED_DIRECTIONS = 40
 #: sample of them.
 EXACT_BELOW = 8000
 SAMPLE = 6000
+#: A sheet is made so thick [m] if it is flatter than this share of its width, and no sliver of
+#: fewer cells.
+FOIL_M = 0.003
+FLAT = 1e-3
+FOIL_CELLS = 2.0
 #: Corners of a hull that engines on the GPU take.
 MOST_CORNERS = 64
 
@@ -75,6 +80,11 @@ class Matter:
         ]
         first = np.unique(np.column_stack(cells), axis=0, return_index=True)[1]
         return self.points[first]
+
+    @cached_property
+    def step(self) -> float:
+        """Length of most cells' sides [m]."""
+        return float(max(np.median(np.diff(line)) for line in self.lattice.lines))
 
     @cached_property
     def trifle(self) -> float:
@@ -170,8 +180,29 @@ def _node(matter: Matter, span: Span) -> _Node | None:
     corners = _corners(matter, trimmed)
     box = _box(matter.lattice, trimmed)
     surface = matter.points[box.holds(matter.points, 1e-9)]
-    hull = hull_of(_extreme(np.concatenate([corners, surface]), DIRECTIONS))
-    return None if hull is None else _Node(trimmed, hull, _waste(matter, trimmed, hull))
+    outermost = _extreme(np.concatenate([corners, surface]), DIRECTIONS)
+    hull = hull_of(outermost)
+    hulls = _foils(matter, outermost) if hull is None else [hull]
+    wastes = [_waste(matter, trimmed, each) for each in hulls]
+    return _Node(trimmed, *min(zip(hulls, wastes, strict=True), key=_second)) if hulls else None
+
+
+def _second(pair: tuple[Hull, float]) -> float:
+    return pair[1]
+
+
+def _foils(matter: Matter, points: FloatArray) -> list[Hull]:
+    """What is flat, given thickness to either side: a wall that is modelled as one sheet."""
+    if len(points) < 3:
+        return []
+    _, spread, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
+    wide = np.ptp(points @ axes.T, axis=0)[1]
+    if spread[2] > FLAT * spread[1] or wide < FOIL_CELLS * matter.step:
+        return []
+    foils = (
+        hull_of(np.concatenate([points, points + side * FOIL_M * axes[2]])) for side in (-1.0, 1.0)
+    )
+    return [foil for foil in foils if foil is not None]
 
 
 def _trimmed(solid: BoolArray, span: Span) -> Span | None:

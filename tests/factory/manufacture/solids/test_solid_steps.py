@@ -19,7 +19,7 @@ from asset_factory.factory.manufacture.solids.drawer import BOTTOM_M, HEIGHT, ST
 from asset_factory.factory.manufacture.solids.drawer import CLEAR_M as DRAWER_CLEAR_M
 from asset_factory.factory.manufacture.solids.frame import working_frame
 from asset_factory.factory.manufacture.solids.lattice import Lattice, enclosed
-from asset_factory.factory.manufacture.solids.pieces import PATH, Matter, convex_pieces
+from asset_factory.factory.manufacture.solids.pieces import FOIL_M, PATH, Matter, convex_pieces
 from asset_factory.factory.manufacture.solids.seam import CutSkin, cut
 from asset_factory.factory.manufacture.solids.skin import skin_parts
 from asset_factory.factory.manufacture.solids.surfaces import boundary, inside_of, outside_of, plate
@@ -158,6 +158,19 @@ def test_pieces_of_a_box_around_a_hollow_are_its_walls_exactly() -> None:
     centers = cells.centers(np.argwhere(free > 0))
     for hull in hulls:
         assert depth_below(hull, centers).max() < 1e-3
+
+
+def test_a_wall_that_is_a_single_sheet_becomes_a_thin_piece() -> None:
+    cells = lattice()
+    solid = np.zeros(cells.shape, dtype=bool)
+    solid[10, 2:18, 2:18] = True
+    y, z = np.meshgrid(np.linspace(0.1, 0.9, 30), np.linspace(0.1, 0.9, 30))
+    sheet = np.column_stack([np.full(y.size, 0.52), y.ravel(), z.ravel()])
+    nothing = np.zeros(cells.shape, dtype=bool)
+    matter = Matter(cells, solid, nothing, nothing.astype(np.uint8), sheet)
+    (wall,) = convex_pieces(matter, 10)
+    assert depth_below(wall, sheet).min() > -1e-6
+    assert wall.volume == pytest.approx(0.8 * 0.8 * FOIL_M, rel=1e-3)
 
 
 def test_a_knob_begins_clear_of_what_it_stands_on() -> None:
