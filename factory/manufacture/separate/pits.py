@@ -18,11 +18,13 @@ from ...mesh import FloatArray
 from ..decompose.convex import hull_of
 from ..decompose.solids import manifold_of_hull, union
 from .along import near_pairs
-from .carve import SPLINTER_SHARE, carved
+from .carve import carved
 from .clip import PlanedHull, clipped, meeting
 
 #: Most pieces that are kept of one hull around a pit: a floor and walls around what is round.
 MOST_WALLS = 10
+#: Pieces of less than this share of what a pit takes are left out.
+WALL_SHARE = 0.001
 #: What turns may need so many times the room that it takes where it is modelled: a square stem.
 TURNED_ROOM = 2.0
 
@@ -161,7 +163,7 @@ def _around(piece: PlanedHull, room: Hull, clearance_m: float) -> list[PlanedHul
     low = room.vertices.min(axis=0) - clearance_m
     size = room.vertices.max(axis=0) + clearance_m - low
     shared = manifold_of_hull(piece.hull) ^ Manifold.cube(size).translate(low)
-    least = SPLINTER_SHARE * float(shared.volume())
+    least = WALL_SHARE * float(shared.volume())
     return carved(piece, room.vertices, clearance_m, MOST_WALLS, least)
 
 

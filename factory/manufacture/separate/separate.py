@@ -355,12 +355,14 @@ class _Bench:
         for part, name, each in zip((a, b), names, losses, strict=True):
             # An open surface has no volume to speak of: the slabs over it come and go whole.
             planed = each.deepest_m > config.visible_m and self.solids[part] is not None
-            most = config.planed_volume if planed else at_most or config.most_cut
-            if each.share > most:
-                return (
-                    f"cutting them apart would take {each.share:.0%} of {name!r}; "
-                    f"at most {most:.0%} may go"
-                )
+            limits = [(each.share, at_most or config.most_cut)]
+            limits += [(each.open_share, config.planed_volume)] if planed else []
+            for share, most in limits:
+                if share > most:
+                    return (
+                        f"cutting them apart would take {share:.0%} of {name!r}; "
+                        f"at most {most:.0%} may go"
+                    )
             if each.area > config.planed_area:
                 return (
                     f"cutting them apart would bare {each.area:.0%} of the surface of {name!r}; "
