@@ -60,14 +60,33 @@ class Pit:
         poses: Sequence[FloatArray],
         clearance_m: float,
     ) -> list[Hull]:
-        pieces = [PlanedHull.of(hull) for hull in holder]
-        near = _met(pieces, mover, poses, clearance_m)
-        groups = [near] if self.at_once else [[hull] for hull in near]
-        rooms = [_room(group, poses) for group in groups if group]
-        for room in rooms:
-            if room is not None:
-                pieces = [left for piece in pieces for left in _around(piece, room, clearance_m)]
-        return [piece.hull for piece in pieces]
+        near = _met(holder, mover, poses, clearance_m)
+        left = list(holder)
+        for group in [near] if self.at_once else [[hull] for hull in near]:
+            points = np.concatenate([hull.vertices for hull in group] or [np.zeros((0, 3))])
+            body = hull_of(points)
+            if body is not None:
+                left = dug_around(left, body, poses, clearance_m)
+        return left
+
+
+def dug_around(
+    holder: Sequence[Hull], body: Hull, poses: Sequence[FloatArray], clearance_m: float
+) -> list[Hull]:
+    """What is left of hulls around all the room that a convex body takes.
+
+    Args:
+        holder: hulls, object frame at rest.
+        body: that moves in them.
+        poses: of the body as seen from them, [4, 4] each.
+        clearance_m: to be left around it [m].
+    """
+    room = _room([body], poses)
+    if room is None:
+        return list(holder)
+    return [
+        piece.hull for hull in holder for piece in _around(PlanedHull.of(hull), room, clearance_m)
+    ]
 
 
 def swept_share(
@@ -142,9 +161,10 @@ def _before(
 
 
 def _met(
-    pieces: list[PlanedHull], mover: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
+    holder: Sequence[Hull], mover: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
 ) -> list[Hull]:
     """Hulls of the mover that come near the holder anywhere on their way."""
+    pieces = [PlanedHull.of(hull) for hull in holder]
     solids = [PlanedHull.of(hull) for hull in mover]
     met = {j for pose in poses for _, j in near_pairs(pieces, solids, pose, clearance_m)}
     return [mover[j] for j in sorted(met)]

@@ -202,7 +202,7 @@ class _Bench:
         if any(joint.turns for joint in between):
             if swept_share(*self._sides(a, b), way) > TURNED_ROOM:
                 return False
-        elif min(self._standing_out(a, b)) < 0.0:
+        elif min(self._standing_out(a, b)) < -self.config.tolerance_m:
             return False
         return any(
             self._cut_along(pair, poses, Pit(holder, at_once), self.config.planed_volume) is None
@@ -336,7 +336,7 @@ class _Bench:
             return 0.0
         travel = between[0].range
         (spare,) = self._standing_out(a, b)
-        return travel if travel <= PRESSED_M or 0.0 <= spare < np.inf else 0.0
+        return travel if travel <= PRESSED_M or -self.config.tolerance_m <= spare < np.inf else 0.0
 
     def _overdone(self, a: int, b: int, losses: list[Loss], at_most: float | None) -> str | None:
         """Why a cut takes too much, or what can be seen; ``None`` if it does neither."""
