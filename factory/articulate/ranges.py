@@ -12,6 +12,8 @@ from ..mesh import FloatArray, Mesh
 from .draft import Draft
 
 TURN = 2.0 * np.pi
+#: Limits may not lie further from zero than this [rad]: engines stop a little beyond.
+MOST_TURN = TURN - 0.02
 #: A range below this is no motion [rad] or [m].
 NO_RANGE = 1e-6
 #: Zero within this share of the range from an end counts as at that end.
@@ -70,6 +72,13 @@ def sound_limits(
         return JointKind.CONTINUOUS, -np.pi, np.pi, notes
     if known is JointKind.REVOLUTE and upper - lower > TURN * (1.0 + 1e-6):
         notes.append(f"joint {name!r}: turns by {upper - lower:.4g} rad in all, over a full turn")
+    if known is JointKind.REVOLUTE and max(-lower, upper) > MOST_TURN:
+        lower = max(lower, -MOST_TURN)
+        upper = min(upper, MOST_TURN)
+        notes.append(
+            f"joint {name!r}: ends at [{lower:.6g}, {upper:.6g}] rad: PhysX counts a full turn on "
+            "from the other side, and whoever pushes against a limit there passes it"
+        )
     return known, float(lower), float(upper), notes
 
 

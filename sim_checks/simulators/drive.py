@@ -20,6 +20,11 @@ FRICTION_LAG = 0.01
 #: An inertia that is no inertia must not make the hand a giant's; no lever of furniture is longer
 #: [m].
 LONGEST_ARM_M = 1.0
+#: What rides on a driven part, this far from its axis [m], may lag by this share of its range; no
+#: stiffer than lets an engine's steps follow.
+RIDING_ARM_M = 2.0
+RIDING_SHARE = 0.02
+RIDING_STEP = 0.3
 #: How often the joints that make way are added to, because another link stands behind them.
 WIDENED = 3
 
@@ -144,7 +149,8 @@ def drive(
 
     It follows a smooth ramp. The force is a mass-scaled pull towards the ramp, clipped to a hand's
     strength, on top of what balances gravity and the file's own damping and friction. The other
-    joints are held the same way, but softly: those in ``opened`` at upper, the rest at lower.
+    joints are held the same way, but softly: those in ``opened`` at upper, the rest at lower. What
+    rides on the part that is driven, a button on a door, is held so that the ride does not move it.
     """
     start = span.lower.copy()
     together = sorted(CLOSED.union(*(companions(world, other) for other in opened)))
@@ -206,7 +212,16 @@ class _Law:
 
 def _law(world: World, index: int, span: Ranges, config: MotionConfig) -> _Law:
     inertia = world.inertias()
+    acceleration = 0.5 * span.size * (math.pi / config.ramp_s) ** 2
     frequency = np.full(len(inertia), config.hold_frequency)
+    felt = {
+        other: float(acceleration[index]) * _arm(world, other)
+        for other, carried in enumerate(world.carried)
+        if carried < world.carried[index] and span.size[other] > 0.0
+    }
+    for other, most in felt.items():
+        stiff = math.sqrt(most / (RIDING_SHARE * float(span.size[other])))
+        frequency[other] = max(frequency[other], min(stiff, RIDING_STEP / world.time_step))
     frequency[index] = config.drive_frequency
     damping = np.array([joint.damping or 0.0 for joint in world.joints])
     friction = np.array([joint.friction or 0.0 for joint in world.joints])
@@ -214,13 +229,15 @@ def _law(world: World, index: int, span: Ranges, config: MotionConfig) -> _Law:
     arm = np.where(swings, np.sqrt(inertia / np.maximum(carried_masses(world), 1e-12)), 1.0)
     arm = np.minimum(arm, LONGEST_ARM_M)
     speed = 0.5 * math.pi * span.size / config.ramp_s
-    acceleration = speed * math.pi / config.ramp_s
     bound = (
         config.hand_force_n * arm
         + config.inertia_margin * inertia * acceleration
         + damping * speed
         + friction
     )
+    for other, most in felt.items():
+        # Enough for the ride, so that what presses it still moves it.
+        bound[other] = config.inertia_margin * inertia[other] * most + friction[other]
     # What must move along is not held back.
     bound[sorted(companions(world, index) - {index})] = 0.0
     return _Law(
@@ -232,6 +249,11 @@ def _law(world: World, index: int, span: Ranges, config: MotionConfig) -> _Law:
         FRICTION_LAG * span.size + 1e-6,
         bound,
     )
+
+
+def _arm(world: World, other: int) -> float:
+    """What a joint feels of an acceleration that it rides on: a slide the arm to its axis [m]."""
+    return RIDING_ARM_M if world.joints[other].kind == "prismatic" else 1.0
 
 
 def _times(config: MotionConfig, time_step: float) -> list[float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import tempfile
 import warnings
 from collections.abc import Iterator, Mapping
@@ -17,6 +18,11 @@ from .twin import write_twin
 
 GRAVITY = 9.81
 KINDS = {"revolute_unwrapped": "revolute", "revolute": "continuous", "prismatic": "prismatic"}
+
+#: PhysX keeps angles between minus and plus one turn: beyond one end they go on at the other [rad].
+WINDING = 4.0 * math.pi
+#: No joint turns as far in one step [rad].
+JUMP = 2.0 * math.pi
 
 
 class SapienSimulator:
@@ -88,6 +94,8 @@ class SapienWorld:
         self.time_step = float(scene.physx_system.timestep)
         self.carried = tuple(frozenset(_names(joint.child_link)) for joint in self._active)
         self._falls = True
+        self._endless = np.array([joint.kind == "continuous" for joint in model.joints])
+        self._wound = np.zeros(self._dof)
         if articulation is not None:
             self._dynamics = articulation.create_pinocchio_model()
             # What sleeps does not show that it would still creep.
@@ -106,9 +114,13 @@ class SapienWorld:
         if self._articulation is not None:
             self._articulation.set_qpos(np.asarray(positions, np.float32))
             self._articulation.set_qvel(np.zeros(self._dof, np.float32))
+            self._wound[:] = 0.0
 
     def positions(self) -> FloatArray:
-        """[rad] or [m], shape [joint_count]."""
+        """[rad] or [m], shape [joint_count]; what has no limits goes on after a turn."""
+        return self._read() + self._wound
+
+    def _read(self) -> FloatArray:
         return _vector(self._articulation.qpos) if self._articulation is not None else np.zeros(0)
 
     def velocities(self) -> FloatArray:
@@ -145,9 +157,12 @@ class SapienWorld:
 
     def step(self, forces: FloatArray) -> None:
         """One time step with these joint forces."""
+        before = self._read()
         if self._articulation is not None:
             self._articulation.set_qf(np.asarray(forces, np.float32))
         self._scene.step()
+        jump = self._read() - before
+        self._wound -= np.where(self._endless & (np.abs(jump) > JUMP), np.sign(jump) * WINDING, 0.0)
 
     def contacts(self) -> dict[tuple[str, str], Touch]:
         """Which links touched in the last step."""

@@ -119,12 +119,17 @@ def carved_apart_along(
     ]
 
 
-def hull_depth(a: Sequence[Hull], b: Sequence[Hull], pose: FloatArray) -> float:
-    """How deep the deepest two hulls of two parts lie in one another [m]; 0 if none do."""
+def hull_depth(
+    a: Sequence[Hull], b: Sequence[Hull], pose: FloatArray, margin: float = 0.0
+) -> float:
+    """How deep the deepest two hulls of two parts lie in one another [m].
+
+    Gaps up to ``margin`` are negative depths; where all hulls are further apart, minus that.
+    """
     solids_a = [PlanedHull.of(hull) for hull in a]
     solids_b = [PlanedHull.of(hull) for hull in b]
-    near = near_pairs(solids_a, solids_b, pose, 0.0)
-    return max([0.0, *(meeting(solids_a[i], solids_b[j], pose).depth for i, j in near)])
+    near = near_pairs(solids_a, solids_b, pose, margin)
+    return max([-margin, *(meeting(solids_a[i], solids_b[j], pose).depth for i, j in near)])
 
 
 def _all_apart(

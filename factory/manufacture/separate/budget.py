@@ -83,6 +83,7 @@ class Loss:
         share: of its collision volume.
         open_share: the same without what lay hidden in the part that holds it.
         area: share of its visible surface that is neither hidden nor covered any more.
+        bare_area: share of it that is not covered any more, hidden or not.
         bared_m: deepest that its visible surface lies bare where nothing excuses it [m].
         planed_m: the same beside a hinge, or in a part that no joint holds it in [m].
     """
@@ -90,6 +91,7 @@ class Loss:
     share: float
     open_share: float
     area: float
+    bare_area: float
     bared_m: float
     planed_m: float
 
@@ -116,7 +118,7 @@ def loss(
         config: what is near, and what is told.
     """
     if not after:
-        return Loss(1.0, 1.0, 1.0, np.inf, np.inf)
+        return Loss(1.0, 1.0, 1.0, 1.0, np.inf, np.inf)
     whole = sum(hull.volume for hull in before)
     share = 1.0 - sum(hull.volume for hull in after) / whole
     open_share = share
@@ -134,11 +136,13 @@ def loss(
     hidden = within & excuse.held
     planed = ~hidden & (within | _beside(points, excuse.hinges, config.hinge_m))
     free = ~hidden & ~planed
-    lost = ~hidden & (bare > config.visible_m) & (looked < surface.spread)
+    bared = (bare > config.visible_m) & (looked < surface.spread)
+    lost = ~hidden & bared
     return Loss(
         share,
         max(0.0, open_share),
         float(lost.sum()) / surface.spread,
+        float(bared.sum()) / surface.spread,
         float(bare[free].max(initial=0.0)),
         float(bare[planed].max(initial=0.0)),
     )

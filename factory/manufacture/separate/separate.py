@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 
@@ -20,69 +20,25 @@ from ..poses import held_by, jointed, joints_between, relative_poses
 from .along import carved_apart_along, cut_apart_along, hull_depth
 from .budget import Excuse, Loss, SeenSurface, loss
 from .hung import at_an_edge, planed_limit, well_hung
+from .outcome import Pair, Planed, Separation, SeparationRefusal
 from .overlap import overlap, part_solids
 from .pits import TURNED_ROOM, Pit, stands_out_m, swept_share
 
-Pair = tuple[str, str]
 #: See :func:`cut_apart_along`.
-Cut = Callable[..., tuple[list[Hull], list[Hull]]]
+Sides = tuple[list[Hull], list[Hull]]
+Cut = Callable[..., Sides]
 
 #: Hulls that get so much deeper along a joint are in each other's way, however fat they are [m].
 HOPELESS_M = 0.06
 #: A slide no longer than this is a button, which is pressed into what it stands on [m].
 PRESSED_M = 0.012
-
-
-@dataclass(frozen=True)
-class SeparationRefusal:
-    """Why the hulls of two parts were not cut apart on all of their way.
-
-    Attributes:
-        reason: a sentence with the number in it.
-        meshes: True where the parts' own solids are at fault; False where it may be their hulls
-            only.
-        at_rest: they were cut apart where they are at rest, only not along the way.
-    """
-
-    reason: str
-    meshes: bool
-    at_rest: bool = False
-
-
-@dataclass(frozen=True)
-class Planed:
-    """What was taken off a part that can be seen.
-
-    Attributes:
-        part: its name.
-        depth_m: deepest [m].
-        share: of its collision volume.
-        area: of its visible surface.
-    """
-
-    part: str
-    depth_m: float
-    share: float
-    area: float
-
-
-@dataclass(frozen=True)
-class Separation:
-    """What came of cutting.
-
-    Attributes:
-        pieces: one per part, in their order.
-        refused: pair of part names -> why its hulls were not cut apart on all of their way.
-        hidden: pair of part names -> how deep the parts themselves overlap at rest [m],
-            where that is more than decomposition explains and what is hidden was taken out of the
-            collision geometry.
-        planed: pair of part names -> what was taken off where it can be seen.
-    """
-
-    pieces: tuple[PartHulls, ...]
-    refused: Mapping[Pair, SeparationRefusal] = field(default_factory=dict)
-    hidden: Mapping[Pair, float] = field(default_factory=dict)
-    planed: Mapping[Pair, tuple[Planed, ...]] = field(default_factory=dict)
+#: A part of whose surface a cut would bare more than this is kept whole in a socket, of so many
+#: pieces more at most and so little of what is seen around it.
+SOCKET_SHARE = 0.05
+SOCKET_PIECES = 24
+SOCKET_RIM = 0.01
+#: What is nearer than the clearance by less is so by rounding [m].
+ROUNDING_M = 1e-5
 
 
 def separate(
@@ -107,6 +63,9 @@ def separate(
         return Separation(pieces)
     bench = _Bench(articulation, [list(piece.hulls) for piece in pieces], config)
     for pair in wanted:
+        bench.cut(pair)
+    # A sheet between two others that made way for the second may have come too near to the first.
+    for pair in filter(bench.nears, wanted):
         bench.cut(pair)
     after = tuple(
         _with_hulls(piece, tuple(kept), max_vertices)
@@ -186,28 +145,42 @@ class _Bench:
         if cut and at_rest > self.config.tolerance_m:
             self.hidden[pair] = at_rest
 
+    def nears(self, pair: Pair) -> bool:
+        """Whether two parts that were cut apart are nearer at rest than they may be."""
+        if pair in self.refused:
+            return False
+        a, b = (self._index(name) for name in pair)
+        least = self.config.clearance_m
+        poses = relative_poses(self.articulation, a, b, self.config.poses)[:2]
+        hulls = self.hulls[a], self.hulls[b]
+        return max(hull_depth(*hulls, pose, least) for pose in poses) > ROUNDING_M - least
+
     def _carved_by_share(self, a: int, b: int) -> Cut:
         """Carving that takes as small a share of either part as can be: a pit behind a button."""
         whole_a, whole_b = (sum(h.volume for h in self.hulls[part]) for part in (a, b))
         return partial(carved_apart_along, whole=(whole_a, whole_b))
 
     def _dug(self, pair: Pair, poses: list[FloatArray]) -> bool:
-        """Dig a pit for what turns in its own place, or slides no deeper than it stands out."""
+        """Dig a pit, if that takes no more than may."""
         a, b = (self._index(name) for name in pair)
+        most = self.config.planed_volume
+        return any(
+            self._cut_along(pair, poses, pit, most) is None for pit in self._pits(a, b, poses)
+        )
+
+    def _pits(self, a: int, b: int, poses: list[FloatArray]) -> list[Pit]:
+        """Pits for what turns in its own place, or slides no deeper than it stands out."""
         between = joints_between(self.articulation, a, b)
         if not jointed(self.articulation, a, b) or not self._well_hung(between):
-            return False
+            return []
         holder = self._holder(a, b)
         way = poses if holder == 0 else [np.asarray(np.linalg.inv(pose)) for pose in poses]
         if any(joint.turns for joint in between):
             if swept_share(*self._sides(a, b), way) > TURNED_ROOM:
-                return False
+                return []
         elif min(self._standing_out(a, b)) < -self.config.tolerance_m:
-            return False
-        return any(
-            self._cut_along(pair, poses, Pit(holder, at_once), self.config.planed_volume) is None
-            for at_once in (True, False)
-        )
+            return []
+        return [Pit(holder, at_once) for at_once in (True, False)]
 
     def _holder(self, a: int, b: int) -> int:
         """Which of two parts holds the other, 0 for the first."""
@@ -234,6 +207,10 @@ class _Bench:
         reason = self._overdone(a, b, losses, most)
         if reason is not None:
             return reason
+        if max(each.bare_area for each in losses) > SOCKET_SHARE and jointed(
+            self.articulation, a, b
+        ):
+            after, losses = self._socketed(a, b, poses, (after, losses))
         self.hulls[a], self.hulls[b] = after
         planed = tuple(
             Planed(name, each.deepest_m, each.share, each.area)
@@ -243,6 +220,25 @@ class _Bench:
         if planed:
             self.planed[pair] = planed
         return None
+
+    def _socketed(
+        self, a: int, b: int, poses: list[FloatArray], planed: tuple[Sides, list[Loss]]
+    ) -> tuple[Sides, list[Loss]]:
+        """A stem kept whole in a socket where planes would take it off, if that takes few pieces.
+
+        Planes had little enough to take for the joint to be sound; of what the socket takes only
+        its rim is looked at.
+        """
+        before = self.hulls[a], self.hulls[b]
+        after = self._carved_by_share(a, b)(*before, poses, self.config.clearance_m)
+        losses = self._losses(a, b, before, after)
+        more = sum(map(len, after)) - sum(map(len, before))
+        kept = max(each.bare_area for each in losses) <= SOCKET_SHARE
+        rim = max(each.area for each in losses) <= SOCKET_RIM
+        deep = max(each.deepest_m for each in losses) > self.config.planed_m
+        if more > SOCKET_PIECES or deep or not (kept and rim):
+            return planed
+        return after, losses
 
     def _index(self, name: str) -> int:
         return next(i for i, part in enumerate(self.articulation.parts) if part.name == name)

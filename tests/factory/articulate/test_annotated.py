@@ -169,6 +169,7 @@ def test_posing_turns_the_axes_of_what_is_carried() -> None:
         (np.nan, 1.0, JointKind.CONTINUOUS, "has no limits"),
         (0.0, 100.0, JointKind.CONTINUOUS, "over a full turn"),
         (-4.0, 4.0, JointKind.REVOLUTE, "over a full turn"),
+        (0.0, 2.0 * np.pi, JointKind.REVOLUTE, "PhysX counts a full turn"),
         (1.0, 0.0, JointKind.REVOLUTE, "swapped"),
         (-1.0, 1.0, JointKind.REVOLUTE, "inside"),
     ],

@@ -67,17 +67,34 @@ def test_hulls_that_are_apart_are_not_touched():
     assert all(a is b for a, b in zip(after, pieces, strict=True))
 
 
-def test_a_stem_loses_what_is_hidden_in_its_socket_and_the_depth_is_told():
-    # A stem of 20 mm reaches 30 mm into a block.
-    stem = ((0.02, 0.02, 0.2), (0, 0, 0.12))
+def stem_in_a_block(sunk):
+    """A stem of 20 mm, 200 mm long, that turns in a block it reaches into."""
+    stem = ((0.02, 0.02, 0.2), (0, 0, 0.15 - sunk))
     turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
     tree = object_of(((0.3, 0.3, 0.1), (0, 0, 0)), stem, turn)
-    result = separate(
-        tree, pieces_of(hull((0.3, 0.3, 0.1)), hull(*stem)), [("base", "mover")], CONFIG, 64
-    )
-    assert result.hidden[("base", "mover")] == pytest.approx(0.02, abs=0.011)
+    pieces = pieces_of(hull((0.3, 0.3, 0.1)), hull(*stem))
+    return separate(tree, pieces, [("base", "mover")], CONFIG, 64)
+
+
+def test_a_stem_loses_the_little_that_is_hidden_in_its_socket_and_the_depth_is_told():
+    result = stem_in_a_block(sunk=0.006)
+    assert result.hidden[("base", "mover")] == pytest.approx(0.006, abs=0.002)
     assert result.pieces[0].hulls[0].volume == pytest.approx(0.009, rel=1e-6)
     assert gap(result) >= CONFIG.clearance_m - 1e-9
+
+
+def test_a_stem_of_which_much_is_hidden_is_kept_whole_in_a_socket():
+    result = stem_in_a_block(sunk=0.03)
+    (stem,) = result.pieces[1].hulls
+    assert stem.volume == pytest.approx(0.02 * 0.02 * 0.2, rel=1e-6)
+    around = [PlanedHull.of(one) for one in result.pieces[0].hulls]
+    for angle in np.linspace(0.0, 1.0, 9):
+        pose = np.eye(4)
+        pose[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+        depths = [meeting(one, PlanedHull.of(stem), pose).depth for one in around]
+        assert max(depths) <= -CONFIG.clearance_m + 1e-4
+    socket = 0.009 - sum(one.volume for one in result.pieces[0].hulls)
+    assert 0.02 * 0.02 * 0.03 < socket < 0.05 * 0.05 * 0.05
 
 
 def test_parts_that_get_deeper_along_the_joint_are_left_alone():

@@ -67,6 +67,21 @@ def written(folder: Path, text: str, name: str = "object.urdf") -> Path:
 
 
 @pytest.mark.parametrize("engine", ENGINES)
+def test_what_has_no_limits_turns_on_after_a_whole_turn(tmp_path: Path, engine: str) -> None:
+    spinner = PENDULUM.replace('type="revolute"', 'type="continuous"').replace(
+        'axis xyz="0 1 0"', 'axis xyz="0 0 1"'
+    )
+    with opened(written(tmp_path, spinner), engine) as world:
+        world.place(np.array([6.2]))
+        angles = []
+        for _ in range(120):
+            world.step(world.balance() + 20.0 * (10.0 - world.velocities()))
+            angles.append(float(world.positions()[0]))
+        assert angles[-1] > 7.5
+        assert np.abs(np.diff(angles)).max() < 0.1
+
+
+@pytest.mark.parametrize("engine", ENGINES)
 def test_a_pendulum_keeps_its_energy_and_a_weightless_one_its_place(
     tmp_path: Path, engine: str
 ) -> None:
@@ -269,3 +284,38 @@ def observe_in_turn(
     engine: str, paths: tuple[Path, ...], samples: Any
 ) -> tuple[tuple[object, ...], ...]:
     return tuple(flat(observe(engine, path, CONFIG, samples)) for path in paths)
+
+
+BUTTON_DOOR = """<robot name="button_door">
+  <link name="frame"><inertial><mass value="40"/>
+    <inertia ixx="9" iyy="9" izz="9" ixy="0" ixz="0" iyz="0"/></inertial>
+    <collision><origin xyz="0 0.5 1"/><geometry><box size="1 0.5 2"/></geometry></collision>
+    {stop}</link>
+  <link name="door"><inertial><origin xyz="0 0 1"/><mass value="15"/>
+    <inertia ixx="5" iyy="6" izz="1.3" ixy="0" ixz="0" iyz="0"/></inertial>
+    <collision><origin xyz="0 0 1"/><geometry><box size="1 0.04 2"/></geometry></collision></link>
+  <link name="button"><inertial><mass value="0.01"/>
+    <inertia ixx="1e-6" iyy="1e-6" izz="1e-6" ixy="0" ixz="0" iyz="0"/></inertial>
+    <collision><geometry><box size="0.04 0.02 0.04"/></geometry></collision></link>
+  <joint name="hinge" type="revolute"><parent link="frame"/><child link="door"/>
+    <origin xyz="0 0.2 0"/><axis xyz="1 0 0"/>
+    <limit lower="0" upper="1.5" effort="1" velocity="9"/></joint>
+  <joint name="press" type="prismatic"><parent link="door"/><child link="button"/>
+    <origin xyz="0 -0.06 1.9"/><axis xyz="0 1 0"/>
+    <limit lower="0" upper="0.02" effort="1" velocity="9"/></joint></robot>"""
+#: Where the button comes down to as the door swings open.
+STOP = """<collision><origin xyz="0 -1.75 -0.07"/><geometry><box size="0.1 0.4 0.3"/></geometry>
+    </collision>"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize(("stop", "seen"), [("", False), (STOP, True)], ids=["free", "pressed"])
+def test_a_button_that_rides_on_a_door_is_moved_by_what_presses_it_only(
+    tmp_path: Path, engine: str, stop: str, seen: bool
+) -> None:
+    text = BUTTON_DOOR.replace("{stop}", stop)
+    result = judged(written(tmp_path, text), engine)
+    hinge = moved(result, "hinge")
+    # What is pressed on the way has to make way first: it is tried pressed in.
+    assert hinge["needs_open"] == (["press"] if seen else [])
+    assert (hinge["reached"] > 0.99, hinge["others_moved"] < 0.25) == (True, True)
