@@ -168,6 +168,10 @@ class _Bench:
             self._cut_along(pair, poses, pit, most) is None for pit in self._pits(a, b, poses)
         )
 
+    def _goes_in_flush(self, spare: float) -> bool:
+        """Whether a slide goes into something, and no deeper than it stands out of it [m]."""
+        return -self.config.tolerance_m <= spare < np.inf
+
     def _pits(self, a: int, b: int, poses: list[FloatArray]) -> list[Pit]:
         """Pits for what turns in its own place, or slides no deeper than it stands out."""
         between = joints_between(self.articulation, a, b)
@@ -175,10 +179,10 @@ class _Bench:
             return []
         holder = self._holder(a, b)
         way = poses if holder == 0 else [np.asarray(np.linalg.inv(pose)) for pose in poses]
-        if any(joint.turns for joint in between):
-            if swept_share(*self._sides(a, b), way) > TURNED_ROOM:
-                return []
-        elif min(self._standing_out(a, b)) < -self.config.tolerance_m:
+        turns = any(joint.turns for joint in between)
+        if turns and swept_share(*self._sides(a, b), way) > TURNED_ROOM:
+            return []
+        if not all(map(self._goes_in_flush, self._standing_out(a, b))):
             return []
         return [Pit(holder, at_once) for at_once in (True, False)]
 
@@ -332,7 +336,8 @@ class _Bench:
             return 0.0
         travel = between[0].range
         (spare,) = self._standing_out(a, b)
-        return travel if travel <= PRESSED_M or -self.config.tolerance_m <= spare < np.inf else 0.0
+        button = self._well_hung(between) and self._goes_in_flush(spare)
+        return travel if travel <= PRESSED_M or button else 0.0
 
     def _overdone(self, a: int, b: int, losses: list[Loss], at_most: float | None) -> str | None:
         """Why a cut takes too much, or what can be seen; ``None`` if it does neither."""

@@ -77,6 +77,7 @@ def test_a_knob_that_stands_deep_in_a_body_turns_in_a_pit(radius, sections):
 
 
 SIDE = np.array([1.0, 0.0, 0.0])
+UP = np.array([0.0, 0.0, 1.0])
 TWINS = {
     "shifted": replace(TURN, origin=0.05 * SIZE * SIDE),
     "tilted": replace(TURN, axis=rotation_about(SIDE, np.radians(10.0)) @ INWARD),
@@ -105,8 +106,12 @@ def test_a_button_is_pressed_into_a_pit_behind_it():
 
 WRONG_SLIDES = {
     "deeper than it stands out": replace(PRESS, upper=0.04),
-    "out of the way to the side": replace(PRESS, axis=SIDE),
+    "pulled out": replace(PRESS, axis=-INWARD),
+    "limits swapped": replace(PRESS, lower=-PRESS.upper, upper=0.0),
+    "to the side": replace(PRESS, axis=SIDE),
     "tilted": replace(PRESS, axis=rotation_about(SIDE, np.radians(10.0)) @ INWARD),
+    "tilted down": replace(PRESS, axis=rotation_about(SIDE, -np.radians(10.0)) @ INWARD),
+    "tilted sideways": replace(PRESS, axis=rotation_about(UP, np.radians(10.0)) @ INWARD),
 }
 
 
@@ -115,19 +120,6 @@ def test_what_is_no_button_gets_none(name):
     tree, _, result = cut(BUTTON, WRONG_SLIDES[name])
     assert PAIR in result.refused
     assert deepest(tree, result) > 0.001
-
-
-#: A drawer as one solid, in a body that is modelled without a hollow.
-DRAWER = box((-0.1, -0.01, -0.05), (0.1, 0.2, 0.05))
-PULL = Joint("pull", "prismatic", 0, 1, -INWARD, [0.0, 0.0, 0.0], 0.0, 0.15)
-
-
-def test_a_drawer_in_a_solid_body_comes_out_of_a_pit_and_never_goes_in():
-    tree, _, result = cut(DRAWER, PULL)
-    assert result.refused == {}
-    assert deepest(tree, result) == 0.0
-    for wrong in (replace(PULL, axis=INWARD), replace(PULL, lower=-0.15, upper=0.0)):
-        assert PAIR in cut(DRAWER, wrong)[2].refused
 
 
 #: A small flap, sunk in the front and hinged at its front edge.
