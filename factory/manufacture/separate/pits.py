@@ -50,7 +50,7 @@ class Pit:
         """See :func:`~.along.cut_apart_along`; only the holder's hulls are cut."""
         if self.holder == 0:
             return self._dug(a, b, poses, clearance_m), list(b)
-        back = [np.linalg.inv(pose) for pose in poses]
+        back = [np.asarray(np.linalg.inv(pose)) for pose in poses]
         return list(a), self._dug(b, a, back, clearance_m)
 
     def _dug(
