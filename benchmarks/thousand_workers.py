@@ -1,9 +1,10 @@
 """A thousand workers and ten million meshes, played through: what is full first, and when.
 
 Nothing is built. Each worker draws how long a build takes from measured ones, is lost now and then,
-and sends its bundle through the store; one head takes every answer, one at a time, as the command
-does. Prints a JSON line for each number of workers: assets a second, how busy the head and the
-store are, and whichever of them is busiest; the last line adds up what ten million meshes take.
+gets its input from the head and sends its bundle through the store; one head takes every answer,
+one at a time, as the command does. Prints a JSON line for each number of workers: assets a second,
+how busy the head and the line are, and whichever of them is busiest; the last line adds up what ten
+million meshes take.
 
 Times are of ``logs/builds.jsonl`` of a registry, which can be named; else of the eleven example
 meshes on one of two shared processors. The head's share of an asset is what ``build_overhead.py``
@@ -37,6 +38,7 @@ class Costs:
     Attributes:
         head_s: of the head's one thread: hand out, take back, verify the digest, register [s].
         bundle_bytes: through the store, twice [bytes].
+        input_bytes: from the head to a worker, and in the head's object store until then [bytes].
         store_bytes_s: what the store and the head's line carry [bytes/s].
         row_bytes: of the index [bytes].
         call_bytes: of the head's memory, for a call that is under way [bytes].
@@ -45,10 +47,16 @@ class Costs:
 
     head_s: float = 0.032
     bundle_bytes: float = 1.0e6
+    input_bytes: float = 1.0e6
     store_bytes_s: float = 125e6
     row_bytes: float = 600.0
     call_bytes: float = 20e3
     loss: float = 0.002
+
+    @property
+    def line_bytes(self) -> float:
+        """Over the head's line for each asset [bytes]."""
+        return 2.0 * self.bundle_bytes + self.input_bytes
 
 
 def played(workers: int, builds: Sequence[float], costs: Costs) -> dict[str, float | int | str]:
@@ -62,7 +70,7 @@ def played(workers: int, builds: Sequence[float], costs: Costs) -> dict[str, flo
     head_busy = 0.0
     done = 0
     waited = 0.0
-    line_s = 2.0 * costs.bundle_bytes / costs.store_bytes_s
+    line_s = costs.line_bytes / costs.store_bytes_s
     while ends[0][0] < 2.0 * PLAYED_S:
         now, number = heapq.heappop(ends)
         if chance.random() < costs.loss:
@@ -90,7 +98,7 @@ def played(workers: int, builds: Sequence[float], costs: Costs) -> dict[str, flo
         "waits_s": round(waited / max(1, done), 3),
         "full_first": max(busy, key=lambda name: busy[name]),
         "days_for_ten_million": round(MESHES / rate / DAY_S, 1),
-        "head_mb_for_calls": round(2 * workers * costs.call_bytes / 1e6, 1),
+        "head_mb_for_calls": round(2 * workers * (costs.call_bytes + costs.input_bytes) / 1e6, 1),
     }
 
 
@@ -115,7 +123,7 @@ def main() -> None:
                 "assets_tb": round(MESHES * costs.bundle_bytes / 1e12, 1),
                 "head_saturates_at_workers": round(sum(builds) / len(builds) / costs.head_s),
                 "store_saturates_at_workers": round(
-                    sum(builds) / len(builds) * costs.store_bytes_s / 2.0 / costs.bundle_bytes
+                    sum(builds) / len(builds) * costs.store_bytes_s / costs.line_bytes
                 ),
             }
         )

@@ -32,7 +32,12 @@ from .verify.validate import inspect, validate
 
 
 def make_asset(
-    source: Path, staging: Path, config: BuildConfig, cache: Path | None, judge: Judge
+    source: Path,
+    staging: Path,
+    config: BuildConfig,
+    cache: Path | None,
+    judge: Judge,
+    place: Path | None = None,
 ) -> Product:
     """Make, judge and repair one input; register nothing.
 
@@ -42,12 +47,13 @@ def make_asset(
         config: every stage's settings.
         cache: where results of expensive stages are kept; ``None``: nowhere.
         judge: with the configuration's thresholds.
+        place: where the input lies for whoever registers it, if that is elsewhere.
 
     Returns:
         What is to be registered. A bad input is a rejected product, never an exception.
     """
     stages = Stages(config, Store(cache) if cache else None)
-    origin = Source(source, config)
+    origin = Source(source, config, place)
     intake: Intake | None = None
     try:
         with stages.clock.stage("load"):

@@ -78,7 +78,7 @@ class Build:
     ray_address: str = "local"
     """With --executor ray: 'auto' or host:port of a cluster that runs; 'local' starts one."""
     ray_exchange: str = ""
-    """With --executor ray: fsspec URL for returning assets where nodes lack the output folder."""
+    """With --executor ray: fsspec URL for assets of nodes that share no folder; inputs are sent."""
     repairs: str | None = None
     """What may be repaired: none, geometry (collision geometry only), or all (joints too)."""
     interior: bool = True

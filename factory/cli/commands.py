@@ -65,6 +65,9 @@ COMMANDS = (
     Command("doctor", doctor.Doctor, doctor.run),
 )
 
+#: Flags of a command that add up when they are said again.
+ADDING = (("demos", "--category"),)
+
 #: How every command is parsed.
 OPTIONS = (tyro.conf.FlagCreatePairsOff,)
 
@@ -111,6 +114,14 @@ def parse(arguments: Sequence[str] | None = None) -> tuple[Command, Any]:
         meant = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(names)}"
         print(f"factory: no command {first!r}; {meant}", file=sys.stderr)
         raise SystemExit(Exit.USAGE)
+    twice = _said_twice(sys.argv[1:] if arguments is None else arguments)
+    if twice:
+        wanted = f"say {twice} once, with all that it is to hold after it"
+        print(
+            f"factory: {twice} is there twice and only the last would count; {wanted}",
+            file=sys.stderr,
+        )
+        raise SystemExit(Exit.USAGE)
     named = tuple(Annotated[c.flags, tyro.conf.subcommand(c.name)] for c in COMMANDS)
     any_command: Any = Union[named]  # noqa: UP007 - made from a table
     flags: Any = tyro.cli(
@@ -122,3 +133,10 @@ def parse(arguments: Sequence[str] | None = None) -> tuple[Command, Any]:
     )
     (command,) = (command for command in COMMANDS if command.flags is type(flags))
     return command, flags
+
+
+def _said_twice(arguments: Sequence[str]) -> str:
+    """A flag that is there twice, if one is and does not add up."""
+    said = [each.split("=")[0] for each in arguments if each.startswith("--")]
+    twice = (flag for flag in said if said.count(flag) > 1)
+    return next((flag for flag in twice if (arguments[0], flag) not in ADDING), "")

@@ -71,11 +71,15 @@ def digest_now(source: Path, name: str) -> str:
         source: the input, which may itself be a link to anywhere.
         name: path relative to its folder, as in :data:`Reads`.
     """
-    path = source.parent / name
-    inside = name == source.name or Path(os.path.realpath(path)).is_relative_to(
-        os.path.realpath(source.parent)
-    )
-    return content_digest(path) if inside else OUTSIDE
+    return OUTSIDE if leads_out(source, name) else content_digest(source.parent / name)
+
+
+def leads_out(source: Path, name: str) -> bool:
+    """Whether a file of an input is a link to outside its folder; arguments as above."""
+    if name == source.name:
+        return False
+    real = Path(os.path.realpath(source.parent / name))
+    return not real.is_relative_to(os.path.realpath(source.parent))
 
 
 def content_digest(path: Path) -> str:

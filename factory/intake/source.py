@@ -26,17 +26,20 @@ class Source:
     Args:
         path: of the file.
         config: how it is read.
+        place: where it lies for whoever registers it, if that is elsewhere; folder and file are
+            called the same.
 
     Attributes:
-        path, config: as given.
+        path, config, place: as given.
         reads: every file it was made of, by :meth:`load`: path relative to its folder -> digest.
         digest: of all of them, once all were read.
         keyed: whether what becomes of it holds for these files, and is not done again.
     """
 
-    def __init__(self, path: Path, config: BuildConfig) -> None:
+    def __init__(self, path: Path, config: BuildConfig, place: Path | None = None) -> None:
         self.path = path
         self.config = config
+        self.place = place or path
         self.reads: Reads = {}
         self.digest = ""
         self.keyed = True
@@ -92,7 +95,7 @@ class Source:
     @property
     def unloaded_ids(self) -> tuple[str, ...]:
         """Ids of an input not read in full: as a single file, one of several, or unlicensed."""
-        place = digest_bytes(os.fsencode(self.path))
+        place = digest_bytes(os.fsencode(self.place))
         own = content_digest(self.path) or place
         digests = (own, *(digest_bytes(f"unread {digest}".encode()) for digest in (own, place)))
         return tuple(asset_id(safe_name(self.path), self._told_apart(digest)) for digest in digests)

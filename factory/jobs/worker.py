@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import time
+from collections.abc import Mapping
 from pathlib import Path
 
 from asset_factory.sim_checks.config import CheckConfig
@@ -12,6 +13,7 @@ from asset_factory.sim_checks.judge import Judge
 from ..build import make_asset
 from ..config import BuildConfig
 from ..particulate.service import Address, asking
+from ..particulate.weights.sources import weights_at
 from ..registry.product import Product
 
 _JUDGES: dict[CheckConfig, Judge] = {}
@@ -24,6 +26,8 @@ def build_here(
     cache: Path | None,
     until: float | None,
     address: Address | None,
+    place: Path | None = None,
+    weights: Mapping[str, Path] | None = None,
 ) -> Product | None:
     """Make one input in this process, which somebody else may kill.
 
@@ -34,6 +38,8 @@ def build_here(
         cache: where results of expensive stages are kept; ``None``: nowhere.
         until: do not begin after this time [s since 1970]; ``None``: begin at any time.
         address: of the job's network, if it has one.
+        place: where the input lies for whoever registers it, if that is elsewhere.
+        weights: where checkpoints lie on this machine, if not where the configuration says.
 
     Returns:
         What is to be registered; ``None`` if it was too late to begin.
@@ -42,8 +48,8 @@ def build_here(
         return None
     shutil.rmtree(staging, ignore_errors=True)
     staging.mkdir(parents=True)
-    with asking(address):
-        return make_asset(source, staging, config, cache, _judge(config.checks))
+    with asking(address), weights_at(weights or {}):
+        return make_asset(source, staging, config, cache, _judge(config.checks), place)
 
 
 def _judge(config: CheckConfig) -> Judge:

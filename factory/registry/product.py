@@ -152,9 +152,9 @@ def _product(
 ) -> Product:
     clock = stages.clock
     return Product(
-        source=origin.path,
+        source=origin.place,
         result=Result(
-            input=str(origin.path),
+            input=str(origin.place),
             entry=entry,
             seconds=clock.seconds,
             stages=dict(clock.stages),

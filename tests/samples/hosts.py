@@ -28,15 +28,20 @@ _IMPATIENT = {
     "RAY_health_check_timeout_ms": "2000",
     "RAY_health_check_failure_threshold": "4",
 }
-#: A host's own /tmp, in which only the inputs are seen, and they are not to be written.
+#: A host's own /tmp; what the head has of its own is empty there, whether it lies in /tmp or not.
+#: A package of its own is kept, for reading.
 _OWN_FILES = """
 set -e
-mount --bind "$INPUTS" /mnt
+if [ -n "$SOURCES" ]; then mount --bind "$SOURCES" /mnt; fi
 mount -t tmpfs -o "size=$ROOM" none /tmp
-mkdir -p "$INPUTS"
-mount --bind /mnt "$INPUTS"
-mount -o remount,ro,bind "$INPUTS"
-umount /mnt
+mkdir -p "$HIDDEN"
+mount -t tmpfs -o size=1m none "$HIDDEN"
+if [ -n "$SOURCES" ]; then
+    mkdir -p "$SOURCES"
+    mount --bind /mnt "$SOURCES"
+    mount -o remount,ro,bind "$SOURCES"
+    umount /mnt
+fi
 exec "$@"
 """
 
@@ -45,7 +50,7 @@ class Hosts:
     """A head and workers, joined by a bridge.
 
     Args:
-        inputs: a folder that all of them see.
+        hidden: a folder that no worker sees.
         folder: for the head's own files; its path is short.
 
     Attributes:
@@ -53,12 +58,12 @@ class Hosts:
         address: of the Ray cluster.
     """
 
-    def __init__(self, inputs: Path, folder: Path) -> None:
+    def __init__(self, hidden: Path, folder: Path) -> None:
         # Another one in every process, so that two test runs do not meet.
         number = os.getpid() % 250
         self.head = f"10.77.{number}.1"
         self.address = f"{self.head}:{_PORT}"
-        self._inputs = inputs
+        self._hidden = hidden
         self._folder = folder
         self._tag = f"af{number}"
         self._hosts: dict[int, subprocess.Popen[bytes]] = {}
@@ -87,7 +92,8 @@ class Hosts:
             self._connect(number, name)
         own = ("ip", "netns", "exec", name, "unshare", "--mount", "sh", "-c", _OWN_FILES, "own")
         more = [f"--address={self.address}", f"--node-ip-address={self.address_of(number)}"]
-        told = {"ROOM": room} | ({} if sources is None else {"PYTHONPATH": str(sources)})
+        told = {"ROOM": room, "SOURCES": str(sources or "")}
+        told |= {} if sources is None else {"PYTHONPATH": str(sources)}
         self._hosts[number] = self._started([*more, "--num-cpus=1"], own, told)
 
     def come_up(self, workers: int) -> None:
@@ -149,6 +155,19 @@ class Hosts:
             os.killpg(process.pid, signal.SIGKILL)
         process.wait()
 
+    def files_on(self, number: int, folder: Path) -> list[str]:
+        """What a worker sees in a folder."""
+        pid = _pids_in(self._name(number))[0]
+        listing = ["nsenter", f"--target={pid}", "--mount", "find", folder, "-type", "f"]
+        told = subprocess.run(listing, capture_output=True, text=True, check=True)
+        return told.stdout.split()
+
+    def confine(self, number: int, group: Path) -> None:
+        """Put all of a worker's processes into a control group; what they start is in it too."""
+        for pid in _pids_in(self._name(number)):
+            with suppress(ProcessLookupError):
+                (group / "cgroup.procs").write_text(str(pid))
+
     def fill_disk(self, number: int) -> None:
         """Write to a worker's /tmp until there is no room left."""
         pid = _pids_in(self._name(number))[0]
@@ -201,19 +220,19 @@ class Hosts:
     ) -> subprocess.Popen[bytes]:
         ray = str(Path(sys.executable).with_name("ray"))
         command = [*own, ray, "start", *more, _STORE, "--block", "--disable-usage-stats"]
-        environment = {**os.environ, **_IMPATIENT, "INPUTS": str(self._inputs), **told}
+        environment = {**os.environ, **_IMPATIENT, "HIDDEN": str(self._hidden), **told}
         quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
         return subprocess.Popen(command, env=environment, start_new_session=True, **quiet)
 
 
 @contextmanager
-def hosts(inputs: Path, folder: Path) -> Iterator[Hosts]:
+def hosts(hidden: Path, folder: Path) -> Iterator[Hosts]:
     """Joined, and none of them up yet. Skips, with a word, where the kernel says no."""
     for program in ("ip", "nsenter", "tc", "unshare"):
         if shutil.which(program) is None:
             pytest.skip(f"no {program} here: apt-get install iproute2 util-linux")
     try:
-        made = Hosts(inputs, folder)
+        made = Hosts(hidden, folder)
     except subprocess.CalledProcessError as refused:
         pytest.skip(f"no network namespaces here: {refused.stderr.strip()}")
     with pytest.MonkeyPatch.context() as environment:

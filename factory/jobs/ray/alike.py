@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pickle
 import shutil
 import tempfile
 from collections.abc import Callable
@@ -53,18 +52,20 @@ def room() -> int:
 def looking_first() -> Callable[..., tuple[str, str, Any]]:
     """The function that Ray is given; it travels as code, since a node may have another package.
 
-    It answers with a word, the node's id and a value: ``done`` and what :func:`~.worker.work` says,
-    ``absent`` and why this package cannot be imported, ``other`` and the node's versions, or
-    ``full`` and the bytes that are left there.
+    It answers with a word, the node's id and a value: ``absent`` and why this package cannot be
+    imported, ``other`` and the node's versions, ``full`` and the bytes that are left there, or
+    what :func:`~.worker.carry_out` says.
     """
 
-    def look_and_work(packed: bytes, wanted: Any, least_free: int) -> tuple[str, str, Any]:
+    def look_and_work(
+        packed: bytes, wanted: Any, least_free: int, data: bytes, weights: Any
+    ) -> tuple[str, str, Any]:
         import ray
 
         node = str(ray.get_runtime_context().get_node_id())
         try:
             from asset_factory.factory.jobs.ray.alike import room, versions
-            from asset_factory.factory.jobs.ray.worker import work
+            from asset_factory.factory.jobs.ray.worker import carry_out
 
             there = versions()
         except ImportError as error:
@@ -74,8 +75,8 @@ def looking_first() -> Callable[..., tuple[str, str, Any]]:
         left = room()
         if left < least_free:
             return "full", node, left
-        outcome = work(*pickle.loads(packed))  # noqa: S301 - from the one who gives the work
+        word, value = carry_out(packed, data, weights)
         left = room()
-        return ("full", node, left) if left < least_free else ("done", node, outcome)
+        return ("full", node, left) if left < least_free or word == "full" else (word, node, value)
 
     return look_and_work

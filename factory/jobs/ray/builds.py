@@ -6,16 +6,23 @@ from importlib.util import find_spec
 
 from ...articulate.catalog import entry_of
 from ...config import BuildConfig
+from ...intake.reads import Reads
+from ...registry.product import Product
 from ..job import modules_for
 from .cluster import LOCAL
 from .exchange import Exchange
 from .executor import RayExecutor
+from .inputs import Inputs
 from .network import Asked
+from .weights import Checkpoints
 
 #: Arguments of :func:`~..worker.build_here`.
 STAGING = "staging"
 CACHE = "cache"
 ADDRESS = "address"
+SOURCE = "source"
+PLACE = "place"
+WEIGHTS = "weights"
 
 
 def ray_executor(
@@ -27,9 +34,12 @@ def ray_executor(
         config: with which inputs are built.
         workers: inputs at once; by default as many as the cluster has room for.
         address: of the cluster, see :class:`~.ray_executor.RayExecutor`.
-        exchange: fsspec's URL through which bundles come back; empty if the registry's folder lies
-            where all nodes see it, which also lets them share its cache.
+        exchange: fsspec's URL through which bundles come back; inputs and checkpoints are sent to
+            nodes then. Empty if the registry's folder and the inputs lie where all nodes see them,
+            which also lets them share a cache.
     """
+    network = config.particulate
+    named = (network.checkpoint, network.features)
     learned = entry_of(config.articulator).asks_network and find_spec("torch") is not None
     return RayExecutor(
         workers=workers,
@@ -37,5 +47,12 @@ def ray_executor(
         retries=config.retries,
         modules=modules_for(config),
         exchange=Exchange(STAGING, exchange, absent=(CACHE,)),
-        network=Asked(config.particulate, ADDRESS) if learned else None,
+        network=Asked(network, ADDRESS) if learned else None,
+        inputs=Inputs(SOURCE, PLACE, files_of) if exchange else None,
+        weights=Checkpoints(WEIGHTS, named) if exchange and learned else None,
     )
+
+
+def files_of(product: Product | None) -> Reads:
+    """What an input was made of, as far as a call's value says."""
+    return {} if product is None else product.reads

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import os
 import shutil
@@ -12,11 +13,11 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, fields, is_dataclass, replace
 from pathlib import Path, PurePosixPath
-from typing import Any, Generic, TypeVar
+from typing import IO, Any, Generic, TypeVar
 
 from asset_factory.sim_checks.processes.isolation import Outcome
 
-from ...runtime.remote import located, shown
+from ...runtime.remote import located, shown, told
 
 T = TypeVar("T")
 
@@ -24,10 +25,16 @@ T = TypeVar("T")
 MOST_BYTES = 4 * 1024**3
 MOST_FILES = 100_000
 BLOCK = 1 << 20
+#: Argument of :func:`make_and_send` with what is elsewhere on a node.
+HERE = "here"
+
+
+#: Errors of a disk that is full.
+FULL = (errno.ENOSPC, errno.EDQUOT)
 
 
 class ExchangeError(Exception):
-    """What came back is not what was sent."""
+    """What arrived is not what was sent, or it could not be sent."""
 
 
 @dataclass(frozen=True)
@@ -106,8 +113,11 @@ class Transfer:
         if self.url and sent.digest:
             try:
                 value = moved(value, Path(sent.folder), self._fetched(sent))
-            except (ExchangeError, tarfile.TarError) as error:
-                raise OSError(f"{shown(self.url)}: {error}") from error
+            except OSError:
+                raise
+            except Exception as error:
+                # Each file system has errors of its own.
+                raise OSError(f"{shown(self.url)}: {told(error, self.url)}") from error
             finally:
                 self.drop()
         return replace(answer, value=value)
@@ -153,11 +163,23 @@ def make_in_folder(
 
 
 def make_and_send(
-    target: str, argument: str, function: Callable[..., T], arguments: Mapping[str, Any]
+    target: str,
+    argument: str,
+    function: Callable[..., T],
+    arguments: Mapping[str, Any],
+    here: Mapping[str, Any] | None = None,
 ) -> Sent[T]:
-    """On a node: let the function fill a local folder, and send what its value names of it."""
+    """On a node: let the function fill a local folder, and send what its value names of it.
+
+    Args:
+        target: URL of the file to send.
+        argument: the function's, that is the folder.
+        function: to call.
+        arguments: of it, as the caller knows them.
+        here: those that are others on this node.
+    """
     with tempfile.TemporaryDirectory(prefix="made-") as folder:
-        value = function(**{**arguments, argument: Path(folder)})
+        value = function(**{**arguments, **(here or {}), argument: Path(folder)})
         named = sorted(set(paths_below(value, Path(folder))))
         if not named:
             return Sent(value, folder)
@@ -169,10 +191,26 @@ def make_and_send(
             packed.seek(0)
             digest = hashlib.file_digest(packed, "sha256").hexdigest()
             packed.seek(0)
-            file_system, place = located(target)
-            with file_system.open(place, "wb") as remote:
-                shutil.copyfileobj(packed, remote, BLOCK)
+            _send(packed, target)
         return Sent(value, folder, digest, size)
+
+
+def _send(packed: IO[bytes], target: str) -> None:
+    """Write all of a file to a URL.
+
+    Raises:
+        ExchangeError: that failed, which is no fault of what is sent.
+        OSError: a disk is full.
+    """
+    try:
+        file_system, place = located(target)
+        with file_system.open(place, "wb") as remote:
+            shutil.copyfileobj(packed, remote, BLOCK)
+    except Exception as error:
+        if isinstance(error, OSError) and error.errno in FULL:
+            raise
+        # Errors of some file systems do not pickle, and say more than anybody may know.
+        raise ExchangeError(f"{shown(target)}: {told(error, target)}") from None
 
 
 def unpacked(archive: tarfile.TarFile, folder: Path) -> None:

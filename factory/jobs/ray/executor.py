@@ -14,10 +14,12 @@ from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcom
 from ..executor import AHEAD, Call
 from .alike import LEAST_FREE, difference, looking_first, versions
 from .cluster import LOCAL, ClusterLost, connected
-from .exchange import Exchange, Transfer
+from .exchange import FULL, Exchange, Transfer
+from .inputs import Inputs, PackedInput
 from .network import Asked, Networks
 from .nodes import FULL_S, Nodes, say
-from .worker import WorkerSettings
+from .weights import Checkpoints, sent_weights
+from .worker import Order, WorkerSettings
 
 T = TypeVar("T")
 
@@ -29,7 +31,7 @@ FETCH_S = 120.0
 
 @dataclass(frozen=True)
 class RayExecutor:
-    """Worker processes on a Ray cluster's nodes; each needs this package, the inputs at one path.
+    """Worker processes on a Ray cluster's nodes; each needs this package.
 
     Attributes:
         workers: calls under way at once; by default as many as the cluster has room for, also when
@@ -44,6 +46,8 @@ class RayExecutor:
         modules: what every child needs, imported once per process of Ray's.
         exchange: how folders that calls fill come back; ``None`` where calls fill none.
         network: that calls ask; ``None`` where they ask none, or each its own.
+        inputs: how they are sent along; ``None`` where nodes see them. Takes an exchange by URL.
+        weights: checkpoints that are sent along; ``None`` where nodes see them. As above.
         least_free: a node with less room for temporary files is given no work for a while [bytes].
         say: told, in a sentence, of each node that is given no work, and why.
     """
@@ -59,6 +63,8 @@ class RayExecutor:
     modules: tuple[str, ...] = ()
     exchange: Exchange | None = None
     network: Asked | None = None
+    inputs: Inputs | None = None
+    weights: Checkpoints | None = None
     least_free: int = LEAST_FREE
     say: Callable[[str], None] = say
 
@@ -77,6 +83,7 @@ class RayExecutor:
             ends = False
             try:
                 while True:
+                    tasks.look()
                     while not ends and len(tasks) < tasks.most():
                         call = next(waiting, None)
                         ends = call is None
@@ -98,6 +105,8 @@ class _Task:
     started: float = field(default_factory=time.monotonic)
     transfer: Transfer | None = None
     node: str = ""
+    input: PackedInput | None = None
+    more: frozenset[str] = frozenset()
 
 
 class _Tasks(Generic[T]):
@@ -121,22 +130,29 @@ class _Tasks(Generic[T]):
         )
         self._under_way: dict[Any, _Task] = {}
         self._failed: list[tuple[Call, Outcome[T]]] = []
-        self._networks = None if executor.network is None else Networks(ray, executor.network)
+        self._weights = sent_weights(ray, executor.weights)
+        asked = executor.network
+        self._networks = None if asked is None else Networks(ray, asked, self._weights)
         self._looked = -LOOK_S
         self._room = 1
 
     def __len__(self) -> int:
         return len(self._under_way) + len(self._failed)
 
+    def look(self) -> None:
+        """See now and then what became of the cluster."""
+        if time.monotonic() - self._looked <= LOOK_S:
+            return
+        self._looked = time.monotonic()
+        processors = self._told(self._ray.cluster_resources).get("CPU", 0.0)
+        self._room = max(1, int(processors / self._executor.processors))
+        self._told(self._nodes.require_fit)
+        self._told(self._nodes.hang_up)
+        if self._networks is not None:
+            self._told(self._networks.look)
+
     def most(self) -> int:
         """How many calls may be under way now."""
-        if time.monotonic() - self._looked > LOOK_S:
-            self._looked = time.monotonic()
-            processors = self._told(self._ray.cluster_resources).get("CPU", 0.0)
-            self._room = max(1, int(processors / self._executor.processors))
-            self._told(self._nodes.require_fit)
-            if self._networks is not None:
-                self._told(self._networks.look)
         if self._executor.workers is None:
             return AHEAD * self._room
         # Ray itself starts no more than there are processors in a cluster of one's own.
@@ -146,22 +162,33 @@ class _Tasks(Generic[T]):
         """Hand a call to the cluster; one that cannot be handed over has failed."""
         function: Callable[..., Any] = self._function
         arguments = task.call.arguments
-        transfer = None
+        transfer = packed = None
         try:
             if self._networks is not None:
                 arguments = self._networks.told(arguments)
+            if self._executor.inputs is not None:
+                packed = self._executor.inputs.packed(arguments, task.more)
+                arguments = self._executor.inputs.told(arguments)
             if self._executor.exchange is not None:
                 function, arguments, transfer = self._executor.exchange.sent(function, arguments)
-            packed = self._ray.cloudpickle.dumps(
-                (function, arguments, self._limits, self._settings)
+            sent = None if packed is None else packed.sent
+            order = Order(
+                function, arguments, self._limits, self._settings, sent, self._executor.weights
             )
-            placed = self._work.options(**self._room_of_one, **self._nodes.options(task.node))
-            under_way = placed.remote(packed, versions(), self._executor.least_free)
+            under_way = self._handed_over(order, task.node, b"" if packed is None else packed.data)
         except (TypeError, ValueError, AttributeError, pickle.PicklingError) as error:
             detail = f"cannot be sent to a node: {_sentence(error)}"
             self._failed.append((task.call, Outcome(None, Failure.RAISED, detail, "", 0.0, error)))
             return
-        self._under_way[under_way] = replace(task, transfer=transfer)
+        # A call that is lost is packed again: what it was made of need not be kept until then.
+        kept = None if packed is None else replace(packed, data=b"")
+        self._under_way[under_way] = replace(task, transfer=transfer, input=kept)
+
+    def _handed_over(self, order: Order, node: str, data: bytes) -> Any:
+        """Ray's reference to a call."""
+        packed = self._ray.cloudpickle.dumps(order)
+        placed = self._work.options(**self._room_of_one, **self._nodes.options(node))
+        return placed.remote(packed, versions(), self._executor.least_free, data, self._weights)
 
     def finished(self) -> Iterator[tuple[Call, Outcome[T]]]:
         """Calls that have an outcome by now; waits a moment for the first."""
@@ -181,8 +208,7 @@ class _Tasks(Generic[T]):
         for under_way, task in self._under_way.items():
             with suppress(Exception):
                 self._ray.cancel(under_way, force=True)
-            if task.transfer is not None:
-                task.transfer.drop()
+            self._dropped(task)
         self._under_way.clear()
         if self._networks is not None:
             self._networks.close()
@@ -191,12 +217,7 @@ class _Tasks(Generic[T]):
         """The outcome of a try that is over; ``None`` if it was lost and is made again."""
         errors = self._ray.exceptions
         try:
-            word, node, answer = self._ray.get(under_way, timeout=FETCH_S)
-            if word != "done":
-                self._refused(task, word, node, answer)
-                return None
-            outcome: Outcome[Any] = answer
-            return outcome if task.transfer is None else task.transfer.opened(outcome)
+            return self._answered(under_way, task)
         except ClusterLost:
             raise
         except errors.RayTaskError as error:
@@ -204,26 +225,44 @@ class _Tasks(Generic[T]):
             # were sent.
             detail = f"cannot be made on a node: {_sentence(error.cause)}"
             return Outcome(None, Failure.RAISED, detail, "", self._age(task))
-        except (errors.RayError, OSError) as error:
+        except OSError as error:
+            if error.errno in FULL:
+                # Here, that is: nobody else's disk would do.
+                return Outcome(None, Failure.RAISED, str(error), "", self._age(task), error)
+            why = _sentence(error)
+        except errors.RayError as error:
             why = _sentence(error)
         except Exception as error:  # noqa: BLE001 - some answers pickle and do not unpickle
             detail = f"its answer cannot be read: {_sentence(error)}"
             return Outcome(None, Failure.RAISED, detail, "", self._age(task), error)
-        if task.transfer is not None:
-            task.transfer.drop()
+        self._dropped(task)
         if task.node:
             self._nodes.died(task.node, task.call.name)
         if task.number < self._executor.losses:
             node = self._told(self._nodes.next)
-            self.start(_Task(task.call, task.number + 1, task.started, node=node))
+            self.start(replace(task, number=task.number + 1, node=node))
             return None
         detail = f"lost {task.number + 1} times on the cluster, the last time: {why}"
         return Outcome(None, Failure.CRASHED, detail, "", self._age(task), None, task.number + 1)
 
+    def _answered(self, under_way: Any, task: _Task) -> Outcome[T] | None:
+        """What a node says; ``None`` if the call is made again. Raises what loses a try."""
+        word, node, answer = self._ray.get(under_way, timeout=FETCH_S)
+        if word == "lost":
+            raise OSError(answer)
+        if word != "done":
+            self._refused(task, word, node, answer)
+            return None
+        outcome: Outcome[Any] = answer
+        if lacking := self._lacking(task, outcome):
+            self._dropped(task)
+            self.start(replace(task, more=task.more | lacking))
+            return None
+        return outcome if task.transfer is None else task.transfer.opened(outcome)
+
     def _refused(self, task: _Task, word: str, node: str, answer: Any) -> None:
         """A node would not do for a call: another one makes it."""
-        if task.transfer is not None:
-            task.transfer.drop()
+        self._dropped(task)
         same = "; install the same versions everywhere"
         if word == "absent":
             self._nodes.set_aside(node, f"asset-factory cannot be imported: {answer}{same}")
@@ -231,9 +270,21 @@ class _Tasks(Generic[T]):
             self._nodes.set_aside(node, f"it has {difference(versions(), answer)}{same}")
         else:
             room = f"{answer / 1e6:.0f} MB are free for temporary files"
-            want = f"want {self._executor.least_free / 1e6:.0f}"
+            few = answer < self._executor.least_free
+            want = f"want {self._executor.least_free / 1e6:.0f}" if few else "too few for an input"
             self._nodes.set_aside(node, f"{room}, {want}", FULL_S)
-        self.start(_Task(task.call, task.number, task.started))
+        self.start(replace(task, node=""))
+
+    def _lacking(self, task: _Task, outcome: Outcome[Any]) -> frozenset[str]:
+        """Files that a node missed, and that should have been sent along."""
+        if task.input is None or self._executor.inputs is None or outcome.value is None:
+            return frozenset()
+        return task.input.lacking(self._executor.inputs.reads(outcome.value.value))
+
+    def _dropped(self, task: _Task) -> None:
+        """What a try has sent is of no use."""
+        if task.transfer is not None:
+            task.transfer.drop()
 
     def _age(self, task: _Task) -> float:
         return time.monotonic() - task.started

@@ -20,6 +20,8 @@ from ...particulate.service import Address
 from ...particulate.service.answering import refusal
 from ...particulate.service.listening import answer_all, listening_socket
 from ...particulate.service.process import load_answering
+from ...particulate.weights.sources import weights_at
+from .weights import SentWeights, arrived
 
 #: Clouds that wait for one GPU at a time.
 AT_A_GPU = 64
@@ -47,11 +49,13 @@ class Networks:
     Args:
         ray: connected.
         asked: which network.
+        weights: checkpoints that nodes are sent.
     """
 
-    def __init__(self, ray: Any, asked: Asked) -> None:
+    def __init__(self, ray: Any, asked: Asked, weights: SentWeights) -> None:
         self._ray = ray
         self._asked = asked
+        self._weights = weights
         self._address = Address(f"/tmp/model-{uuid.uuid4().hex}/socket")  # noqa: S108 - nobody can guess it
         self._shared: Any = None
         self._doors: dict[str, Any] = {}
@@ -69,7 +73,7 @@ class Networks:
             shared = self._ray.remote(NodeNetwork).options(
                 num_cpus=0, num_gpus=1, max_restarts=-1, max_concurrency=AT_A_GPU
             )
-            self._shared = shared.remote(self._asked.config)
+            self._shared = shared.remote(self._asked.config, self._weights)
         affinity = self._ray.util.scheduling_strategies.NodeAffinitySchedulingStrategy
         for node in self._ray.nodes():
             name = node["NodeID"]
@@ -78,7 +82,7 @@ class Networks:
                     num_cpus=0, max_restarts=-1, scheduling_strategy=affinity(name, soft=False)
                 )
                 self._doors[name] = door.remote(
-                    self._address.path, self._asked.config, self._shared
+                    self._address.path, self._asked.config, self._shared, self._weights
                 )
 
     def close(self) -> None:
@@ -95,8 +99,9 @@ class Networks:
 class NodeNetwork:
     """A network in a Ray process; loaded on the first question, as there may be none to ask."""
 
-    def __init__(self, config: ParticulateConfig) -> None:
+    def __init__(self, config: ParticulateConfig, weights: SentWeights) -> None:
         self._config = config
+        self._weights = weights
         self._loading = threading.Lock()
         self._answering: Callable[[bytes], bytes] | None = None
 
@@ -104,19 +109,24 @@ class NodeNetwork:
         """See :class:`..particulate.service.answering.Answering`; ConfigError if it cannot load."""
         with self._loading:
             if self._answering is None:
-                self._answering = load_answering(
-                    self._config, processors() if self._config.device == "cpu" else 1
-                )
+                import ray
+
+                with weights_at(arrived(ray, self._weights)):
+                    self._answering = load_answering(
+                        self._config, processors() if self._config.device == "cpu" else 1
+                    )
         return self._answering(question)
 
 
 class Door:
     """A node's socket, in a Ray process; behind it an own network, or the one all nodes share."""
 
-    def __init__(self, path: str, config: ParticulateConfig, shared: Any) -> None:
+    def __init__(
+        self, path: str, config: ParticulateConfig, shared: Any, weights: SentWeights
+    ) -> None:
         self._path = path
         self._shared = shared
-        self._own = NodeNetwork(config)
+        self._own = NodeNetwork(config, weights)
         os.makedirs(Path(path).parent, mode=0o700, exist_ok=True)
         # Nodes that are one machine share its door.
         if not _somebody_listens(path):

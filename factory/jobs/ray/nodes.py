@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import os
+import socket
 import sys
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 from .cluster import ClusterLost
@@ -38,6 +41,7 @@ class Nodes:
         self._aside: dict[str, tuple[str, float]] = {}
         self._deaths: dict[str, set[str]] = {}
         self._turn = 0
+        self._buried: set[str] = set()
 
     def set_aside(self, node: str, why: str, seconds: float = float("inf")) -> None:
         """Give a node no work, for good or for a while [s].
@@ -81,6 +85,20 @@ class Nodes:
             calls.clear()
             self.set_aside(node, f"{MOST_DEATHS} calls died there with Ray's processes", FULL_S)
 
+    def hang_up(self) -> None:
+        """End this process's connections to hosts whose nodes are dead.
+
+        A host that is cut off closes none, and Ray then waits for its answers: for minutes, or, if
+        the host has given up before it is back, for good.
+        """
+        nodes = self._ray.nodes()
+        dead = [each for each in nodes if not each["Alive"] and each["NodeID"] not in self._buried]
+        self._buried |= {each["NodeID"] for each in dead}
+        alive = {each["NodeManagerAddress"] for each in nodes if each["Alive"]}
+        hosts = {each["NodeManagerAddress"] for each in dead} - alive
+        if hosts:
+            end_connections(hosts)
+
     def options(self, node: str = "") -> dict[str, Any]:
         """Where a task may run, as Ray is told; on that node, as long as it is there."""
         if node:
@@ -99,3 +117,14 @@ class Nodes:
 
     def _alive(self) -> dict[str, Any]:
         return {each["NodeID"]: each for each in self._ray.nodes() if each["Alive"]}
+
+
+def end_connections(hosts: set[str]) -> None:
+    """End this process's TCP connections to some addresses, whoever in it holds them."""
+    for name in os.listdir("/dev/fd"):
+        with suppress(OSError), socket.socket(fileno=os.dup(int(name))) as held:
+            if held.family not in (socket.AF_INET, socket.AF_INET6):
+                continue
+            # An old address looks like a new one to a socket that takes both.
+            if held.getpeername()[0].removeprefix("::ffff:") in hosts:
+                held.shutdown(socket.SHUT_RDWR)

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import atexit
+import pickle
 import sys
-from collections.abc import Callable, Mapping
+import tarfile
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
@@ -17,6 +20,9 @@ from asset_factory.sim_checks.processes.isolation import (
 )
 
 from ..local import worth_another_try
+from .exchange import FULL, HERE, ExchangeError
+from .inputs import SentInput
+from .weights import Checkpoints, SentWeights, arrived
 
 T = TypeVar("T")
 
@@ -43,7 +49,71 @@ class WorkerSettings:
     modules: tuple[str, ...]
 
 
+@dataclass(frozen=True)
+class Order:
+    """One call, as a node is given it.
+
+    Attributes:
+        function, arguments, limits: of the call.
+        settings: how it is made.
+        input: what is known of the input that was sent along; ``None``: the node sees it.
+        weights: which checkpoints are sent along; ``None``: the node sees them.
+    """
+
+    function: Callable[..., Any]
+    arguments: Mapping[str, Any]
+    limits: Limits
+    settings: WorkerSettings
+    input: SentInput | None = None
+    weights: Checkpoints | None = None
+
+
 _children: dict[WorkerSettings, WarmChild] = {}
+
+
+def carry_out(packed: bytes, data: bytes, weights: SentWeights) -> tuple[str, Any]:
+    """Make one call with what was sent along; whatever it does, this returns.
+
+    Args:
+        packed: an :class:`Order`.
+        data: of its input; empty if none was sent.
+        weights: checkpoints that it may ask for.
+
+    Returns:
+        ``done`` and its outcome; ``full`` if there was no room on this node for what it is made of
+        or what it makes; ``lost`` and why, if what was sent did not arrive, here or from here.
+    """
+    import ray
+
+    order: Order = pickle.loads(packed)  # noqa: S301 - from the one who gives the work
+    try:
+        with _unpacked(order, data) as here:
+            if order.weights is not None:
+                here[order.weights.argument] = arrived(ray, weights)
+            told = {**order.arguments, **({HERE: here} if here else {})}
+            outcome = work(order.function, told, order.limits, order.settings)
+    except OSError as error:
+        return ("full", None) if _is_full(error) else ("lost", f"{type(error).__name__}: {error}")
+    except (ray.exceptions.RayError, ExchangeError, tarfile.TarError) as error:
+        return "lost", f"{type(error).__name__}: {error}"
+    if isinstance(outcome.error, ExchangeError):
+        return "lost", str(outcome.error)
+    # Without a URL it may be the caller's own folder that is full.
+    return ("full", None) if order.input and _is_full(outcome.error) else ("done", outcome)
+
+
+@contextmanager
+def _unpacked(order: Order, data: bytes) -> Iterator[dict[str, Any]]:
+    """Within this, arguments that are others on this node."""
+    if order.input is None:
+        yield {}
+        return
+    with order.input.unpacked(data) as path:
+        yield {order.input.argument: path}
+
+
+def _is_full(error: BaseException | None) -> bool:
+    return isinstance(error, OSError) and error.errno in FULL
 
 
 def work(

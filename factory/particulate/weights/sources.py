@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
+from types import MappingProxyType
 
 from ...errors import ConfigError
 
@@ -42,8 +46,23 @@ PARTFIELD = WeightsProvenance(
 )
 
 
+_ELSEWHERE: ContextVar[Mapping[str, Path]] = ContextVar("weights_at", default=MappingProxyType({}))
+
+
+@contextmanager
+def weights_at(places: Mapping[str, Path]) -> Iterator[None]:
+    """Within this, checkpoints lie where ``places`` says, by what configurations call them."""
+    before = _ELSEWHERE.set(places)
+    try:
+        yield
+    finally:
+        _ELSEWHERE.reset(before)
+
+
 def fetch(checkpoint: str) -> Path:
     """The checkpoint's file: the path itself, the package's own, or a download kept by the hub.
+
+    Within :func:`weights_at`, the file that it names.
 
     Args:
         checkpoint: a path, ``shipped``, or ``hf:owner/repository/file``.
@@ -51,6 +70,8 @@ def fetch(checkpoint: str) -> Path:
     Raises:
         ConfigError: no such file, a malformed address, or a download that failed.
     """
+    if checkpoint in _ELSEWHERE.get():
+        return _ELSEWHERE.get()[checkpoint]
     if not checkpoint.startswith(HUB):
         own = resources.files("asset_factory") / "configs" / "weights" / "small.safetensors"
         path = Path(str(own)) if checkpoint == SHIPPED else Path(checkpoint).expanduser()

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from asset_factory.factory.cli import run
+from asset_factory.factory.cli.commands import parse
 from asset_factory.factory.cli.evaluation_printing import COLUMNS, _fitting
 from asset_factory.factory.report import machine
 from asset_factory.factory.report.machine import Health, Library, abilities
@@ -39,6 +40,15 @@ def test_a_mistyped_command_is_recognised(typed, told, capsys) -> None:
         run([typed, "--output", "out"])
     assert left.value.code == 2
     assert told in capsys.readouterr().err
+
+
+def test_a_flag_that_is_there_twice_is_told_and_not_half_obeyed(capsys, tmp_path) -> None:
+    with pytest.raises(SystemExit) as left:
+        run(["build", "--input", "a.glb", "--input", "b.glb", "--output", str(tmp_path)])
+    assert left.value.code == 2
+    assert "--input is there twice" in capsys.readouterr().err
+    _, flags = parse(["demos", "--to", "d", "--category", "oven", "--category", "fridge"])
+    assert flags.category == ("oven", "fridge")
 
 
 def test_shells_can_complete_commands_and_flags(capsys) -> None:

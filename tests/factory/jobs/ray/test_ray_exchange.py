@@ -88,6 +88,29 @@ def test_another_file_than_was_sent_is_no_answer(tmp_path, between, damage):
     assert not list(between.iterdir())
 
 
+def test_what_cannot_be_sent_is_told_from_a_call_that_fails(tmp_path):
+    nowhere = Exchange("folder", (tmp_path / "gone").as_uri())
+    with pytest.raises(ExchangeError, match="gone"):
+        made(nowhere, filling(tmp_path / "staging"))
+
+
+def test_a_store_that_does_not_answer_loses_a_try(tmp_path, between, monkeypatch):
+    outcome, transfer = made(Exchange("folder", between.as_uri()), filling(tmp_path / "staging"))
+
+    class Silent:
+        def open(self, path, mode):
+            raise LookupError("of its own kind")
+
+        def rm_file(self, path):
+            raise LookupError("of its own kind")
+
+    monkeypatch.setattr(
+        "asset_factory.factory.jobs.ray.exchange.located", lambda url: (Silent(), url)
+    )
+    with pytest.raises(OSError, match="of its own kind"):
+        transfer.opened(outcome)
+
+
 def test_more_than_can_be_is_not_fetched(tmp_path, between):
     outcome, transfer = made(Exchange("folder", between.as_uri()), filling(tmp_path / "staging"))
     with pytest.raises(OSError, match="at most"):

@@ -1,0 +1,78 @@
+"""What an input seems to refer to: all that its reader asks for, and nothing outside its folder."""
+
+from contextlib import suppress
+
+import pytest
+from input_files import write_inputs
+
+from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.intake.companions import companions
+from asset_factory.factory.intake.source import Source
+
+
+@pytest.fixture(scope="module")
+def inputs(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("here") / "meshes"
+    write_inputs(folder)
+    return folder
+
+
+@pytest.mark.parametrize(
+    "name", ["box_0.stl", "painted/painted.obj", "cart/cart.urdf", "leads_out/leads_out.obj"]
+)
+def test_whatever_a_reader_asks_for_is_found(inputs, name):
+    source = Source(inputs / name, BuildConfig())
+    with suppress(InputRejected):
+        source.load()
+    there = {each for each, digest in source.reads.items() if digest}
+    assert there <= companions(inputs / name)
+
+
+def test_a_description_brings_its_meshes_and_their_textures(inputs):
+    assert companions(inputs / "cart" / "cart.urdf") == {
+        "cart.urdf",
+        "parts/body.mtl",
+        "parts/body.obj",
+        "parts/body.png",
+        "parts/lid.stl",
+    }
+
+
+def test_names_with_spaces(inputs):
+    assert "red paint.png" in companions(inputs / "painted" / "painted.obj")
+
+
+def test_one_mesh_does_not_bring_another(inputs):
+    assert companions(inputs / "box_0.stl") == {"box_0.stl"}
+
+
+def test_folders_of_an_mjcf(tmp_path):
+    (tmp_path / "assets").mkdir()
+    (tmp_path / "assets" / "a.stl").touch()
+    text = '<mujoco><compiler meshdir="assets"/><asset><mesh file="a.stl"/></asset></mujoco>'
+    (tmp_path / "a.xml").write_text(text)
+    assert companions(tmp_path / "a.xml") == {"a.xml", "assets/a.stl"}
+
+
+def test_layers_name_others_in_no_readable_way(tmp_path):
+    (tmp_path / "layers").mkdir()
+    for name in ("chair.usd", "layers/geometry.usdc", "paint.png"):
+        (tmp_path / name).touch()
+    assert companions(tmp_path / "chair.usd") == {"chair.usd", "layers/geometry.usdc"}
+
+
+@pytest.mark.parametrize("name", ["../secret.mtl", "/etc/passwd.mtl", "a/../../secret.mtl"])
+def test_what_lies_outside_stays_there(tmp_path, name):
+    folder = tmp_path / "in"
+    folder.mkdir()
+    (tmp_path / "secret.mtl").write_text("newmtl secret")
+    (folder / "a.obj").write_text(f"mtllib {name}\n")
+    assert companions(folder / "a.obj") == {"a.obj"}
+
+
+def test_a_sidecar_and_what_it_names(tmp_path):
+    for name in ("a.stl", "a.pred.npz"):
+        (tmp_path / name).touch()
+    (tmp_path / "a.toml").write_text('annotation = "a.pred.npz"')
+    assert companions(tmp_path / "a.stl") == {"a.stl", "a.toml", "a.pred.npz"}

@@ -1,0 +1,177 @@
+"""An input on a node is the one that was sent, whole, and nothing of it lies anywhere else."""
+
+import hashlib
+import io
+import tarfile
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from input_files import write_inputs
+from tiny_checkpoint import write_checkpoint
+
+from asset_factory.factory.build import make_asset
+from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.intake.source import Source
+from asset_factory.factory.jobs.ray.exchange import ExchangeError
+from asset_factory.factory.jobs.ray.inputs import Inputs
+from asset_factory.factory.jobs.ray.weights import Checkpoints, arrived, sent_weights
+from asset_factory.factory.particulate.weights.sources import fetch, weights_at
+from asset_factory.sim_checks.config import CheckConfig
+from asset_factory.sim_checks.judge import Judge
+
+INPUTS = Inputs("source", "place", lambda product: product.reads)
+CONFIG = BuildConfig(articulator="rigid", simulators=())
+
+
+@pytest.fixture(scope="module")
+def inputs(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("here") / "meshes"
+    write_inputs(folder)
+    return folder
+
+
+def packed(source, more=frozenset()):
+    return INPUTS.packed({"source": source}, more)
+
+
+def keys_of(source):
+    """What an input is called, and what it was made of."""
+    return source.id, source.unloaded_ids, source.loaded_key, source.reads
+
+
+def read_there(source):
+    """What a node says of an input, its keys there, and the rounds that it took."""
+    more = frozenset()
+    for rounds in range(1, 9):
+        sent = packed(source, more)
+        with sent.sent.unpacked(sent.data) as path:
+            there = Source(path, CONFIG, source)
+            try:
+                said = there.load().provenance
+            except Exception as error:  # noqa: BLE001 - as it is here
+                said = str(error)
+            keys = keys_of(there)
+        lacking = sent.lacking(there.reads)
+        if not lacking:
+            return said, keys, rounds
+        more |= lacking
+    raise AssertionError(f"{more}: sent again and again")
+
+
+@pytest.mark.parametrize(
+    ("name", "rounds"),
+    [
+        ("box_0.stl", 1),
+        ("nothing.stl", 1),
+        ("painted/painted.obj", 1),
+        ("cart/cart.urdf", 1),
+        ("leads_out/leads_out.obj", 1),
+        ("strange/strange.obj", 2),
+    ],
+)
+def test_a_node_reads_what_is_here(inputs, name, rounds):
+    here = Source(inputs / name, CONFIG)
+    try:
+        said = here.load().provenance
+    except Exception as error:  # noqa: BLE001 - it is to be the same there
+        said = str(error)
+    assert read_there(inputs / name) == (said, keys_of(here), rounds)
+
+
+def test_an_input_that_is_gone_is_the_same_everywhere(inputs):
+    gone = inputs / "gone.stl"
+    here = Source(gone, CONFIG)
+    with pytest.raises(Exception, match="gone"):
+        here.load()
+    assert read_there(gone)[1] == keys_of(here)
+
+
+def test_a_product_tells_where_its_input_lies_here(inputs, tmp_path):
+    source = inputs / "box_0.stl"
+    sent = packed(source)
+    with sent.sent.unpacked(sent.data) as path, Judge(CheckConfig()) as judge:
+        product = make_asset(path, tmp_path / "staging", CONFIG, None, judge, source)
+    assert (product.source, product.result.input) == (source, str(source))
+
+
+@pytest.mark.parametrize("folder", ["..", "", "fridges"])
+def test_the_folder_keeps_its_name(inputs, folder):
+    sent = packed(inputs / "box_0.stl")
+    with replace(sent.sent, folder=folder).unpacked(sent.data) as path:
+        assert path.read_bytes() == (inputs / "box_0.stl").read_bytes()
+        assert path.parent.name == folder or not folder
+        around = next(each for each in path.resolve().parents if each.name.startswith("input-"))
+    assert not around.exists()
+
+
+def test_another_than_was_sent_is_refused(inputs):
+    sent = packed(inputs / "box_0.stl")
+    with (
+        pytest.raises(ExchangeError, match="digest"),
+        sent.sent.unpacked(sent.data[:-1] + b"x"),
+    ):
+        pass
+
+
+@pytest.mark.parametrize("name", ["../out", "/out", "a/../../out"])
+def test_no_input_leaves_its_folder(inputs, name):
+    data = io.BytesIO()
+    with tarfile.open(fileobj=data, mode="w:") as archive:
+        archive.addfile(tarfile.TarInfo(name))
+    forged = replace(
+        packed(inputs / "box_0.stl").sent, digest=hashlib.sha256(data.getvalue()).hexdigest()
+    )
+    with (
+        pytest.raises(ExchangeError, match="no file or folder below"),
+        forged.unpacked(data.getvalue()),
+    ):
+        pass
+
+
+class Cluster:
+    """Keeps what is put, as Ray's object store does."""
+
+    def __init__(self):
+        self.fetched = 0
+
+    def put(self, value):
+        return value
+
+    def get(self, value, timeout):
+        self.fetched += 1
+        return value
+
+
+@pytest.fixture
+def node(tmp_path, monkeypatch):
+    """Temporary files of a node."""
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    return tmp_path
+
+
+def test_a_checkpoint_is_fetched_once(node, tmp_path_factory):
+    named = write_checkpoint(tmp_path_factory.mktemp("weights") / "tiny.safetensors")
+    content = named.read_bytes()
+    ray = Cluster()
+    sent = sent_weights(ray, Checkpoints("weights", (str(named), "", "shipped", "absent.pt")))
+    assert [each[:2] for each in sent] == [(str(named), named.name)]
+    named.unlink()
+    for _ in range(2):
+        places = arrived(ray, sent)
+        with weights_at(places):
+            assert fetch(str(named)).read_bytes() == content
+            assert fetch(str(named)).name == named.name
+    assert ray.fetched == 1
+    (kept,) = places.values()
+    assert kept.is_relative_to(node)
+    kept.write_bytes(b"damaged")
+    assert arrived(ray, sent)[str(named)].read_bytes() == content
+    assert ray.fetched == 2
+
+
+def test_another_checkpoint_than_was_sent_is_refused(node):
+    sent = [("w", "w.pt", "0" * 64, [np.zeros(3, np.uint8)])]
+    with pytest.raises(ExchangeError, match="digest"):
+        arrived(Cluster(), sent)
+    assert not list(node.rglob("w.pt"))

@@ -1,0 +1,84 @@
+"""What a node says of a call whose input or answer does not come through."""
+
+import errno
+import hashlib
+import os
+import pickle
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from asset_factory.factory.jobs.ray.exchange import HERE, ExchangeError
+from asset_factory.factory.jobs.ray.inputs import Inputs
+from asset_factory.factory.jobs.ray.worker import Order, WorkerSettings, carry_out
+from asset_factory.sim_checks.processes.isolation import Limits, Outcome
+
+pytest.importorskip("ray")
+SETTINGS = WorkerSettings(0, 1, 2**30, ())
+
+
+@pytest.fixture
+def sent(tmp_path):
+    source = tmp_path / "meshes" / "thing.stl"
+    source.parent.mkdir()
+    source.write_text("solid thing")
+    return Inputs("source", "place", lambda value: {}).packed({"source": source}, frozenset())
+
+
+@pytest.fixture
+def made(monkeypatch):
+    """Calls in this process, whose outcome a test sets; each notes what it saw of its input."""
+    seen = []
+
+    def work(function, arguments, limits, settings):
+        path = arguments[HERE]["source"]
+        seen.append((path, path.read_text()))
+        return work.outcome
+
+    work.seen = seen
+    work.outcome = Outcome("value", None, "", "", 0.0)
+    monkeypatch.setattr("asset_factory.factory.jobs.ray.worker.work", work)
+    return work
+
+
+def ordered(sent, data=None, **changed):
+    order = Order(len, {}, Limits(wall_s=9.0), SETTINGS, replace(sent.sent, **changed))
+    return carry_out(pickle.dumps(order), sent.data if data is None else data, [])
+
+
+def test_an_input_is_there_for_its_call_alone(sent, made):
+    assert ordered(sent) == ("done", made.outcome)
+    ((path, text),) = made.seen
+    assert text == "solid thing"
+    assert not path.exists()
+
+
+def test_an_input_that_arrives_damaged_is_lost(sent, made):
+    word, why = ordered(sent, sent.data + b"x")
+    assert word == "lost"
+    assert "digest" in why
+    nothing = b"no archive"
+    assert ordered(sent, nothing, digest=hashlib.sha256(nothing).hexdigest())[0] == "lost"
+    assert made.seen == []
+
+
+@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EDQUOT])
+def test_a_node_without_room_for_an_input_is_full(sent, made, monkeypatch, number):
+    def refuse(self, *args, **kwargs):
+        raise OSError(number, os.strerror(number))
+
+    monkeypatch.setattr(Path, "open", refuse)
+    assert ordered(sent) == ("full", None)
+
+
+def test_a_node_without_room_for_an_asset_is_full(sent, made):
+    error = OSError(errno.ENOSPC, "No space left on device")
+    made.outcome = Outcome(None, "raised", str(error), "", 0.0, error)
+    assert ordered(sent) == ("full", None)
+
+
+def test_an_asset_that_cannot_be_sent_is_lost_and_no_failure_of_its_input(sent, made):
+    error = ExchangeError("s3://bucket: no answer")
+    made.outcome = Outcome(None, "raised", str(error), "", 0.0, error)
+    assert ordered(sent) == ("lost", "s3://bucket: no answer")
