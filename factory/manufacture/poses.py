@@ -59,11 +59,11 @@ def jointed(articulation: Articulation, a: int, b: int) -> bool:
 
     A cap that turns and lifts hangs on a link without geometry between its two joints.
     """
-    return b == _holder(articulation, a) or a == _holder(articulation, b)
+    return b == held_by(articulation, a) or a == held_by(articulation, b)
 
 
-def _holder(articulation: Articulation, part: int) -> int | None:
-    """The next part above one that has a body."""
+def held_by(articulation: Articulation, part: int) -> int | None:
+    """The next part above one that has a body; ``None`` if there is none."""
     joint = articulation.parent_joint(part)
     while joint is not None and not len(articulation.parts[joint.parent].faces):
         joint = articulation.parent_joint(joint.parent)

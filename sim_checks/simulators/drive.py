@@ -92,15 +92,25 @@ class _Order:
         return self._driven[index, opened]
 
     def _makers(self, index: int) -> Iterator[Joints]:
-        """The joints that move one of two links in contact, or were pushed; more as others join."""
+        """The joints that move one of two links in contact, or were pushed; more as others join.
+
+        Each alone before all of them: a lid makes way, and what unfolds the whole box does not.
+        """
         opened = CLOSED
         for _ in range(WIDENED):
-            makers = self._ready(index) & self._in_the_way(self._drive(index, opened))
+            motion = self._drive(index, opened)
+            makers = self._ready(index) & self._in_the_way(motion)
+            for maker in sorted(makers - opened, key=lambda i: (not self._leans(motion, i), i)):
+                yield opened.union({maker}, self.needs[maker])
             wider = opened.union(makers, *(self.needs[maker] for maker in makers))
             if wider == opened:
                 return
             opened = wider
             yield opened
+
+    def _leans(self, motion: JointMotion, index: int) -> bool:
+        """Whether this is the joint that was pushed most."""
+        return self._world.joints[index].name == motion.pushed
 
     def _in_the_way(self, motion: JointMotion) -> Joints:
         world = self._world

@@ -7,12 +7,14 @@ hidden there at rest is taken out of the collision geometry, and the report says
 And doors are modelled without the room that their edge needs to turn, or overlapping their
 neighbour; that is planed off the collision geometry within a budget, and the report says how much.
 Each pair of hulls is cut by planes, at every sampled pose of the joints that move the two parts
-against one another.
+against one another, and along slides between them. What stands deep in a solid body turns or is
+pressed in a pit there.
 
 What is never cut: what a part runs into away from its hinge, and more than a joiner would plane
 off. A cut there would hide a fault of the asset.
 """
 
-from .separate import Planed, Separation, SeparationRefusal, separate
+from .outcome import Planed, Separation, SeparationRefusal
+from .separate import separate
 
 __all__ = ["Planed", "Separation", "SeparationRefusal", "separate"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,7 +15,50 @@ from .clip import PlanedHull, cut_apart, meeting
 #: For each piece more a cut must lose less, by this share.
 PIECE_SHARE = 0.25
 
+#: Steps along a slide are as long as one another, but for rounding [m].
+EVEN_M = 1e-6
+#: A sheet that gives way may come to lie where something was before: so often all is looked at
+#: again.
+MOST_PASSES = 3
+
 Sides = tuple[list[PlanedHull], list[PlanedHull]]
+
+
+@dataclass(frozen=True)
+class Step:
+    """One pose of a way.
+
+    Attributes:
+        pose: where the second part is as seen from the first, [4, 4].
+        behind: from there to where it slid here from, in the first part's frame [m], shape [3].
+    """
+
+    pose: FloatArray
+    behind: FloatArray
+
+
+def steps_along(poses: Sequence[FloatArray]) -> list[Step]:
+    """Poses with what lies between them, where a slide leads through them.
+
+    Hulls are thinner than a step is long: a board passes a lip between two poses.
+    """
+    steps = []
+    for number, pose in enumerate(poses):
+        behind = np.zeros(3)
+        near = [poses[k] for k in (number - 2, number + 1) if 0 <= k < len(poses)]
+        if number and any(_even(poses[number - 1], pose, other) for other in near):
+            behind = poses[number - 1][:3, 3] - pose[:3, 3]
+        steps.append(Step(pose, behind))
+    return steps
+
+
+def _even(before: FloatArray, pose: FloatArray, other: FloatArray) -> bool:
+    """Whether a step is as long as the one that leads to it, or on from it, and none turns."""
+    if not all(np.array_equal(pose[:3, :3], each[:3, :3]) for each in (before, other)):
+        return False
+    step = pose[:3, 3] - before[:3, 3]
+    sides = (other[:3, 3] - pose[:3, 3], before[:3, 3] - other[:3, 3])
+    return min(float(np.abs(step - side).max()) for side in sides) < EVEN_M
 
 
 def cut_apart_along(
@@ -31,9 +75,16 @@ def cut_apart_along(
     solids_a: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in a]
     solids_b: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in b]
     # Pose by pose: what meets first is cut first, a little at a time.
-    for pose in poses:
-        for i, j in near_pairs(solids_a, solids_b, pose, clearance_m):
-            solids_a[i], solids_b[j] = _planed(solids_a[i], solids_b[j], [pose], clearance_m)
+    steps = steps_along(poses)
+    for _ in range(MOST_PASSES):
+        moved = False
+        for step in steps:
+            for i, j in near_pairs(solids_a, solids_b, step.pose, clearance_m, step.behind):
+                before = solids_a[i], solids_b[j]
+                solids_a[i], solids_b[j] = _planed(*before, [step], clearance_m)
+                moved |= any(map(_moved, before, (solids_a[i], solids_b[j])))
+        if not moved:
+            break
     return [solid.hull for solid in solids_a if solid], [solid.hull for solid in solids_b if solid]
 
 
@@ -55,12 +106,12 @@ def carved_apart_along(
     """
     pieces_a = [[PlanedHull.of(hull)] for hull in a]
     pieces_b = [[PlanedHull.of(hull)] for hull in b]
-    when: dict[tuple[int, int], list[FloatArray]] = {}
-    for pose in poses:
-        for pair in near_pairs(
-            [p[0] for p in pieces_a], [p[0] for p in pieces_b], pose, clearance_m
-        ):
-            when.setdefault(pair, []).append(pose)
+    when: dict[tuple[int, int], list[Step]] = {}
+    whole_a = [pieces[0] for pieces in pieces_a]
+    whole_b = [pieces[0] for pieces in pieces_b]
+    for step in steps_along(poses):
+        for pair in near_pairs(whole_a, whole_b, step.pose, clearance_m, step.behind):
+            when.setdefault(pair, []).append(step)
     for (i, j), way in sorted(when.items(), key=lambda found: found[0]):
         pieces_a[i], pieces_b[j] = _all_apart(pieces_a[i], pieces_b[j], way, clearance_m, whole)
     return [solid.hull for solids in pieces_a for solid in solids], [
@@ -84,7 +135,7 @@ def hull_depth(
 def _all_apart(
     ones: list[PlanedHull],
     others: list[PlanedHull],
-    way: list[FloatArray],
+    way: list[Step],
     clearance_m: float,
     whole: tuple[float, float],
 ) -> Sides:
@@ -108,13 +159,13 @@ def _all_apart(
 def _apart(
     one: PlanedHull,
     other: PlanedHull,
-    way: list[FloatArray],
+    way: list[Step],
     clearance_m: float,
     whole: tuple[float, float],
 ) -> Sides:
     """Two hulls in as few pieces as it takes: both cut by planes, pose by pose, or one carved."""
-    depths = [meeting(one, other, pose).depth for pose in way]
-    met = [pose for pose, depth in zip(way, depths, strict=True) if depth > -clearance_m]
+    depths = [meeting(one, other, step.pose, behind=step.behind).depth for step in way]
+    met = [step for step, depth in zip(way, depths, strict=True) if depth > -clearance_m]
     if not met:
         return [one], [other]
     first, second = _planed(one, other, met, clearance_m)
@@ -122,8 +173,8 @@ def _apart(
     if max(depths) <= clearance_m:
         return planed
     # All the room that either takes as the other sees it.
-    ahead = np.hstack([pose[:3, :3] @ other.hull.vertices.T + pose[:3, 3:] for pose in met]).T
-    back = np.hstack([pose[:3, :3].T @ (one.hull.vertices.T - pose[:3, 3:]) for pose in met]).T
+    ahead = np.concatenate([_seen(other, step.pose, step.behind) for step in met])
+    back = np.concatenate([_seen(one, *_from_the_other(step)) for step in met])
     ways: tuple[Sides, ...] = (
         planed,
         (carved(one, ahead, clearance_m), [other]),
@@ -133,15 +184,34 @@ def _apart(
 
 
 def _planed(
-    one: PlanedHull | None, other: PlanedHull | None, way: list[FloatArray], clearance_m: float
+    one: PlanedHull | None, other: PlanedHull | None, way: list[Step], clearance_m: float
 ) -> tuple[PlanedHull | None, PlanedHull | None]:
-    for pose in way:
+    for step in way:
         if one is None or other is None:
             break
-        met = meeting(one, other, pose)
+        met = meeting(one, other, step.pose, behind=step.behind)
         if met.depth > -clearance_m:
-            one, other = cut_apart(one, other, pose, met, clearance_m)
+            one, other = cut_apart(one, other, step.pose, met, clearance_m)
     return one, other
+
+
+def _moved(before: PlanedHull | None, after: PlanedHull | None) -> bool:
+    """Whether a hull is as large as before, but elsewhere."""
+    if before is None or after is None or before is after:
+        return False
+    return after.hull.volume > (1.0 - 1e-6) * before.hull.volume
+
+
+def _seen(solid: PlanedHull, pose: FloatArray, behind: FloatArray) -> FloatArray:
+    """Corners of a moved hull, there and where it slid there from [m], shape [n, 3]."""
+    points = solid.hull.vertices @ pose[:3, :3].T + pose[:3, 3]
+    return np.concatenate([points, points + behind]) if behind.any() else points
+
+
+def _from_the_other(step: Step) -> tuple[FloatArray, FloatArray]:
+    """The same step of the first part as the second sees it."""
+    back = np.asarray(np.linalg.inv(step.pose))
+    return back, -back[:3, :3] @ step.behind
 
 
 def _cost(sides: Sides, before: tuple[PlanedHull, PlanedHull], whole: tuple[float, float]) -> float:
@@ -158,10 +228,22 @@ def near_pairs(
     b: Sequence[PlanedHull | None],
     pose: FloatArray,
     margin: float,
+    behind: FloatArray | None = None,
 ) -> list[tuple[int, int]]:
-    """Indices of hulls whose boxes come within ``margin`` [m] of one another."""
+    """Indices of hulls whose boxes come within ``margin`` [m] of one another.
+
+    Args:
+        a: hulls of one part; ``None`` for one of which nothing is left.
+        b: of another.
+        pose: by which the second are moved, [4, 4].
+        margin: counted as near [m].
+        behind: see :func:`~.clip.meeting`.
+    """
     low_a, high_a = _boxes(a, np.eye(4))
     low_b, high_b = _boxes(b, pose)
+    if behind is not None:
+        low_b = low_b + np.minimum(behind, 0.0)
+        high_b = high_b + np.maximum(behind, 0.0)
     apart = (low_a[:, None] > high_b[None] + margin) | (high_a[:, None] < low_b[None] - margin)
     return [(int(i), int(j)) for i, j in np.argwhere(~apart.any(axis=2))]
 

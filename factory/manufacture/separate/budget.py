@@ -14,6 +14,7 @@ from ...config import SeparateConfig
 from ...geometry.areas import face_areas
 from ...mesh import FloatArray, Mesh
 from ..decompose.convex import depth_below
+from ..decompose.solids import manifold_of_hull, union
 
 #: Points spread over a part's visible surface, by area; its corners are looked at besides.
 SPREAD = 1500
@@ -80,6 +81,7 @@ class Loss:
 
     Attributes:
         share: of its collision volume.
+        open_share: the same without what lay hidden in the part that holds it.
         area: share of its visible surface that is neither hidden nor covered any more.
         bare_area: share of it that is not covered any more, hidden or not.
         bared_m: deepest that its visible surface lies bare where nothing excuses it [m].
@@ -87,6 +89,7 @@ class Loss:
     """
 
     share: float
+    open_share: float
     area: float
     bare_area: float
     bared_m: float
@@ -115,8 +118,12 @@ def loss(
         config: what is near, and what is told.
     """
     if not after:
-        return Loss(1.0, 1.0, 1.0, np.inf, np.inf)
-    share = 1.0 - sum(hull.volume for hull in after) / sum(hull.volume for hull in before)
+        return Loss(1.0, 1.0, 1.0, 1.0, np.inf, np.inf)
+    whole = sum(hull.volume for hull in before)
+    share = 1.0 - sum(hull.volume for hull in after) / whole
+    open_share = share
+    if excuse.held and share > config.planed_volume:
+        open_share -= (_within(before, excuse.other) - _within(after, excuse.other)) / whole
     bare = surface.outside(after) - surface.outside(before)
     looked = np.flatnonzero(bare > SHAVED_M)
     bare = bare[looked]
@@ -133,11 +140,18 @@ def loss(
     lost = ~hidden & bared
     return Loss(
         share,
+        max(0.0, open_share),
         float(lost.sum()) / surface.spread,
         float(bared.sum()) / surface.spread,
         float(bare[free].max(initial=0.0)),
         float(bare[planed].max(initial=0.0)),
     )
+
+
+def _within(hulls: Sequence[Hull], others: Sequence[Hull]) -> float:
+    """Volume of hulls that lies in any of others [m3]."""
+    room = union([manifold_of_hull(other) for other in others])
+    return sum(float((manifold_of_hull(hull) ^ room).volume()) for hull in hulls)
 
 
 def _beside(points: FloatArray, hinges: Sequence[Joint], radius_m: float) -> npt.NDArray[np.bool_]:

@@ -18,7 +18,13 @@ SPLINTER_SHARE = 0.01
 SPLINTER_M = 0.002
 
 
-def carved(solid: PlanedHull, room: FloatArray, clearance_m: float) -> list[PlanedHull]:
+def carved(
+    solid: PlanedHull,
+    room: FloatArray,
+    clearance_m: float,
+    most: int = MOST_PIECES,
+    least_m3: float | None = None,
+) -> list[PlanedHull]:
     """What is left of a hull outside some room, as convex pieces.
 
     Piece by piece the largest that one plane of the room leaves outside is kept.
@@ -27,16 +33,18 @@ def carved(solid: PlanedHull, room: FloatArray, clearance_m: float) -> list[Plan
         solid: the hull.
         room: points whose convex hull is to be free [m], shape [n, 3].
         clearance_m: to be left around it [m].
+        most: pieces that are kept.
+        least_m3: smaller pieces are splinters [m3]; otherwise a share of the hull.
     """
     around = hull_of(room)
     if around is None:
         return []
     planes = planes_of(around)
     planes[:, 3] += clearance_m
-    least = SPLINTER_SHARE * solid.hull.volume
+    least = SPLINTER_SHARE * solid.hull.volume if least_m3 is None else least_m3
     kept: list[PlanedHull] = []
     rest: Hull | None = solid.hull
-    while rest is not None and len(kept) < MOST_PIECES:
+    while rest is not None and len(kept) < most:
         heights = (rest.vertices @ planes[:, :3].T).max(axis=0) - planes[:, 3]
         tried = np.argsort(-heights, kind="stable")[:PLANES_TRIED]
         outside = [(_beyond(rest, planes[k]), k) for k in tried if heights[k] > SPLINTER_M]

@@ -39,12 +39,15 @@ class HullMeeting:
         reaches: how far the first reaches beyond the second's start along each [m], shape [n];
             negative is a gap.
         first_ends, second_starts: their positions along each [m], shape [n].
+        lags: how far before its pose the second was along each just before [m], shape [n]; at
+            most 0.
     """
 
     directions: FloatArray
     reaches: FloatArray
     first_ends: FloatArray
     second_starts: FloatArray
+    lags: FloatArray
 
     @property
     def depth(self) -> float:
@@ -52,14 +55,32 @@ class HullMeeting:
         return float(self.reaches[0])
 
 
-def meeting(a: PlanedHull, b: PlanedHull, pose: FloatArray, most: int = 6) -> HullMeeting:
-    """The ``most`` best separating face normals of two hulls, ``b`` moved by ``pose`` [4, 4]."""
+def meeting(
+    a: PlanedHull,
+    b: PlanedHull,
+    pose: FloatArray,
+    most: int = 6,
+    behind: FloatArray | None = None,
+) -> HullMeeting:
+    """The best separating face normals of two hulls.
+
+    Args:
+        a: the first.
+        b: the second.
+        pose: by which the second is moved, [4, 4].
+        most: how many normals are kept.
+        behind: from there to where it slid here from, in the first hull's frame [m], shape [3];
+            all of that way counts.
+    """
     points_b = b.hull.vertices @ pose[:3, :3].T + pose[:3, 3]
     directions = np.vstack([a.planes[:, :3], -b.planes[:, :3] @ pose[:3, :3].T])
     ends = (a.hull.vertices @ directions.T).max(axis=0)
-    starts = (points_b @ directions.T).min(axis=0)
+    lags = np.zeros(len(directions)) if behind is None else np.minimum(directions @ behind, 0.0)
+    starts = (points_b @ directions.T).min(axis=0) + lags
     best = np.argsort(ends - starts, kind="stable")[:most]
-    return HullMeeting(directions[best], (ends - starts)[best], ends[best], starts[best])
+    return HullMeeting(
+        directions[best], (ends - starts)[best], ends[best], starts[best], lags[best]
+    )
 
 
 def cut_apart(
@@ -86,6 +107,7 @@ def cut_apart(
                 float(met.second_starts[number])
                 + (1.0 - share) * needed
                 - float(direction @ pose[:3, 3])
+                - float(met.lags[number])
             )
             second = cut(b.hull, -back, -start)
             lost = _lost(a.hull, first) + _lost(b.hull, second)

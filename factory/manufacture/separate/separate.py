@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 
@@ -16,20 +16,20 @@ from ...mesh import FloatArray
 from ..decompose.convex import limit_vertices
 from ..decompose.decompose import PartHulls
 from ..hinges import is_crooked
-from ..poses import jointed, joints_between, relative_poses
+from ..poses import held_by, jointed, joints_between, relative_poses
 from .along import carved_apart_along, cut_apart_along, hull_depth
 from .budget import Excuse, Loss, SeenSurface, loss
+from .hung import at_an_edge, planed_limit, well_hung
+from .outcome import Pair, Planed, Separation, SeparationRefusal
 from .overlap import overlap, part_solids
+from .pits import TURNED_ROOM, Pit, stands_out_m, swept_share
 
-Pair = tuple[str, str]
 #: See :func:`cut_apart_along`.
 Sides = tuple[list[Hull], list[Hull]]
 Cut = Callable[..., Sides]
 
 #: Hulls that get so much deeper along a joint are in each other's way, however fat they are [m].
 HOPELESS_M = 0.06
-#: A part that reaches beyond its axis by this share of its reach turns about its middle.
-MIDDLE_SHARE = 0.5
 #: A slide no longer than this is a button, which is pressed into what it stands on [m].
 PRESSED_M = 0.012
 #: A part of whose surface a cut would bare more than this is kept whole in a socket, of so many
@@ -39,58 +39,6 @@ SOCKET_PIECES = 24
 SOCKET_RIM = 0.01
 #: What is nearer than the clearance by less is so by rounding [m].
 ROUNDING_M = 1e-5
-
-
-@dataclass(frozen=True)
-class SeparationRefusal:
-    """Why the hulls of two parts were not cut apart on all of their way.
-
-    Attributes:
-        reason: a sentence with the number in it.
-        meshes: True where the parts' own solids are at fault; False where it may be their hulls
-            only.
-        at_rest: they were cut apart where they are at rest, only not along the way.
-    """
-
-    reason: str
-    meshes: bool
-    at_rest: bool = False
-
-
-@dataclass(frozen=True)
-class Planed:
-    """What was taken off a part that can be seen.
-
-    Attributes:
-        part: its name.
-        depth_m: deepest [m].
-        share: of its collision volume.
-        area: of its visible surface.
-    """
-
-    part: str
-    depth_m: float
-    share: float
-    area: float
-
-
-@dataclass(frozen=True)
-class Separation:
-    """What came of cutting.
-
-    Attributes:
-        pieces: one per part, in their order.
-        refused: pair of part names -> why its hulls were not cut apart on all of their way.
-        hidden: pair of part names -> how deep the parts themselves overlap at rest [m],
-            where that is more than decomposition explains and what is hidden was taken out of the
-            collision geometry.
-        planed: pair of part names -> what was taken off where it can be seen.
-    """
-
-    pieces: tuple[PartHulls, ...]
-    refused: Mapping[Pair, SeparationRefusal] = field(default_factory=dict)
-    hidden: Mapping[Pair, float] = field(default_factory=dict)
-    planed: Mapping[Pair, tuple[Planed, ...]] = field(default_factory=dict)
 
 
 def separate(
@@ -179,6 +127,8 @@ class _Bench:
             if reason is not None and self._pressed(a, b) > 0.0:
                 dug = self._cut_along(pair, poses, self._carved_by_share(a, b))
                 reason = None if dug is None else reason
+            if reason is not None and self._dug(pair, poses):
+                reason = None
         cut = reason is None
 
         if reason is not None:
@@ -210,18 +160,55 @@ class _Bench:
         whole_a, whole_b = (sum(h.volume for h in self.hulls[part]) for part in (a, b))
         return partial(carved_apart_along, whole=(whole_a, whole_b))
 
+    def _dug(self, pair: Pair, poses: list[FloatArray]) -> bool:
+        """Dig a pit, if that takes no more than may."""
+        a, b = (self._index(name) for name in pair)
+        most = self.config.planed_volume
+        return any(
+            self._cut_along(pair, poses, pit, most) is None for pit in self._pits(a, b, poses)
+        )
+
+    def _goes_in_flush(self, spare: float) -> bool:
+        """Whether a slide goes into something, and no deeper than it stands out of it [m]."""
+        return -self.config.tolerance_m <= spare < np.inf
+
+    def _pits(self, a: int, b: int, poses: list[FloatArray]) -> list[Pit]:
+        """Pits for what turns in its own place, or slides no deeper than it stands out."""
+        between = joints_between(self.articulation, a, b)
+        if not jointed(self.articulation, a, b) or not self._well_hung(between):
+            return []
+        holder = self._holder(a, b)
+        way = poses if holder == 0 else [np.asarray(np.linalg.inv(pose)) for pose in poses]
+        turns = any(joint.turns for joint in between)
+        if turns and swept_share(*self._sides(a, b), way) > TURNED_ROOM:
+            return []
+        if not all(map(self._goes_in_flush, self._standing_out(a, b))):
+            return []
+        return [Pit(holder, at_once) for at_once in (True, False)]
+
+    def _holder(self, a: int, b: int) -> int:
+        """Which of two parts holds the other, 0 for the first."""
+        return 0 if held_by(self.articulation, b) == a else 1
+
+    def _sides(self, a: int, b: int) -> tuple[list[Hull], list[Hull]]:
+        """The hulls of the one that holds, and those of the other."""
+        hulls = (self.hulls[a], self.hulls[b])
+        return hulls if self._holder(a, b) == 0 else (hulls[1], hulls[0])
+
+    def _standing_out(self, a: int, b: int) -> list[float]:
+        """See :func:`stands_out_m`, for each slide between two parts."""
+        slides = [joint for joint in joints_between(self.articulation, a, b) if not joint.turns]
+        return [stands_out_m(*self._sides(a, b), joint) for joint in slides]
+
     def _cut_along(
-        self,
-        pair: Pair,
-        poses: list[FloatArray],
-        cut: Cut,
+        self, pair: Pair, poses: list[FloatArray], cut: Cut, most: float | None = None
     ) -> str | None:
-        """Cut, or why not."""
+        """Cut, or why not; ``most`` is the largest share of either part, where it is less."""
         a, b = (self._index(name) for name in pair)
         before = self.hulls[a], self.hulls[b]
         after = cut(*before, poses, self.config.clearance_m)
         losses = self._losses(a, b, before, after)
-        reason = self._overdone(a, b, losses)
+        reason = self._overdone(a, b, losses, most)
         if reason is not None:
             return reason
         if max(each.bare_area for each in losses) > SOCKET_SHARE and jointed(
@@ -267,7 +254,7 @@ class _Bench:
         """
         hinged = [joint.child for joint in self._hinges(a, b)]
         sizes = [surface.diagonal for i in hinged or (a, b) if (surface := self.surfaces[i])]
-        return self._share_of(min(sizes, default=0.0))
+        return planed_limit(self.config, min(sizes, default=0.0))
 
     def _hinges(self, a: int, b: int) -> list[Joint]:
         """Joints at an edge of what they turn, the one against the other part."""
@@ -275,28 +262,9 @@ class _Bench:
         # What a crooked hinge needs is not planed off: its axis is to be mended.
         if any(is_crooked(joint.axis) for joint in turning):
             return []
-        return [joint for joint in turning if self._at_an_edge(joint)]
-
-    def _at_an_edge(self, joint: Joint) -> bool:
-        """Whether a part reaches to its axis, and no further beyond it than may be planed off."""
-        surface = self.surfaces[joint.child]
-        if surface is None:
-            return False
-        arms = _arms(surface, joint)
-        near = max(float(np.linalg.norm(arms, axis=1).min()), _reach(arms)[1])
-        return near <= self._share_of(surface.diagonal)
-
-    def _about_its_middle(self, joint: Joint) -> bool:
-        """Whether a part reaches about as far to one side of its axis as to the other."""
-        surface = self.surfaces[joint.child]
-        if surface is None:
-            return True
-        ahead, behind = _reach(_arms(surface, joint))
-        return behind > MIDDLE_SHARE * ahead
-
-    def _share_of(self, diagonal: float) -> float:
-        config = self.config
-        return max(config.tolerance_m, min(config.planed_m, config.planed_share * diagonal))
+        return [
+            joint for joint in turning if at_an_edge(self.surfaces[joint.child], joint, self.config)
+        ]
 
     def _deepening(self, a: int, b: int, poses: list[FloatArray]) -> tuple[float, str | None]:
         """How deep two parts overlap at rest [m], and why they may not be cut apart, if so.
@@ -353,25 +321,25 @@ class _Bench:
         a hinge; a crooked joint is to be mended.
         """
         between = joints_between(self.articulation, a, b)
-        if not jointed(self.articulation, a, b) or not all(map(self._well_hung, between)):
+        if not jointed(self.articulation, a, b) or not self._well_hung(between):
             return self.config.bared_m
         most = min(self._limit(a, b) + self.config.clearance_m, self.config.scraped_m)
         return max(self.config.bared_m, most)
 
-    def _well_hung(self, joint: Joint) -> bool:
-        """Whether a joint runs straight, and turns its part about an edge or its middle."""
-        if is_crooked(joint.axis):
-            return False
-        return not joint.turns or self._at_an_edge(joint) or self._about_its_middle(joint)
+    def _well_hung(self, joints: Iterable[Joint]) -> bool:
+        return all(well_hung(self.surfaces[each.child], each, self.config) for each in joints)
 
     def _pressed(self, a: int, b: int) -> float:
         """How far a button goes into what holds it [m]; 0 for all that is no button."""
         between = joints_between(self.articulation, a, b)
         if len(between) != 1 or between[0].turns or not jointed(self.articulation, a, b):
             return 0.0
-        return between[0].range if between[0].range <= PRESSED_M else 0.0
+        travel = between[0].range
+        (spare,) = self._standing_out(a, b)
+        button = self._well_hung(between) and self._goes_in_flush(spare)
+        return travel if travel <= PRESSED_M or button else 0.0
 
-    def _overdone(self, a: int, b: int, losses: list[Loss]) -> str | None:
+    def _overdone(self, a: int, b: int, losses: list[Loss], at_most: float | None) -> str | None:
         """Why a cut takes too much, or what can be seen; ``None`` if it does neither."""
         config = self.config
         names = [self.articulation.parts[part].name for part in (a, b)]
@@ -388,28 +356,17 @@ class _Bench:
         for part, name, each in zip((a, b), names, losses, strict=True):
             # An open surface has no volume to speak of: the slabs over it come and go whole.
             planed = each.deepest_m > config.visible_m and self.solids[part] is not None
-            most = config.planed_volume if planed else config.most_cut
-            if each.share > most:
-                return (
-                    f"cutting them apart would take {each.share:.0%} of {name!r}; "
-                    f"at most {most:.0%} may go"
-                )
+            limits = [(each.share, at_most or config.most_cut)]
+            limits += [(each.open_share, config.planed_volume)] if planed else []
+            for share, most in limits:
+                if share > most:
+                    return (
+                        f"cutting them apart would take {share:.0%} of {name!r}; "
+                        f"at most {most:.0%} may go"
+                    )
             if each.area > config.planed_area:
                 return (
                     f"cutting them apart would bare {each.area:.0%} of the surface of {name!r}; "
                     f"at most {config.planed_area:.0%} may be"
                 )
         return None
-
-
-def _arms(surface: SeenSurface, joint: Joint) -> FloatArray:
-    """From a joint's axis to each point of a surface, across the axis [m], shape [n, 3]."""
-    arms = surface.points - joint.origin
-    return np.asarray(arms - np.outer(arms @ joint.axis, joint.axis))
-
-
-def _reach(arms: FloatArray) -> tuple[float, float]:
-    """How far from an axis points reach towards their middle [m], and how far beyond the axis."""
-    middle = (arms.min(axis=0) + arms.max(axis=0)) / 2.0
-    along = arms @ middle / max(float(np.linalg.norm(middle)), 1e-9)
-    return float(along.max()), -float(along.min())

@@ -208,3 +208,18 @@ def test_a_hinge_that_turns_half_a_turn_keeps_its_clearance_all_the_way():
         for other in door
     )
     assert gap > 0.0022
+
+
+def test_what_a_slide_passes_between_two_poses_is_cut_too():
+    # A front of 1.5 mm reaches 1.5 mm above a lip that it is past after one step of 9 mm.
+    floor = box((-0.4, -0.1, -0.05), (0.4, 0.1, -0.02))
+    lip = box((0.004, -0.1, 0.0985), (0.006, 0.1, 0.2))
+    front = box((0.0, -0.1, 0.0), (0.0015, 0.1, 0.1))
+    slide = Joint("slide", "prismatic", 0, 1, [1, 0, 0], [0, 0, 0], 0.0, 0.45)
+    tree, result = two([floor, lip], front, slide)
+    assert result.refused == {}
+    assert deepest(tree, result) == 0.0
+    # One that reaches 30 mm further is no lip.
+    tree, result = two([floor, box((0.004, -0.1, 0.067), (0.03, 0.1, 0.2))], front, slide)
+    assert ("body", "mover") in result.refused
+    assert deepest(tree, result) > 0.001

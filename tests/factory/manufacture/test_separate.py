@@ -121,10 +121,11 @@ def test_overlap_without_a_joint_between_is_left_alone():
 
 
 def test_a_cut_that_would_take_too_much_is_refused():
+    # A pit for all of its turn would take more than a twentieth of so slim a base.
     stem = ((0.02, 0.02, 0.05), (0, 0, 0.04))
     turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
-    tree = object_of(((0.3, 0.3, 0.1), (0, 0, 0)), stem, turn)
-    pieces = pieces_of(hull((0.3, 0.3, 0.1)), hull(*stem))
+    tree = object_of(((0.06, 0.06, 0.1), (0, 0, 0)), stem, turn)
+    pieces = pieces_of(hull((0.06, 0.06, 0.1)), hull(*stem))
     assert (
         "take 75% of 'mover'; at most 50% may go"
         in separate(tree, pieces, [("base", "mover")], CONFIG, 64).refused[("base", "mover")].reason

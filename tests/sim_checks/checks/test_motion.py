@@ -153,6 +153,18 @@ def test_what_stands_behind_what_makes_way_makes_way_too() -> None:
     assert found["j0"] == (True, ("j1", "j2"))
 
 
+@pytest.mark.parametrize(("lid_waits_for", "opens"), [(set(), True), ({0}, False)])
+def test_a_flap_opens_with_its_lid_alone_where_the_unfolded_side_would_stop_it(
+    lid_waits_for: set[int], opens: bool
+) -> None:
+    """The side carries the lid; a lid that itself waits for the flap lets neither open."""
+    world = Barred({0: {1}, 1: lid_waits_for, 2: set()}, unless={0: {2}})
+    world.carried = (*world.carried[:2], frozenset({"block1", "block2"}))
+    found = opening(world)
+    assert found["j0"] == (opens, ("j1",) if opens else ())
+    assert found["j1"] == (opens, ())
+
+
 @pytest.mark.parametrize(
     ("gives_way", "needs", "code"), [(True, ("j1",), []), (False, (), ["others_moved"])]
 )

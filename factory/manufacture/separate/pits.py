@@ -1,0 +1,194 @@
+"""A pit in what holds a knob, a stem or a button: as large as what turns or slides in it.
+
+Planes cut off whatever lies on one side of them, so what is deep in a solid body would lose all of
+it. Nothing of the body is seen where a knob stands in it; there a hole costs nothing but volume.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from manifold3d import Manifold
+
+from ...articulation import Joint
+from ...asset import Hull
+from ...mesh import FloatArray
+from ..decompose.convex import hull_of
+from ..decompose.solids import manifold_of_hull, union
+from .along import near_pairs
+from .carve import carved
+from .clip import PlanedHull, clipped, meeting
+
+#: Most pieces that are kept of one hull around a pit: a floor and walls around what is round.
+MOST_WALLS = 10
+#: Pieces of less than this share of what a pit takes are left out.
+WALL_SHARE = 0.001
+#: What turns may need so many times the room that it takes where it is modelled: a square stem.
+TURNED_ROOM = 2.0
+
+#: What lies no further ahead than this is touched [m].
+MET_M = 0.003
+
+
+@dataclass(frozen=True)
+class Pit:
+    """Makes room in one part for all of another's way.
+
+    Attributes:
+        holder: 0 or 1: which of two parts gives way.
+        at_once: one room for all hulls of the other part, rather than one for each.
+    """
+
+    holder: int
+    at_once: bool
+
+    def __call__(
+        self, a: Sequence[Hull], b: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
+    ) -> tuple[list[Hull], list[Hull]]:
+        """See :func:`~.along.cut_apart_along`; only the holder's hulls are cut."""
+        if self.holder == 0:
+            return self._dug(a, b, poses, clearance_m), list(b)
+        back = [np.asarray(np.linalg.inv(pose)) for pose in poses]
+        return list(a), self._dug(b, a, back, clearance_m)
+
+    def _dug(
+        self,
+        holder: Sequence[Hull],
+        mover: Sequence[Hull],
+        poses: Sequence[FloatArray],
+        clearance_m: float,
+    ) -> list[Hull]:
+        near = _met(holder, mover, poses, clearance_m)
+        left = list(holder)
+        for group in [near] if self.at_once else [[hull] for hull in near]:
+            points = np.concatenate([hull.vertices for hull in group] or [np.zeros((0, 3))])
+            body = hull_of(points)
+            if body is not None:
+                left = dug_around(left, body, poses, clearance_m)
+        return left
+
+
+def dug_around(
+    holder: Sequence[Hull], body: Hull, poses: Sequence[FloatArray], clearance_m: float
+) -> list[Hull]:
+    """What is left of hulls around all the room that a convex body takes.
+
+    Args:
+        holder: hulls, object frame at rest.
+        body: that moves in them.
+        poses: of the body as seen from them, [4, 4] each.
+        clearance_m: to be left around it [m].
+    """
+    room = _room([body], poses)
+    if room is None:
+        return list(holder)
+    return [
+        piece.hull for hull in holder for piece in _around(PlanedHull.of(hull), room, clearance_m)
+    ]
+
+
+def swept_share(
+    holder: Sequence[Hull], mover: Sequence[Hull], poses: Sequence[FloatArray]
+) -> float:
+    """How many times the room that a part takes in its holder as modelled it needs on its way.
+
+    Args:
+        holder: hulls, object frame at rest.
+        mover: of the other part.
+        poses: of the mover as seen from the holder, the first as modelled, [4, 4] each.
+    """
+    rest = _taken(holder, mover, poses[:1])
+    return _taken(holder, mover, poses) / rest if rest > 0.0 else np.inf
+
+
+def stands_out_m(holder: Sequence[Hull], mover: Sequence[Hull], joint: Joint) -> float:
+    """How much further than its own travel a slide stands out of what it goes into [m].
+
+    Infinite where it goes into nothing. Negative for what is no button: it would go in deeper than
+    it stands out, as a drawer that runs the wrong way, or meets something further on.
+    """
+    points = np.concatenate([hull.vertices for hull in mover])
+    ways = ((joint.upper, joint.axis), (-joint.lower, -joint.axis))
+    return min(
+        (
+            _spare(points @ axis, _before(holder, points, axis), travel)
+            for travel, axis in ways
+            if travel > 0.0
+        ),
+        default=np.inf,
+    )
+
+
+def _spare(heights: FloatArray, before: list[tuple[float, float]], travel: float) -> float:
+    """The same along one direction.
+
+    Args:
+        heights: of the mover [m], shape [n].
+        before: from where to where hulls of the holder lie in its shadow [m].
+        travel: how far it goes [m].
+    """
+    first = float(heights.min())
+    lead = float(heights.max())
+    end = lead
+    begins = np.inf
+    for low, high in sorted(before):
+        if low > end + MET_M:
+            # A gap: what lies behind it is out of reach, or run into.
+            if low < lead + travel:
+                return -travel
+            break
+        begins = min(begins, low)
+        end = max(end, high)
+    return begins - first - travel if end > lead else np.inf
+
+
+def _before(
+    holder: Sequence[Hull], points: FloatArray, direction: FloatArray
+) -> list[tuple[float, float]]:
+    """From where to where along a direction hulls lie in the shadow of points [m]."""
+    across = np.linalg.svd(direction[None])[2][1:]
+    found = []
+    for hull in holder:
+        left: Hull | None = hull
+        for side in (*across, *-across):
+            left = left and clipped(left, side, float((points @ side).max()))
+        if left is not None:
+            heights = left.vertices @ direction
+            found.append((float(heights.min()), float(heights.max())))
+    return found
+
+
+def _met(
+    holder: Sequence[Hull], mover: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
+) -> list[Hull]:
+    """Hulls of the mover that come near the holder anywhere on their way."""
+    pieces = [PlanedHull.of(hull) for hull in holder]
+    solids = [PlanedHull.of(hull) for hull in mover]
+    met = {j for pose in poses for _, j in near_pairs(pieces, solids, pose, clearance_m)}
+    return [mover[j] for j in sorted(met)]
+
+
+def _room(hulls: Sequence[Hull], poses: Sequence[FloatArray]) -> Hull | None:
+    """All the room that hulls take on their way, as one."""
+    points = np.concatenate([hull.vertices for hull in hulls])
+    return hull_of(np.concatenate([points @ pose[:3, :3].T + pose[:3, 3] for pose in poses]))
+
+
+def _around(piece: PlanedHull, room: Hull, clearance_m: float) -> list[PlanedHull]:
+    """What is left of a hull around a room; the hull itself where they do not meet."""
+    if meeting(piece, PlanedHull.of(room), np.eye(4)).depth <= -clearance_m:
+        return [piece]
+    low = room.vertices.min(axis=0) - clearance_m
+    size = room.vertices.max(axis=0) + clearance_m - low
+    shared = manifold_of_hull(piece.hull) ^ Manifold.cube(size).translate(low)
+    least = WALL_SHARE * float(shared.volume())
+    return carved(piece, room.vertices, clearance_m, MOST_WALLS, least)
+
+
+def _taken(holder: Sequence[Hull], mover: Sequence[Hull], poses: Sequence[FloatArray]) -> float:
+    """Volume of the holder's hulls within the room that each hull of the mover takes [m3]."""
+    rooms = [room for hull in mover if (room := _room([hull], poses)) is not None]
+    room = union([manifold_of_hull(each) for each in rooms])
+    return sum(float((manifold_of_hull(hull) ^ room).volume()) for hull in holder)
