@@ -28,20 +28,30 @@ _IMPATIENT = {
     "RAY_health_check_timeout_ms": "2000",
     "RAY_health_check_failure_threshold": "4",
 }
+_PROJECT = Path(__file__).resolve().parents[2]
 #: A host's own /tmp; what the head has of its own is empty there, whether it lies in /tmp or not.
-#: A package of its own is kept, for reading.
+#: A package of its own, and this project if it lies in /tmp, are kept, for reading.
 _OWN_FILES = """
 set -e
-if [ -n "$SOURCES" ]; then mount --bind "$SOURCES" /mnt; fi
+mount -t tmpfs none /mnt
+keep() {
+    mkdir "/mnt/$1"
+    mount --bind "$2" "/mnt/$1"
+}
+give_back() {
+    mkdir -p "$2"
+    mount --bind "/mnt/$1" "$2"
+    mount -o remount,ro,bind "$2"
+    umount "/mnt/$1"
+}
+if [ -n "$SOURCES" ]; then keep sources "$SOURCES"; fi
+case "$PROJECT" in /tmp/*) keep project "$PROJECT" ;; esac
 mount -t tmpfs -o "size=$ROOM" none /tmp
+case "$PROJECT" in /tmp/*) give_back project "$PROJECT" ;; esac
 mkdir -p "$HIDDEN"
 mount -t tmpfs -o size=1m none "$HIDDEN"
-if [ -n "$SOURCES" ]; then
-    mkdir -p "$SOURCES"
-    mount --bind /mnt "$SOURCES"
-    mount -o remount,ro,bind "$SOURCES"
-    umount /mnt
-fi
+if [ -n "$SOURCES" ]; then give_back sources "$SOURCES"; fi
+umount /mnt
 exec "$@"
 """
 
@@ -221,6 +231,7 @@ class Hosts:
         ray = str(Path(sys.executable).with_name("ray"))
         command = [*own, ray, "start", *more, _STORE, "--block", "--disable-usage-stats"]
         environment = {**os.environ, **_IMPATIENT, "HIDDEN": str(self._hidden), **told}
+        environment["PROJECT"] = str(_PROJECT)
         quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
         return subprocess.Popen(command, env=environment, start_new_session=True, **quiet)
 
