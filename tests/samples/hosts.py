@@ -166,9 +166,10 @@ class Hosts:
         process.wait()
 
     def files_on(self, number: int, folder: Path) -> list[str]:
-        """What a worker sees in a folder."""
+        """What a worker sees in a folder, beside this project."""
         pid = _pids_in(self._name(number))[0]
-        listing = ["nsenter", f"--target={pid}", "--mount", "find", folder, "-type", "f"]
+        listing = ["nsenter", f"--target={pid}", "--mount", "find", folder]
+        listing += ["-path", str(_PROJECT), "-prune", "-o", "-type", "f", "-print"]
         told = subprocess.run(listing, capture_output=True, text=True, check=True)
         return told.stdout.split()
 
