@@ -20,10 +20,13 @@ FRICTION_LAG = 0.01
 #: An inertia that is no inertia must not make the hand a giant's; no lever of furniture is longer
 #: [m].
 LONGEST_ARM_M = 1.0
-#: What rides on a driven part, this far from its axis [m], may lag by this share of its range; no
-#: stiffer than lets an engine's steps follow.
+#: What rides on a driven part, this far from its axis [m], may lag by this share of its range, at
+#: which it would be taken for pushed; a button, which has a spring, by less. It is held no stiffer
+#: than an engine's steps can follow.
 RIDING_ARM_M = 2.0
-RIDING_SHARE = 0.02
+RIDING_SHARE = 0.5
+BUTTON_SHARE = 0.2
+BUTTON_M = 0.05
 RIDING_STEP = 0.3
 #: How often the joints that make way are added to, because another link stands behind them.
 WIDENED = 3
@@ -220,7 +223,8 @@ def _law(world: World, index: int, span: Ranges, config: MotionConfig) -> _Law:
         if carried < world.carried[index] and span.size[other] > 0.0
     }
     for other, most in felt.items():
-        stiff = math.sqrt(most / (RIDING_SHARE * float(span.size[other])))
+        size = float(span.size[other])
+        stiff = math.sqrt(most / ((BUTTON_SHARE if size < BUTTON_M else RIDING_SHARE) * size))
         frequency[other] = max(frequency[other], min(stiff, RIDING_STEP / world.time_step))
     frequency[index] = config.drive_frequency
     damping = np.array([joint.damping or 0.0 for joint in world.joints])
