@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ...articulation import Joint
+from ...asset import Hull
 from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..hinges import is_crooked
@@ -12,19 +15,29 @@ from .budget import SeenSurface
 
 #: A part that reaches beyond its axis by this share of its reach turns about its middle.
 MIDDLE_SHARE = 0.5
+#: Around an axis a seat is looked at in so many directions;
+SEAT_SECTORS = 8
+#: and it reaches from the axis at least this share of its farthest in each: the axis is off its
+#: middle by a third of its radius at most.
+SEAT_SHARE = 0.5
 
 
-def well_hung(surface: SeenSurface | None, joint: Joint, config: SeparateConfig) -> bool:
-    """Whether a joint runs straight, and turns its part about an edge or its middle.
+def well_hung(
+    surface: SeenSurface | None, joint: Joint, holder: Sequence[Hull], config: SeparateConfig
+) -> bool:
+    """Whether a joint runs straight, and turns its part about an edge, its middle or its seat.
 
     Args:
         surface: of the part that it moves; ``None`` for a carrier.
         joint: to be looked at.
-        config: how far beyond its axis a part that hangs at an edge may reach.
+        holder: hulls of what holds that part.
+        config: how far beyond its axis a part that hangs at an edge may reach; how near is touched.
     """
     if is_crooked(joint.axis):
         return False
-    return not joint.turns or at_an_edge(surface, joint, config) or about_its_middle(surface, joint)
+    if not joint.turns or at_an_edge(surface, joint, config) or about_its_middle(surface, joint):
+        return True
+    return surface is not None and in_a_round_seat(surface, joint, holder, config.clearance_m)
 
 
 def at_an_edge(surface: SeenSurface | None, joint: Joint, config: SeparateConfig) -> bool:
@@ -41,7 +54,24 @@ def about_its_middle(surface: SeenSurface | None, joint: Joint) -> bool:
     if surface is None:
         return True
     ahead, behind = _reach(_arms(surface, joint))
-    return behind > MIDDLE_SHARE * ahead
+    return behind >= MIDDLE_SHARE * ahead
+
+
+def in_a_round_seat(
+    surface: SeenSurface, joint: Joint, holder: Sequence[Hull], near_m: float
+) -> bool:
+    """Whether a part touches what holds it all around its axis, about as far from it everywhere.
+
+    So does a lever whose arm stands out to one side of a collar; a door does not, however it is
+    hung, nor a lever whose axis lies beside the collar.
+    """
+    arms = _arms(surface, joint)[surface.outside(holder) <= near_m]
+    across = arms @ np.linalg.svd(joint.axis[None])[2][1:].T
+    turned = np.arctan2(across[:, 1], across[:, 0]) / (2.0 * np.pi)
+    sector = np.round(SEAT_SECTORS * turned).astype(int) % SEAT_SECTORS
+    reach = np.zeros(SEAT_SECTORS)
+    np.maximum.at(reach, sector, np.linalg.norm(across, axis=1))
+    return bool(reach.min() > SEAT_SHARE * reach.max())
 
 
 def planed_limit(config: SeparateConfig, diagonal: float) -> float:

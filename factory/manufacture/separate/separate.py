@@ -33,10 +33,12 @@ HOPELESS_M = 0.06
 #: A slide no longer than this is a button, which is pressed into what it stands on [m].
 PRESSED_M = 0.012
 #: A part of whose surface a cut would bare more than this is kept whole in a socket, of so many
-#: pieces more at most and so little of what is seen around it.
+#: pieces more at most, and so little of what is seen around it, as deep as what may be planed or
+#: this share of the part's diagonal: a toaster of four metres has a slot as large.
 SOCKET_SHARE = 0.05
 SOCKET_PIECES = 24
 SOCKET_RIM = 0.01
+SOCKET_DEEP = 0.01
 #: What is nearer than the clearance by less is so by rounding [m].
 ROUNDING_M = 1e-5
 
@@ -234,15 +236,25 @@ class _Bench:
         its rim is looked at.
         """
         before = self.hulls[a], self.hulls[b]
-        after = self._carved_by_share(a, b)(*before, poses, self.config.clearance_m)
-        losses = self._losses(a, b, before, after)
-        more = sum(map(len, after)) - sum(map(len, before))
-        kept = max(each.bare_area for each in losses) <= SOCKET_SHARE
-        rim = max(each.area for each in losses) <= SOCKET_RIM
-        deep = max(each.deepest_m for each in losses) > self.config.planed_m
-        if more > SOCKET_PIECES or deep or not (kept and rim):
-            return planed
-        return after, losses
+        round_one = Pit(self._holder(a, b), at_once=True)
+        for cut in (self._carved_by_share(a, b), round_one):
+            after = cut(*before, poses, self.config.clearance_m)
+            losses = self._losses(a, b, before, after)
+            if sum(map(len, after)) - sum(map(len, before)) > SOCKET_PIECES:
+                continue
+            if all(self._is_a_rim(part, each) for part, each in zip((a, b), losses, strict=True)):
+                return after, losses
+        return planed
+
+    def _is_a_rim(self, part: int, lost: Loss) -> bool:
+        """Whether no more than the rim of a socket was taken of what is seen of a part."""
+        surface = self.surfaces[part]
+        deep = SOCKET_DEEP * surface.diagonal if surface else 0.0
+        return (
+            lost.bare_area <= SOCKET_SHARE
+            and lost.area <= SOCKET_RIM
+            and lost.deepest_m <= max(self.config.planed_m, deep)
+        )
 
     def _index(self, name: str) -> int:
         return next(i for i, part in enumerate(self.articulation.parts) if part.name == name)
@@ -327,7 +339,12 @@ class _Bench:
         return max(self.config.bared_m, most)
 
     def _well_hung(self, joints: Iterable[Joint]) -> bool:
-        return all(well_hung(self.surfaces[each.child], each, self.config) for each in joints)
+        for joint in joints:
+            holder = held_by(self.articulation, joint.child)
+            hulls = [] if holder is None else self.hulls[holder]
+            if not well_hung(self.surfaces[joint.child], joint, hulls, self.config):
+                return False
+        return True
 
     def _pressed(self, a: int, b: int) -> float:
         """How far a button goes into what holds it [m]; 0 for all that is no button."""

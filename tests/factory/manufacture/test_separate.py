@@ -10,7 +10,9 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind, P
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import SeparateConfig
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls
+from asset_factory.factory.manufacture.poses import relative_poses
 from asset_factory.factory.manufacture.separate import separate
+from asset_factory.factory.manufacture.separate.along import hull_depth
 from asset_factory.factory.manufacture.separate.clip import PlanedHull, clipped, cut_apart, meeting
 from asset_factory.factory.mesh import Mesh, concatenate
 
@@ -95,6 +97,56 @@ def test_a_stem_of_which_much_is_hidden_is_kept_whole_in_a_socket():
         assert max(depths) <= -CONFIG.clearance_m + 1e-4
     socket = 0.009 - sum(one.volume for one in result.pieces[0].hulls)
     assert 0.02 * 0.02 * 0.03 < socket < 0.05 * 0.05 * 0.05
+
+
+def cylinder(radius, low, high):
+    made = trimesh.creation.cylinder(radius, high - low, sections=24)
+    made.apply_translation([0.0, 0.0, (low + high) / 2.0])
+    return Mesh.from_triangles(made.vertices, made.faces)
+
+
+def test_a_round_stem_that_nearly_fills_its_column_is_kept_whole_in_a_socket():
+    # A spout in its base: walls of four pieces would leave the column's own surface bare.
+    column, stem = cylinder(0.05, 0.0, 0.2), cylinder(0.03, 0.05, 0.5)
+    count = len(column.faces)
+    parts = (
+        Part("base", np.arange(count)),
+        Part("mover", np.arange(count, count + len(stem.faces))),
+    )
+    turn = Joint("turn", JointKind.CONTINUOUS, 0, 1, [0, 0, 1], [0, 0, 0], -np.pi, np.pi)
+    tree = Articulation(concatenate([column, stem]), parts, (turn,), "test")
+    hulls = [Hull(mesh.vertices, mesh.faces) for mesh in (column, stem)]
+    result = separate(tree, pieces_of(*hulls), [("base", "mover")], CONFIG, 64)
+    assert result.refused == {}
+    assert result.planed == {}
+    assert result.pieces[1].hulls[0].volume == pytest.approx(hulls[1].volume, rel=1e-6)
+    after = [list(piece.hulls) for piece in result.pieces]
+    way = relative_poses(tree, 0, 1, 60)
+    assert max(hull_depth(*after, pose) for pose in way) == 0.0
+
+
+def test_a_slot_in_something_large_may_be_as_deep_as_it_is_large():
+    # A toaster of three metres: its lever's tongue is 100 mm wide, the slot in its front 50.
+    sides = [
+        trimesh.creation.box(bounds=[low, high])
+        for low, high in (
+            ((-1.5, 0.0, 0.0), (-0.025, 3.0, 3.0)),
+            ((0.025, 0.0, 0.0), (1.5, 3.0, 3.0)),
+        )
+    ]
+    tongue = trimesh.creation.box(bounds=[(-0.05, -0.2, 1.5), (0.05, 0.25, 1.6)])
+    solids = [Mesh.from_triangles(each.vertices, each.faces) for each in (*sides, tongue)]
+    parts = (Part("base", np.arange(24)), Part("mover", np.arange(24, 36)))
+    slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, 0], 0.0, 0.4)
+    tree = Articulation(concatenate(solids), parts, (slide,), "test")
+    left, right, mover = (Hull(mesh.vertices, mesh.faces) for mesh in solids)
+    pieces = (PartHulls((left, right), "exact", (), True), *pieces_of(mover))
+    result = separate(tree, pieces, [("base", "mover")], CONFIG, 64)
+    assert result.refused == {}
+    assert result.pieces[1].hulls[0].volume == pytest.approx(mover.volume, rel=1e-6)
+    (slot,) = result.planed[("base", "mover")]
+    assert slot.depth_m == pytest.approx(0.025 + CONFIG.clearance_m, abs=1e-4)
+    assert slot.area < 0.01
 
 
 def test_parts_that_get_deeper_along_the_joint_are_left_alone():

@@ -1,0 +1,121 @@
+"""Levers turn in a round seat, doors at their edge, knobs about their middle; others are off."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+
+from asset_factory.factory.articulation import Articulation, Joint, Part, rotation_about
+from asset_factory.factory.config import SeparateConfig
+from asset_factory.factory.manufacture.decompose.convex import hull_of
+from asset_factory.factory.manufacture.decompose.decompose import PartHulls
+from asset_factory.factory.manufacture.poses import relative_poses
+from asset_factory.factory.manufacture.separate import separate
+from asset_factory.factory.manufacture.separate.along import hull_depth
+from asset_factory.factory.manufacture.separate.budget import SeenSurface
+from asset_factory.factory.manufacture.separate.hung import well_hung
+from asset_factory.factory.mesh import Mesh, concatenate
+
+CONFIG = SeparateConfig()
+PAIR = ("body", "lever")
+RADIUS, ARM = 0.05, 0.3
+UP = np.array([0.0, 0.0, 1.0])
+ALONG = np.array([1.0, 0.0, 0.0])
+
+
+def box(low, high):
+    return trimesh.creation.box(bounds=[low, high])
+
+
+def cylinder(radius, low, high, sections=12):
+    made = trimesh.creation.cylinder(radius, high - low, sections=sections)
+    made.apply_translation([0.0, 0.0, (low + high) / 2.0])
+    return made
+
+
+#: A lever on the hollow top of a post: a hub, and an arm to one side of it.
+HUB = cylinder(RADIUS, 0.3, 0.36)
+LEVER = [HUB, box((0.0, -0.02, 0.33), (ARM, 0.02, 0.36))]
+COLLAR = cylinder(RADIUS + 0.02, 0.28, 0.31, sections=40)
+POST = [cylinder(0.04, 0.0, 0.28), COLLAR]
+TURN = Joint("turn", "revolute", 0, 1, UP, [0.0, 0.0, 0.33], 0.0, np.pi / 2.0)
+
+
+def mesh_of(solids):
+    return concatenate([Mesh.from_triangles(each.vertices, each.faces) for each in solids])
+
+
+def surface_of(solids):
+    return SeenSurface.of(mesh_of(solids))
+
+
+def hulls_of(solids):
+    return tuple(hull_of(np.array(each.vertices)) for each in solids)
+
+
+def cut(lever, joint, post=POST):
+    """The lever on its post, and the two cut apart."""
+    counts = [sum(len(each.faces) for each in solids) for solids in (post, lever)]
+    parts = (
+        Part("body", np.arange(counts[0])),
+        Part("lever", np.arange(counts[0], sum(counts))),
+    )
+    tree = Articulation(mesh_of([*post, *lever]), parts, (joint,), "test")
+    pieces = tuple(PartHulls(hulls_of(solids), "exact", (), True) for solids in (post, lever))
+    return tree, separate(tree, pieces, [PAIR], CONFIG, 64)
+
+
+def deepest(tree, result):
+    hulls = [list(piece.hulls) for piece in result.pieces]
+    return max(hull_depth(*hulls, pose) for pose in relative_poses(tree, 0, 1, 150))
+
+
+def test_a_lever_on_a_collar_is_well_hung_and_beside_it_is_not():
+    surface, post = surface_of(LEVER), hulls_of(POST)
+    assert well_hung(surface, TURN, post, CONFIG)
+    # A third of the hub's radius, and a little more.
+    for side in (ALONG, -ALONG):
+        beside = replace(TURN, origin=TURN.origin + 0.025 * side)
+        assert not well_hung(surface, beside, post, CONFIG)
+    crooked = rotation_about(ALONG, np.radians(5.0)) @ UP
+    assert not well_hung(surface, replace(TURN, axis=crooked), post, CONFIG)
+
+
+def test_an_arm_that_touches_nothing_around_its_axis_is_not_well_hung():
+    bar = surface_of([box((-0.1, -0.02, 0.31), (ARM, 0.02, 0.36))])
+    assert not well_hung(bar, TURN, hulls_of(POST), CONFIG)
+    assert not well_hung(surface_of(LEVER), TURN, (), CONFIG)
+
+
+def test_what_is_alike_on_all_sides_of_its_axis_turns_about_its_middle():
+    assert well_hung(surface_of([HUB]), TURN, (), CONFIG)
+
+
+#: Something of the post that the lever's arm passes 8 mm deep on its way.
+STOP = box((-0.02, 0.1, 0.28), (0.02, 0.14, 0.338))
+
+
+def test_what_a_lever_scrapes_on_its_way_is_planed_off():
+    tree, result = cut(LEVER, TURN, [*POST, STOP])
+    assert result.refused == {}
+    assert 0.005 < max(each.depth_m for each in result.planed[PAIR]) < CONFIG.scraped_m
+    assert deepest(tree, result) == 0.0
+
+
+SHIFT = 0.05 * 0.7
+TWINS = {
+    "shifted along its arm": replace(TURN, origin=TURN.origin + SHIFT * ALONG),
+    "shifted away from it": replace(TURN, origin=TURN.origin - SHIFT * ALONG),
+    "shifted across": replace(TURN, origin=TURN.origin + SHIFT * np.array([0.0, 1.0, 0.0])),
+    "tilted": replace(TURN, axis=rotation_about(ALONG, -np.radians(10.0)) @ UP),
+    "tilted the other way": replace(TURN, axis=rotation_about(ALONG, np.radians(10.0)) @ UP),
+    "lying": replace(TURN, axis=np.array([0.0, 1.0, 0.0])),
+}
+
+
+@pytest.mark.parametrize("name", TWINS)
+def test_a_lever_that_is_hung_wrongly_is_not_planed_free(name):
+    tree, result = cut(LEVER, TWINS[name], [*POST, STOP])
+    assert PAIR in result.refused
+    assert deepest(tree, result) > 0.001
