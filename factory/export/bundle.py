@@ -16,7 +16,7 @@ from .links import lay_out
 from .manifest import Manifest
 
 #: Its version is raised when the same asset would be written otherwise.
-EXPORT = Stage("export", version=4)
+EXPORT = Stage("export", version=5)
 
 
 @dataclass(frozen=True)

@@ -1,23 +1,24 @@
 """How hard a joint is to move, where nobody has said so.
 
 A joint without friction swings open at the slightest touch; one that a robot arm cannot open is no
-use
-either. The defaults aim at furniture: one or two newtons at the rim start a motion, and a door that
-was pushed comes to rest within about a second.
+use either. The defaults aim at furniture: one or two newtons at the rim start a motion, and a door
+that was pushed comes to rest within about a second.
 
 ==========  =======================================================================================
 friction    revolute: ``clip(0.03 m g, 0.5 N, 3 N) * r`` [N m], r the reach of the moving part from
             the axis; prismatic: ``clip(0.03 m g, 1 N, 5 N)`` [N]. Never less than 1.2 times what
             gravity pulls the closed joint open with, so that a closed oven door stays closed.
 damping     ``I / 0.5 s`` [N m s/rad] or ``m / 0.5 s`` [N s/m]: free motion halves every 0.35 s.
-What was
-            stated is lowered to ``I / 8.3 ms`` if it is more: Bullet integrates damping explicitly,
-            so that at its 240 Hz more than half of a motion's speed may not go in one step. Nor may
-            it take more than 30 N at the rim to open the joint in 3 s; the same holds for stated
-            friction. Friction of more than 300 N at the rim counts as not stated.
 armature    ``0.01 I`` or ``0.01 m``, in MuJoCo only: steadies thin parts, changes motion by one
-percent. ==========
-=======================================================================================
+            percent.
+==========  =======================================================================================
+
+Damping that was stated is lowered to ``I / 8.3 ms`` if it is more: Bullet integrates it explicitly,
+so that at its 240 Hz more than half of a motion's speed may not go in one step. Nor may it take
+more than 30 N at the rim to open the joint in 3 s; the same holds for stated friction. Friction of
+more than 300 N at the rim counts as not stated. All friction is at most what stops the joint from
+half of Bullet's greatest speed, 100 rad/s or m/s, in one step: Bullet cuts speeds to that before
+friction acts, so that no force at all moves a joint whose friction is more (a flap of 5 g).
 
 m and I are those of the child and everything it carries, I about the joint's axis at rest.
 
@@ -46,6 +47,8 @@ REST_TIME_S = 0.5
 ARMATURE_SHARE = 0.01
 #: Two steps of 1/240 s [s].
 SHORTEST_TIME_S = 2.0 / 240.0
+#: Half of Bullet's greatest speed in a step of 1/240 s [rad/s2] or [m/s2].
+HARDEST_STOP = 0.5 * 100.0 * 240.0
 #: What a robot's arm can pull [N], and the time it may take [s].
 MOST_RIM_FORCE_N = 30.0
 OPENING_TIME_S = 3.0
@@ -113,12 +116,13 @@ def _resistance(asset: Asset, joint: Joint, closed: FloatArray) -> Resistance:
         friction = float(np.clip(weight, *SLIDE_FORCE_N))
     friction = max(friction, HOLD_CLOSED * _gravity_opens(asset, carried, joint, closed))
     most = MOST_RIM_FORCE_N * reach
+    friction = friction if _beyond_reason(joint, most) else min(joint.friction or 0.0, most)
     speed = (joint.upper - joint.lower) / OPENING_TIME_S
     damping = inertia / REST_TIME_S if joint.damping is None else joint.damping
     return Resistance(
         inertia=inertia,
         damping=min(damping, inertia / SHORTEST_TIME_S, most / speed if speed > 0.0 else damping),
-        friction=friction if _beyond_reason(joint, most) else min(joint.friction or 0.0, most),
+        friction=min(friction, HARDEST_STOP * inertia),
     )
 
 

@@ -153,7 +153,7 @@ def drive(
     It follows a smooth ramp. The force is a mass-scaled pull towards the ramp, clipped to a hand's
     strength, on top of what balances gravity and the file's own damping and friction. The other
     joints are held the same way, but softly: those in ``opened`` at upper, the rest at lower. What
-    rides on the part that is driven, a button on a door, is held so that the ride does not move it.
+    rides on the part that is driven, a button on a door, is held so that the ride hardly moves it.
     """
     start = span.lower.copy()
     together = sorted(CLOSED.union(*(companions(world, other) for other in opened)))

@@ -157,12 +157,14 @@ class SapienWorld:
 
     def step(self, forces: FloatArray) -> None:
         """One time step with these joint forces."""
-        before = self._read()
+        before = self._read() if self._endless.any() else None
         if self._articulation is not None:
             self._articulation.set_qf(np.asarray(forces, np.float32))
         self._scene.step()
-        jump = self._read() - before
-        self._wound -= np.where(self._endless & (np.abs(jump) > JUMP), np.sign(jump) * WINDING, 0.0)
+        if before is not None:
+            jump = self._read() - before
+            wrapped = self._endless & (np.abs(jump) > JUMP)
+            self._wound -= np.where(wrapped, np.sign(jump) * WINDING, 0.0)
 
     def contacts(self) -> dict[tuple[str, str], Touch]:
         """Which links touched in the last step."""

@@ -153,7 +153,7 @@ class _Bench:
             return False
         a, b = (self._index(name) for name in pair)
         least = self.config.clearance_m
-        poses = relative_poses(self.articulation, a, b, self.config.poses)[:2]
+        poses = relative_poses(self.articulation, a, b, 1)
         hulls = self.hulls[a], self.hulls[b]
         return max(hull_depth(*hulls, pose, least) for pose in poses) > ROUNDING_M - least
 

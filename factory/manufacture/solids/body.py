@@ -37,7 +37,7 @@ def share_out(work: Workpiece) -> None:
     labels = skin[wanted]
     for part in work.rest:
         around = _bounds(work, part)
-        span = work.lattice.span(around.grown(0.5 * work.step))
+        span = work.lattice.span(around.grown(0.5 * work.lattice.step))
         offset = np.array([each.start for each in span])
         cells = np.argwhere(work.owner[span] == 0) + offset
         if len(cells):
@@ -47,7 +47,7 @@ def share_out(work: Workpiece) -> None:
 
 def _bounds(work: Workpiece, part: int) -> Box:
     corners = work.skin.corners[work.skin.part == part].reshape(-1, 3)
-    return Box(corners.min(axis=0), corners.max(axis=0)) if len(corners) else Box(*np.zeros((2, 3)))
+    return Box.around(corners) if len(corners) else Box(*np.zeros((2, 3)))
 
 
 def block_insides(work: Workpiece, part: int, points: FloatArray) -> None:
@@ -67,7 +67,7 @@ def make_rest(work: Workpiece, most: int) -> None:
         block_insides(work, part, points)
         solid = _cells(work, part, points) & (work.blocked(part) == 0)
         matter = Matter(work.lattice, solid, work.whole, work.blocked(part), points)
-        small = np.ptp(points, axis=0).max() < FEW_CELLS * work.step
+        small = np.ptp(points, axis=0).max() < FEW_CELLS * work.lattice.step
         whole = hull_of(points) if small else None
         work.hulls[part] = (
             reaching(matter, convex_pieces(matter, most))

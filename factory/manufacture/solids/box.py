@@ -25,6 +25,11 @@ class Box:
         object.__setattr__(self, "low", read_only(self.low))
         object.__setattr__(self, "high", read_only(self.high))
 
+    @classmethod
+    def around(cls, points: FloatArray) -> Box:
+        """The least one that holds some points [m], shape [n, 3]."""
+        return cls(points.min(axis=0), points.max(axis=0))
+
     @property
     def size(self) -> FloatArray:
         """Side lengths [m], shape [3]."""

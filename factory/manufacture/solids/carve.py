@@ -77,7 +77,7 @@ def surface_points(work: Workpiece, part: int) -> FloatArray:
     corners = work.skin.corners[work.skin.part == part]
     if not len(corners):
         return np.zeros((0, 3))
-    step = SPACING * float(max(np.median(np.diff(each)) for each in work.lattice.lines))
+    step = SPACING * work.lattice.step
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
     parts = np.clip(np.ceil(longest / step).astype(np.int64), 1, 64)
     found = [corners.reshape(-1, 3)]
@@ -131,18 +131,28 @@ def make_slab(work: Workpiece, part: int) -> None:
     matter = Matter(work.lattice, solid & (blocked == 0), whole, blocked, kept @ frame)
     pieces = reaching(matter, convex_pieces(matter, MOST_PIECES))
     hulls = [*pieces, *(_turned(hull, frame) for hull in proud)]
-    hulls += _fitted(work, part, hulls, behind @ frame)
+    hulls += _behind_slab(work, part, hulls, behind @ frame, len(points))
     work.hulls[part] = tuple(hulls)
     keep_clear(work, part)
 
 
-def _fitted(work: Workpiece, part: int, hulls: list[Hull], points: FloatArray) -> tuple[Hull, ...]:
-    """Pieces of what is a panel's own behind its slab: shelves in a door, a knife's other side."""
+def _behind_slab(
+    work: Workpiece, part: int, hulls: list[Hull], points: FloatArray, whole: int
+) -> tuple[Hull, ...]:
+    """Pieces of what is a panel's own there: shelves in a door, a knife's other side.
+
+    Args:
+        work: all parts.
+        part: the panel.
+        hulls: its pieces so far.
+        points: of its skin behind its slab [m], shape [n, 3].
+        whole: points of all its skin.
+    """
     if not len(points):
         return ()
     far = np.max([depth_below(hull, points) for hull in hulls], axis=0) < -FAR_M if hulls else None
     bare = points if far is None else points[far]
-    if len(bare) < BARE_SHARE * len(surface_points(work, part)):
+    if len(bare) < BARE_SHARE * whole:
         return ()
     solid = marked(work.lattice, bare) & (work.blocked(part) == 0)
     matter = Matter(work.lattice, solid, work.whole, work.blocked(part), bare)

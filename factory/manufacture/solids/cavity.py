@@ -50,8 +50,7 @@ def hollow(lattice: Lattice, room: BoolArray, column: Box, frame: FloatArray) ->
         found.append(box)
         if box.high[2] < high[2] - 1e-9:
             break
-    cell = max(float(np.median(np.diff(line))) for line in lattice.lines)
-    return _merged(found, max(ALIKE_M, ALIKE_CELLS * cell))
+    return _merged(found, max(ALIKE_M, ALIKE_CELLS * lattice.step))
 
 
 def _shrunk(lattice: Lattice, room: BoolArray, box: Box, frame: FloatArray) -> Box | None:

@@ -50,8 +50,7 @@ def make_bumps(work: Workpiece) -> None:
     for part, bump in work.bumps.items():
         work.hulls[part] = (bump.hull,)
         host = work.host(part)
-        if bump.normal is not None:
-            _free_above(work, host, bump)
+        _free_above(work, host, bump)
         inside = entered(work.lattice, [bump.hull], _way(work.joints[part - 1]), CLEAR_M)
         work.block(host, inside, PATH)
         work.owner[inside & (work.owner == host)] = -1
@@ -70,7 +69,7 @@ def _passed(bump: Bump, joint: Joint) -> FloatArray:
 
 
 def _box(points: FloatArray) -> Box:
-    return Box(points.min(axis=0), points.max(axis=0)).grown(CLEAR_M)
+    return Box.around(points).grown(CLEAR_M)
 
 
 def _free_above(work: Workpiece, host: int, bump: Bump) -> None:

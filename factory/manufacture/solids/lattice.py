@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -57,6 +58,11 @@ class Lattice:
         """Cells along each axis."""
         x, y, z = (len(each) - 1 for each in self.lines)
         return x, y, z
+
+    @cached_property
+    def step(self) -> float:
+        """Length of most cells' sides [m]."""
+        return float(max(np.median(np.diff(line)) for line in self.lines))
 
     @property
     def middles(self) -> tuple[FloatArray, FloatArray, FloatArray]:

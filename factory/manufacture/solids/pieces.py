@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from heapq import heappop, heappush
+from operator import itemgetter
 
 import numpy as np
 import numpy.typing as npt
@@ -80,11 +81,6 @@ class Matter:
         ]
         first = np.unique(np.column_stack(cells), axis=0, return_index=True)[1]
         return self.points[first]
-
-    @cached_property
-    def step(self) -> float:
-        """Length of most cells' sides [m]."""
-        return float(max(np.median(np.diff(line)) for line in self.lattice.lines))
 
     @cached_property
     def trifle(self) -> float:
@@ -184,11 +180,8 @@ def _node(matter: Matter, span: Span) -> _Node | None:
     hull = hull_of(outermost)
     hulls = _foils(matter, outermost) if hull is None else [hull]
     wastes = [_waste(matter, trimmed, each) for each in hulls]
-    return _Node(trimmed, *min(zip(hulls, wastes, strict=True), key=_second)) if hulls else None
-
-
-def _second(pair: tuple[Hull, float]) -> float:
-    return pair[1]
+    least = min(zip(hulls, wastes, strict=True), key=itemgetter(1), default=None)
+    return least and _Node(trimmed, *least)
 
 
 def _foils(matter: Matter, points: FloatArray) -> list[Hull]:
@@ -197,7 +190,7 @@ def _foils(matter: Matter, points: FloatArray) -> list[Hull]:
         return []
     _, spread, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
     wide = np.ptp(points @ axes.T, axis=0)[1]
-    if spread[2] > FLAT * spread[1] or wide < FOIL_CELLS * matter.step:
+    if spread[2] > FLAT * spread[1] or wide < FOIL_CELLS * matter.lattice.step:
         return []
     foils = (
         hull_of(np.concatenate([points, points + side * FOIL_M * axes[2]])) for side in (-1.0, 1.0)

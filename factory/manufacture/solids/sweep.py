@@ -45,8 +45,7 @@ def entered(
         planes = planes_of(hull)
         for pose in poses:
             moved = hull.vertices @ pose[:3, :3].T + pose[:3, 3]
-            box = Box(moved.min(axis=0) - margin, moved.max(axis=0) + margin)
-            span = lattice.span(box)
+            span = lattice.span(Box.around(moved).grown(margin))
             inside = np.zeros(marked[span].shape)
             if not inside.size:
                 continue

@@ -71,11 +71,6 @@ class Workpiece:
         """Of a part."""
         return self.source.parts[part].name
 
-    @property
-    def step(self) -> float:
-        """Length of most cells' sides [m]."""
-        return float(max(np.median(np.diff(line)) for line in self.lattice.lines))
-
     def host(self, part: int) -> int:
         """The nearest part with faces that a part hangs on."""
         return host_of(self.source, part)

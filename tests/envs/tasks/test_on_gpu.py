@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from making import make
 
 torch = pytest.importorskip("torch", reason="torch is not installed")
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
@@ -13,16 +14,7 @@ ENVS = 256
 
 
 def test_every_environment_has_an_asset_and_steps(household) -> None:
-    import gymnasium
-
-    several = gymnasium.make(
-        "asset_factory.envs:OpenJoint-v1",
-        registry=household,
-        num_envs=ENVS,
-        sim_backend="physx_cuda",
-        obs_mode="state",
-        render_backend="none",
-    )
+    several = make(household, num_envs=ENVS, sim_backend="physx_cuda", render_backend="none")
     observations, _ = several.reset(seed=0)
     assert observations.shape[0] == ENVS
     assert len({asset.id for asset in several.unwrapped.assets}) > 1

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from export_samples import box, boxes_asset, cabinet
@@ -47,6 +49,18 @@ def test_friction_that_no_arm_can_overcome_is_lowered_and_told() -> None:
     assert resistance.friction == 30.0
     (note,) = resistance_notes(asset, resistances)
     assert "friction 100" in note
+
+
+def test_friction_that_stops_all_that_bullet_can_turn_is_lowered_and_told() -> None:
+    hinge = Joint("j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 2], 0, 1, friction=0.01)
+    asset = one_joint(hinge)
+    flap = Inertial(0.005, np.array([0.0, 0.0, 2.0]), np.eye(3) * 2e-7)
+    light = replace(asset, bodies=(asset.bodies[0], replace(asset.bodies[1], inertial=flap)))
+    (resistance,) = resistances = joint_resistances(light)
+    # In one step it takes half of the 100 rad/s that Bullet allows.
+    assert resistance.friction / resistance.inertia / 240.0 == pytest.approx(50.0)
+    (note,) = resistance_notes(light, resistances)
+    assert "friction 0.01" in note
 
 
 def test_friction_beyond_reason_counts_as_not_stated_and_is_told() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -10,7 +11,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from export_samples import PROVENANCE, box, boxes_asset, cabinet, image
+from export_samples import PROVENANCE, box, boxes_asset, cabinet, image, inertial_of
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -177,6 +178,34 @@ def test_pybullet_loads_a_bundle_with_and_without_joints(tmp_path: Path, jointed
     ).unwrap()
     # PyBullet reports no mass for a fixed base.
     assert masses[1:] == [body.inertial.mass for body in asset.bodies[1:]]
+
+
+def pybullet_turned(path: str) -> tuple[float, float]:
+    """Runs in a child: friction of the first joint, and where three times it takes the joint."""
+    import pybullet
+
+    pybullet.connect(pybullet.DIRECT)
+    body = pybullet.loadURDF(path, useFixedBase=True, flags=pybullet.URDF_USE_INERTIA_FROM_FILE)
+    friction = pybullet.getJointInfo(body, 0)[7]
+    # A motor at rest is Bullet's own idiom for friction.
+    pybullet.setJointMotorControl2(body, 0, pybullet.VELOCITY_CONTROL, force=friction)
+    for _ in range(24):
+        pybullet.setJointMotorControl2(body, 0, pybullet.TORQUE_CONTROL, force=3.0 * friction)
+        pybullet.stepSimulation()
+    return friction, pybullet.getJointState(body, 0)[0]
+
+
+def test_pybullet_opens_a_flap_of_five_grams(tmp_path: Path) -> None:
+    pytest.importorskip("pybullet", reason="pybullet is not installed")
+    hinge = Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [-0.004, 0.0, 2.0], 0.0, 2.5)
+    plate = box([0, 0, 2], [0.008, 0.001, 0.012])
+    asset = boxes_asset([box([0, 0, 0], [1, 1, 1]), plate], (hinge,))
+    flap = replace(asset.bodies[1], inertial=inertial_of(plate, 0.005))
+    light = replace(asset, bodies=(asset.bodies[0], flap))
+    bundle = exported(light, tmp_path)
+    friction, turned = run_isolated(pybullet_turned, str(bundle.urdf), limits=LIMITS).unwrap()
+    assert friction > 0.0
+    assert turned > 2.4
 
 
 def test_mujoco_sees_each_parts_own_texture_and_only_hulls_collide(tmp_path: Path) -> None:
