@@ -148,6 +148,66 @@ def loss(
     )
 
 
+@dataclass(frozen=True)
+class CutLimits:
+    """What a cut may take of two parts.
+
+    Attributes:
+        free_m: off both together where nothing excuses it [m].
+        planed_m: the same beside a hinge, or in a part that no joint holds it in [m].
+        share: of the collision volume of either.
+    """
+
+    free_m: float
+    planed_m: float
+    share: float
+
+
+def overdone(
+    names: Sequence[str],
+    losses: Sequence[Loss],
+    solid: Sequence[bool],
+    limits: CutLimits,
+    config: SeparateConfig,
+) -> str | None:
+    """Why a cut between two parts takes too much, or what can be seen; ``None`` if it does neither.
+
+    Args:
+        names: of both.
+        losses: of both.
+        solid: whether each encloses a volume: of an open surface the slabs over it have none to
+            speak of, and come and go whole.
+        limits: for the two.
+        config: the other limits.
+    """
+    for depths, limit in (
+        ([each.bared_m for each in losses], limits.free_m),
+        ([each.planed_m for each in losses], limits.planed_m),
+    ):
+        if sum(depths) > limit:
+            return (
+                f"cutting them apart would take {sum(depths) * 1000:.1f} mm that is not hidden "
+                f"in the other, most of it off {names[int(np.argmax(depths))]!r}; "
+                f"at most {limit * 1000:.3g} mm may go"
+            )
+    for name, each, encloses in zip(names, losses, solid, strict=True):
+        planed = each.deepest_m > config.visible_m
+        shares = [(each.share, limits.share)] if encloses or planed else []
+        shares += [(each.open_share, config.planed_volume)] if encloses and planed else []
+        for share, most in shares:
+            if share > most:
+                return (
+                    f"cutting them apart would take {share:.0%} of {name!r}; "
+                    f"at most {most:.0%} may go"
+                )
+        if each.area > config.planed_area:
+            return (
+                f"cutting them apart would bare {each.area:.0%} of the surface of {name!r}; "
+                f"at most {config.planed_area:.0%} may be"
+            )
+    return None
+
+
 def _within(hulls: Sequence[Hull], others: Sequence[Hull]) -> float:
     """Volume of hulls that lies in any of others [m3]."""
     room = union([manifold_of_hull(other) for other in others])

@@ -79,6 +79,11 @@ def planed_limit(config: SeparateConfig, diagonal: float) -> float:
     return max(config.tolerance_m, min(config.planed_m, config.planed_share * diagonal))
 
 
+def reach_m(surface: SeenSurface, joint: Joint) -> float:
+    """How far a part reaches from a joint's axis [m]."""
+    return float(np.linalg.norm(_arms(surface, joint), axis=1).max())
+
+
 def _arms(surface: SeenSurface, joint: Joint) -> FloatArray:
     """From a joint's axis to each point of a surface, across the axis [m], shape [n, 3]."""
     arms = surface.points - joint.origin

@@ -17,9 +17,9 @@ from ..decompose.convex import limit_vertices
 from ..decompose.decompose import PartHulls
 from ..hinges import is_crooked
 from ..poses import held_by, jointed, joints_between, relative_poses
-from .along import carved_apart_along, cut_apart_along, hull_depth
-from .budget import Excuse, Loss, SeenSurface, loss
-from .hung import at_an_edge, planed_limit, well_hung
+from .along import carved_apart_along, cut_apart_along, hull_depth, too_near
+from .budget import CutLimits, Excuse, Loss, SeenSurface, loss, overdone
+from .hung import at_an_edge, planed_limit, reach_m, well_hung
 from .outcome import Pair, Planed, Separation, SeparationRefusal
 from .overlap import overlap, part_solids
 from .pits import TURNED_ROOM, Pit, stands_out_m, swept_share
@@ -39,6 +39,11 @@ SOCKET_SHARE = 0.05
 SOCKET_PIECES = 24
 SOCKET_RIM = 0.01
 SOCKET_DEEP = 0.01
+#: After a cut all of a hinge's way is looked at, in steps so long at the end of its arm [m],
+BETWEEN_M = 0.004
+#: at most so many for each that was cut at; and again after what was missed is cut, so often.
+FINEST = 8
+MOST_LOOKS = 3
 #: What is nearer than the clearance by less is so by rounding [m].
 ROUNDING_M = 1e-5
 
@@ -209,6 +214,10 @@ class _Bench:
         a, b = (self._index(name) for name in pair)
         before = self.hulls[a], self.hulls[b]
         after = cut(*before, poses, self.config.clearance_m)
+        between = self._between(a, b) if len(poses) > 2 else []
+        for _ in range(MOST_LOOKS):
+            missed = too_near(*after, between, self.config.clearance_m / 2.0)
+            after = cut(*after, missed, self.config.clearance_m) if missed else after
         losses = self._losses(a, b, before, after)
         reason = self._overdone(a, b, losses, most)
         if reason is not None:
@@ -226,6 +235,20 @@ class _Bench:
         if planed:
             self.planed[pair] = planed
         return None
+
+    def _between(self, a: int, b: int) -> list[FloatArray]:
+        """Poses between those of hinges, near enough for a sheet at an arm's end to meet another.
+
+        Slides are cut on all of their way anyway.
+        """
+        turning = [joint for joint in joints_between(self.articulation, a, b) if joint.turns]
+        mover = self.surfaces[b if self._holder(a, b) == 0 else a]
+        if not turning or mover is None or not jointed(self.articulation, a, b):
+            return []
+        way = max(joint.range * reach_m(mover, joint) for joint in turning)
+        count = min(int(way / BETWEEN_M), FINEST * (self.config.poses - 1)) + 1
+        finer = count > self.config.poses
+        return relative_poses(self.articulation, a, b, count) if finer else []
 
     def _socketed(
         self, a: int, b: int, poses: list[FloatArray], planed: tuple[Sides, list[Loss]]
@@ -358,32 +381,8 @@ class _Bench:
 
     def _overdone(self, a: int, b: int, losses: list[Loss], at_most: float | None) -> str | None:
         """Why a cut takes too much, or what can be seen; ``None`` if it does neither."""
-        config = self.config
+        planed = self._limit(a, b) + self.config.clearance_m
+        limits = CutLimits(self._free_limit(a, b), planed, at_most or self.config.most_cut)
         names = [self.articulation.parts[part].name for part in (a, b)]
-        for depths, limit in (
-            ([each.bared_m for each in losses], self._free_limit(a, b)),
-            ([each.planed_m for each in losses], self._limit(a, b) + config.clearance_m),
-        ):
-            if sum(depths) > limit:
-                return (
-                    f"cutting them apart would take {sum(depths) * 1000:.1f} mm that is not hidden "
-                    f"in the other, most of it off {names[int(np.argmax(depths))]!r}; "
-                    f"at most {limit * 1000:.3g} mm may go"
-                )
-        for part, name, each in zip((a, b), names, losses, strict=True):
-            # An open surface has no volume to speak of: the slabs over it come and go whole.
-            planed = each.deepest_m > config.visible_m and self.solids[part] is not None
-            limits = [(each.share, at_most or config.most_cut)]
-            limits += [(each.open_share, config.planed_volume)] if planed else []
-            for share, most in limits:
-                if share > most:
-                    return (
-                        f"cutting them apart would take {share:.0%} of {name!r}; "
-                        f"at most {most:.0%} may go"
-                    )
-            if each.area > config.planed_area:
-                return (
-                    f"cutting them apart would bare {each.area:.0%} of the surface of {name!r}; "
-                    f"at most {config.planed_area:.0%} may be"
-                )
-        return None
+        solid = [self.solids[part] is not None for part in (a, b)]
+        return overdone(names, losses, solid, limits, self.config)

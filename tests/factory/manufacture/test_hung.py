@@ -119,3 +119,16 @@ def test_a_lever_that_is_hung_wrongly_is_not_planed_free(name):
     tree, result = cut(LEVER, TWINS[name], [*POST, STOP])
     assert PAIR in result.refused
     assert deepest(tree, result) > 0.001
+
+
+def test_what_a_long_arm_passes_between_two_poses_is_cut_too():
+    # Its end goes 26 mm in a step; it is 8 mm thick, the fin half a step further 5.
+    angle = 10.5 * np.pi / 2.0 / (CONFIG.poses - 1)
+    fin = box((0.76, -0.0025, 0.095), (0.8, 0.0025, 0.2))
+    fin.apply_transform(trimesh.transformations.rotation_matrix(angle, UP))
+    arm = box((0.0, -0.004, 0.0), (0.8, 0.004, 0.1))
+    turn = replace(TURN, origin=np.zeros(3))
+    tree, result = cut([arm], turn, [box((-0.2, -0.2, -0.1), (0.9, 0.9, -0.05)), fin])
+    assert result.refused == {}
+    hulls = [list(piece.hulls) for piece in result.pieces]
+    assert max(hull_depth(*hulls, pose) for pose in relative_poses(tree, 0, 1, 900)) == 0.0
