@@ -1,7 +1,11 @@
-"""Hinges at the front edge of a door: inset doors pass their frame only about that edge."""
+"""Hinges at the edges of a door.
+
+About the front one inset doors pass their frame, about the back one doors before it half round.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -47,6 +51,18 @@ def at_front_edge(articulation: Articulation, joint: Joint) -> Joint | None:
     Returns:
         ``None`` where the joint is no hinge that opens one way, or is there already.
     """
+    return _at_edge(articulation, joint, np.max)
+
+
+def at_back_edge(articulation: Articulation, joint: Joint) -> Joint | None:
+    """The same at the edge towards what the door lies before; otherwise as the front edge."""
+    return _at_edge(articulation, joint, np.min)
+
+
+def _at_edge(
+    articulation: Articulation, joint: Joint, extreme: Callable[[FloatArray], np.float64]
+) -> Joint | None:
+    """The same hinge where its part begins: at the least or the most that it stands out there."""
     turn = joint.upper + joint.lower
     faces = articulation.parts[joint.child].faces
     if joint.kind is not JointKind.REVOLUTE or turn == 0.0 or not len(faces):
@@ -62,9 +78,9 @@ def at_front_edge(articulation: Articulation, joint: Joint) -> Joint | None:
     points = part.vertices[np.unique(part.faces)]
     reach = points @ toward
     near = reach >= reach.max() - EDGE * float(np.ptp(reach))
-    front = float((points[near] @ outward).max())
+    face = float(extreme(points[near] @ outward))
     off = toward * (float(reach.max()) - float(joint.origin @ toward))
-    off = off + outward * (front - float(joint.origin @ outward))
+    off = off + outward * (face - float(joint.origin @ outward))
     if float(np.linalg.norm(off)) <= THERE_M:
         return None
     return replace(joint, origin=joint.origin + off)

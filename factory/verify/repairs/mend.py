@@ -9,7 +9,7 @@ import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind
 from ...asset import Asset
-from ...manufacture.hinges import at_front_edge, is_askew
+from ...manufacture.hinges import at_back_edge, at_front_edge, is_askew
 from ...manufacture.plan import Plan
 from ...manufacture.separate.sweep import swept_m
 from ...mesh import FloatArray
@@ -19,8 +19,9 @@ from .evidence import RepairEvidence
 MOVED_SHARE = 0.06
 #: A joint that runs into something within this share of its range may run the wrong way.
 BLOCKED_SHARE = 0.25
-#: What is no deeper than this is no penetration [m].
-FREE_M = 0.0005
+#: What is no deeper than this the cut that follows leaves room for: hulls were cut for another
+#: axis [m].
+FREE_M = 0.0025
 
 Change = tuple[str, Joint]
 
@@ -28,7 +29,8 @@ Change = tuple[str, Joint]
 def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """Every blocked joint that one small change lets go all its way, once each.
 
-    The change is made only if nothing gets deeper along the whole range by it.
+    The change is made only if nothing gets deeper along the whole range by it than the clearance
+    that is cut.
     """
     asset = evidence.asset
     if asset is None or "sweep_penetration" not in evidence.codes:
@@ -71,10 +73,9 @@ def _changes(articulation: Articulation, joint: Joint, share: float) -> Iterator
         yield f"its axis was {angle:.1f} degrees off a principal direction", straight
     # An axis that is off is not left so for the sake of another change.
     base = straight or joint
-    hung = _rehung(articulation, base)
-    if hung is not None:
+    for edge, hung in _rehung(articulation, base):
         moved = 1000.0 * float(np.linalg.norm(hung.origin - joint.origin))
-        yield f"its hinge was {moved:.1f} mm off its panel's front edge", hung
+        yield f"its hinge was {moved:.1f} mm off its panel's {edge} edge", hung
     if share < BLOCKED_SHARE and joint.lower == 0.0:
         yield "it opened inwards and is turned round", replace(base, axis=-base.axis)
 
@@ -87,11 +88,12 @@ def _straightened(joint: Joint) -> Joint | None:
     return replace(joint, axis=direction)
 
 
-def _rehung(articulation: Articulation, joint: Joint) -> Joint | None:
+def _rehung(articulation: Articulation, joint: Joint) -> Iterator[tuple[str, Joint]]:
+    """A hinge at the edges of its part that are near, and which they are."""
     if joint.kind is not JointKind.REVOLUTE:
-        return None
-    hung = at_front_edge(articulation, joint)
-    if hung is None:
-        return None
+        return
     most = MOVED_SHARE * articulation.part_mesh(joint.child).diagonal
-    return hung if float(np.linalg.norm(hung.origin - joint.origin)) <= most else None
+    for edge, at_edge in (("front", at_front_edge), ("back", at_back_edge)):
+        hung = at_edge(articulation, joint)
+        if hung is not None and float(np.linalg.norm(hung.origin - joint.origin)) <= most:
+            yield edge, hung

@@ -90,6 +90,17 @@ def test_a_hinge_beside_the_edge_goes_to_it():
     assert as_planned(shifted.articulation, plan).joints[0].origin[:2] == pytest.approx(EDGE[:2])
 
 
+def test_a_hinge_in_what_the_door_lies_before_goes_to_the_edge_between_them():
+    # 45 mm behind the door and 30 beside its edge; the front edge is too far.
+    inside = cabinet(axis=(0.0, 0.0, -1.0), origin=(-0.27, -0.16, 0.0), upper=np.pi)
+    plan = mended(inside)
+    assert plan is not None
+    assert "54.1 mm off its panel's back edge" in plan.steps[-1]
+    hung = as_planned(inside.articulation, plan).joints[0]
+    assert hung.origin[:2] == pytest.approx((-0.3, -0.205))
+    assert swept_m(inside.articulation, [body.hulls for body in inside.bodies], hung) < 1e-4
+
+
 @pytest.mark.parametrize(
     "asset",
     [
