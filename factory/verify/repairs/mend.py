@@ -19,18 +19,21 @@ from .evidence import RepairEvidence
 MOVED_SHARE = 0.06
 #: A joint that runs into something within this share of its range may run the wrong way.
 BLOCKED_SHARE = 0.25
-#: What is no deeper than this the cut that follows leaves room for: hulls were cut for another
-#: axis [m].
-FREE_M = 0.0025
+#: What is no deeper than this is no penetration [m].
+FREE_M = 0.0005
+#: What a hinge at an edge leaves in the way the cut that follows may plane off, for hulls were cut
+#: apart for another axis [m].
+PLANED_M = 0.013
 
-Change = tuple[str, Joint]
+#: What is told, the joint, and how deep it may drive hulls into one another [m].
+Change = tuple[str, Joint, float]
 
 
 def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """Every blocked joint that one small change lets go all its way, once each.
 
-    The change is made only if nothing gets deeper along the whole range by it than the clearance
-    that is cut.
+    The change is made only if nothing gets deeper along the whole range by it; beside a hinge at
+    an edge, no more than may be planed off there.
     """
     asset = evidence.asset
     if asset is None or "sweep_penetration" not in evidence.codes:
@@ -56,13 +59,19 @@ def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     return replace(plan, mended=joints, steps=tuple(steps))
 
 
-def _freed(asset: Asset, joint: Joint, share: float) -> Change | None:
-    """The first change by which the joint is free all along."""
+def _freed(asset: Asset, joint: Joint, share: float) -> tuple[str, Joint] | None:
+    """The first change by which the joint is free all along, else that which leaves least."""
     hulls = [body.hulls for body in asset.bodies]
-    for told, changed in _changes(asset.articulation, joint, share):
-        if swept_m(asset.articulation, hulls, changed, FREE_M) <= FREE_M:
+    least = np.inf
+    best = None
+    for told, changed, most_m in _changes(asset.articulation, joint, share):
+        swept = swept_m(asset.articulation, hulls, changed, most_m)
+        if swept <= FREE_M:
             return told, changed
-    return None
+        if swept <= most_m and swept < least:
+            least = swept
+            best = told, changed
+    return best
 
 
 def _changes(articulation: Articulation, joint: Joint, share: float) -> Iterator[Change]:
@@ -70,14 +79,14 @@ def _changes(articulation: Articulation, joint: Joint, share: float) -> Iterator
     straight = _straightened(joint)
     if straight is not None:
         angle = float(np.degrees(np.arccos(min(1.0, float(straight.axis @ joint.axis)))))
-        yield f"its axis was {angle:.1f} degrees off a principal direction", straight
+        yield f"its axis was {angle:.1f} degrees off a principal direction", straight, FREE_M
     # An axis that is off is not left so for the sake of another change.
     base = straight or joint
     for edge, hung in _rehung(articulation, base):
         moved = 1000.0 * float(np.linalg.norm(hung.origin - joint.origin))
-        yield f"its hinge was {moved:.1f} mm off its panel's {edge} edge", hung
+        yield f"its hinge was {moved:.1f} mm off its panel's {edge} edge", hung, PLANED_M
     if share < BLOCKED_SHARE and joint.lower == 0.0:
-        yield "it opened inwards and is turned round", replace(base, axis=-base.axis)
+        yield "it opened inwards and is turned round", replace(base, axis=-base.axis), FREE_M
 
 
 def _straightened(joint: Joint) -> Joint | None:

@@ -101,6 +101,17 @@ def test_a_hinge_in_what_the_door_lies_before_goes_to_the_edge_between_them():
     assert swept_m(inside.articulation, [body.hulls for body in inside.bodies], hung) < 1e-4
 
 
+@pytest.mark.parametrize(("deep", "left"), [(0.008, True), (0.03, False)])
+def test_what_the_edge_leaves_in_the_way_is_for_the_cut_that_follows(deep, left):
+    # A side of the cabinet that reaches beyond the door's edge, before its front.
+    asset = cabinet(axis=(0.0, 0.0, -1.0), origin=(-0.27, -0.16, 0.0))
+    side, faces = box((0.02, 0.2, 0.8), (-0.311, -0.105 - deep, 0.0))
+    body = asset.bodies[0]
+    beside = replace(body, hulls=(*body.hulls, Hull(side, np.asarray(faces))))
+    plan = mended(replace(asset, bodies=(beside, asset.bodies[1])))
+    assert (plan is not None and "back edge" in plan.steps[-1]) is left
+
+
 @pytest.mark.parametrize(
     "asset",
     [
