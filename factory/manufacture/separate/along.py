@@ -132,20 +132,6 @@ def hull_depth(
     return max([-margin, *(meeting(solids_a[i], solids_b[j], pose).depth for i, j in near)])
 
 
-def too_near(
-    a: Sequence[Hull], b: Sequence[Hull], poses: Sequence[FloatArray], least_m: float
-) -> list[FloatArray]:
-    """The poses at which two hulls of two parts are nearer to one another than that [m]."""
-    ones = [PlanedHull.of(hull) for hull in a] if poses else []
-    others = [PlanedHull.of(hull) for hull in b] if poses else []
-    found = []
-    for pose in poses:
-        near = near_pairs(ones, others, pose, least_m)
-        if any(meeting(ones[i], others[j], pose).depth > -least_m for i, j in near):
-            found.append(pose)
-    return found
-
-
 def _all_apart(
     ones: list[PlanedHull],
     others: list[PlanedHull],

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 
@@ -17,16 +17,14 @@ from ..decompose.convex import limit_vertices
 from ..decompose.decompose import PartHulls
 from ..hinges import is_crooked
 from ..poses import held_by, jointed, joints_between, relative_poses
-from .along import carved_apart_along, cut_apart_along, hull_depth, too_near
+from .along import carved_apart_along, cut_apart_along, hull_depth
+from .between import Cut, Sides, cut_between, poses_between
 from .budget import CutLimits, Excuse, Loss, SeenSurface, loss, overdone
-from .hung import at_an_edge, planed_limit, reach_m, well_hung
+from .hung import at_an_edge, planed_limit, well_hung
 from .outcome import Pair, Planed, Separation, SeparationRefusal
 from .overlap import overlap, part_solids
 from .pits import TURNED_ROOM, Pit, stands_out_m, swept_share
-
-#: See :func:`cut_apart_along`.
-Sides = tuple[list[Hull], list[Hull]]
-Cut = Callable[..., Sides]
+from .turned import Turned
 
 #: Hulls that get so much deeper along a joint are in each other's way, however fat they are [m].
 HOPELESS_M = 0.06
@@ -39,11 +37,6 @@ SOCKET_SHARE = 0.05
 SOCKET_PIECES = 24
 SOCKET_RIM = 0.01
 SOCKET_DEEP = 0.01
-#: After a cut all of a hinge's way is looked at, in steps so long at the end of its arm [m],
-BETWEEN_M = 0.004
-#: at most so many for each that was cut at; and again after what was missed is cut, so often.
-FINEST = 8
-MOST_LOOKS = 3
 #: What is nearer than the clearance by less is so by rounding [m].
 ROUNDING_M = 1e-5
 
@@ -129,8 +122,9 @@ class _Bench:
         at_rest, reason = self._deepening(a, b, poses)
         if reason is None:
             reason = self._cut_along(pair, poses, cut_apart_along)
-            if reason is not None and jointed(self.articulation, a, b):
-                reason = self._cut_along(pair, poses, carved_apart_along)
+            for cut_otherwise in self._finer_cuts(a, b):
+                if reason is not None:
+                    reason = self._cut_along(pair, poses, cut_otherwise)
             if reason is not None and self._pressed(a, b) > 0.0:
                 dug = self._cut_along(pair, poses, self._carved_by_share(a, b))
                 reason = None if dug is None else reason
@@ -161,6 +155,13 @@ class _Bench:
         poses = relative_poses(self.articulation, a, b, 1)
         hulls = self.hulls[a], self.hulls[b]
         return max(hull_depth(*hulls, pose, least) for pose in poses) > ROUNDING_M - least
+
+    def _finer_cuts(self, a: int, b: int) -> list[Cut]:
+        """What takes less than planes of parts that a joint connects: one after the other."""
+        if not jointed(self.articulation, a, b):
+            return []
+        turning = [joint for joint in joints_between(self.articulation, a, b) if joint.turns]
+        return [*map(Turned, turning[:1]), carved_apart_along]
 
     def _carved_by_share(self, a: int, b: int) -> Cut:
         """Carving that takes as small a share of either part as can be: a pit behind a button."""
@@ -214,12 +215,15 @@ class _Bench:
         a, b = (self._index(name) for name in pair)
         before = self.hulls[a], self.hulls[b]
         after = cut(*before, poses, self.config.clearance_m)
-        between = self._between(a, b) if len(poses) > 2 else []
-        for _ in range(MOST_LOOKS):
-            missed = too_near(*after, between, self.config.clearance_m / 2.0)
-            after = cut(*after, missed, self.config.clearance_m) if missed else after
         losses = self._losses(a, b, before, after)
         reason = self._overdone(a, b, losses, most)
+        between = self._between(a, b) if reason is None and len(poses) > 2 else []
+        closely = partial(cut, clearance_m=self.config.clearance_m)
+        closer = cut_between(closely, before, after, poses, between)
+        if closer is not None:
+            after = closer
+            losses = self._losses(a, b, before, after)
+            reason = self._overdone(a, b, losses, most)
         if reason is not None:
             return reason
         if max(each.bare_area for each in losses) > SOCKET_SHARE and jointed(
@@ -237,18 +241,11 @@ class _Bench:
         return None
 
     def _between(self, a: int, b: int) -> list[FloatArray]:
-        """Poses between those of hinges, near enough for a sheet at an arm's end to meet another.
-
-        Slides are cut on all of their way anyway.
-        """
-        turning = [joint for joint in joints_between(self.articulation, a, b) if joint.turns]
+        """See :func:`poses_between`."""
         mover = self.surfaces[b if self._holder(a, b) == 0 else a]
-        if not turning or mover is None or not jointed(self.articulation, a, b):
+        if mover is None or not jointed(self.articulation, a, b):
             return []
-        way = max(joint.range * reach_m(mover, joint) for joint in turning)
-        count = min(int(way / BETWEEN_M), FINEST * (self.config.poses - 1)) + 1
-        finer = count > self.config.poses
-        return relative_poses(self.articulation, a, b, count) if finer else []
+        return poses_between(self.articulation, (a, b), mover, self.config.poses)
 
     def _socketed(
         self, a: int, b: int, poses: list[FloatArray], planed: tuple[Sides, list[Loss]]

@@ -1,0 +1,85 @@
+"""What a long arm passes between two of the poses at which hulls were cut apart."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from ...articulation import Articulation
+from ...asset import Hull
+from ...mesh import FloatArray
+from ..poses import joints_between, relative_poses
+from .along import near_pairs
+from .budget import SeenSurface
+from .clip import PlanedHull, meeting
+from .hung import reach_m
+
+#: After a cut all of a hinge's way is looked at, in steps so long at the end of its arm [m],
+STEP_M = 0.004
+#: at most so many for each that was cut at; and again after what was missed is cut, so often.
+FINEST = 8
+MOST_LOOKS = 3
+#: Hulls may be as near as this between two poses: PyBullet wraps each in a millimetre [m].
+LEAST_M = 0.00125
+
+Sides = tuple[list[Hull], list[Hull]]
+Cut = Callable[..., Sides]
+
+
+def poses_between(
+    articulation: Articulation, parts: tuple[int, int], mover: SeenSurface, count: int
+) -> list[FloatArray]:
+    """Poses between those of hinges, near enough for a sheet at an arm's end to meet another.
+
+    Args:
+        articulation: parts and joints.
+        parts: two, one of which holds the other.
+        mover: the surface of the other.
+        count: poses along a joint that were cut at.
+
+    Returns:
+        None for slides, which are cut on all of their way, and where those are near enough.
+    """
+    turning = [joint for joint in joints_between(articulation, *parts) if joint.turns]
+    way = max((joint.range * reach_m(mover, joint) for joint in turning), default=0.0)
+    finer = min(int(way / STEP_M), FINEST * (count - 1)) + 1
+    return relative_poses(articulation, *parts, finer) if finer > count else []
+
+
+def cut_between(
+    cut: Cut, before: Sides, after: Sides, way: Sequence[FloatArray], between: Sequence[FloatArray]
+) -> Sides | None:
+    """Hulls of two parts cut anew where they are too near to one another between two poses.
+
+    Args:
+        cut: hulls at some poses.
+        before: hulls of both, object frame at rest.
+        after: the same, cut.
+        way: poses that they were cut at: of the second part as seen from the first, [4, 4] each.
+        between: other poses to be looked at.
+
+    Returns:
+        ``None`` where they are not.
+    """
+    found = None
+    poses = list(way)
+    for _ in range(MOST_LOOKS):
+        missed = _too_near(*(found or after), between)
+        if not missed:
+            break
+        poses += missed
+        found = cut(*before, poses)
+    return found
+
+
+def _too_near(
+    a: Sequence[Hull], b: Sequence[Hull], poses: Sequence[FloatArray]
+) -> list[FloatArray]:
+    """The poses at which two hulls of two parts come too near to one another."""
+    ones = [PlanedHull.of(hull) for hull in a] if poses else []
+    others = [PlanedHull.of(hull) for hull in b] if poses else []
+    found = []
+    for pose in poses:
+        near = near_pairs(ones, others, pose, LEAST_M)
+        if any(meeting(ones[i], others[j], pose).depth > -LEAST_M for i, j in near):
+            found.append(pose)
+    return found

@@ -1,0 +1,125 @@
+"""What turns is cut free by surfaces of revolution about its axis, which fit it at every angle.
+
+A knob of twelve sides on a flat panel, or in a ring of twelve, has to be clear of it however it is
+turned. Planes found pose by pose cut it from every side; a cylinder, or a plane across the axis, is
+one cut.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...articulation import Joint
+from ...asset import Hull
+from ...mesh import FloatArray
+from .along import cut_apart_along, near_pairs
+from .clip import PlanedHull, clipped, meeting
+
+#: A cylinder is cut as a prism of so many sides.
+SIDES = 72
+#: Of what is needed between two hulls, shares that may go off the first.
+SHARES = (0.0, 0.5, 1.0)
+#: What is nearer than the clearance by less is so by rounding [m].
+ROUNDING_M = 1e-5
+
+Hulls = tuple[Hull | None, Hull | None]
+
+
+@dataclass(frozen=True)
+class Turned:
+    """Cuts two parts apart about the axis of a joint that turns one in the other.
+
+    Attributes:
+        joint: of the two.
+    """
+
+    joint: Joint
+
+    def __call__(
+        self, a: Sequence[Hull], b: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
+    ) -> tuple[list[Hull], list[Hull]]:
+        """See :func:`~.along.cut_apart_along`, which cuts what is still too near afterwards."""
+        ones: list[Hull | None] = list(a)
+        others: list[Hull | None] = list(b)
+        for (i, j), way in sorted(_ways(a, b, poses, clearance_m).items()):
+            one = ones[i]
+            other = others[j]
+            if one is not None and other is not None and _near(one, other, way, clearance_m):
+                cuts = self._cuts(one, other, clearance_m)
+                ones[i], others[j] = max(cuts, key=_volume)
+        left = [[hull for hull in hulls if hull is not None] for hulls in (ones, others)]
+        return cut_apart_along(left[0], left[1], poses, clearance_m)
+
+    def _cuts(self, one: Hull, other: Hull, clearance_m: float) -> Iterator[Hulls]:
+        """Two hulls cut apart across the axis and around it, each way, off either or both."""
+        for share in SHARES:
+            yield self._across(one, other, clearance_m, share)
+            yield self._across(other, one, clearance_m, 1.0 - share)[::-1]
+            yield self._around(one, other, clearance_m, share)
+            yield self._around(other, one, clearance_m, 1.0 - share)[::-1]
+
+    def _across(self, below: Hull, above: Hull, clearance_m: float, share: float) -> Hulls:
+        """One hull on either side of a plane across the axis; ``share`` goes off the first."""
+        axis = self.joint.axis
+        end = float((below.vertices @ axis).max())
+        start = float((above.vertices @ axis).min())
+        needed = max(0.0, end - start + clearance_m)
+        return (
+            clipped(below, axis, end - share * needed),
+            clipped(above, -axis, -(start + (1.0 - share) * needed)),
+        )
+
+    def _around(self, inner: Hull, outer: Hull, clearance_m: float, share: float) -> Hulls:
+        """The first within a cylinder, the other without it; ``share`` goes off the first."""
+        arms = self._arms(outer)
+        toward = arms.mean(axis=0)
+        length = float(np.linalg.norm(toward))
+        if length == 0.0:
+            return None, None
+        toward = toward / length
+        start = float((arms @ toward).min())
+        end = float(np.linalg.norm(self._arms(inner), axis=1).max())
+        needed = max(0.0, end - start + clearance_m)
+        least = start + (1.0 - share) * needed + float(self.joint.origin @ toward)
+        return self._within(inner, end - share * needed), clipped(outer, -toward, -least)
+
+    def _within(self, hull: Hull, radius_m: float) -> Hull | None:
+        """What of a hull lies in a cylinder about the axis."""
+        first, second = np.linalg.svd(self.joint.axis[None])[2][1:]
+        left: Hull | None = hull if radius_m > 0.0 else None
+        for angle in np.arange(SIDES) * 2.0 * np.pi / SIDES:
+            normal = np.cos(angle) * first + np.sin(angle) * second
+            left = left and clipped(left, normal, radius_m + float(self.joint.origin @ normal))
+        return left
+
+    def _arms(self, hull: Hull) -> FloatArray:
+        """From the axis to each corner, across it [m], shape [n, 3]."""
+        arms = hull.vertices - self.joint.origin
+        return np.asarray(arms - np.outer(arms @ self.joint.axis, self.joint.axis))
+
+
+def _ways(
+    a: Sequence[Hull], b: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
+) -> dict[tuple[int, int], list[FloatArray]]:
+    """Poses at which two hulls may be too near to one another, by their numbers."""
+    ones = [PlanedHull.of(hull) for hull in a]
+    others = [PlanedHull.of(hull) for hull in b]
+    found: dict[tuple[int, int], list[FloatArray]] = {}
+    for pose in poses:
+        for pair in near_pairs(ones, others, pose, clearance_m):
+            found.setdefault(pair, []).append(pose)
+    return found
+
+
+def _near(one: Hull, other: Hull, way: Sequence[FloatArray], clearance_m: float) -> bool:
+    """Whether two hulls come nearer to one another than they may."""
+    pair = PlanedHull.of(one), PlanedHull.of(other)
+    return any(meeting(*pair, pose).depth > ROUNDING_M - clearance_m for pose in way)
+
+
+def _volume(hulls: Hulls) -> float:
+    """What is left of two hulls [m3]."""
+    return sum(hull.volume for hull in hulls if hull is not None)

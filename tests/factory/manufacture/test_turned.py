@@ -1,0 +1,120 @@
+"""What turns is cut by surfaces of revolution about its axis, and keeps more than by planes."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+
+from asset_factory.factory.articulation import Articulation, Joint, Part, rotation_about
+from asset_factory.factory.config import SeparateConfig
+from asset_factory.factory.manufacture.decompose.convex import hull_of
+from asset_factory.factory.manufacture.decompose.decompose import PartHulls
+from asset_factory.factory.manufacture.poses import relative_poses
+from asset_factory.factory.manufacture.separate import separate
+from asset_factory.factory.manufacture.separate.along import cut_apart_along, hull_depth
+from asset_factory.factory.manufacture.separate.turned import Turned
+from asset_factory.factory.mesh import Mesh, concatenate
+
+#: Few poses: planes would need more, surfaces of revolution do not.
+CONFIG = SeparateConfig(poses=13)
+CLEARANCE = CONFIG.clearance_m
+SIDES = 8
+RADIUS = 0.1
+UP = np.array([0.0, 0.0, 1.0])
+ALONG = np.array([1.0, 0.0, 0.0])
+TURN = Joint("turn", "revolute", 0, 1, UP, [0.0, 0.0, 0.0], -0.6, 0.6)
+
+
+def turned(solid, angle):
+    solid.apply_transform(trimesh.transformations.rotation_matrix(angle, UP))
+    return solid
+
+
+#: A knob of eight sides, 1 mm from the ring of as many boards around it.
+KNOB = [trimesh.creation.cylinder(RADIUS, 0.06, sections=SIDES)]
+INNER = RADIUS * np.cos(np.pi / SIDES) + 0.001
+WIDTH = INNER * np.tan(np.pi / SIDES)
+RING = [
+    turned(
+        trimesh.creation.box(bounds=[(INNER, -WIDTH, -0.02), (INNER + 0.02, WIDTH, 0.0)]),
+        2.0 * np.pi * (number + 0.5) / SIDES,
+    )
+    for number in range(SIDES)
+]
+FLOOR = [trimesh.creation.box(bounds=[(-0.3, -0.3, -0.2), (0.3, 0.3, -0.06)])]
+
+
+def hulls_of(solids):
+    return tuple(hull_of(np.array(each.vertices)) for each in solids)
+
+
+def object_of(joint):
+    solids = [*RING, *FLOOR, *KNOB]
+    mesh = concatenate([Mesh.from_triangles(each.vertices, each.faces) for each in solids])
+    count = sum(len(each.faces) for each in (*RING, *FLOOR))
+    parts = Part("body", np.arange(count)), Part("knob", np.arange(count, len(mesh.faces)))
+    return Articulation(mesh, parts, (joint,), "test")
+
+
+def deepest(tree, body, knob, gap=0.0):
+    return max(hull_depth(body, knob, pose, gap) for pose in relative_poses(tree, 0, 1, 60))
+
+
+def volume(hulls):
+    return sum(hull.volume for hull in hulls)
+
+
+def test_a_knob_is_clear_at_every_angle_and_keeps_more_than_planes_leave():
+    tree = object_of(TURN)
+    poses = relative_poses(tree, 0, 1, CONFIG.poses)
+    body, knob = hulls_of([*RING, *FLOOR]), hulls_of(KNOB)
+    assert deepest(tree, body, knob) > 0.001
+    after = Turned(TURN)(body, knob, poses, CLEARANCE)
+    assert deepest(tree, *after, gap=CLEARANCE) < -0.9 * CLEARANCE
+    by_planes = cut_apart_along(body, knob, poses, CLEARANCE)
+    assert sum(map(volume, after)) > sum(map(volume, by_planes))
+    # Its corners are cut by a cylinder, whose sides are alike.
+    (round_one,) = after[1]
+    low = round_one.vertices[round_one.vertices[:, 2] < -0.02 + 1e-6]
+    assert np.ptp(np.linalg.norm(low[:, :2], axis=1)) < 0.005
+
+
+def test_what_lies_on_a_panel_is_cut_across_the_axis():
+    sunk = FLOOR[0].copy()
+    sunk.apply_translation([0.0, 0.0, 0.032])
+    body, knob = hulls_of([sunk]), hulls_of(KNOB)
+    poses = relative_poses(object_of(TURN), 0, 1, CONFIG.poses)
+    (panel,), (left,) = Turned(TURN)(body, knob, poses, CLEARANCE)
+    gap = left.vertices[:, 2].min() - panel.vertices[:, 2].max()
+    assert gap == pytest.approx(CLEARANCE)
+
+
+def test_a_knob_in_a_ring_of_flat_boards_is_cut_free():
+    tree = object_of(TURN)
+    pieces = tuple(
+        PartHulls(hulls_of(solids), "exact", (), True) for solids in ([*RING, *FLOOR], KNOB)
+    )
+    result = separate(tree, pieces, [("body", "knob")], CONFIG, 64)
+    assert result.refused == {}
+    assert deepest(tree, *(list(piece.hulls) for piece in result.pieces)) == 0.0
+
+
+TWINS = {
+    "shifted": replace(TURN, origin=0.05 * 0.7 * ALONG),
+    "tilted": replace(
+        TURN, axis=rotation_about(ALONG, np.radians(10.0)) @ UP, lower=0.0, upper=0.5
+    ),
+    "lying": replace(TURN, axis=ALONG),
+}
+
+
+@pytest.mark.parametrize("name", TWINS)
+def test_a_knob_that_turns_about_another_axis_is_not_cut_free(name):
+    tree = object_of(TWINS[name])
+    pieces = tuple(
+        PartHulls(hulls_of(solids), "exact", (), True) for solids in ([*RING, *FLOOR], KNOB)
+    )
+    result = separate(tree, pieces, [("body", "knob")], CONFIG, 64)
+    assert ("body", "knob") in result.refused
+    assert deepest(tree, *(list(piece.hulls) for piece in result.pieces)) > 0.001
