@@ -44,6 +44,8 @@ BETWEEN_M = 0.004
 #: at most so many for each that was cut at; and again after what was missed is cut, so often.
 FINEST = 8
 MOST_LOOKS = 3
+#: Engines feel what is nearer there than this share of the clearance: PyBullet what is below 2 mm.
+NEARER = 0.8
 #: What is nearer than the clearance by less is so by rounding [m].
 ROUNDING_M = 1e-5
 
@@ -216,7 +218,7 @@ class _Bench:
         after = cut(*before, poses, self.config.clearance_m)
         between = self._between(a, b) if len(poses) > 2 else []
         for _ in range(MOST_LOOKS):
-            missed = too_near(*after, between, self.config.clearance_m / 2.0)
+            missed = too_near(*after, between, NEARER * self.config.clearance_m)
             after = cut(*after, missed, self.config.clearance_m) if missed else after
         losses = self._losses(a, b, before, after)
         reason = self._overdone(a, b, losses, most)
