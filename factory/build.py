@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 from asset_factory.sim_checks.judge import Judge
@@ -12,12 +11,9 @@ from .articulate.stage import readings
 from .articulation import Articulation
 from .config import BuildConfig
 from .errors import InputRejected
-from .export.bundle import export_bundle
 from .export.model import write_input, write_model
 from .intake.intake import Intake
 from .intake.source import Source
-from .manufacture.plan import Plan, dispensable_joints, first_plan
-from .manufacture.stage import manufacture
 from .registry import Registry
 from .registry.product import Made, Product, finished, refused
 from .registry.registration import register
@@ -27,8 +23,7 @@ from .runtime.stages import Stages
 from .runtime.store import Store
 from .verify.drafts import ReadingDraft, best_of
 from .verify.kept import with_kept
-from .verify.repair import next_plan
-from .verify.validate import inspect, validate
+from .verify.rounds import Rounds
 
 
 def make_asset(
@@ -61,8 +56,8 @@ def make_asset(
         likeliest_first = readings(intake, origin.loaded_key, stages)
         drafts = _drafts(likeliest_first, intake, staging, judge, stages)
         draft, others = best_of(drafts)
-        told = (*draft.findings, *others)
-        verdict = validate(draft.bundle, config.simulators, judge, told, draft.inspected, stages)
+        rounds = Rounds(draft.reading, intake, staging, judge, stages)
+        draft, verdict = rounds.simulated(draft, others)
         verdict = with_kept(verdict, draft.reading, draft.asset.articulation)
         with stages.clock.stage("model"):
             write_model(draft.asset, draft.bundle.folder, draft.before)
@@ -88,7 +83,8 @@ def _drafts(
         if number and stages.clock.busy > limits.within_s:
             break
         try:
-            draft = _draft(articulation, intake, staging / str(number), judge, stages)
+            rounds = Rounds(articulation, intake, staging / str(number), judge, stages)
+            draft = rounds.drafted()
         except InputRejected as rejection:
             refused_first = refused_first or rejection
             continue
@@ -96,42 +92,6 @@ def _drafts(
         yield draft
     if refused_first is not None and not made:
         raise refused_first
-
-
-def _draft(
-    articulation: Articulation, intake: Intake, staging: Path, judge: Judge, stages: Stages
-) -> ReadingDraft:
-    """Make, judge and repair, until nothing is left to repair."""
-    config = stages.config.repair
-    spare = dispensable_joints(articulation, config.small_share)
-
-    def made(plan: Plan, folder: str) -> ReadingDraft:
-        asset, findings = manufacture(articulation, plan, intake, stages)
-        with stages.clock.stage("export"):
-            bundle = export_bundle(
-                asset,
-                intake.provenance,
-                staging / folder,
-                tuple(sorted(plan.exclude)),
-                stages.config.formats,
-            )
-        inspected = inspect(bundle, judge, findings, stages)
-        return ReadingDraft(articulation, asset, bundle, plan, findings, inspected)
-
-    first = draft = made(first_plan(articulation, spare), "0")
-    for attempt in range(config.max_rounds):
-        late = stages.clock.busy > config.within_s
-        repaired = (
-            None if late else next_plan(draft.inspected, draft.plan, config, spare, draft.asset)
-        )
-        if repaired is None:
-            break
-        draft = made(repaired, str(attempt + 1))
-    many = draft.asset.hull_count > stages.config.hulls.most
-    if draft.passes and many:
-        lighter = made(replace(draft.plan, fewer=True), "fewer")
-        draft = lighter if lighter.passes else draft
-    return draft if draft is first else replace(draft, before=first.asset)
 
 
 def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -10,18 +10,25 @@ import numpy as np
 from ..articulation import Articulation, Part
 
 
-def welded(articulation: Articulation, joints: Collection[str]) -> Articulation:
+def welded(
+    articulation: Articulation, joints: Collection[str], onto: Mapping[str, int] | None = None
+) -> Articulation:
     """The same object without some of its joints: what they moved belongs to what they hung on.
 
     Args:
         articulation: any.
         joints: names; those that are not there change nothing. A part on a carrier that loses one
             of its two joints becomes the carrier.
+        onto: joint -> the part that its own becomes one with instead, which keeps its joint; only
+            of parts that carry none.
     """
     group = list(range(len(articulation.parts)))
     for joint in articulation.joints:
         if joint.name in joints:
             group[joint.child] = group[joint.parent]
+    for joint in articulation.joints:
+        if onto and joint.name in onto:
+            group[joint.child] = group[onto[joint.name]]
     kept = [index for index, top in enumerate(group) if top == index]
     new = {old: index for index, old in enumerate(kept)}
     parts = tuple(

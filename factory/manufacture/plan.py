@@ -10,6 +10,7 @@ import numpy as np
 from ..articulation import Articulation, Joint, JointKind
 from ..geometry.welding import welded
 from .hinges import at_front_edge
+from .lying import lying_on
 from .solids.plates import plates
 
 Pair = tuple[str, str]
@@ -32,7 +33,7 @@ class Plan:
         build_fronts: thin fronts are built anew, with the body around them, as bare ones are.
         rehung: guessed hinges that are at the front edges of their doors now.
         given_up: guessed joints whose parts cannot be parts of their own, made one with what they
-            hang on.
+            lie on.
         fewer: the asset has too many hulls: they are joined, further off the surfaces.
         steps: what was decided, one sentence each, oldest first.
     """
@@ -56,8 +57,8 @@ class Spare:
 
     Attributes:
         joints: that may be frozen.
-        guesses: part -> its joint, where both are guesses and there is a surer one; the least sure
-            first.
+        guesses: part -> its joint, where both are guesses and there is a better one; what is worth
+            least first: its probability times the share of the object's diagonal that it moves.
         fronts: parts that are thin fronts and that could be built anew.
         hinges: guessed ones that could be at the front edges of their doors.
     """
@@ -79,7 +80,9 @@ def first_plan(articulation: Articulation, spare: Spare) -> Plan:
 
 def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
     """The same tree with the joints that a plan rehangs, mends, shortens or freezes."""
-    articulation = welded(articulation, plan.given_up) if plan.given_up else articulation
+    if plan.given_up:
+        onto = lying_on(articulation, plan.given_up)
+        articulation = welded(articulation, plan.given_up, onto)
 
     def changed(joint: Joint) -> Joint:
         if joint.name in plan.rehung:
@@ -101,39 +104,36 @@ def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
 def dispensable_joints(articulation: Articulation, share: float) -> Spare:
     """Joints without which the object is still worth having, should they turn out to be wrong.
 
-    Small ones; and of joints that were guessed all but the surest: a guess that is blocked is a
+    Small ones; and of joints that were guessed all but the best: a guess that is blocked is a
     wrong guess. Never all that there are.
 
     Args:
         articulation: parts and joints.
         share: largest diagonal of everything a small joint moves, over the object's.
     """
+    moved = _moved_shares(articulation)
     rated = [joint for joint in articulation.movable_joints if joint.confidence is not None]
-    surest = max(rated, key=lambda joint: joint.confidence or 0.0, default=None)
-    guessed = sorted(
-        (joint for joint in rated if joint is not surest), key=lambda joint: joint.confidence or 0.0
-    )
-    small = _small_joints(articulation, share) - ({surest.name} if surest else set())
+    rated.sort(key=lambda joint: (joint.confidence or 0.0) * moved[joint.name])
+    guessed = rated[:-1]
+    small = {name for name, size in moved.items() if 0.0 < size <= share}
+    small = small - {joint.name for joint in rated[-1:]} if len(small) < len(moved) else set()
     return Spare(
-        joints=small | {joint.name for joint in guessed},
+        joints=frozenset(small | {joint.name for joint in guessed}),
         guesses={articulation.parts[joint.child].name: joint.name for joint in guessed},
         fronts=frozenset(articulation.parts[part].name for part in plates(articulation)),
         hinges=frozenset(joint.name for joint in rated if at_front_edge(articulation, joint)),
     )
 
 
-def _small_joints(articulation: Articulation, share: float) -> frozenset[str]:
+def _moved_shares(articulation: Articulation) -> dict[str, float]:
+    """Diagonal of all that each movable joint moves, over the object's; 0 of empty carriers."""
     moved: list[set[int]] = [{part} for part in range(len(articulation.parts))]
     for joint in reversed(articulation.joints):
         moved[joint.parent] |= moved[joint.child]
-    small = set()
+    shares = {}
     for joint in articulation.movable_joints:
-        faces = np.concatenate(
-            [articulation.parts[part].faces for part in sorted(moved[joint.child])]
-        )
-        if (
-            len(faces)
-            and articulation.mesh.submesh(faces).diagonal <= share * articulation.mesh.diagonal
-        ):
-            small.add(joint.name)
-    return frozenset(small) if len(small) < len(articulation.movable_joints) else frozenset()
+        parts = sorted(moved[joint.child])
+        faces = np.concatenate([articulation.parts[part].faces for part in parts])
+        size = articulation.mesh.submesh(faces).diagonal if len(faces) else 0.0
+        shares[joint.name] = size / articulation.mesh.diagonal
+    return shares

@@ -83,6 +83,8 @@ def _motion_findings(
     motion: JointMotion, parts: tuple[str, ...], simulator: str, config: MotionConfig
 ) -> Iterator[Finding]:
     unit = "of range"
+    others = _leant_on(motion)
+    parts += tuple(link for link in motion.blocked_by or () if link not in parts)
 
     def found(code: str, severity: Severity, message: str, value: float, limit: float) -> Finding:
         sentence = f"{simulator}: joint {motion.joint!r} {message}"
@@ -96,6 +98,7 @@ def _motion_findings(
             round(value, DECIMALS),
             unit,
             limit,
+            joints=others,
         )
 
     if not motion.finite:
@@ -245,9 +248,12 @@ def _blocker(motion: JointMotion) -> str:
         words += f"; {one!r} presses on {two!r}"
     else:
         words += "; nothing presses on what it moves"
-    if motion.pushed and motion.others_moved > 1e-4:
-        words += f"; it leans on joint {motion.pushed!r}"
+    words += "".join(f"; it leans on joint {name!r}" for name in _leant_on(motion))
     return words
+
+
+def _leant_on(motion: JointMotion) -> tuple[str, ...]:
+    return (motion.pushed,) if motion.pushed and motion.others_moved > 1e-4 else ()
 
 
 def _rounded(value: Any) -> Any:

@@ -18,8 +18,8 @@ STEP_M = 0.004
 #: at most so many for each that was cut at; and again after what was missed is cut, so often.
 FINEST = 8
 MOST_LOOKS = 3
-#: Hulls may be as near as this between two poses: PyBullet wraps each in a millimetre [m].
-LEAST_M = 0.00125
+#: Hulls may be as near as this between two poses: PyBullet feels what is nearer [m].
+LEAST_M = 0.002
 
 Sides = tuple[list[Hull], list[Hull]]
 Cut = Callable[..., Sides]

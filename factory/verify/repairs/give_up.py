@@ -1,43 +1,73 @@
-"""A guessed part that lies in another one is no part of its own: the less sure of the two goes."""
+"""A guessed part that cannot be a part of its own is none: the guess that is worth least goes."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
+from asset_factory.sim_checks import Finding
+
 from ...manufacture.plan import Plan
 from .evidence import RepairEvidence
 
+#: What may go with a guess though it does not name it: what lies how, and what else is in the way.
+MAY_GO = frozenset({"sweep_penetration", "collision_gap", "interior_filled"})
+#: What a wrong guess brings about.
+BY_A_GUESS = MAY_GO | {
+    "rest_penetration", "jammed", "not_returned", "limit_overshoot", "others_moved",
+    "pushed_at_rest", "energy_grows",
+}  # fmt: skip
+
 
 def give_up_guesses(evidence: RepairEvidence, plan: Plan) -> Plan | None:
-    """The less sure of any two overlapping parts; nothing if some two have no guess among them."""
-    if "rest_penetration" not in evidence.codes:
-        return None
-    if not evidence.codes <= {"rest_penetration", "sweep_penetration"}:
-        return None
-    guesses = evidence.spare.guesses
-    order = list(guesses)
-    given_up = set(plan.given_up)
-    steps = list(plan.steps)
+    """Of any two parts that overlap at rest the one worth less; else the one least of all.
 
+    Nothing where a finding names no guess that could go.
+    """
+    if evidence.codes <= {"sweep_penetration"} or not evidence.codes <= BY_A_GUESS:
+        return None
+    overlapping = [finding for finding in evidence.hard if finding.code == "rest_penetration"]
+    going: dict[str, Finding] = {}
     for finding in evidence.hard:
-        if finding.code != "rest_penetration":
-            continue
-        doubtful = sorted((part for part in finding.parts if part in guesses), key=order.index)
-        if not doubtful:
+        doubtful = _named(finding, evidence)
+        if not doubtful and finding.code not in MAY_GO:
             return None
-        part = doubtful[0]
-        if guesses[part] not in given_up:
-            given_up.add(guesses[part])
-            others = " and ".join(other for other in finding.parts if other != part)
-            steps.append(f"gave up {guesses[part]}: {part} lies in {others or 'another'}")
+        if doubtful and (finding in overlapping or not overlapping):
+            going.setdefault(doubtful[0], finding)
+    if not overlapping:
+        going = {part: going[part] for part in evidence.spare.guesses if part in going}
+        going = dict([*going.items()][:1])
+    return _without(plan, going, evidence)
 
+
+def _named(finding: Finding, evidence: RepairEvidence) -> list[str]:
+    """The guessed parts that a finding is about, by part or by joint, worth least first."""
+    joints = {finding.joint, *finding.joints}
+    guesses = evidence.spare.guesses.items()
+    return [part for part, joint in guesses if part in finding.parts or joint in joints]
+
+
+def _without(plan: Plan, going: dict[str, Finding], evidence: RepairEvidence) -> Plan | None:
+    guesses = evidence.spare.guesses
+    given_up = plan.given_up | {guesses[part] for part in going}
     if given_up == plan.given_up:
         return None
     gone = {part for part, joint in guesses.items() if joint in given_up}
+    steps = [
+        f"gave up {guesses[part]}: {_why(part, finding)}"
+        for part, finding in going.items()
+        if guesses[part] not in plan.given_up
+    ]
     return replace(
         plan,
         separate=frozenset(pair for pair in plan.separate if gone.isdisjoint(pair)),
         exclude=frozenset(pair for pair in plan.exclude if gone.isdisjoint(pair)),
-        given_up=frozenset(given_up),
-        steps=tuple(steps),
+        given_up=given_up,
+        steps=(*plan.steps, *steps),
     )
+
+
+def _why(part: str, finding: Finding) -> str:
+    if finding.code != "rest_penetration":
+        return finding.message
+    others = " and ".join(other for other in finding.parts if other != part)
+    return f"{part} lies in {others or 'another'}"

@@ -223,3 +223,39 @@ def test_what_a_slide_passes_between_two_poses_is_cut_too():
     tree, result = two([floor, box((0.004, -0.1, 0.067), (0.03, 0.1, 0.2))], front, slide)
     assert ("body", "mover") in result.refused
     assert deepest(tree, result) > 0.001
+
+
+def swung_over(post):
+    """A thin arm of two metres that swings over the floor, past a post that stands there."""
+    arm = box((0.0, -0.005, 0.1), (2.0, 0.0, 0.2))
+    floor = box((-0.1, -2.5, -0.1), (2.5, 2.5, 0.0))
+    meshes = [Mesh.from_triangles(each.vertices, each.faces) for each in (floor, post, arm)]
+    parts = (Part("floor", np.arange(24)), Part("arm", np.arange(24, 36)))
+    hinge = Joint("hinge", "revolute", 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.5)
+    tree = Articulation(concatenate(meshes), parts, (hinge,), "test")
+    pieces = (
+        PartHulls((floor, post), "exact", (), True),
+        PartHulls((arm,), "exact", (), True),
+    )
+    result = separate(tree, pieces, [("floor", "arm")], CONFIG, 64)
+    hulls = [list(piece.hulls) for piece in result.pieces]
+    return -max(
+        hull_depth(*hulls, pose, CONFIG.clearance_m) for pose in relative_poses(tree, 0, 1, 1000)
+    )
+
+
+def post_beyond(reach_m):
+    """Half way between two poses of the arm, so far from its hinge."""
+    tree_step = 1.5 / (CONFIG.poses - 1)
+    turn = rotation_about([0, 0, 1], 10.5 * tree_step)
+    low, high = (reach_m, -0.004, 0.12), (reach_m + 0.05, -0.001, 0.18)
+    post = box(low, high)
+    return Hull(post.vertices @ turn.T, post.faces)
+
+
+def test_a_long_arm_stays_clear_between_the_poses_that_it_is_cut_at():
+    assert swung_over(post_beyond(2.001)) > 0.75 * CONFIG.clearance_m
+
+
+def test_what_a_long_arm_runs_into_between_two_poses_is_left_to_the_judge():
+    assert swung_over(post_beyond(1.95)) < -0.0005

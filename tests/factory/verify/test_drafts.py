@@ -18,6 +18,7 @@ from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.manufacture.plan import Plan
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.report_file import read_report
+from asset_factory.factory.verify import rounds
 from asset_factory.factory.verify.drafts import ReadingDraft, best_of
 from asset_factory.factory.verify.validate import Verdict
 from asset_factory.sim_checks import Finding, Report, Severity
@@ -102,19 +103,19 @@ def test_without_time_only_the_likeliest_is_made(tmp_path: Path, monkeypatch) ->
 
 
 def test_a_reading_that_cannot_be_made_is_passed_over(tmp_path: Path, monkeypatch) -> None:
-    made = build.manufacture
+    made = rounds.manufacture
 
     def manufacture(articulation: Articulation, *asked: object) -> object:
         if articulation.notes == ("impossible",):
             raise InputRejected("too_many_hulls", "part 'lid': needs 999 convex pieces")
         return made(articulation, *asked)
 
-    monkeypatch.setattr(build, "manufacture", manufacture)
+    monkeypatch.setattr(rounds, "manufacture", manufacture)
     impossible = lambda right: replace(right, notes=("impossible",))  # noqa: E731
     _reading_as(monkeypatch, impossible, lambda right: right)
     assert build_asset(EXAMPLES / "laptop.glb", tmp_path / "a", CONFIG).entry.status == "passed"
     monkeypatch.undo()
-    monkeypatch.setattr(build, "manufacture", manufacture)
+    monkeypatch.setattr(rounds, "manufacture", manufacture)
     _reading_as(monkeypatch, impossible)
     refused = build_asset(EXAMPLES / "laptop.glb", tmp_path / "b", CONFIG).entry
     assert (refused.status, refused.reason) == ("rejected", "too_many_hulls")

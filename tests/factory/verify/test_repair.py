@@ -156,6 +156,18 @@ def test_a_guessed_part_that_lies_in_a_known_one_is_given_up_and_two_known_ones_
     )
 
 
+def test_of_what_jams_only_the_guess_worth_least_is_given_up():
+    jammed = Finding("jammed", Severity.HARD, "a jams", joint="a_hinge", joints=("b_hinge",))
+    pushed = Finding(
+        "others_moved", Severity.HARD, "a is pushed", joint="best", joints=("a_hinge",)
+    )
+    plan = next_plan(verdict(jammed, pushed), Plan(), CONFIG, GUESSES)
+    assert plan.given_up == {"b_hinge"}
+    assert plan.steps == ("gave up b_hinge: a jams",)
+    alone = Finding("jammed", Severity.HARD, "the best one jams", joint="best")
+    assert next_plan(verdict(jammed, alone), Plan(), CONFIG, GUESSES) is None
+
+
 def test_what_was_given_up_and_still_overlaps_ends_the_repairs():
     given = Plan(given_up=frozenset({"a_hinge"}))
     assert next_plan(verdict(lying_in("a", "base")), given, CONFIG, GUESSES) is None

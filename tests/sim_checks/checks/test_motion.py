@@ -68,6 +68,7 @@ def test_a_jam_says_where_and_between_whom() -> None:
     assert finding.code == "jammed"
     assert "(at 0.12)" in finding.message
     assert "'block0' presses on 'post'" in finding.message
+    assert {"block0", "post"} <= set(finding.parts)
 
 
 def test_a_joint_that_opens_is_blocked_by_nobody_and_tells_the_force_it_took() -> None:

@@ -1,0 +1,119 @@
+"""One reading of an input, made, judged and made better, round by round."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+from asset_factory.sim_checks import Finding
+from asset_factory.sim_checks.judge import Judge
+
+from ..articulation import Articulation
+from ..errors import InputRejected
+from ..export.bundle import export_bundle
+from ..intake.intake import Intake
+from ..manufacture.plan import Plan, Spare, dispensable_joints, first_plan
+from ..manufacture.stage import manufacture
+from ..runtime.stages import Stages
+from .drafts import ReadingDraft
+from .repair import next_plan
+from .validate import Verdict, inspect, validate
+
+
+@dataclass(frozen=True, eq=False)
+class Rounds:
+    """Whatever it takes to make one reading, and to judge it.
+
+    Attributes:
+        reading: the kinematic tree.
+        intake: the input.
+        staging: a folder for what is made.
+        judge: with the configuration's thresholds.
+        stages: with the settings, and what was done before.
+    """
+
+    reading: Articulation
+    intake: Intake
+    staging: Path
+    judge: Judge
+    stages: Stages
+
+    def drafted(self) -> ReadingDraft:
+        """Judged without simulators, and repaired until nothing is left to repair.
+
+        Raises:
+            InputRejected: nothing can be made of it.
+        """
+        draft = self._repaired(self._made(first_plan(self.reading, self._spare), "0"), "")
+        many = draft.asset.hull_count > self.stages.config.hulls.most
+        if draft.passes and many:
+            lighter = self._made(replace(draft.plan, fewer=True), "fewer")
+            draft = (
+                replace(lighter, before=draft.before or draft.asset) if lighter.passes else draft
+            )
+        return draft
+
+    def simulated(
+        self, draft: ReadingDraft, others: tuple[Finding, ...]
+    ) -> tuple[ReadingDraft, Verdict]:
+        """Judged in simulators too; what these alone refuse is repaired as well.
+
+        Args:
+            draft: that passes without simulators, or the best there is.
+            others: what is told of other readings.
+        """
+        first = draft, self._validated(draft, others)
+        verdict = first[1]
+        for attempt in range(self.stages.config.repair.max_rounds if draft.passes else 0):
+            plan = None if verdict.reason is None else self._next(verdict, draft)
+            if plan is None:
+                break
+            name = f"simulated-{attempt}-"
+            try:
+                again = self._repaired(self._made(plan, f"{name}0"), name)
+            except InputRejected:
+                break
+            if not again.passes:
+                break
+            draft = replace(again, before=draft.before or draft.asset)
+            verdict = self._validated(draft, others)
+        return (draft, verdict) if verdict.reason is None else first
+
+    @cached_property
+    def _spare(self) -> Spare:
+        return dispensable_joints(self.reading, self.stages.config.repair.small_share)
+
+    def _made(self, plan: Plan, folder: str) -> ReadingDraft:
+        asset, findings = manufacture(self.reading, plan, self.intake, self.stages)
+        with self.stages.clock.stage("export"):
+            bundle = export_bundle(
+                asset,
+                self.intake.provenance,
+                self.staging / folder,
+                tuple(sorted(plan.exclude)),
+                self.stages.config.formats,
+            )
+        inspected = inspect(bundle, self.judge, findings, self.stages)
+        return ReadingDraft(self.reading, asset, bundle, plan, findings, inspected)
+
+    def _repaired(self, first: ReadingDraft, name: str) -> ReadingDraft:
+        draft = first
+        for attempt in range(self.stages.config.repair.max_rounds):
+            plan = self._next(draft.inspected, draft)
+            if plan is None:
+                break
+            draft = self._made(plan, f"{name}{attempt + 1}")
+        return draft if draft is first else replace(draft, before=first.asset)
+
+    def _next(self, verdict: Verdict, draft: ReadingDraft) -> Plan | None:
+        """What to do differently, if anything could help and there is time."""
+        config = self.stages.config.repair
+        if self.stages.clock.busy > config.within_s:
+            return None
+        return next_plan(verdict, draft.plan, config, self._spare, draft.asset)
+
+    def _validated(self, draft: ReadingDraft, others: tuple[Finding, ...]) -> Verdict:
+        told = (*draft.findings, *others)
+        simulators = self.stages.config.simulators
+        return validate(draft.bundle, simulators, self.judge, told, draft.inspected, self.stages)

@@ -1,0 +1,86 @@
+"""What only simulators refuse is repaired too: the guess that is worth least is given up."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from asset_factory.factory import build
+from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.build import build_asset
+from asset_factory.factory.config import BuildConfig, RepairConfig
+from asset_factory.factory.registry import Registry
+from asset_factory.factory.registry.report_file import read_report
+from asset_factory.factory.registry.result import Result
+from asset_factory.factory.verify import rounds
+from asset_factory.factory.verify.validate import Verdict
+from asset_factory.sim_checks import Finding, Severity
+
+CABINET = Path(__file__).resolve().parents[3] / "examples" / "meshes" / "cabinet.glb"
+CONFIG = BuildConfig(simulators=(), repair=RepairConfig(within_s=1e6))
+
+
+@pytest.fixture
+def guessed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The joints of the example, as guesses, the surest first."""
+    names: list[str] = []
+    likeliest = build.readings
+
+    def readings(*asked: object) -> tuple[Articulation, ...]:
+        (right,) = likeliest(*asked)
+        joints = tuple(
+            replace(joint, confidence=0.9 - 0.1 * number)
+            for number, joint in enumerate(right.joints)
+        )
+        names[:] = [joint.name for joint in joints]
+        return (replace(right, joints=joints),)
+
+    monkeypatch.setattr(build, "readings", readings)
+    return names
+
+
+def refusing(monkeypatch: pytest.MonkeyPatch, number: int, names: list[str], code: str) -> None:
+    """A simulator that says of one joint, while it is there, that it fails."""
+    honest = rounds.validate
+
+    def validate(bundle, *asked):
+        verdict = honest(bundle, *asked)
+        name = names[number]
+        if f'"{name}"' not in bundle.urdf.read_text(encoding="utf-8"):
+            return verdict
+        found = Finding(code, Severity.HARD, f"bullet: {name} is stuck", "bullet", name)
+        return Verdict(replace(verdict.report, findings=(*verdict.report.findings, found)))
+
+    monkeypatch.setattr(rounds, "validate", validate)
+
+
+def repairs(result: Result, output: Path) -> str:
+    return " ".join(read_report(Registry(output).assets / result.entry.id).repairs)
+
+
+def test_a_guess_that_jams_in_a_simulator_is_given_up_and_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, guessed: list[str]
+) -> None:
+    refusing(monkeypatch, -1, guessed, "jammed")
+    result = build_asset(CABINET, tmp_path, CONFIG)
+    assert result.entry.status == "passed"
+    assert result.entry.joints == len(guessed) - 1
+    assert f"gave up {guessed[-1]}: bullet: {guessed[-1]} is stuck" in repairs(result, tmp_path)
+
+
+def test_what_no_guess_brings_about_costs_none(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, guessed: list[str]
+) -> None:
+    refusing(monkeypatch, -1, guessed, "no_mass")
+    entry = build_asset(CABINET, tmp_path, CONFIG).entry
+    assert (entry.status, entry.reason, entry.joints) == ("rejected", "no_mass", len(guessed))
+
+
+def test_the_best_guess_is_never_given_up(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, guessed: list[str]
+) -> None:
+    refusing(monkeypatch, 0, guessed, "jammed")
+    entry = build_asset(CABINET, tmp_path, CONFIG).entry
+    assert (entry.status, entry.reason) == ("rejected", "jammed")
