@@ -20,6 +20,8 @@ SEAT_SECTORS = 8
 #: and it reaches from the axis at least this share of its farthest in each: the axis is off its
 #: middle by a third of its radius at most.
 SEAT_SHARE = 0.5
+#: What turns in a seat as round as this is cut by surfaces of revolution; a lid on a box is not.
+ROUND_SHARE = 0.8
 
 
 def well_hung(
@@ -37,7 +39,9 @@ def well_hung(
         return False
     if not joint.turns or at_an_edge(surface, joint, config) or about_its_middle(surface, joint):
         return True
-    return surface is not None and in_a_round_seat(surface, joint, holder, config.clearance_m)
+    if surface is None:
+        return False
+    return seat_roundness(surface, joint, holder, config.clearance_m) > SEAT_SHARE
 
 
 def at_an_edge(surface: SeenSurface | None, joint: Joint, config: SeparateConfig) -> bool:
@@ -57,13 +61,13 @@ def about_its_middle(surface: SeenSurface | None, joint: Joint) -> bool:
     return behind >= MIDDLE_SHARE * ahead
 
 
-def in_a_round_seat(
+def seat_roundness(
     surface: SeenSurface, joint: Joint, holder: Sequence[Hull], near_m: float
-) -> bool:
-    """Whether a part touches what holds it all around its axis, about as far from it everywhere.
+) -> float:
+    """How near a part touches what holds it on one side of its axis, as a share of the farthest.
 
-    So does a lever whose arm stands out to one side of a collar; a door does not, however it is
-    hung, nor a lever whose axis lies beside the collar.
+    1: it turns in a round seat. A lever whose arm stands out to one side of a collar has one; a
+    door has none, however it is hung, nor a lever whose axis lies beside the collar: 0.
     """
     arms = _arms(surface, joint)[surface.outside(holder) <= near_m]
     across = arms @ np.linalg.svd(joint.axis[None])[2][1:].T
@@ -71,7 +75,7 @@ def in_a_round_seat(
     sector = np.round(SEAT_SECTORS * turned).astype(int) % SEAT_SECTORS
     reach = np.zeros(SEAT_SECTORS)
     np.maximum.at(reach, sector, np.linalg.norm(across, axis=1))
-    return bool(reach.min() > SEAT_SHARE * reach.max())
+    return float(reach.min() / max(float(reach.max()), 1e-9))
 
 
 def planed_limit(config: SeparateConfig, diagonal: float) -> float:

@@ -20,7 +20,7 @@ from ..poses import held_by, jointed, joints_between, relative_poses
 from .along import carved_apart_along, cut_apart_along, hull_depth
 from .between import Cut, Sides, cut_between, poses_between
 from .budget import CutLimits, Excuse, Loss, SeenSurface, loss, overdone
-from .hung import at_an_edge, planed_limit, well_hung
+from .hung import ROUND_SHARE, at_an_edge, planed_limit, seat_roundness, well_hung
 from .outcome import Pair, Planed, Separation, SeparationRefusal
 from .overlap import overlap, part_solids
 from .pits import TURNED_ROOM, Pit, stands_out_m, swept_share
@@ -160,8 +160,21 @@ class _Bench:
         """What takes less than planes of parts that a joint connects: one after the other."""
         if not jointed(self.articulation, a, b):
             return []
-        turning = [joint for joint in joints_between(self.articulation, a, b) if joint.turns]
-        return [*map(Turned, turning[:1]), carved_apart_along]
+        between = joints_between(self.articulation, a, b)
+        seated = [joint for joint in between if self._in_a_round_seat(joint)]
+        return [*map(Turned, seated[:1]), carved_apart_along]
+
+    def _in_a_round_seat(self, joint: Joint) -> bool:
+        surface = self.surfaces[joint.child]
+        if not joint.turns or surface is None:
+            return False
+        near = self.config.clearance_m
+        return seat_roundness(surface, joint, self._holding(joint), near) > ROUND_SHARE
+
+    def _holding(self, joint: Joint) -> list[Hull]:
+        """The hulls of what holds the part that a joint moves."""
+        holder = held_by(self.articulation, joint.child)
+        return [] if holder is None else self.hulls[holder]
 
     def _carved_by_share(self, a: int, b: int) -> Cut:
         """Carving that takes as small a share of either part as can be: a pit behind a button."""
@@ -359,12 +372,10 @@ class _Bench:
         return max(self.config.bared_m, most)
 
     def _well_hung(self, joints: Iterable[Joint]) -> bool:
-        for joint in joints:
-            holder = held_by(self.articulation, joint.child)
-            hulls = [] if holder is None else self.hulls[holder]
-            if not well_hung(self.surfaces[joint.child], joint, hulls, self.config):
-                return False
-        return True
+        return all(
+            well_hung(self.surfaces[each.child], each, self._holding(each), self.config)
+            for each in joints
+        )
 
     def _pressed(self, a: int, b: int) -> float:
         """How far a button goes into what holds it [m]; 0 for all that is no button."""

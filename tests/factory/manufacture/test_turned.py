@@ -13,6 +13,8 @@ from asset_factory.factory.manufacture.decompose.decompose import PartHulls
 from asset_factory.factory.manufacture.poses import relative_poses
 from asset_factory.factory.manufacture.separate import separate
 from asset_factory.factory.manufacture.separate.along import cut_apart_along, hull_depth
+from asset_factory.factory.manufacture.separate.budget import SeenSurface
+from asset_factory.factory.manufacture.separate.hung import ROUND_SHARE, seat_roundness
 from asset_factory.factory.manufacture.separate.turned import Turned
 from asset_factory.factory.mesh import Mesh, concatenate
 
@@ -118,3 +120,16 @@ def test_a_knob_that_turns_about_another_axis_is_not_cut_free(name):
     result = separate(tree, pieces, [("body", "knob")], CONFIG, 64)
     assert ("body", "knob") in result.refused
     assert deepest(tree, *(list(piece.hulls) for piece in result.pieces)) > 0.001
+
+
+def roundness(solids, seat):
+    mesh = concatenate([Mesh.from_triangles(each.vertices, each.faces) for each in solids])
+    return seat_roundness(SeenSurface.of(mesh), TURN, hulls_of(seat), CLEARANCE)
+
+
+def test_a_knob_has_a_round_seat_and_a_lid_on_a_box_has_none():
+    # About an axis across it a lid could be cut free as well: nobody turns it so.
+    lid = trimesh.creation.box(bounds=[(-0.15, -0.1, -0.002), (0.15, 0.1, 0.02)])
+    box = trimesh.creation.box(bounds=[(-0.15, -0.1, -0.1), (0.15, 0.1, 0.0)])
+    assert roundness(KNOB, RING) > ROUND_SHARE
+    assert 0.3 < roundness([lid], [box]) < ROUND_SHARE
