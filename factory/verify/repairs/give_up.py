@@ -34,8 +34,8 @@ def give_up_guesses(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         if doubtful and (finding in overlapping or not overlapping):
             going.setdefault(doubtful[0], finding)
     if not overlapping:
-        going = {part: going[part] for part in evidence.spare.guesses if part in going}
-        going = dict([*going.items()][:1])
+        least = next((part for part in evidence.spare.guesses if part in going), None)
+        going = {least: going[least]} if least is not None else {}
     return _without(plan, going, evidence)
 
 
