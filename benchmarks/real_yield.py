@@ -2,6 +2,7 @@
 
     python benchmarks/real_yield.py --data DIR --each 12                  the yield of every repair
     python benchmarks/real_yield.py --data DIR --repairs none geometry    with some switched off
+    python benchmarks/real_yield.py --each 999 --output OUT               every object, and keep it
     python benchmarks/real_yield.py --read OUT                            of what was built before
 
 ``factory build --articulator annotated --sim all`` over objects drawn from each source, printed as
@@ -20,6 +21,7 @@ import sys
 import tempfile
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -72,6 +74,7 @@ def main() -> int:
     parser.add_argument("--read", type=Path, help="a folder that was built into before, instead")
     parser.add_argument("--repairs", nargs="+", choices=REPAIR_KINDS, default=["all"])
     parser.add_argument("--workers", type=int, default=1)
+    parser.add_argument("--output", type=Path, help="keep what is built, by kind of repair, here")
     options = parser.parse_args()
     if options.read:
         print_table("as built", list(as_built(options.read)))
@@ -82,8 +85,19 @@ def main() -> int:
 
     inputs = drawn(options)
     for kinds in options.repairs:
-        print_table(f"--repairs {kinds}", list(built(inputs, kinds, options.workers)))
+        with kept_or_temporary(options.output, kinds) as folder:
+            print_table(f"--repairs {kinds}", list(built(inputs, folder, kinds, options.workers)))
     return 0
+
+
+@contextmanager
+def kept_or_temporary(output: Path | None, kinds: str) -> Iterator[Path]:
+    """The folder to build into: one of the user's that stays, or one that does not."""
+    if output is not None:
+        yield output / kinds
+        return
+    with tempfile.TemporaryDirectory(prefix="real-") as folder:
+        yield Path(folder)
 
 
 def drawn(options: argparse.Namespace) -> list[Path]:
@@ -110,21 +124,19 @@ def source_of(path: Path) -> str:
     return next((name for name in SOURCES if folder.startswith(name)), "others")
 
 
-def built(inputs: Sequence[Path], kinds: str, workers: int) -> Iterator[Made]:
-    """Every object made from nothing and judged by every simulator."""
+def built(inputs: Sequence[Path], output: Path, kinds: str, workers: int) -> Iterator[Made]:
+    """Every object made and judged by every simulator, into a folder."""
     config = replace(BuildConfig(), articulator="annotated", simulators=USUAL)
     config = replace(config, repair=replace(config.repair, kinds=kinds))
-    with tempfile.TemporaryDirectory(prefix="real-") as folder:
-        output = Path(folder)
-        before = core_seconds()
-        for result in run_builds(inputs, output, config, workers):
-            place = ASSETS if result.entry.status is Status.PASSED else REJECTED
-            made = made_of(output / place / result.entry.id, result.seconds, Path(result.input))
-            now = core_seconds()
-            yield replace(made, core_s=now - before) if workers == 1 else made
-            before = now
-            words = f"{result.entry.status} {result.entry.reason} ({result.seconds:.0f} s)"
-            print(f"{result.input}: {words}", file=sys.stderr, flush=True)
+    before = core_seconds()
+    for result in run_builds(inputs, output, config, workers):
+        place = ASSETS if result.entry.status is Status.PASSED else REJECTED
+        made = made_of(output / place / result.entry.id, result.seconds, Path(result.input))
+        now = core_seconds()
+        yield replace(made, core_s=now - before) if workers == 1 else made
+        before = now
+        words = f"{result.entry.status} {result.entry.reason} ({result.seconds:.0f} s)"
+        print(f"{result.input}: {words}", file=sys.stderr, flush=True)
 
 
 def core_seconds() -> float:
