@@ -29,6 +29,8 @@ OWN = 0.6
 LEAST_SHOWN = 0.02
 #: What a panel is cut out of is filled to this share behind it.
 FILLED = 0.8
+#: Two faces of a sheet are no further apart than this [pixels].
+SHEET = 0.01
 #: The object is so deep, as a share of the panel's shorter side: no house door, no lone front.
 DEEP = 0.3
 #: What slides may reach so far back, what turns only so far, as shares of the object's depth.
@@ -250,7 +252,10 @@ class _Outlines:
 
 
 def _through(crossed: Crossings) -> tuple[FloatArray, FloatArray]:
-    """Of each ray from first to last crossing the length [m], and the share that is inside."""
+    """Of each ray from first to last crossing the length [m], and the share that is inside.
+
+    Sheets of two faces, one each way, have no inside; the widest gap between two of them is one.
+    """
     shape = (crossed.raster.rows, crossed.raster.columns)
     pixel = crossed.pixel
     turns = np.cumsum(np.where(crossed.inward, 1, -1))
@@ -262,6 +267,11 @@ def _through(crossed: Crossings) -> tuple[FloatArray, FloatArray]:
     count = shape[0] * shape[1]
     whole = np.asarray(np.bincount(pixel, weights=length, minlength=count), dtype=np.float64)
     inner = np.bincount(pixel, weights=length * (winding > 0), minlength=count)
+    thin = SHEET * crossed.raster.pixel
+    twin = same & (length <= thin) & (crossed.inward != np.append(crossed.inward[1:], False))
+    sheet = twin | np.append(False, twin[:-1])
+    between = np.where(sheet & np.append(sheet[1:], False), length, 0.0)
+    np.maximum.at(inner, pixel, between)
     share = np.divide(inner, whole, out=np.zeros(count), where=whole > 0.0)
     return np.asarray(whole.reshape(shape)), np.asarray(share.reshape(shape))
 

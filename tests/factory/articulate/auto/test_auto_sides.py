@@ -73,6 +73,23 @@ def test_nothing_is_cut_out_of_what_has_an_inside() -> None:
     assert not by_sides_alone(bookcase())[0].movable_joints
 
 
+def two_faced(mesh: Mesh) -> Mesh:
+    """A mesh whose every triangle is there once each way round: it has no inside."""
+    twin = replace(mesh, faces=mesh.faces[:, ::-1], corner_uv=None, corner_normals=None)
+    whole = concatenate((mesh, twin))
+    # The twins share the vertices of the first.
+    shared = np.concatenate([mesh.faces, twin.faces])
+    return replace(whole, vertices=mesh.vertices, faces=shared)
+
+
+def test_doors_are_cut_out_of_a_box_of_two_faced_sheets_but_not_of_shelves_in_one() -> None:
+    sheets = two_faced(creased_cupboard())
+    assert len(sheets.faces) == 2 * len(creased_cupboard().faces)
+    assert len(shown(sheets).found) == 2
+    shelves = two_faced(bookcase())
+    assert not any(each.found for each in sightings(shelves, connected_components(shelves)))
+
+
 def test_proposals_are_carried_to_the_cut_mesh() -> None:
     mesh = creased_cupboard()
     seen = shown(mesh)
