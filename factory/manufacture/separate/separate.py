@@ -20,7 +20,7 @@ from ..poses import held_by, jointed, joints_between, relative_poses
 from .along import carved_apart_along, cut_apart_along, hull_depth
 from .between import Cut, Sides, cut_between, poses_between
 from .budget import CutLimits, Excuse, Loss, SeenSurface, loss, overdone
-from .hung import ROUND_SHARE, at_an_edge, planed_limit, seat_roundness, well_hung
+from .hung import HUB_SHARE, ROUND_SHARE, at_an_edge, planed_limit, seat_roundness, well_hung
 from .outcome import Pair, Planed, Separation, SeparationRefusal
 from .overlap import overlap, part_solids
 from .pits import TURNED_ROOM, Pit, stands_out_m, swept_share
@@ -122,7 +122,7 @@ class _Bench:
         at_rest, reason = self._deepening(a, b, poses)
         if reason is None:
             reason = self._cut_along(pair, poses, cut_apart_along)
-            for cut_otherwise in self._finer_cuts(a, b):
+            for cut_otherwise in self._finer_cuts(a, b, at_rest):
                 if reason is not None:
                     reason = self._cut_along(pair, poses, cut_otherwise)
             if reason is not None and self._pressed(a, b) > 0.0:
@@ -156,20 +156,21 @@ class _Bench:
         hulls = self.hulls[a], self.hulls[b]
         return max(hull_depth(*hulls, pose, least) for pose in poses) > ROUNDING_M - least
 
-    def _finer_cuts(self, a: int, b: int) -> list[Cut]:
-        """What takes less than planes of parts that a joint connects: one after the other."""
+    def _finer_cuts(self, a: int, b: int, at_rest: float) -> list[Cut]:
+        """What takes less than planes of parts that a joint connects, ``at_rest`` [m] deep."""
         if not jointed(self.articulation, a, b):
             return []
         between = joints_between(self.articulation, a, b)
-        seated = [joint for joint in between if self._in_a_round_seat(joint)]
+        share = HUB_SHARE if at_rest > self.config.tolerance_m else ROUND_SHARE
+        seated = [joint for joint in between if self._seat_roundness(joint) > share]
         return [*map(Turned, seated[:1]), carved_apart_along]
 
-    def _in_a_round_seat(self, joint: Joint) -> bool:
+    def _seat_roundness(self, joint: Joint) -> float:
         surface = self.surfaces[joint.child]
         if not joint.turns or surface is None:
-            return False
+            return 0.0
         near = self.config.clearance_m
-        return seat_roundness(surface, joint, self._holding(joint), near) > ROUND_SHARE
+        return seat_roundness(surface, joint, self._holding(joint), near)
 
     def _holding(self, joint: Joint) -> list[Hull]:
         """The hulls of what holds the part that a joint moves."""
