@@ -20,9 +20,10 @@ from ..poses import held_by, jointed, joints_between, relative_poses
 from .along import carved_apart_along, cut_apart_along, hull_depth
 from .between import Cut, Sides, cut_between, poses_between
 from .budget import CutLimits, Excuse, Loss, SeenSurface, loss, overdone
+from .clip import SHEET_M
 from .hung import HUB_SHARE, ROUND_SHARE, at_an_edge, planed_limit, seat_roundness, well_hung
 from .outcome import Pair, Planed, Separation, SeparationRefusal
-from .overlap import overlap, part_solids
+from .overlap import overlap, part_solids, thickness_m
 from .pits import TURNED_ROOM, Pit, stands_out_m, swept_share
 from .turned import Turned
 
@@ -184,11 +185,10 @@ class _Bench:
 
     def _dug(self, pair: Pair, poses: list[FloatArray]) -> bool:
         """Dig a pit, if that takes no more than may."""
-        a, b = (self._index(name) for name in pair)
+        a, b = map(self._index, pair)
+        pits = self._pits(a, b, poses)
         most = self.config.planed_volume
-        return any(
-            self._cut_along(pair, poses, pit, most) is None for pit in self._pits(a, b, poses)
-        )
+        return any(self._cut_along(pair, poses, pit, most) is None for pit in pits)
 
     def _goes_in_flush(self, spare: float) -> bool:
         """Whether a slide goes into something, and no deeper than it stands out of it [m]."""
@@ -226,7 +226,7 @@ class _Bench:
         self, pair: Pair, poses: list[FloatArray], cut: Cut, most: float | None = None
     ) -> str | None:
         """Cut, or why not; ``most`` is the largest share of either part, where it is less."""
-        a, b = (self._index(name) for name in pair)
+        a, b = map(self._index, pair)
         before = self.hulls[a], self.hulls[b]
         after = cut(*before, poses, self.config.clearance_m)
         losses = self._losses(a, b, before, after)
@@ -393,5 +393,7 @@ class _Bench:
         planed = self._limit(a, b) + self.config.clearance_m
         limits = CutLimits(self._free_limit(a, b), planed, at_most or self.config.most_cut)
         names = [self.articulation.parts[part].name for part in (a, b)]
-        solid = [self.solids[part] is not None for part in (a, b)]
+        # Of a closed sheet more may go than of a solid, where it hangs at an edge of its own.
+        least_m = SHEET_M if self._hinges(a, b) else 0.0
+        solid = [thickness_m(self.solids[part]) > least_m for part in (a, b)]
         return overdone(names, losses, solid, limits, self.config)
