@@ -162,7 +162,9 @@ class _Bench:
         if not jointed(self.articulation, a, b):
             return []
         between = joints_between(self.articulation, a, b)
-        share = HUB_SHARE if at_rest > self.config.tolerance_m else ROUND_SHARE
+        straight = not any(is_crooked(joint.axis) for joint in between)
+        deep = straight and at_rest > self.config.tolerance_m
+        share = HUB_SHARE if deep else ROUND_SHARE
         seated = [joint for joint in between if self._seat_roundness(joint) > share]
         return [*map(Turned, seated[:1]), carved_apart_along]
 
@@ -294,10 +296,7 @@ class _Bench:
         return next(i for i, part in enumerate(self.articulation.parts) if part.name == name)
 
     def _limit(self, a: int, b: int) -> float:
-        """How much may be planed off two parts together [m].
-
-        A share of what their hinge holds, or of the lesser one.
-        """
+        """How much may be planed off two parts [m]: a share of what their hinge holds."""
         hinged = [joint.child for joint in self._hinges(a, b)]
         sizes = [surface.diagonal for i in hinged or (a, b) if (surface := self.surfaces[i])]
         return planed_limit(self.config, min(sizes, default=0.0))

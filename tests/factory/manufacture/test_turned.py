@@ -147,3 +147,12 @@ def test_a_hub_that_stands_deep_in_its_holder_may_sit_less_in_the_middle(off, de
     )
     cuts = bench._finer_cuts(0, 1, deep_m)
     assert any(isinstance(cut, Turned) for cut in cuts) == turned_free
+
+
+def test_a_hub_about_a_crooked_axis_has_to_sit_in_the_middle():
+    axis = rotation_about(ALONG, np.radians(10.0)) @ UP
+    joint = replace(TURN, axis=axis, origin=0.2 * RADIUS * ALONG)
+    bench = _Bench(
+        object_of(joint), [list(hulls_of([*RING, *FLOOR])), list(hulls_of(KNOB))], CONFIG
+    )
+    assert not any(isinstance(cut, Turned) for cut in bench._finer_cuts(0, 1, 0.003))
