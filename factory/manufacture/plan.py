@@ -34,6 +34,7 @@ class Plan:
         rehung: guessed hinges that are at the front edges of their doors now.
         given_up: guessed joints whose parts cannot be parts of their own, made one with what they
             lie on.
+        hollow: parts whose open surfaces are never closed or filled, whatever stands in them.
         fewer: the asset has too many hulls: they are joined, further off the surfaces.
         steps: what was decided, one sentence each, oldest first.
     """
@@ -46,6 +47,7 @@ class Plan:
     frozen: frozenset[str] = frozenset()
     given_up: frozenset[str] = frozenset()
     build_fronts: bool = False
+    hollow: frozenset[str] = frozenset()
     fewer: bool = False
     rehung: frozenset[str] = frozenset()
     steps: tuple[str, ...] = ()

@@ -28,7 +28,7 @@ from .targets.handles import find_handle
 #: Its version is raised when the same hulls would be cut, weighed or held otherwise.
 FINISH = Stage(
     "finish",
-    version=10,
+    version=13,
     settings=("separate", "inertia", "decompose.max_vertices"),
     libraries=("numpy", "scipy", "trimesh", "manifold3d"),
 )
@@ -52,7 +52,8 @@ def manufacture(
         built.articulation, replace(plan, given_up=frozenset(), rehung=frozenset())
     )
     with stages.clock.stage("decompose"):
-        pieces = decompose(planned, stages.config.decompose, stages.store, built.pieces)
+        config = stages.config.decompose
+        pieces = decompose(planned, config, stages.store, built.pieces, plan.hollow)
         if plan.fewer:
             rooms = [room_around(planned, part) for part in range(len(planned.parts))]
             pieces = fewer(pieces, stages.config, stages.store, rooms)

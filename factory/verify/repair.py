@@ -11,6 +11,7 @@ from .repairs.build_fronts import build_fronts
 from .repairs.evidence import RepairEvidence
 from .repairs.exclude import exclude_knuckles
 from .repairs.give_up import give_up_guesses
+from .repairs.hollow import hollow_out
 from .repairs.mend import mend_joints
 from .repairs.pull_in import pull_in
 from .repairs.rehang import rehang_doors
@@ -29,11 +30,14 @@ REPAIRS: tuple[Repair, ...] = (
     mend_joints,
     pull_in,
     build_fronts,
+    hollow_out,
     give_up_guesses,
     shorten_or_freeze,
 )
 #: Those that change collision geometry only; all others change joints or parts.
-GEOMETRY: frozenset[Repair] = frozenset({separate_hulls, exclude_knuckles, build_fronts})
+GEOMETRY: frozenset[Repair] = frozenset(
+    {separate_hulls, exclude_knuckles, build_fronts, hollow_out}
+)
 
 
 def allowed(repair: Repair, kinds: str) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -60,6 +60,7 @@ def decompose(
     config: DecomposeConfig,
     store: Store | None = None,
     known: Sequence[PartHulls | None] = (),
+    hollow: Collection[str] = (),
 ) -> tuple[PartHulls, ...]:
     """Convex hulls for every part, in the parts' order.
 
@@ -69,6 +70,7 @@ def decompose(
         config: see :class:`DecomposeConfig`.
         store: results are kept here by content; without it everything is computed anew.
         known: hulls of parts that have them already, ``None`` for the others; empty: of none.
+        hollow: names of parts whose open surfaces are walls, never closed or filled.
 
     Raises:
         InputRejected: ``too_many_hulls``, or ``decomposition_failed`` where no body can be made of
@@ -84,21 +86,38 @@ def decompose(
             results.append(PartHulls((), "none", (), True))
             continue
         room = room_around(articulation, index)
-        results.append(_cached(part.name, articulation.part_mesh(index), config, room, store))
+        work = _Work(part.name, articulation.part_mesh(index), room, part.name in hollow)
+        results.append(_cached(work, config, store))
     return tuple(results)
 
 
-def _cached(
-    name: str, mesh: Mesh, config: DecomposeConfig, room: Room, store: Store | None
-) -> PartHulls:
+@dataclass(frozen=True)
+class _Work:
+    """One part to be decomposed.
+
+    Attributes:
+        name: of the part.
+        mesh: what is seen of it.
+        room: that other parts take.
+        hollow: see :func:`decompose`.
+    """
+
+    name: str
+    mesh: Mesh
+    room: Room
+    hollow: bool
+
+
+def _cached(work: _Work, config: DecomposeConfig, store: Store | None) -> PartHulls:
     if store is None:
-        return _decompose_part(name, mesh, config, room)[0]
+        return _decompose_part(work, config)[0]
     build = BuildConfig(decompose=config)
-    key = DECOMPOSE.key(build, mesh.vertices, mesh.faces, room.points)
+    how = ("hollow",) if work.hollow else ()
+    key = DECOMPOSE.key(build, work.mesh.vertices, work.mesh.faces, work.room.points, *how)
     kept = store.load(key)
     if kept is not None:
         return unpacked(kept)
-    result, repeatable = _decompose_part(name, mesh, config, room)
+    result, repeatable = _decompose_part(work, config)
     if repeatable:
         store.save(key, packed(result))
     return result
@@ -110,14 +129,14 @@ def error_for(mesh: Mesh, config: DecomposeConfig) -> float:
     return min(max(config.error_m, config.error_share * mesh.diagonal), most)
 
 
-def _decompose_part(
-    name: str, mesh: Mesh, config: DecomposeConfig, room: Room
-) -> tuple[PartHulls, bool]:
+def _decompose_part(work: _Work, config: DecomposeConfig) -> tuple[PartHulls, bool]:
+    name = work.name
+    mesh = work.mesh
     degraded: list[str] = []
     error_m = error_for(mesh, config)
     count = 0
     for attempt in range(COARSER_ROUNDS + 1):
-        pieces = split_part(mesh.vertices, mesh.faces, error_m, config, room)
+        pieces = split_part(mesh.vertices, mesh.faces, error_m, config, work.room, work.hollow)
         if pieces is None:
             raise InputRejected(
                 "decomposition_failed",

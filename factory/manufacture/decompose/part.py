@@ -75,6 +75,7 @@ def split_part(
     error_m: float,
     config: DecomposeConfig,
     room: Room = NOWHERE,
+    hollow: bool = False,
 ) -> PartPieces | None:
     """Convex hulls of the triangles of one part.
 
@@ -84,20 +85,21 @@ def split_part(
         error_m: deepest dent that a hull may fill [m].
         config: everything else; its ``error_m`` is the least, where others are near.
         room: that other parts take.
+        hollow: open surfaces are walls: what they surround is never closed or filled.
 
     Returns:
         ``None`` if nothing in it is a body.
     """
     gated = gate(vertices, faces)
-    single = _single(vertices, faces, gated, error_m, config)
+    single = None if hollow else _single(vertices, faces, gated, error_m, config)
     if single is not None and not room.entered(single.hulls[0]):
         return single
     heap = _Heap()
     open_hulls: list[Hull] = []
     solids = _hollowed(_outermost(list(gated.solids)), list(gated.cavities))
     for sheet in gated.sheets:
-        shell = as_shell(sheet, config.error_m, room)
-        solid = None if shell is not None else _closed(sheet, room)
+        shell = None if hollow else as_shell(sheet, config.error_m, room)
+        solid = None if hollow or shell is not None else _closed(sheet, room)
         if shell is not None:
             heap.add(SolidPieces((shell,), "single"))
         elif solid is not None:

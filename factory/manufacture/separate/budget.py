@@ -175,8 +175,8 @@ def overdone(
     Args:
         names: of both.
         losses: of both.
-        solid: whether each encloses a volume: of an open surface the slabs over it have none to
-            speak of, and come and go whole.
+        solid: whether each encloses a volume to speak of: the slabs over an open surface come and
+            go whole, and a thin sheet is planed to half of itself.
         limits: for the two.
         config: the other limits.
     """

@@ -22,6 +22,8 @@ SEAT_SECTORS = 8
 SEAT_SHARE = 0.5
 #: What turns in a seat as round as this is cut by surfaces of revolution; a lid on a box is not.
 ROUND_SHARE = 0.8
+#: A hub that stands deep in what holds it, rather than on it, need not sit as much in its middle.
+HUB_SHARE = 0.6
 
 
 def well_hung(

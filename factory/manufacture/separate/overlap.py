@@ -45,6 +45,11 @@ def _solid(articulation: Articulation, part: int) -> Manifold | None:
     return solid - union(list(gated.cavities)) if gated.cavities else solid
 
 
+def thickness_m(solid: Manifold | None) -> float:
+    """Mean thickness of a solid that is all of sheets [m]; 0 of what encloses nothing."""
+    return 0.0 if solid is None else 2.0 * float(solid.volume()) / float(solid.surface_area())
+
+
 def overlap(a: Manifold, b: Manifold, pose: FloatArray) -> MeshOverlap:
     """How two solids intersect where their parts are.
 
@@ -65,7 +70,7 @@ def overlap(a: Manifold, b: Manifold, pose: FloatArray) -> MeshOverlap:
 
 def _thickness(piece: Manifold) -> float:
     """Least width of a piece, or three times its mean thickness if bent; the lesser [m]."""
-    mean = 2.0 * float(piece.volume()) / float(piece.surface_area())
+    mean = thickness_m(piece)
     mesh = piece.hull().to_mesh64()
     vertices = mesh.vert_properties[:, :3]
     faces = mesh.tri_verts.astype(np.int64)

@@ -20,9 +20,10 @@ from ..poses import held_by, jointed, joints_between, relative_poses
 from .along import carved_apart_along, cut_apart_along, hull_depth
 from .between import Cut, Sides, cut_between, poses_between
 from .budget import CutLimits, Excuse, Loss, SeenSurface, loss, overdone
-from .hung import ROUND_SHARE, at_an_edge, planed_limit, seat_roundness, well_hung
+from .clip import SHEET_M
+from .hung import HUB_SHARE, ROUND_SHARE, at_an_edge, planed_limit, seat_roundness, well_hung
 from .outcome import Pair, Planed, Separation, SeparationRefusal
-from .overlap import overlap, part_solids
+from .overlap import overlap, part_solids, thickness_m
 from .pits import TURNED_ROOM, Pit, stands_out_m, swept_share
 from .turned import Turned
 
@@ -122,7 +123,7 @@ class _Bench:
         at_rest, reason = self._deepening(a, b, poses)
         if reason is None:
             reason = self._cut_along(pair, poses, cut_apart_along)
-            for cut_otherwise in self._finer_cuts(a, b):
+            for cut_otherwise in self._finer_cuts(a, b, at_rest):
                 if reason is not None:
                     reason = self._cut_along(pair, poses, cut_otherwise)
             if reason is not None and self._pressed(a, b) > 0.0:
@@ -156,20 +157,23 @@ class _Bench:
         hulls = self.hulls[a], self.hulls[b]
         return max(hull_depth(*hulls, pose, least) for pose in poses) > ROUNDING_M - least
 
-    def _finer_cuts(self, a: int, b: int) -> list[Cut]:
-        """What takes less than planes of parts that a joint connects: one after the other."""
+    def _finer_cuts(self, a: int, b: int, at_rest: float) -> list[Cut]:
+        """What takes less than planes of parts that a joint connects, ``at_rest`` [m] deep."""
         if not jointed(self.articulation, a, b):
             return []
         between = joints_between(self.articulation, a, b)
-        seated = [joint for joint in between if self._in_a_round_seat(joint)]
+        straight = not any(is_crooked(joint.axis) for joint in between)
+        deep = straight and at_rest > self.config.tolerance_m
+        share = HUB_SHARE if deep else ROUND_SHARE
+        seated = [joint for joint in between if self._seat_roundness(joint) > share]
         return [*map(Turned, seated[:1]), carved_apart_along]
 
-    def _in_a_round_seat(self, joint: Joint) -> bool:
+    def _seat_roundness(self, joint: Joint) -> float:
         surface = self.surfaces[joint.child]
         if not joint.turns or surface is None:
-            return False
+            return 0.0
         near = self.config.clearance_m
-        return seat_roundness(surface, joint, self._holding(joint), near) > ROUND_SHARE
+        return seat_roundness(surface, joint, self._holding(joint), near)
 
     def _holding(self, joint: Joint) -> list[Hull]:
         """The hulls of what holds the part that a joint moves."""
@@ -183,11 +187,10 @@ class _Bench:
 
     def _dug(self, pair: Pair, poses: list[FloatArray]) -> bool:
         """Dig a pit, if that takes no more than may."""
-        a, b = (self._index(name) for name in pair)
+        a, b = map(self._index, pair)
+        pits = self._pits(a, b, poses)
         most = self.config.planed_volume
-        return any(
-            self._cut_along(pair, poses, pit, most) is None for pit in self._pits(a, b, poses)
-        )
+        return any(self._cut_along(pair, poses, pit, most) is None for pit in pits)
 
     def _goes_in_flush(self, spare: float) -> bool:
         """Whether a slide goes into something, and no deeper than it stands out of it [m]."""
@@ -225,7 +228,7 @@ class _Bench:
         self, pair: Pair, poses: list[FloatArray], cut: Cut, most: float | None = None
     ) -> str | None:
         """Cut, or why not; ``most`` is the largest share of either part, where it is less."""
-        a, b = (self._index(name) for name in pair)
+        a, b = map(self._index, pair)
         before = self.hulls[a], self.hulls[b]
         after = cut(*before, poses, self.config.clearance_m)
         losses = self._losses(a, b, before, after)
@@ -293,10 +296,7 @@ class _Bench:
         return next(i for i, part in enumerate(self.articulation.parts) if part.name == name)
 
     def _limit(self, a: int, b: int) -> float:
-        """How much may be planed off two parts together [m].
-
-        A share of what their hinge holds, or of the lesser one.
-        """
+        """How much may be planed off two parts [m]: a share of what their hinge holds."""
         hinged = [joint.child for joint in self._hinges(a, b)]
         sizes = [surface.diagonal for i in hinged or (a, b) if (surface := self.surfaces[i])]
         return planed_limit(self.config, min(sizes, default=0.0))
@@ -392,5 +392,7 @@ class _Bench:
         planed = self._limit(a, b) + self.config.clearance_m
         limits = CutLimits(self._free_limit(a, b), planed, at_most or self.config.most_cut)
         names = [self.articulation.parts[part].name for part in (a, b)]
-        solid = [self.solids[part] is not None for part in (a, b)]
+        # Of a closed sheet more may go than of a solid, where it hangs at an edge of its own.
+        least_m = SHEET_M if self._hinges(a, b) else 0.0
+        solid = [thickness_m(self.solids[part]) > least_m for part in (a, b)]
         return overdone(names, losses, solid, limits, self.config)

@@ -2,10 +2,14 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
+from manifold3d import Manifold
 
 from asset_factory.factory.config import SeparateConfig
 from asset_factory.factory.manufacture.separate.budget import CutLimits, Loss, overdone
+from asset_factory.factory.manufacture.separate.clip import SHEET_M
+from asset_factory.factory.manufacture.separate.overlap import thickness_m
 
 CONFIG = SeparateConfig()
 LIMITS = CutLimits(free_m=0.006, planed_m=0.025, share=0.5)
@@ -40,3 +44,15 @@ def test_most_of_the_slabs_over_an_open_surface_may_go_where_nothing_is_bared():
 
 def test_a_part_may_not_be_bared_over_more_than_its_share():
     assert "bare 6%" in judged(replace(NOTHING, area=0.06), solid=False)
+
+
+def test_a_thin_board_counts_as_a_sheet_and_a_thick_one_does_not():
+    size = np.array([0.2, 0.08, 0.002])
+    assert thickness_m(Manifold.cube(size)) == pytest.approx(0.002, rel=0.05)
+    assert thickness_m(Manifold.cube(size)) < SHEET_M < thickness_m(Manifold.cube(4.0 * size))
+    # A box of such boards is as thin as they are, however much it surrounds.
+    box = Manifold.cube([0.2, 0.2, 0.2]) - Manifold.cube([0.196, 0.196, 0.196]).translate(
+        [0.002] * 3
+    )
+    assert thickness_m(box) == pytest.approx(0.002, rel=0.1)
+    assert thickness_m(None) == 0.0

@@ -203,6 +203,22 @@ def test_open_surfaces_become_thin_slabs(vertices: np.ndarray, faces: np.ndarray
     assert cover_volume(result) <= 1.01 * area * CONFIG.shell_m
 
 
+def test_a_wide_pipe_with_a_hidden_end_is_closed_unless_it_is_said_to_be_hollow() -> None:
+    closed = trimesh.creation.cylinder(0.04, 0.8, sections=24)
+    lying = closed.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [0, 1, 0]))
+    open_end = lying.triangles_center[:, 0] > 0.4 - 1e-6
+    pipe = np.array(lying.vertices), np.array(lying.faces[~open_end])
+    middle = np.array([[0.0, 0.0, 0.0], [0.3, 0.0, 0.0]])
+
+    def filled(result: PartHulls) -> bool:
+        return max(float(depth_below(hull, middle).max()) for hull in result.hulls) > 0.0
+
+    assert filled(only(*pipe))
+    walls = decompose(one_part(*pipe), CONFIG, hollow={"body"})[0]
+    assert not filled(walls)
+    assert uncovered(walls.hulls, surface_points(*pipe)) < CONFIG.error_m
+
+
 def test_a_part_of_dust_is_rejected() -> None:
     with pytest.raises(InputRejected) as caught:
         only(np.array([[0, 0, 0], [1e-7, 0, 0], [0, 1e-7, 0]]), np.array([[0, 1, 2]]))

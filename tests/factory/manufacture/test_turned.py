@@ -15,6 +15,7 @@ from asset_factory.factory.manufacture.separate import separate
 from asset_factory.factory.manufacture.separate.along import cut_apart_along, hull_depth
 from asset_factory.factory.manufacture.separate.budget import SeenSurface
 from asset_factory.factory.manufacture.separate.hung import ROUND_SHARE, seat_roundness
+from asset_factory.factory.manufacture.separate.separate import _Bench
 from asset_factory.factory.manufacture.separate.turned import Turned
 from asset_factory.factory.mesh import Mesh, concatenate
 
@@ -133,3 +134,25 @@ def test_a_knob_has_a_round_seat_and_a_lid_on_a_box_has_none():
     box = trimesh.creation.box(bounds=[(-0.15, -0.1, -0.1), (0.15, 0.1, 0.0)])
     assert roundness(KNOB, RING) > ROUND_SHARE
     assert 0.3 < roundness([lid], [box]) < ROUND_SHARE
+
+
+@pytest.mark.parametrize(
+    ("off", "deep_m", "turned_free"),
+    [(0.0, 0.0, True), (0.2, 0.0, False), (0.2, 0.003, True), (0.5, 0.003, False)],
+)
+def test_a_hub_that_stands_deep_in_its_holder_may_sit_less_in_the_middle(off, deep_m, turned_free):
+    joint = replace(TURN, origin=off * RADIUS * ALONG)
+    bench = _Bench(
+        object_of(joint), [list(hulls_of([*RING, *FLOOR])), list(hulls_of(KNOB))], CONFIG
+    )
+    cuts = bench._finer_cuts(0, 1, deep_m)
+    assert any(isinstance(cut, Turned) for cut in cuts) == turned_free
+
+
+def test_a_hub_about_a_crooked_axis_has_to_sit_in_the_middle():
+    axis = rotation_about(ALONG, np.radians(10.0)) @ UP
+    joint = replace(TURN, axis=axis, origin=0.2 * RADIUS * ALONG)
+    bench = _Bench(
+        object_of(joint), [list(hulls_of([*RING, *FLOOR])), list(hulls_of(KNOB))], CONFIG
+    )
+    assert not any(isinstance(cut, Turned) for cut in bench._finer_cuts(0, 1, 0.003))

@@ -180,3 +180,15 @@ def test_a_guessed_hinge_that_is_blocked_is_moved_to_the_front_edge_once():
     assert plan.rehung == {"hinge"}
     assert plan.steps == ("moved hinge to the door's front edge: it ran into something",)
     assert next_plan(given, plan, CONFIG, spare).upper == {"hinge": 1.5}
+
+
+def test_what_nobody_gets_into_is_made_hollow_once():
+    found = verdict(hard("interior_filled", parts=("lever",)))
+    plan = next_plan(found, Plan(), CONFIG, NONE_SMALL)
+    assert plan.hollow == {"lever"}
+    assert "lever" in plan.steps[-1]
+    assert next_plan(found, plan, CONFIG, NONE_SMALL) is None
+    assert next_plan(found, Plan(), RepairConfig(kinds="geometry"), NONE_SMALL) == plan
+    assert next_plan(found, Plan(), RepairConfig(kinds="none"), NONE_SMALL) is None
+    soft = Finding("interior_filled", Severity.SOFT, "little is left", parts=("lever",))
+    assert next_plan(verdict(soft), Plan(), CONFIG, NONE_SMALL) is None
