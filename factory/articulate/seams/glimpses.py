@@ -1,76 +1,91 @@
-"""Panels of which the picture network alone is sure: flush doors without a seam or a handle."""
+"""Panels of which the picture network alone is sure, cut along the ends that it sees."""
 
 from __future__ import annotations
-
-from dataclasses import dataclass
 
 import numpy as np
 from scipy import ndimage
 
-from ...mesh import FloatArray, IntArray
+from ...mesh import FloatArray
 from .candidates import main_pulls
 from .fronts import Front
 from .panels import FrontPanel
 from .rectangles import Rectangle
 from .sight import SQUARE, Sight
 
-#: A square belongs to a panel, and one to an end of it, from this probability.
+#: A square belongs to a panel from this probability.
 LIKELY = 0.4
-#: What is seen must be so sure, fill its rectangle so far, and end at its sides so surely.
-SURE = 0.85
-FULL = 0.9
-ENDS = 0.75
+#: A side is cut where squares are an end with this probability in the mean.
+END = 0.35
+#: With fewer squares of panels nothing is cut, nor rows or columns that hold fewer.
 LEAST_SQUARES = 60
+LEAST_IN_LINE = 3
+#: A panel is at least so wide and high [squares].
+LEAST = 6
+#: What is seen must be so sure, and end at its sides so surely, to be a panel of so many pulls.
+SURE = 0.8
+ENDS = 0.6
+MOST_PULLS = 2
 
-
-@dataclass(frozen=True, eq=False)
-class _SeenPatch:
-    """Squares of panels without an end in between.
-
-    Attributes:
-        low, high: first row and column, and those after the last, shape [2] each.
-        full: share of them that belongs to the patch.
-    """
-
-    low: IntArray
-    high: IntArray
-    full: float
+#: First row and the one after the last, likewise of columns [squares].
+Block = tuple[int, int, int, int]
 
 
 def glimpsed(front: Front) -> tuple[FrontPanel, ...]:
     """The panels of one side that the network alone is sure of."""
-    found = []
-    for patch in _patches(front.sight):
-        sides = _ends(front.sight, patch)
-        rectangle = _rectangle(patch, sides, front.relief.shape)
-        sure = front.sight.shows(rectangle)
-        if patch.full < FULL or sure < SURE or sides.mean() < ENDS:
-            continue
-        handles = front.scene.handles_in(rectangle)
-        if len(main_pulls(handles, rectangle)) <= 1:
-            odds = float(np.log(sure / (1.0 - sure))) if sure < 1.0 else np.inf
-            found.append(FrontPanel(rectangle, handles, odds))
-    return tuple(found)
+    likely = front.sight.panel > LIKELY
+    rows = np.flatnonzero(likely.sum(axis=1) >= LEAST_IN_LINE)
+    columns = np.flatnonzero(likely.sum(axis=0) >= LEAST_IN_LINE)
+    if likely.sum() < LEAST_SQUARES or not len(rows) or not len(columns):
+        return ()
+    whole = (int(rows[0]), int(rows[-1]) + 1, int(columns[0]), int(columns[-1]) + 1)
+    level = ndimage.maximum_filter1d(front.sight.level, 3, axis=0)
+    upright = ndimage.maximum_filter1d(front.sight.upright, 3, axis=1)
+    panels = (_panel(front, block) for block in _blocks(whole, level, upright))
+    return tuple(panel for panel in panels if panel is not None)
 
 
-def _patches(sight: Sight) -> list[_SeenPatch]:
-    ends = np.maximum(sight.level, sight.upright)
-    number, count = ndimage.label((sight.panel > LIKELY) & (ends < LIKELY))
-    sizes = np.bincount(number.ravel(), minlength=count + 1)
-    found = []
-    for label, (rows, columns) in enumerate(ndimage.find_objects(number), start=1):
-        if sizes[label] < LEAST_SQUARES:
-            continue
-        low = np.array([rows.start, columns.start])
-        high = np.array([rows.stop, columns.stop])
-        found.append(_SeenPatch(low, high, float(sizes[label] / (high - low).prod())))
-    return found
+def _blocks(block: Block, level: FloatArray, upright: FloatArray) -> list[Block]:
+    """What is left of a block when it is cut along its surest end, and so on."""
+    bottom, top, left, right = block
+    rows = level[bottom + LEAST : top - LEAST + 1, left:right].mean(axis=1)
+    columns = upright[bottom:top, left + LEAST : right - LEAST + 1].mean(axis=0)
+    highest = max(rows.max(initial=0.0), columns.max(initial=0.0))
+    if highest <= END:
+        return [block]
+    if rows.max(initial=0.0) == highest:
+        at = bottom + LEAST + _middle(rows)
+        halves = (bottom, at, left, right), (at, top, left, right)
+    else:
+        at = left + LEAST + _middle(columns)
+        halves = (bottom, top, left, at), (bottom, top, at, right)
+    return [found for half in halves for found in _blocks(half, level, upright)]
 
 
-def _ends(sight: Sight, patch: _SeenPatch) -> FloatArray:
+def _middle(profile: FloatArray) -> int:
+    """Where a profile is highest; in the middle, where it stays as high for a while."""
+    around = ndimage.uniform_filter1d(profile, 3, mode="nearest")
+    return int(np.where(profile == profile.max(), around, -np.inf).argmax())
+
+
+def _panel(front: Front, block: Block) -> FrontPanel | None:
+    """A block, if the network is sure of it."""
+    sides = _ends(front.sight, block)
+    low = SQUARE * np.array([block[0], block[2]])
+    high = np.minimum(SQUARE * np.array([block[1], block[3]]), np.array(front.relief.shape) - 1)
+    rectangle = Rectangle(low, high, sides, sides)
+    sure = front.sight.shows(rectangle)
+    if (high - low).min() < SQUARE * LEAST or sure < SURE or sides.mean() < ENDS:
+        return None
+    handles = front.scene.handles_in(rectangle)
+    if len(main_pulls(handles, rectangle)) > MOST_PULLS:
+        return None
+    odds = float(np.log(sure / (1.0 - sure))) if sure < 1.0 else np.inf
+    return FrontPanel(rectangle, handles, odds)
+
+
+def _ends(sight: Sight, block: Block) -> FloatArray:
     """How surely it ends at the bottom, top, left and right, 0 to 1, shape [4]."""
-    bottom, left = patch.low.tolist()
-    top, right = patch.high.tolist()
+    bottom, top, left, right = block
     level = np.pad(sight.level[:, left:right], ((2, 2), (0, 0)))
     upright = np.pad(sight.upright[bottom:top], ((0, 0), (2, 2)))
     # Padded by two, so that the square before the first is the second of three.
@@ -82,10 +97,3 @@ def _ends(sight: Sight, patch: _SeenPatch) -> FloatArray:
             upright[:, right + 1 : right + 4].max(axis=1).mean(),
         ]
     )
-
-
-def _rectangle(patch: _SeenPatch, sides: FloatArray, shape: tuple[int, int]) -> Rectangle:
-    """To the middle of its ends."""
-    low = np.maximum(SQUARE * (patch.low - 1), 0)
-    high = np.minimum(SQUARE * (patch.high + 1), np.array(shape) - 1)
-    return Rectangle(low, high, sides, sides)
