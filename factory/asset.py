@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -33,13 +34,25 @@ class Hull:
                 f"hull: volume is {self.volume:.3g} m3, want more than 0 and faces outward"
             )
 
-    @property
+    @cached_property
     def volume(self) -> float:
         """Enclosed volume [m3], by the divergence theorem."""
         corners = (self.vertices - self.vertices.mean(axis=0))[self.faces]
         return float(
             np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6.0
         )
+
+    @cached_property
+    def planes(self) -> FloatArray:
+        """Outward unit normals and offsets, ``n . x <= d`` inside, [plane_count, 4], no slivers."""
+        a, b, c = (self.vertices[self.faces[:, i]] for i in range(3))
+        normals = np.cross(b - a, c - a)
+        length = np.linalg.norm(normals, axis=1)
+        kept = length > 1e-12 * max(1e-12, float(length.max()))
+        normals = normals[kept] / length[kept, None]
+        # The farthest vertex rather than the face's own: a sliver's normal may cut into the hull.
+        offsets = (self.vertices @ normals.T).max(axis=0)
+        return np.asarray(read_only(np.column_stack([normals, offsets])), dtype=np.float64)
 
 
 @dataclass(frozen=True)

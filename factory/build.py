@@ -11,9 +11,11 @@ from .articulate.stage import readings
 from .articulation import Articulation
 from .config import BuildConfig
 from .errors import InputRejected
+from .export.bundle import with_manifest_of
 from .export.model import write_input, write_model
 from .intake.intake import Intake
 from .intake.source import Source
+from .manufacture.stage import with_targets
 from .registry import Registry
 from .registry.product import Made, Product, finished, refused
 from .registry.registration import register
@@ -59,9 +61,12 @@ def make_asset(
         rounds = Rounds(draft.reading, intake, staging, judge, stages)
         draft, verdict = rounds.simulated(draft, others)
         verdict = with_kept(verdict, draft.reading, draft.asset.articulation)
+        # No judge asks for them: of what is made in vain nothing is held.
+        asset = with_targets(draft.asset, stages)
+        bundle = with_manifest_of(draft.bundle, asset, intake.provenance)
         with stages.clock.stage("model"):
-            write_model(draft.asset, draft.bundle.folder, draft.before)
-        made = Made(draft.asset, draft.bundle, verdict, draft.plan)
+            write_model(asset, bundle.folder, draft.before)
+        made = Made(asset, bundle, verdict, draft.plan)
         return finished(origin, intake, made, stages)
     except InputRejected as rejection:
         shown = None if intake is None else write_input(intake.mesh, staging / "input")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..asset import Asset
@@ -12,7 +12,7 @@ from ..runtime.keys import Stage
 from ..runtime.layout import MANIFEST, MESHES, MJCF, URDF
 from .described import manifest_of
 from .formats import formats_named
-from .links import lay_out
+from .links import Layout, lay_out
 from .manifest import Manifest
 
 #: Its version is raised when the same asset would be written otherwise.
@@ -27,12 +27,14 @@ class Bundle:
         folder: holds everything; nothing in it points outside.
         urdf, mjcf: the two descriptions.
         manifest: the content of ``asset.json``.
+        layout: what all of it says.
     """
 
     folder: Path
     urdf: Path
     mjcf: Path
     manifest: Manifest
+    layout: Layout
 
 
 def export_bundle(
@@ -67,5 +69,23 @@ def export_bundle(
     manifest = manifest_of(layout, provenance)
     for each in chosen:
         each.write(layout, folder / each.file)
+    _write_manifest(manifest, folder)
+    return Bundle(folder, folder / URDF, folder / MJCF, manifest, layout)
+
+
+def with_manifest_of(bundle: Bundle, asset: Asset, provenance: Provenance) -> Bundle:
+    """A bundle whose ``asset.json`` is written anew, of the same asset with other targets.
+
+    Args:
+        bundle: all that descriptions and meshes say stays.
+        asset: the bundle's, but for its targets.
+        provenance: where it came from.
+    """
+    layout = replace(bundle.layout, asset=asset)
+    manifest = manifest_of(layout, provenance)
+    _write_manifest(manifest, bundle.folder)
+    return replace(bundle, manifest=manifest, layout=layout)
+
+
+def _write_manifest(manifest: Manifest, folder: Path) -> None:
     (folder / MANIFEST).write_text(manifest.to_json(), encoding="utf-8", newline="\n")
-    return Bundle(folder, folder / URDF, folder / MJCF, manifest)

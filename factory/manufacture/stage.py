@@ -28,14 +28,14 @@ from .targets.handles import find_handle
 #: Its version is raised when the same hulls would be cut, weighed or held otherwise.
 FINISH = Stage(
     "finish",
-    version=13,
+    version=14,
     settings=("separate", "inertia", "decompose.max_vertices"),
     libraries=("numpy", "scipy", "trimesh", "manifold3d"),
 )
 
 
 def manufacture(
-    articulation: Articulation, plan: Plan, intake: Intake, stages: Stages
+    articulation: Articulation, plan: Plan, intake: Intake, stages: Stages, targets: bool = True
 ) -> tuple[Asset, tuple[Finding, ...]]:
     """Everything a simulator needs beside the joints, and the factory's own findings about it.
 
@@ -45,6 +45,8 @@ def manufacture(
         intake: the input's name and density.
         stages: with the settings; told how long each stage took, and asked whether it was done
             before.
+        targets: whether places to hold are looked for, which no judge asks for; else
+            :func:`with_targets` does that later.
     """
     whole = as_planned(articulation, Plan(given_up=plan.given_up, rehung=plan.rehung))
     built = solid_parts(whole, stages, plan.build_fronts)
@@ -63,17 +65,39 @@ def manufacture(
     key = FINISH.key(stages.config, *shapes, *contents(pieces), sorted(plan.separate), density)
     finish = partial(_finished, planned, pieces, plan, density, stages)
     finished = stages.recall("finish", _Finished, key, finish)
-    asset = Asset(intake.name, planned, finished.bodies, finished.targets, built.surfaces)
-    return asset, (*_own_findings(asset), *finished.findings)
+    asset = Asset(intake.name, planned, finished.bodies, (), built.surfaces)
+    findings = (*_own_findings(asset), *finished.findings)
+    return with_targets(asset, stages) if targets else asset, findings
+
+
+def with_targets(asset: Asset, stages: Stages) -> Asset:
+    """The same asset with the places where each joint is best opened."""
+    shapes = contents((asset.articulation.mesh.vertices, asset.articulation.mesh.faces))
+    moved = contents((asset.articulation.parts, asset.articulation.joints, asset.bodies))
+    key = FINISH.key(stages.config, "targets", *shapes, *moved)
+    found = stages.recall("finish", _Targets, key, partial(_targets, asset, stages))
+    return replace(asset, targets=found.targets)
 
 
 @dataclass(frozen=True)
 class _Finished:
-    """What hulls become: separated, weighed, with grasp places; and what was found on the way."""
+    """What hulls become: separated and weighed; and what was found on the way."""
 
     bodies: tuple[PartBody, ...]
-    targets: tuple[Target, ...]
     findings: tuple[Finding, ...]
+
+
+@dataclass(frozen=True)
+class _Targets:
+    """Grasp places."""
+
+    targets: tuple[Target, ...]
+
+
+def _targets(asset: Asset, stages: Stages) -> _Targets:
+    with stages.clock.stage("targets"):
+        hulls = [body.hulls for body in asset.bodies]
+        return _Targets(find_targets(asset.articulation, hulls))
 
 
 def _finished(
@@ -94,9 +118,7 @@ def _finished(
             )
             for index, (piece, inertial) in enumerate(zip(pieces, inertials, strict=True))
         )
-    with clock.stage("targets"):
-        targets = find_targets(planned, [piece.hulls for piece in pieces])
-    return _Finished(bodies, targets, tuple(_separation_findings(separation)))
+    return _Finished(bodies, tuple(_separation_findings(separation)))
 
 
 def _own_findings(asset: Asset) -> Iterator[Finding]:

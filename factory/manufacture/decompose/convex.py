@@ -34,7 +34,11 @@ def hull_of(points: FloatArray) -> Hull | None:
     )
     inward = np.einsum("ij,ij->i", normals, found.equations[:, :3]) < 0.0
     faces[inward] = faces[inward][:, ::-1]
-    if thickness(vertices, found.equations) < THINNEST_M:
+    # A body is nowhere thinner than twice its volume over its surface: mostly that is enough.
+    if (
+        2.0 * found.volume < 2.0 * THINNEST_M * found.area
+        and thickness(vertices, found.equations) < THINNEST_M
+    ):
         return None
     try:
         return Hull(vertices=vertices, faces=canonical_faces(faces))
@@ -56,20 +60,13 @@ def thickness(vertices: FloatArray, planes: FloatArray) -> float:
 
 
 def planes_of(hull: Hull) -> FloatArray:
-    """Outward unit normals and offsets, ``n . x <= d`` inside, [face_count, 4], no slivers."""
-    a, b, c = (hull.vertices[hull.faces[:, i]] for i in range(3))
-    normals = np.cross(b - a, c - a)
-    length = np.linalg.norm(normals, axis=1)
-    kept = length > 1e-12 * max(1e-12, float(length.max()))
-    normals = normals[kept] / length[kept, None]
-    # The farthest vertex rather than the face's own: a sliver's normal may cut into the hull.
-    offsets = (hull.vertices @ normals.T).max(axis=0)
-    return np.column_stack([normals, offsets])
+    """Outward unit normals and offsets, ``n . x <= d`` inside, [face_count, 4], to be changed."""
+    return hull.planes.copy()
 
 
 def depth_below(hull: Hull, points: FloatArray) -> FloatArray:
     """How far each point lies below the hull's surface [m], shape [n]; negative outside."""
-    planes = planes_of(hull)
+    planes = hull.planes
     depth = np.full(len(points), np.inf)
     for start in range(0, len(planes), 256):
         chunk = planes[start : start + 256]

@@ -17,8 +17,8 @@ from .solids import manifold_of_hull
 
 #: More hulls than this are first merged in two halves of space each, so that the pairs stay few.
 TOGETHER = 24
-#: Pairs looked at exactly, a few milliseconds each, before the rest stay as they are: a count, not
-#: a clock, so that the same hulls always end the same.
+#: Pairs that might be joined, before the rest stay as they are: a count, not a clock, so that the
+#: same hulls always end the same.
 MOST_LOOKS = 2000
 
 
@@ -57,7 +57,7 @@ def merge(
 
 @dataclass
 class _Yardstick:
-    """What is allowed, see :func:`merge`, and how many more pairs may be looked at exactly."""
+    """What is allowed, see :func:`merge`, and how many more pairs may be offered."""
 
     error_m: float
     slot_m: float | None
@@ -90,17 +90,24 @@ def _join_greedily(
             list(range(len(left), len(clusters)) if right else range(i + 1, len(left))),
             yardstick,
         )
-    fresh = len(clusters)
+    given = len(clusters)
+    fresh = given
     while queue:
         _, i, j = heapq.heappop(queue)
         if i not in clusters or j not in clusters:
             continue
-        first = clusters.pop(i)
-        second = clusters.pop(j)
+        first = clusters[i]
+        second = clusters[j]
+        # Only now: most pairs that might be joined never are, since one of them is joined before.
+        # In the order in which they were offered: a hull of the same points otherwise may be off
+        # by rounding.
+        offered = (second, first) if j >= given else (first, second)
+        if not _allowed(*offered, yardstick):
+            continue
         hull = _joined(first, second)
         if hull is None:
-            clusters |= {i: first, j: second}
             continue
+        del clusters[i], clusters[j]
         clusters[fresh] = _Cluster.of(hull, first.sources + second.sources)
         _offer(queue, clusters, fresh, [k for k in clusters if k != fresh], yardstick)
         fresh += 1
@@ -133,7 +140,7 @@ def _offer(
 
 
 def _cost(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> float:
-    """Volume filled by joining two clusters [m3]; infinite where it fills what must stay open."""
+    """Volume filled by joining two clusters [m3]; infinite where that is soon seen to be wrong."""
     error_m = yardstick.error_m
     hull = _joined(first, second) if yardstick.looks > 0 else None
     if hull is None:
@@ -150,11 +157,16 @@ def _cost(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> float:
     if filled > error_m * float(area) or _gap(first, second, middles) > error_m:
         return np.inf
     yardstick.looks -= 1
-    if yardstick.room.entered(hull, (first.hull, second.hull)):
-        return np.inf
-    if not fills_little(hull, first.sources + second.sources, error_m, yardstick.slot_m):
-        return np.inf
     return max(filled, 0.0)
+
+
+def _allowed(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> bool:
+    """Whether two clusters may be one hull: it fills nothing that must stay open."""
+    hull = _joined(first, second)
+    if hull is None or yardstick.room.entered(hull, (first.hull, second.hull)):
+        return False
+    sources = first.sources + second.sources
+    return fills_little(hull, sources, yardstick.error_m, yardstick.slot_m)
 
 
 def _gap(first: _Cluster, second: _Cluster, points: FloatArray) -> float:

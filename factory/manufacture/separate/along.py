@@ -251,9 +251,11 @@ def near_pairs(
 def _boxes(solids: Sequence[PlanedHull | None], pose: FloatArray) -> tuple[FloatArray, FloatArray]:
     low = np.full((len(solids), 3), np.inf)
     high = np.full((len(solids), 3), -np.inf)
-    for number, solid in enumerate(solids):
-        if solid is not None:
-            points = solid.hull.vertices @ pose[:3, :3].T + pose[:3, 3]
-            low[number] = points.min(axis=0)
-            high[number] = points.max(axis=0)
+    there = [number for number, solid in enumerate(solids) if solid is not None]
+    corners = [solid.hull.vertices for solid in solids if solid is not None]
+    if there:
+        points = np.concatenate(corners) @ pose[:3, :3].T + pose[:3, 3]
+        starts = np.cumsum([0, *map(len, corners[:-1])])
+        low[there] = np.minimum.reduceat(points, starts)
+        high[there] = np.maximum.reduceat(points, starts)
     return low, high

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +20,8 @@ from ..decompose.solids import manifold_of_hull, union
 SPREAD = 1500
 #: Most corners that are looked at.
 MOST_CORNERS = 3000
+#: So many hulls are remembered with how far points of a surface lie outside them.
+MOST_KNOWN = 500
 #: Points that are bared by less are not looked at [m].
 SHAVED_M = 1e-4
 
@@ -32,11 +34,13 @@ class SeenSurface:
         points: [m], shape [n, 3]; the first ``spread`` by area, then corners.
         spread: how many stand for equal areas each.
         diagonal: of the part [m].
+        known: what was measured before, by the hull's identity: most of them no cut touches.
     """
 
     points: FloatArray
     spread: int
     diagonal: float
+    known: dict[int, tuple[Hull, FloatArray]] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(cls, mesh: Mesh) -> SeenSurface:
@@ -56,8 +60,16 @@ class SeenSurface:
         """How far each point lies outside all of some hulls [m], at least, shape [n]."""
         nearest = np.full(len(self.points), np.inf)
         for hull in hulls:
-            np.minimum(nearest, -depth_below(hull, self.points), out=nearest)
+            np.minimum(nearest, self._outside_one(hull), out=nearest)
         return np.asarray(np.maximum(nearest, 0.0))
+
+    def _outside_one(self, hull: Hull) -> FloatArray:
+        # With the hull, so that no other one gets its identity.
+        if id(hull) not in self.known:
+            if len(self.known) >= MOST_KNOWN:
+                self.known.clear()
+            self.known[id(hull)] = hull, -depth_below(hull, self.points)
+        return self.known[id(hull)][1]
 
 
 @dataclass(frozen=True)

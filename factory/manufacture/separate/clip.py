@@ -8,12 +8,14 @@ import numpy as np
 
 from ...asset import Hull
 from ...mesh import FloatArray
-from ..decompose.convex import hull_of, planes_of
+from ..decompose.convex import hull_of
 
 #: A hull no thicker than this is a sheet [m].
 SHEET_M = 0.003
 #: Of which at least this much is to be left by a cut [m].
 LEFT_M = 0.001
+#: Volumes that differ by less than this share do so by rounding.
+ROUNDING_SHARE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -26,7 +28,7 @@ class PlanedHull:
     @classmethod
     def of(cls, hull: Hull) -> PlanedHull:
         """The hull with its planes."""
-        return cls(hull, planes_of(hull))
+        return cls(hull, hull.planes)
 
 
 @dataclass(frozen=True)
@@ -83,6 +85,18 @@ def meeting(
     )
 
 
+def stand_apart(a: PlanedHull, b: PlanedHull, clearance_m: float) -> bool:
+    """Whether a face normal of one separates two hulls by a clearance [m].
+
+    The same as asking for the depth of their :func:`meeting`, but each hull's ends along its own
+    normals are known.
+    """
+    return any(
+        bool(((points @ planes[:, :3].T).min(axis=0) - planes[:, 3] >= clearance_m).any())
+        for points, planes in ((b.hull.vertices, a.planes), (a.hull.vertices, b.planes))
+    )
+
+
 def cut_apart(
     a: PlanedHull, b: PlanedHull, pose: FloatArray, met: HullMeeting, clearance_m: float
 ) -> tuple[PlanedHull | None, PlanedHull | None]:
@@ -96,12 +110,16 @@ def cut_apart(
         The hulls; ``None`` for one of which nothing is left.
     """
     deep = met.depth > clearance_m
+    rounding = ROUNDING_SHARE * (a.hull.volume + b.hull.volume)
     best: tuple[float, PlanedHull | None, PlanedHull | None] | None = None
     for number, direction in enumerate(met.directions if deep else met.directions[:1]):
         needed = float(met.reaches[number]) + clearance_m
         for share in (0.0, 0.5, 1.0) if deep else (_thicker_gives(a, b, pose, direction),):
             cut = clipped if deep else given_way
             first = cut(a.hull, direction, float(met.first_ends[number]) - share * needed)
+            # The second can only lose more.
+            if best is not None and _lost(a.hull, first) > best[0] + rounding:
+                continue
             back = direction @ pose[:3, :3]
             start = (
                 float(met.second_starts[number])

@@ -19,7 +19,7 @@ from ..decompose.convex import hull_of
 from ..decompose.solids import manifold_of_hull, union
 from .along import near_pairs
 from .carve import carved
-from .clip import PlanedHull, clipped, meeting
+from .clip import PlanedHull, clipped, stand_apart
 
 #: Most pieces that are kept of one hull around a pit: a floor and walls around what is round.
 MOST_WALLS = 10
@@ -81,9 +81,10 @@ def dug_around(
         poses: of the body as seen from them, [4, 4] each.
         clearance_m: to be left around it [m].
     """
-    room = _room([body], poses)
-    if room is None:
+    found = _room([body], poses)
+    if found is None:
         return list(holder)
+    room = PlanedHull.of(found)
     return [
         piece.hull for hull in holder for piece in _around(PlanedHull.of(hull), room, clearance_m)
     ]
@@ -176,15 +177,16 @@ def _room(hulls: Sequence[Hull], poses: Sequence[FloatArray]) -> Hull | None:
     return hull_of(np.concatenate([points @ pose[:3, :3].T + pose[:3, 3] for pose in poses]))
 
 
-def _around(piece: PlanedHull, room: Hull, clearance_m: float) -> list[PlanedHull]:
+def _around(piece: PlanedHull, room: PlanedHull, clearance_m: float) -> list[PlanedHull]:
     """What is left of a hull around a room; the hull itself where they do not meet."""
-    if meeting(piece, PlanedHull.of(room), np.eye(4)).depth <= -clearance_m:
+    if stand_apart(piece, room, clearance_m):
         return [piece]
-    low = room.vertices.min(axis=0) - clearance_m
-    size = room.vertices.max(axis=0) + clearance_m - low
+    corners = room.hull.vertices
+    low = corners.min(axis=0) - clearance_m
+    size = corners.max(axis=0) + clearance_m - low
     shared = manifold_of_hull(piece.hull) ^ Manifold.cube(size).translate(low)
     least = WALL_SHARE * float(shared.volume())
-    return carved(piece, room.vertices, clearance_m, MOST_WALLS, least)
+    return carved(piece, corners, clearance_m, MOST_WALLS, least)
 
 
 def _taken(holder: Sequence[Hull], mover: Sequence[Hull], poses: Sequence[FloatArray]) -> float:

@@ -7,7 +7,7 @@ one cut.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,6 +24,8 @@ SIDES = 72
 SHARES = (0.0, 0.5, 1.0)
 #: What is nearer than the clearance by less is so by rounding [m].
 ROUNDING_M = 1e-5
+#: Volumes that differ by a smaller share do so by rounding.
+ROUNDING_SHARE = 1e-9
 
 Hulls = tuple[Hull | None, Hull | None]
 
@@ -48,32 +50,53 @@ class Turned:
             one = ones[i]
             other = others[j]
             if one is not None and other is not None and _near(one, other, way, clearance_m):
-                cuts = self._cuts(one, other, clearance_m)
-                ones[i], others[j] = max(cuts, key=_volume)
+                ones[i], others[j] = self._best(one, other, clearance_m)
         left = [[hull for hull in hulls if hull is not None] for hulls in (ones, others)]
         return cut_apart_along(left[0], left[1], poses, clearance_m)
 
-    def _cuts(self, one: Hull, other: Hull, clearance_m: float) -> Iterator[Hulls]:
-        """Two hulls cut apart across the axis and around it, each way, off either or both."""
-        for share in SHARES:
-            yield self._across(one, other, clearance_m, share)
-            yield self._across(other, one, clearance_m, 1.0 - share)[::-1]
-            yield self._around(one, other, clearance_m, share)
-            yield self._around(other, one, clearance_m, 1.0 - share)[::-1]
+    def _best(self, one: Hull, other: Hull, clearance_m: float) -> Hulls:
+        """Two hulls cut apart across the axis or around it, off either or both: what leaves most.
 
-    def _across(self, below: Hull, above: Hull, clearance_m: float, share: float) -> Hulls:
-        """One hull on either side of a plane across the axis; ``share`` goes off the first."""
+        Of those that leave as much the first.
+        """
+        best: Hulls = (None, None)
+        most = -np.inf
+        for share in SHARES:
+            for cut in (self._across, self._around):
+                for turned in (False, True):
+                    if turned:
+                        found = cut(other, one, clearance_m, 1.0 - share, most)[::-1]
+                    else:
+                        found = cut(one, other, clearance_m, share, most)
+                    left = _volume(found)
+                    if left > most:
+                        best = found
+                        most = left
+        return best
+
+    def _across(
+        self, below: Hull, above: Hull, clearance_m: float, share: float, most: float
+    ) -> Hulls:
+        """One hull on either side of a plane across the axis; ``share`` goes off the first.
+
+        Nothing, where what is left would be less than ``most`` [m3].
+        """
         axis = self.joint.axis
         end = float((below.vertices @ axis).max())
         start = float((above.vertices @ axis).min())
         needed = max(0.0, end - start + clearance_m)
-        return (
-            clipped(below, axis, end - share * needed),
-            clipped(above, -axis, -(start + (1.0 - share) * needed)),
-        )
+        first = clipped(below, axis, end - share * needed)
+        if _less((first, above), most):
+            return None, None
+        return first, clipped(above, -axis, -(start + (1.0 - share) * needed))
 
-    def _around(self, inner: Hull, outer: Hull, clearance_m: float, share: float) -> Hulls:
-        """The first within a cylinder, the other without it; ``share`` goes off the first."""
+    def _around(
+        self, inner: Hull, outer: Hull, clearance_m: float, share: float, most: float
+    ) -> Hulls:
+        """The first within a cylinder, the other without it; ``share`` goes off the first.
+
+        Nothing, where what is left would be less than ``most`` [m3].
+        """
         arms = self._arms(outer)
         toward = arms.mean(axis=0)
         length = float(np.linalg.norm(toward))
@@ -84,15 +107,19 @@ class Turned:
         end = float(np.linalg.norm(self._arms(inner), axis=1).max())
         needed = max(0.0, end - start + clearance_m)
         least = start + (1.0 - share) * needed + float(self.joint.origin @ toward)
-        return self._within(inner, end - share * needed), clipped(outer, -toward, -least)
+        second = clipped(outer, -toward, -least)
+        return self._within(inner, end - share * needed, second, most), second
 
-    def _within(self, hull: Hull, radius_m: float) -> Hull | None:
-        """What of a hull lies in a cylinder about the axis."""
+    def _within(self, hull: Hull, radius_m: float, other: Hull | None, most: float) -> Hull | None:
+        """What of a hull lies in a cylinder about the axis; see :meth:`_around`."""
         first, second = np.linalg.svd(self.joint.axis[None])[2][1:]
         left: Hull | None = hull if radius_m > 0.0 else None
         for angle in np.arange(SIDES) * 2.0 * np.pi / SIDES:
+            # Each side takes some: most cylinders need not be cut to their end.
+            if left is None or _less((left, other), most):
+                return None
             normal = np.cos(angle) * first + np.sin(angle) * second
-            left = left and clipped(left, normal, radius_m + float(self.joint.origin @ normal))
+            left = clipped(left, normal, radius_m + float(self.joint.origin @ normal))
         return left
 
     def _arms(self, hull: Hull) -> FloatArray:
@@ -123,3 +150,8 @@ def _near(one: Hull, other: Hull, way: Sequence[FloatArray], clearance_m: float)
 def _volume(hulls: Hulls) -> float:
     """What is left of two hulls [m3]."""
     return sum(hull.volume for hull in hulls if hull is not None)
+
+
+def _less(hulls: Hulls, most: float) -> bool:
+    """Whether two hulls are less than ``most`` [m3], by more than rounding."""
+    return _volume(hulls) < most - ROUNDING_SHARE * abs(most)

@@ -33,12 +33,14 @@ class Surroundings:
         parts: whose each one is, shape [triangle_count].
         planes: of the hulls: inside is ``n . x < d``; rows ``(n, d)``, shape [plane_count, 4].
         starts: of each hull's planes, shape [hull_count].
+        hull_boxes: lower and upper corner of each hull [m], shape [hull_count, 2, 3].
     """
 
     triangles: FloatArray
     parts: IntArray
     planes: FloatArray
     starts: IntArray
+    hull_boxes: FloatArray
 
     @cached_property
     def boxes(self) -> tuple[FloatArray, FloatArray]:
@@ -52,10 +54,19 @@ class Surroundings:
 
     def inside(self, points: FloatArray) -> BoolArray:
         """Which points lie within a hull, deeper than a touch, shape [point_count]."""
-        if not len(self.starts):
-            return np.zeros(len(points), dtype=bool)
-        within = points @ self.planes[:, :3].T < self.planes[:, 3] - TOUCH_M
-        return np.asarray(np.logical_and.reduceat(within, self.starts, axis=1).any(axis=1))
+        found = np.zeros(len(points), dtype=bool)
+        low = self.hull_boxes[:, 0]
+        high = self.hull_boxes[:, 1]
+        near = ((low <= points.max(axis=0)) & (high >= points.min(axis=0))).all(axis=1)
+        # Most hulls are nowhere near, and asking all of their planes is what takes long.
+        for hull in np.flatnonzero(near).tolist():
+            planes = self._planes_of[hull]
+            found |= (points @ planes[:, :3].T < planes[:, 3] - TOUCH_M).all(axis=1)
+        return found
+
+    @cached_property
+    def _planes_of(self) -> list[FloatArray]:
+        return np.split(self.planes, self.starts[1:])
 
     def around(self, point: FloatArray, reach: float) -> IntArray:
         """Triangles whose boxes come within ``reach`` of a point along every axis."""
@@ -75,6 +86,7 @@ def surroundings_of(articulation: Articulation, hulls: Sequence[Sequence[Hull]])
     owners = [face_parts(articulation)]
     planes = [np.zeros((0, 4))]
     counts = []
+    boxes = []
     for part, pieces in enumerate(hulls):
         for hull in pieces:
             surface = hull.vertices[hull.faces]
@@ -87,9 +99,14 @@ def surroundings_of(articulation: Articulation, hulls: Sequence[Sequence[Hull]])
                 np.column_stack([normals, np.einsum("ij,ij->i", normals, surface[length > 0.0, 0])])
             )
             counts.append(len(normals))
+            boxes.append([hull.vertices.min(axis=0), hull.vertices.max(axis=0)])
     starts = np.cumsum([0, *counts[:-1]]) if counts else np.zeros(0, dtype=np.int64)
     return Surroundings(
-        np.concatenate(corners), np.concatenate(owners), np.concatenate(planes), starts
+        np.concatenate(corners),
+        np.concatenate(owners),
+        np.concatenate(planes),
+        starts,
+        np.reshape(boxes, (-1, 2, 3)).astype(np.float64),
     )
 
 
