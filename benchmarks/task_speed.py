@@ -35,7 +35,7 @@ from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.intake.intake import Intake, Provenance
 from asset_factory.factory.manufacture.plan import Plan
-from asset_factory.factory.manufacture.stage import manufacture
+from asset_factory.factory.manufacture.stage import manufacture, with_targets
 from asset_factory.factory.runtime.stages import Stages
 from asset_factory.factory.runtime.store import Store
 from asset_factory.factory.training.objects import make_object
@@ -56,7 +56,7 @@ def generated(root: Path) -> Path:
         source = Provenance(f"{category}.glb", "0" * 64, category=category)
         intake = Intake(category, mesh, np.arange(len(mesh.faces)), np.eye(4), source)
         asset, _ = manufacture(articulation, Plan(), intake, stages)
-        export_bundle(asset, source, root / "assets" / category)
+        export_bundle(with_targets(asset, stages), source, root / "assets" / category)
     return root
 
 

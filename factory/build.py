@@ -61,7 +61,7 @@ def make_asset(
         rounds = Rounds(draft.reading, intake, staging, judge, stages)
         draft, verdict = rounds.simulated(draft, others)
         verdict = with_kept(verdict, draft.reading, draft.asset.articulation)
-        # No judge asks for them: of what is made in vain nothing is held.
+        # No judge asks for them: they are looked for once, on the draft that is kept.
         asset = with_targets(draft.asset, stages)
         bundle = with_manifest_of(draft.bundle, asset, intake.provenance)
         with stages.clock.stage("model"):

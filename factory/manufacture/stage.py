@@ -35,9 +35,11 @@ FINISH = Stage(
 
 
 def manufacture(
-    articulation: Articulation, plan: Plan, intake: Intake, stages: Stages, targets: bool = True
+    articulation: Articulation, plan: Plan, intake: Intake, stages: Stages
 ) -> tuple[Asset, tuple[Finding, ...]]:
     """Everything a simulator needs beside the joints, and the factory's own findings about it.
+
+    Where its joints are best held no simulator asks: see :func:`with_targets`.
 
     Args:
         articulation: parts and joints.
@@ -45,8 +47,6 @@ def manufacture(
         intake: the input's name and density.
         stages: with the settings; told how long each stage took, and asked whether it was done
             before.
-        targets: whether places to hold are looked for, which no judge asks for; else
-            :func:`with_targets` does that later.
     """
     whole = as_planned(articulation, Plan(given_up=plan.given_up, rehung=plan.rehung))
     built = solid_parts(whole, stages, plan.build_fronts)
@@ -67,7 +67,7 @@ def manufacture(
     finished = stages.recall("finish", _Finished, key, finish)
     asset = Asset(intake.name, planned, finished.bodies, (), built.surfaces)
     findings = (*_own_findings(asset), *finished.findings)
-    return with_targets(asset, stages) if targets else asset, findings
+    return asset, findings
 
 
 def with_targets(asset: Asset, stages: Stages) -> Asset:

@@ -85,7 +85,7 @@ class Rounds:
         return dispensable_joints(self.reading, self.stages.config.repair.small_share)
 
     def _made(self, plan: Plan, folder: str) -> ReadingDraft:
-        asset, findings = manufacture(self.reading, plan, self.intake, self.stages, False)
+        asset, findings = manufacture(self.reading, plan, self.intake, self.stages)
         with self.stages.clock.stage("export"):
             bundle = export_bundle(
                 asset,

@@ -12,7 +12,7 @@ from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.intake.intake import Intake, Provenance
 from asset_factory.factory.manufacture.plan import Plan
-from asset_factory.factory.manufacture.stage import manufacture
+from asset_factory.factory.manufacture.stage import manufacture, with_targets
 from asset_factory.factory.runtime.stages import Stages
 from asset_factory.factory.runtime.store import Store
 from asset_factory.factory.training.objects import make_object
@@ -28,6 +28,7 @@ def household(tmp_path_factory) -> Path:
         provenance = Provenance(f"{category}.glb", "0" * 64, category=category)
         mesh = articulation.mesh
         intake = Intake(category, mesh, np.arange(len(mesh.faces)), np.eye(4), provenance)
-        asset, _ = manufacture(articulation, Plan(), intake, Stages(BuildConfig(), store))
-        export_bundle(asset, provenance, root / "assets" / category)
+        stages = Stages(BuildConfig(), store)
+        asset, _ = manufacture(articulation, Plan(), intake, stages)
+        export_bundle(with_targets(asset, stages), provenance, root / "assets" / category)
     return root

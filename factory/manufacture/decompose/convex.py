@@ -34,11 +34,9 @@ def hull_of(points: FloatArray) -> Hull | None:
     )
     inward = np.einsum("ij,ij->i", normals, found.equations[:, :3]) < 0.0
     faces[inward] = faces[inward][:, ::-1]
-    # A body is nowhere thinner than twice its volume over its surface: mostly that is enough.
-    if (
-        2.0 * found.volume < 2.0 * THINNEST_M * found.area
-        and thickness(vertices, found.equations) < THINNEST_M
-    ):
+    # A body is at least as thick as twice its volume over its surface: mostly that is enough, with
+    # room for qhull's rounding.
+    if found.volume < THINNEST_M * found.area and thickness(vertices, found.equations) < THINNEST_M:
         return None
     try:
         return Hull(vertices=vertices, faces=canonical_faces(faces))
@@ -57,11 +55,6 @@ def thickness(vertices: FloatArray, planes: FloatArray) -> float:
     """Least width of a convex body over its face normals [m]; ``planes`` of qhull, [n, 4]."""
     heights = vertices @ planes[:, :3].T
     return float((heights.max(axis=0) - heights.min(axis=0)).min())
-
-
-def planes_of(hull: Hull) -> FloatArray:
-    """Outward unit normals and offsets, ``n . x <= d`` inside, [face_count, 4], to be changed."""
-    return hull.planes.copy()
 
 
 def depth_below(hull: Hull, points: FloatArray) -> FloatArray:

@@ -10,7 +10,7 @@ from manifold3d import Manifold
 
 from ...asset import Hull
 from ...mesh import FloatArray
-from .convex import hull_of, planes_of
+from .convex import hull_of
 from .pockets import fills_little
 from .room import NOWHERE, Room
 from .solids import manifold_of_hull
@@ -32,9 +32,7 @@ class _Cluster:
 
     @classmethod
     def of(cls, hull: Hull, sources: Manifold) -> _Cluster:
-        return cls(
-            hull, sources, planes_of(hull), hull.vertices.min(axis=0), hull.vertices.max(axis=0)
-        )
+        return cls(hull, sources, hull.planes, hull.vertices.min(axis=0), hull.vertices.max(axis=0))
 
 
 def merge(

@@ -7,7 +7,7 @@ from manifold3d import Manifold
 from scipy.spatial import HalfspaceIntersection, QhullError
 
 from ...asset import Hull
-from .convex import depth_below, hull_of, planes_of, thickness
+from .convex import depth_below, hull_of, thickness
 from .solids import LEAST_VOLUME_M3, manifold_of_hull, triangles_of
 
 #: Pockets below this share of a cube of the error's side are dust.
@@ -47,7 +47,7 @@ def fills_little(hull: Hull, solid: Manifold, error_m: float, slot_m: float | No
 
 def shrunk(hull: Hull, depth_m: float) -> Manifold | None:
     """What of a hull is deeper than ``depth_m`` below its surface [m]; ``None`` if nothing is."""
-    planes = planes_of(hull)
+    planes = hull.planes
     # Offset from the vertices' mean: by far the most hulls are deep enough there.
     center = hull.vertices.mean(axis=0)
     offsets = planes[:, 3] - planes[:, :3] @ center - depth_m
@@ -65,7 +65,7 @@ def _narrow(pocket: Manifold, hull: Hull, error_m: float, slot_m: float) -> bool
     around = hull_of(vertices)
     if around is None:
         return True
-    planes = planes_of(around)
+    planes = around.planes
     width = thickness(around.vertices, planes)
     if width <= min(error_m, slot_m):
         return True

@@ -7,7 +7,7 @@ import numpy as np
 from ...asset import Hull
 from ...mesh import FloatArray
 from .caps import boundary_loops
-from .convex import concavity, hull_of, planes_of, thickness
+from .convex import concavity, hull_of, thickness
 from .room import Room
 from .solids import OpenSurface
 
@@ -31,7 +31,7 @@ def as_shell(surface: OpenSurface, error_m: float, room: Room) -> Hull | None:
     hull = hull_of(surface.vertices)
     if hull is None or concavity(surface.vertices, surface.faces, hull) > error_m:
         return None
-    shallow = thickness(hull.vertices, planes_of(hull)) <= HAND_M / 2.0 and not opens_up(surface)
+    shallow = thickness(hull.vertices, hull.planes) <= HAND_M / 2.0 and not opens_up(surface)
     if not shallow and not narrow_openings(surface):
         return None
     return None if room.entered(hull) else hull

@@ -10,7 +10,7 @@ import numpy as np
 from ...asset import Hull
 from ...mesh import FloatArray
 from .carve import carved
-from .clip import PlanedHull, cut_apart, meeting
+from .clip import cut_apart, meeting
 
 #: For each piece more a cut must lose less, by this share.
 PIECE_SHARE = 0.25
@@ -21,7 +21,7 @@ EVEN_M = 1e-6
 #: again.
 MOST_PASSES = 3
 
-Sides = tuple[list[PlanedHull], list[PlanedHull]]
+Sides = tuple[list[Hull], list[Hull]]
 
 
 @dataclass(frozen=True)
@@ -72,8 +72,8 @@ def cut_apart_along(
         poses: where the second part is as seen from the first, [4, 4] each.
         clearance_m: to be left between them [m].
     """
-    solids_a: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in a]
-    solids_b: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in b]
+    solids_a: list[Hull | None] = list(a)
+    solids_b: list[Hull | None] = list(b)
     # Pose by pose: what meets first is cut first, a little at a time.
     steps = steps_along(poses)
     for _ in range(MOST_PASSES):
@@ -85,7 +85,7 @@ def cut_apart_along(
                 moved |= any(map(_moved, before, (solids_a[i], solids_b[j])))
         if not moved:
             break
-    return [solid.hull for solid in solids_a if solid], [solid.hull for solid in solids_b if solid]
+    return [solid for solid in solids_a if solid], [solid for solid in solids_b if solid]
 
 
 def carved_apart_along(
@@ -104,8 +104,8 @@ def carved_apart_along(
         clearance_m: to be left between them [m].
         whole: what a cut takes of each part is weighed against this [m3].
     """
-    pieces_a = [[PlanedHull.of(hull)] for hull in a]
-    pieces_b = [[PlanedHull.of(hull)] for hull in b]
+    pieces_a = [[hull] for hull in a]
+    pieces_b = [[hull] for hull in b]
     when: dict[tuple[int, int], list[Step]] = {}
     whole_a = [pieces[0] for pieces in pieces_a]
     whole_b = [pieces[0] for pieces in pieces_b]
@@ -114,8 +114,8 @@ def carved_apart_along(
             when.setdefault(pair, []).append(step)
     for (i, j), way in sorted(when.items(), key=lambda found: found[0]):
         pieces_a[i], pieces_b[j] = _all_apart(pieces_a[i], pieces_b[j], way, clearance_m, whole)
-    return [solid.hull for solids in pieces_a for solid in solids], [
-        solid.hull for solids in pieces_b for solid in solids
+    return [hull for hulls in pieces_a for hull in hulls], [
+        hull for hulls in pieces_b for hull in hulls
     ]
 
 
@@ -126,15 +126,13 @@ def hull_depth(
 
     Gaps up to ``margin`` are negative depths; where all hulls are further apart, minus that.
     """
-    solids_a = [PlanedHull.of(hull) for hull in a]
-    solids_b = [PlanedHull.of(hull) for hull in b]
-    near = near_pairs(solids_a, solids_b, pose, margin)
-    return max([-margin, *(meeting(solids_a[i], solids_b[j], pose).depth for i, j in near)])
+    near = near_pairs(a, b, pose, margin)
+    return max([-margin, *(meeting(a[i], b[j], pose).depth for i, j in near)])
 
 
 def _all_apart(
-    ones: list[PlanedHull],
-    others: list[PlanedHull],
+    ones: list[Hull],
+    others: list[Hull],
     way: list[Step],
     clearance_m: float,
     whole: tuple[float, float],
@@ -157,8 +155,8 @@ def _all_apart(
 
 
 def _apart(
-    one: PlanedHull,
-    other: PlanedHull,
+    one: Hull,
+    other: Hull,
     way: list[Step],
     clearance_m: float,
     whole: tuple[float, float],
@@ -184,8 +182,8 @@ def _apart(
 
 
 def _planed(
-    one: PlanedHull | None, other: PlanedHull | None, way: list[Step], clearance_m: float
-) -> tuple[PlanedHull | None, PlanedHull | None]:
+    one: Hull | None, other: Hull | None, way: list[Step], clearance_m: float
+) -> tuple[Hull | None, Hull | None]:
     for step in way:
         if one is None or other is None:
             break
@@ -195,16 +193,16 @@ def _planed(
     return one, other
 
 
-def _moved(before: PlanedHull | None, after: PlanedHull | None) -> bool:
+def _moved(before: Hull | None, after: Hull | None) -> bool:
     """Whether a hull is as large as before, but elsewhere."""
     if before is None or after is None or before is after:
         return False
-    return after.hull.volume > (1.0 - 1e-6) * before.hull.volume
+    return after.volume > (1.0 - 1e-6) * before.volume
 
 
-def _seen(solid: PlanedHull, pose: FloatArray, behind: FloatArray) -> FloatArray:
+def _seen(solid: Hull, pose: FloatArray, behind: FloatArray) -> FloatArray:
     """Corners of a moved hull, there and where it slid there from [m], shape [n, 3]."""
-    points = solid.hull.vertices @ pose[:3, :3].T + pose[:3, 3]
+    points = solid.vertices @ pose[:3, :3].T + pose[:3, 3]
     return np.concatenate([points, points + behind]) if behind.any() else points
 
 
@@ -214,18 +212,18 @@ def _from_the_other(step: Step) -> tuple[FloatArray, FloatArray]:
     return back, -back[:3, :3] @ step.behind
 
 
-def _cost(sides: Sides, before: tuple[PlanedHull, PlanedHull], whole: tuple[float, float]) -> float:
+def _cost(sides: Sides, before: tuple[Hull, Hull], whole: tuple[float, float]) -> float:
     """Share of what is whole that is lost, more pieces counted in."""
     lost = 0.0
     for pieces, hull, of in zip(sides, before, whole, strict=True):
-        lost += (hull.hull.volume - sum(piece.hull.volume for piece in pieces)) / of
+        lost += (hull.volume - sum(piece.volume for piece in pieces)) / of
     extra = sum(max(0, len(pieces) - 1) for pieces in sides)
     return lost * (1.0 + PIECE_SHARE * extra)
 
 
 def near_pairs(
-    a: Sequence[PlanedHull | None],
-    b: Sequence[PlanedHull | None],
+    a: Sequence[Hull | None],
+    b: Sequence[Hull | None],
     pose: FloatArray,
     margin: float,
     behind: FloatArray | None = None,
@@ -248,11 +246,11 @@ def near_pairs(
     return [(int(i), int(j)) for i, j in np.argwhere(~apart.any(axis=2))]
 
 
-def _boxes(solids: Sequence[PlanedHull | None], pose: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _boxes(solids: Sequence[Hull | None], pose: FloatArray) -> tuple[FloatArray, FloatArray]:
     low = np.full((len(solids), 3), np.inf)
     high = np.full((len(solids), 3), -np.inf)
     there = [number for number, solid in enumerate(solids) if solid is not None]
-    corners = [solid.hull.vertices for solid in solids if solid is not None]
+    corners = [solid.vertices for solid in solids if solid is not None]
     if there:
         points = np.concatenate(corners) @ pose[:3, :3].T + pose[:3, 3]
         starts = np.cumsum([0, *map(len, corners[:-1])])

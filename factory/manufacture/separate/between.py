@@ -10,7 +10,7 @@ from ...mesh import FloatArray
 from ..poses import joints_between, relative_poses
 from .along import near_pairs
 from .budget import SeenSurface
-from .clip import PlanedHull, meeting
+from .clip import meeting
 from .hung import reach_m
 
 #: After a cut all of a hinge's way is looked at, in steps so long at the end of its arm [m],
@@ -75,11 +75,9 @@ def _too_near(
     a: Sequence[Hull], b: Sequence[Hull], poses: Sequence[FloatArray]
 ) -> list[FloatArray]:
     """The poses at which two hulls of two parts come too near to one another."""
-    ones = [PlanedHull.of(hull) for hull in a] if poses else []
-    others = [PlanedHull.of(hull) for hull in b] if poses else []
     found = []
     for pose in poses:
-        near = near_pairs(ones, others, pose, LEAST_M)
-        if any(meeting(ones[i], others[j], pose).depth > -LEAST_M for i, j in near):
+        near = near_pairs(a, b, pose, LEAST_M)
+        if any(meeting(a[i], b[j], pose).depth > -LEAST_M for i, j in near):
             found.append(pose)
     return found

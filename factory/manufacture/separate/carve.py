@@ -6,8 +6,8 @@ import numpy as np
 
 from ...asset import Hull
 from ...mesh import FloatArray
-from ..decompose.convex import hull_of, planes_of
-from .clip import PlanedHull, clipped
+from ..decompose.convex import hull_of
+from .clip import clipped
 
 #: Most pieces that are kept of one hull.
 MOST_PIECES = 4
@@ -19,12 +19,12 @@ SPLINTER_M = 0.002
 
 
 def carved(
-    solid: PlanedHull,
+    solid: Hull,
     room: FloatArray,
     clearance_m: float,
     most: int = MOST_PIECES,
     least_m3: float | None = None,
-) -> list[PlanedHull]:
+) -> list[Hull]:
     """What is left of a hull outside some room, as convex pieces.
 
     Piece by piece the largest that one plane of the room leaves outside is kept.
@@ -39,11 +39,11 @@ def carved(
     around = hull_of(room)
     if around is None:
         return []
-    planes = planes_of(around)
+    planes = around.planes.copy()
     planes[:, 3] += clearance_m
-    least = SPLINTER_SHARE * solid.hull.volume if least_m3 is None else least_m3
-    kept: list[PlanedHull] = []
-    rest: Hull | None = solid.hull
+    least = SPLINTER_SHARE * solid.volume if least_m3 is None else least_m3
+    kept: list[Hull] = []
+    rest: Hull | None = solid
     while rest is not None and len(kept) < most:
         heights = (rest.vertices @ planes[:, :3].T).max(axis=0) - planes[:, 3]
         tried = np.argsort(-heights, kind="stable")[:PLANES_TRIED]
@@ -53,7 +53,7 @@ def carved(
         )
         if piece is None or piece.volume < least:
             break
-        kept.append(PlanedHull.of(piece))
+        kept.append(piece)
         rest = clipped(rest, planes[plane, :3], float(planes[plane, 3]))
     return kept
 

@@ -19,19 +19,6 @@ ROUNDING_SHARE = 1e-9
 
 
 @dataclass(frozen=True)
-class PlanedHull:
-    """A hull with its planes, ``n . x <= d`` inside, shape [face_count, 4]."""
-
-    hull: Hull
-    planes: FloatArray
-
-    @classmethod
-    def of(cls, hull: Hull) -> PlanedHull:
-        """The hull with its planes."""
-        return cls(hull, hull.planes)
-
-
-@dataclass(frozen=True)
 class HullMeeting:
     """How two hulls stand along the face normals that separate them best, best first.
 
@@ -58,8 +45,8 @@ class HullMeeting:
 
 
 def meeting(
-    a: PlanedHull,
-    b: PlanedHull,
+    a: Hull,
+    b: Hull,
     pose: FloatArray,
     most: int = 6,
     behind: FloatArray | None = None,
@@ -74,9 +61,9 @@ def meeting(
         behind: from there to where it slid here from, in the first hull's frame [m], shape [3];
             all of that way counts.
     """
-    points_b = b.hull.vertices @ pose[:3, :3].T + pose[:3, 3]
+    points_b = b.vertices @ pose[:3, :3].T + pose[:3, 3]
     directions = np.vstack([a.planes[:, :3], -b.planes[:, :3] @ pose[:3, :3].T])
-    ends = (a.hull.vertices @ directions.T).max(axis=0)
+    ends = (a.vertices @ directions.T).max(axis=0)
     lags = np.zeros(len(directions)) if behind is None else np.minimum(directions @ behind, 0.0)
     starts = (points_b @ directions.T).min(axis=0) + lags
     best = np.argsort(ends - starts, kind="stable")[:most]
@@ -85,7 +72,7 @@ def meeting(
     )
 
 
-def stand_apart(a: PlanedHull, b: PlanedHull, clearance_m: float) -> bool:
+def stand_apart(a: Hull, b: Hull, clearance_m: float) -> bool:
     """Whether a face normal of one separates two hulls by a clearance [m].
 
     The same as asking for the depth of their :func:`meeting`, but each hull's ends along its own
@@ -93,13 +80,13 @@ def stand_apart(a: PlanedHull, b: PlanedHull, clearance_m: float) -> bool:
     """
     return any(
         bool(((points @ planes[:, :3].T).min(axis=0) - planes[:, 3] >= clearance_m).any())
-        for points, planes in ((b.hull.vertices, a.planes), (a.hull.vertices, b.planes))
+        for points, planes in ((b.vertices, a.planes), (a.vertices, b.planes))
     )
 
 
 def cut_apart(
-    a: PlanedHull, b: PlanedHull, pose: FloatArray, met: HullMeeting, clearance_m: float
-) -> tuple[PlanedHull | None, PlanedHull | None]:
+    a: Hull, b: Hull, pose: FloatArray, met: HullMeeting, clearance_m: float
+) -> tuple[Hull | None, Hull | None]:
     """Both hulls after the cut that takes the least of them and leaves ``clearance_m`` between.
 
     Hulls that barely meet give as they are thick: a sheet gives next to nothing. Where one lies
@@ -110,15 +97,15 @@ def cut_apart(
         The hulls; ``None`` for one of which nothing is left.
     """
     deep = met.depth > clearance_m
-    rounding = ROUNDING_SHARE * (a.hull.volume + b.hull.volume)
-    best: tuple[float, PlanedHull | None, PlanedHull | None] | None = None
+    rounding = ROUNDING_SHARE * (a.volume + b.volume)
+    best: tuple[float, Hull | None, Hull | None] | None = None
     for number, direction in enumerate(met.directions if deep else met.directions[:1]):
         needed = float(met.reaches[number]) + clearance_m
         for share in (0.0, 0.5, 1.0) if deep else (_thicker_gives(a, b, pose, direction),):
             cut = clipped if deep else given_way
-            first = cut(a.hull, direction, float(met.first_ends[number]) - share * needed)
+            first = cut(a, direction, float(met.first_ends[number]) - share * needed)
             # The second can only lose more.
-            if best is not None and _lost(a.hull, first) > best[0] + rounding:
+            if best is not None and _lost(a, first) > best[0] + rounding:
                 continue
             back = direction @ pose[:3, :3]
             start = (
@@ -127,30 +114,24 @@ def cut_apart(
                 - float(direction @ pose[:3, 3])
                 - float(met.lags[number])
             )
-            second = cut(b.hull, -back, -start)
-            lost = _lost(a.hull, first) + _lost(b.hull, second)
+            second = cut(b, -back, -start)
+            lost = _lost(a, first) + _lost(b, second)
             if best is None or lost < best[0]:
-                best = lost, _solid(a, first), _solid(b, second)
+                best = lost, first, second
     if best is None:
         return a, b
     return best[1], best[2]
 
 
-def _thicker_gives(a: PlanedHull, b: PlanedHull, pose: FloatArray, direction: FloatArray) -> float:
+def _thicker_gives(a: Hull, b: Hull, pose: FloatArray, direction: FloatArray) -> float:
     """The first hull's share of a cut across a direction."""
-    first = float(np.ptp(a.hull.vertices @ direction))
-    second = float(np.ptp(b.hull.vertices @ (direction @ pose[:3, :3])))
+    first = float(np.ptp(a.vertices @ direction))
+    second = float(np.ptp(b.vertices @ (direction @ pose[:3, :3])))
     return first / (first + second)
 
 
 def _lost(before: Hull, after: Hull | None) -> float:
     return before.volume - (0.0 if after is None else after.volume)
-
-
-def _solid(before: PlanedHull, after: Hull | None) -> PlanedHull | None:
-    if after is before.hull:
-        return before
-    return None if after is None else PlanedHull.of(after)
 
 
 def given_way(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:

@@ -19,7 +19,7 @@ from ..decompose.convex import hull_of
 from ..decompose.solids import manifold_of_hull, union
 from .along import near_pairs
 from .carve import carved
-from .clip import PlanedHull, clipped, stand_apart
+from .clip import clipped, stand_apart
 
 #: Most pieces that are kept of one hull around a pit: a floor and walls around what is round.
 MOST_WALLS = 10
@@ -81,13 +81,10 @@ def dug_around(
         poses: of the body as seen from them, [4, 4] each.
         clearance_m: to be left around it [m].
     """
-    found = _room([body], poses)
-    if found is None:
+    room = _room([body], poses)
+    if room is None:
         return list(holder)
-    room = PlanedHull.of(found)
-    return [
-        piece.hull for hull in holder for piece in _around(PlanedHull.of(hull), room, clearance_m)
-    ]
+    return [piece for hull in holder for piece in _around(hull, room, clearance_m)]
 
 
 def swept_share(
@@ -165,9 +162,7 @@ def _met(
     holder: Sequence[Hull], mover: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
 ) -> list[Hull]:
     """Hulls of the mover that come near the holder anywhere on their way."""
-    pieces = [PlanedHull.of(hull) for hull in holder]
-    solids = [PlanedHull.of(hull) for hull in mover]
-    met = {j for pose in poses for _, j in near_pairs(pieces, solids, pose, clearance_m)}
+    met = {j for pose in poses for _, j in near_pairs(holder, mover, pose, clearance_m)}
     return [mover[j] for j in sorted(met)]
 
 
@@ -177,14 +172,14 @@ def _room(hulls: Sequence[Hull], poses: Sequence[FloatArray]) -> Hull | None:
     return hull_of(np.concatenate([points @ pose[:3, :3].T + pose[:3, 3] for pose in poses]))
 
 
-def _around(piece: PlanedHull, room: PlanedHull, clearance_m: float) -> list[PlanedHull]:
+def _around(piece: Hull, room: Hull, clearance_m: float) -> list[Hull]:
     """What is left of a hull around a room; the hull itself where they do not meet."""
     if stand_apart(piece, room, clearance_m):
         return [piece]
-    corners = room.hull.vertices
+    corners = room.vertices
     low = corners.min(axis=0) - clearance_m
     size = corners.max(axis=0) + clearance_m - low
-    shared = manifold_of_hull(piece.hull) ^ Manifold.cube(size).translate(low)
+    shared = manifold_of_hull(piece) ^ Manifold.cube(size).translate(low)
     least = WALL_SHARE * float(shared.volume())
     return carved(piece, corners, clearance_m, MOST_WALLS, least)
 

@@ -296,7 +296,10 @@ class _Bench:
         return next(i for i, part in enumerate(self.articulation.parts) if part.name == name)
 
     def _limit(self, a: int, b: int) -> float:
-        """How much may be planed off two parts [m]: a share of what their hinge holds."""
+        """How much may be planed off two parts [m].
+
+        A share of what their hinge holds, or of the lesser one.
+        """
         hinged = [joint.child for joint in self._hinges(a, b)]
         sizes = [surface.diagonal for i in hinged or (a, b) if (surface := self.surfaces[i])]
         return planed_limit(self.config, min(sizes, default=0.0))

@@ -11,7 +11,7 @@ from ...articulation import Articulation, Joint
 from ...asset import Hull
 from ...mesh import FloatArray
 from .along import near_pairs
-from .clip import PlanedHull, meeting
+from .clip import meeting
 
 #: Poses along a joint that are looked at.
 POSES = 33
@@ -38,7 +38,6 @@ def swept_m(
     joints = tuple(joint if each.name == joint.name else each for each in articulation.joints)
     tried = replace(articulation, joints=joints)
     moved = tried.carried(joint.child)
-    solids = [[PlanedHull.of(hull) for hull in each] for each in hulls]
     closed = {each.name: each.lower for each in tried.movable_joints}
     poses = [
         tried.poses({**closed, joint.name: float(value)})
@@ -48,15 +47,15 @@ def swept_m(
     for a in (part for part in range(len(hulls)) if part not in moved):
         for b in moved:
             relative = [np.asarray(np.linalg.inv(pose[a]) @ pose[b]) for pose in poses]
-            worst = max(worst, _deepening(solids[a], solids[b], relative, enough_m, gap_m))
+            worst = max(worst, _deepening(hulls[a], hulls[b], relative, enough_m, gap_m))
             if worst > enough_m:
                 return worst
     return worst
 
 
 def _deepening(
-    ones: list[PlanedHull],
-    others: list[PlanedHull],
+    ones: Sequence[Hull],
+    others: Sequence[Hull],
     poses: list[FloatArray],
     enough_m: float,
     gap_m: float,

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from ...articulation import Joint
 from ...asset import Hull
 from ...mesh import FloatArray
 from .along import cut_apart_along, near_pairs
-from .clip import PlanedHull, clipped, meeting
+from .clip import ROUNDING_SHARE, clipped, meeting
 
 #: A cylinder is cut as a prism of so many sides.
 SIDES = 72
@@ -24,8 +25,6 @@ SIDES = 72
 SHARES = (0.0, 0.5, 1.0)
 #: What is nearer than the clearance by less is so by rounding [m].
 ROUNDING_M = 1e-5
-#: Volumes that differ by a smaller share do so by rounding.
-ROUNDING_SHARE = 1e-9
 
 Hulls = tuple[Hull | None, Hull | None]
 
@@ -61,17 +60,16 @@ class Turned:
         """
         best: Hulls = (None, None)
         most = -np.inf
-        for share in SHARES:
-            for cut in (self._across, self._around):
-                for turned in (False, True):
-                    if turned:
-                        found = cut(other, one, clearance_m, 1.0 - share, most)[::-1]
-                    else:
-                        found = cut(one, other, clearance_m, share, most)
-                    left = _volume(found)
-                    if left > most:
-                        best = found
-                        most = left
+        cuts = (self._across, self._around)
+        for share, cut, turned in product(SHARES, cuts, (False, True)):
+            if turned:
+                found = cut(other, one, clearance_m, 1.0 - share, most)[::-1]
+            else:
+                found = cut(one, other, clearance_m, share, most)
+            left = _volume(found)
+            if left > most:
+                best = found
+                most = left
         return best
 
     def _across(
@@ -132,19 +130,16 @@ def _ways(
     a: Sequence[Hull], b: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
 ) -> dict[tuple[int, int], list[FloatArray]]:
     """Poses at which two hulls may be too near to one another, by their numbers."""
-    ones = [PlanedHull.of(hull) for hull in a]
-    others = [PlanedHull.of(hull) for hull in b]
     found: dict[tuple[int, int], list[FloatArray]] = {}
     for pose in poses:
-        for pair in near_pairs(ones, others, pose, clearance_m):
+        for pair in near_pairs(a, b, pose, clearance_m):
             found.setdefault(pair, []).append(pose)
     return found
 
 
 def _near(one: Hull, other: Hull, way: Sequence[FloatArray], clearance_m: float) -> bool:
     """Whether two hulls come nearer to one another than they may."""
-    pair = PlanedHull.of(one), PlanedHull.of(other)
-    return any(meeting(*pair, pose).depth > ROUNDING_M - clearance_m for pose in way)
+    return any(meeting(one, other, pose).depth > ROUNDING_M - clearance_m for pose in way)
 
 
 def _volume(hulls: Hulls) -> float:

@@ -10,7 +10,7 @@ from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray
 from ..decompose.convex import depth_below, hull_of
 from ..separate.carve import carved
-from ..separate.clip import PlanedHull, clipped, meeting
+from ..separate.clip import clipped, meeting
 from .box import Box
 from .bump import Bump
 from .pieces import PATH
@@ -110,8 +110,7 @@ def keep_clear(work: Workpiece, host: int) -> None:
 def _around(hull: Hull, passed: FloatArray) -> list[Hull]:
     """What is left of a hull: cut by one plane where that takes little, else several pieces."""
     room = hull_of(passed)
-    solid = PlanedHull.of(hull)
-    met = None if room is None else meeting(solid, PlanedHull.of(room), np.eye(4))
+    met = None if room is None else meeting(hull, room, np.eye(4))
     if met is None or met.depth <= -CLEAR_M:
         return [hull]
     cuts = [
@@ -121,7 +120,7 @@ def _around(hull: Hull, passed: FloatArray) -> list[Hull]:
     best = max((cut for cut in cuts if cut), key=lambda cut: cut.volume, default=None)
     if best is not None and best.volume >= WELL_LEFT * hull.volume:
         return [best]
-    pieces = [piece.hull for piece in carved(solid, passed, CLEAR_M)]
+    pieces = carved(hull, passed, CLEAR_M)
     if best is not None and sum(piece.volume for piece in pieces) < best.volume:
         return [best]
     return pieces

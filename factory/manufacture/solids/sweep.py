@@ -11,7 +11,6 @@ from ...articulation import Joint, JointKind
 from ...asset import Hull
 from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray
-from ..decompose.convex import planes_of
 from .box import Box
 from .lattice import Lattice
 from .panel import FlatPanel, PanelKind
@@ -42,7 +41,7 @@ def entered(
     """Cells whose centres come to lie in moving hulls, or within ``margin`` [m] of them."""
     marked = np.zeros(lattice.shape, dtype=bool)
     for hull in hulls:
-        planes = planes_of(hull)
+        planes = hull.planes
         for pose in poses:
             moved = hull.vertices @ pose[:3, :3].T + pose[:3, 3]
             span = lattice.span(Box.around(moved).grown(margin))

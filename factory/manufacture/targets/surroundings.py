@@ -31,15 +31,13 @@ class Surroundings:
     Attributes:
         triangles: visible surfaces and collision hulls [m], shape [triangle_count, 3, 3].
         parts: whose each one is, shape [triangle_count].
-        planes: of the hulls: inside is ``n . x < d``; rows ``(n, d)``, shape [plane_count, 4].
-        starts: of each hull's planes, shape [hull_count].
+        hulls: all of them.
         hull_boxes: lower and upper corner of each hull [m], shape [hull_count, 2, 3].
     """
 
     triangles: FloatArray
     parts: IntArray
-    planes: FloatArray
-    starts: IntArray
+    hulls: tuple[Hull, ...]
     hull_boxes: FloatArray
 
     @cached_property
@@ -60,13 +58,9 @@ class Surroundings:
         near = ((low <= points.max(axis=0)) & (high >= points.min(axis=0))).all(axis=1)
         # Most hulls are nowhere near, and asking all of their planes is what takes long.
         for hull in np.flatnonzero(near).tolist():
-            planes = self._planes_of[hull]
+            planes = self.hulls[hull].planes
             found |= (points @ planes[:, :3].T < planes[:, 3] - TOUCH_M).all(axis=1)
         return found
-
-    @cached_property
-    def _planes_of(self) -> list[FloatArray]:
-        return np.split(self.planes, self.starts[1:])
 
     def around(self, point: FloatArray, reach: float) -> IntArray:
         """Triangles whose boxes come within ``reach`` of a point along every axis."""
@@ -84,28 +78,17 @@ def surroundings_of(articulation: Articulation, hulls: Sequence[Sequence[Hull]])
     mesh = articulation.mesh
     corners = [mesh.vertices[mesh.faces]]
     owners = [face_parts(articulation)]
-    planes = [np.zeros((0, 4))]
-    counts = []
     boxes = []
     for part, pieces in enumerate(hulls):
         for hull in pieces:
             surface = hull.vertices[hull.faces]
             corners.append(surface)
             owners.append(np.full(len(surface), part))
-            normals = np.cross(surface[:, 1] - surface[:, 0], surface[:, 2] - surface[:, 0])
-            length = np.linalg.norm(normals, axis=1)
-            normals = normals[length > 0.0] / length[length > 0.0, None]
-            planes.append(
-                np.column_stack([normals, np.einsum("ij,ij->i", normals, surface[length > 0.0, 0])])
-            )
-            counts.append(len(normals))
             boxes.append([hull.vertices.min(axis=0), hull.vertices.max(axis=0)])
-    starts = np.cumsum([0, *counts[:-1]]) if counts else np.zeros(0, dtype=np.int64)
     return Surroundings(
         np.concatenate(corners),
         np.concatenate(owners),
-        np.concatenate(planes),
-        starts,
+        tuple(hull for pieces in hulls for hull in pieces),
         np.reshape(boxes, (-1, 2, 3)).astype(np.float64),
     )
 

@@ -15,7 +15,6 @@ from asset_factory.factory.manufacture.decompose.convex import (
     depth_below,
     hull_of,
     limit_vertices,
-    planes_of,
     uncovered,
 )
 from asset_factory.factory.manufacture.decompose.cut import as_one, cut_along_faces
@@ -45,7 +44,7 @@ def test_hulls_face_outwards_and_hold_their_points(seed: int, count: int, offset
     hull = hull_of(points)
     assert hull is not None
     assert depth_below(hull, points).min() >= -1e-9
-    assert (planes_of(hull)[:, :3] @ points.mean(axis=0) < planes_of(hull)[:, 3]).all()
+    assert (hull.planes[:, :3] @ points.mean(axis=0) < hull.planes[:, 3]).all()
 
 
 @pytest.mark.parametrize(

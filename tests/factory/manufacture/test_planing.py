@@ -13,7 +13,7 @@ from asset_factory.factory.manufacture.decompose.decompose import PartHulls
 from asset_factory.factory.manufacture.poses import relative_poses
 from asset_factory.factory.manufacture.separate import separate
 from asset_factory.factory.manufacture.separate.along import hull_depth
-from asset_factory.factory.manufacture.separate.clip import PlanedHull, meeting
+from asset_factory.factory.manufacture.separate.clip import meeting
 from asset_factory.factory.mesh import Mesh, concatenate
 
 CONFIG = SeparateConfig()
@@ -200,7 +200,7 @@ def test_a_sheet_that_lies_on_a_rim_gives_way_and_stays():
 
 def test_a_hinge_that_turns_half_a_turn_keeps_its_clearance_all_the_way():
     tree, result = cut(replace(HINGE, upper=np.pi))
-    sides, door = ([PlanedHull.of(hull) for hull in piece.hulls] for piece in result.pieces)
+    sides, door = (piece.hulls for piece in result.pieces)
     gap = min(
         -meeting(one, other, pose).depth
         for pose in relative_poses(tree, 0, 1, 150)

@@ -13,7 +13,7 @@ from asset_factory.factory.manufacture.decompose.decompose import PartHulls
 from asset_factory.factory.manufacture.poses import relative_poses
 from asset_factory.factory.manufacture.separate import separate
 from asset_factory.factory.manufacture.separate.along import hull_depth
-from asset_factory.factory.manufacture.separate.clip import PlanedHull, clipped, cut_apart, meeting
+from asset_factory.factory.manufacture.separate.clip import clipped, cut_apart, meeting
 from asset_factory.factory.mesh import Mesh, concatenate
 
 CONFIG = SeparateConfig()
@@ -46,7 +46,7 @@ def pieces_of(*hulls):
 
 
 def gap(result, pose=None):
-    first, second = (PlanedHull.of(piece.hulls[0]) for piece in result.pieces[:2])
+    first, second = (piece.hulls[0] for piece in result.pieces[:2])
     return -meeting(first, second, np.eye(4) if pose is None else pose).depth
 
 
@@ -89,11 +89,11 @@ def test_a_stem_of_which_much_is_hidden_is_kept_whole_in_a_socket():
     result = stem_in_a_block(sunk=0.03)
     (stem,) = result.pieces[1].hulls
     assert stem.volume == pytest.approx(0.02 * 0.02 * 0.2, rel=1e-6)
-    around = [PlanedHull.of(one) for one in result.pieces[0].hulls]
+    around = result.pieces[0].hulls
     for angle in np.linspace(0.0, 1.0, 9):
         pose = np.eye(4)
         pose[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
-        depths = [meeting(one, PlanedHull.of(stem), pose).depth for one in around]
+        depths = [meeting(one, stem, pose).depth for one in around]
         assert max(depths) <= -CONFIG.clearance_m + 1e-4
     socket = 0.009 - sum(one.volume for one in result.pieces[0].hulls)
     assert 0.02 * 0.02 * 0.03 < socket < 0.05 * 0.05 * 0.05
@@ -227,13 +227,13 @@ def test_two_hulls_cut_apart_have_the_gap_and_take_no_room(seed):
     solids = []
     for shift in (0.0, 0.12):
         made = trimesh.convex.convex_hull(generator.normal(size=(16, 3)) * 0.05 + [shift, 0, 0])
-        solids.append(PlanedHull.of(Hull(made.vertices, made.faces)))
+        solids.append(Hull(made.vertices, made.faces))
     pose = np.eye(4)
     met = meeting(*solids, pose)
     first, second = cut_apart(*solids, pose, met, 0.002)
     for before, after in zip(solids, (first, second), strict=True):
         if after is not None:
-            inside = before.planes[:, :3] @ after.hull.vertices.T - before.planes[:, 3:]
+            inside = before.planes[:, :3] @ after.vertices.T - before.planes[:, 3:]
             assert inside.max() < 1e-9
     if met.depth > -0.002 and first is not None and second is not None:
         assert meeting(first, second, pose).depth <= -0.002 + 1e-6

@@ -11,7 +11,7 @@ from asset_factory.factory.config import SolidsConfig
 from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.geometry.elevations import elevation
 from asset_factory.factory.manufacture.decompose.convex import depth_below
-from asset_factory.factory.manufacture.separate.clip import PlanedHull, meeting
+from asset_factory.factory.manufacture.separate.clip import meeting
 from asset_factory.factory.manufacture.solids.build import solids
 from asset_factory.factory.manufacture.solids.panel import DOOR_M
 from asset_factory.factory.manufacture.solids.surfaces import boundary
@@ -38,11 +38,7 @@ def volume(piece):
 
 
 def least_gap(a, b, pose):
-    pairs = [
-        -meeting(PlanedHull.of(one), PlanedHull.of(other), pose).depth
-        for one in a.hulls
-        for other in b.hulls
-    ]
+    pairs = [-meeting(one, other, pose).depth for one in a.hulls for other in b.hulls]
     return min(pairs)
 
 
