@@ -3,7 +3,7 @@
     python benchmarks/real_yield.py --data DIR --each 12                  the yield of every repair
     python benchmarks/real_yield.py --data DIR --repairs none geometry    with some switched off
     python benchmarks/real_yield.py --each 999 --output OUT               every object, and keep it
-    python benchmarks/real_yield.py --read OUT                            of what was built before
+    python benchmarks/real_yield.py --read OUT/all                        of what was built before
 
 ``factory build --articulator annotated --sim all`` over objects drawn from each source, printed as
 Markdown: registered, hulls, shares of joint ranges and of visible surfaces kept, wall-clock time,
@@ -39,6 +39,8 @@ from asset_factory.sim_checks.simulators.catalog import USUAL
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 #: Beginnings of folders that are told apart; all else is ``others``.
 SOURCES = ("partnet_mobility", "infinigen_sim", "scene_synthesizer")
+#: Among a build's logs: the processor time of each object.
+CORE_SECONDS = "core-seconds.jsonl"
 
 
 @dataclass(frozen=True)
@@ -71,13 +73,13 @@ def main() -> int:
     parser.add_argument("--each", type=int, default=12, help="objects of each source")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--list", type=Path, help="a file of inputs, one a line, instead")
-    parser.add_argument("--read", type=Path, help="a folder that was built into before, instead")
+    parser.add_argument("--read", type=Path, nargs="+", help="folders built into before, instead")
     parser.add_argument("--repairs", nargs="+", choices=REPAIR_KINDS, default=["all"])
     parser.add_argument("--workers", type=int, default=1)
     parser.add_argument("--output", type=Path, help="keep what is built, by kind of repair, here")
     options = parser.parse_args()
     if options.read:
-        print_table("as built", list(as_built(options.read)))
+        print_table("as built", [made for folder in options.read for made in as_built(folder)])
         return 0
     if not options.data.is_dir():
         print(f"{options.data}: no such folder; name the folder of real objects with --data")
@@ -133,7 +135,10 @@ def built(inputs: Sequence[Path], output: Path, kinds: str, workers: int) -> Ite
         place = ASSETS if result.entry.status is Status.PASSED else REJECTED
         made = made_of(output / place / result.entry.id, result.seconds, Path(result.input))
         now = core_seconds()
-        yield replace(made, core_s=now - before) if workers == 1 else made
+        made = replace(made, core_s=now - before) if workers == 1 else made
+        yield made
+        with (output / LOGS / CORE_SECONDS).open("a", encoding="utf-8") as file:
+            file.write(json.dumps({"id": result.entry.id, "core_s": made.core_s}) + "\n")
         before = now
         words = f"{result.entry.status} {result.entry.reason} ({result.seconds:.0f} s)"
         print(f"{result.input}: {words}", file=sys.stderr, flush=True)
@@ -164,11 +169,17 @@ def core_seconds() -> float:
 
 def as_built(output: Path) -> Iterator[Made]:
     """Everything that a build wrote into a folder, by its log."""
-    for line in (output / LOGS / "builds.jsonl").read_text(encoding="utf-8").splitlines():
-        event = json.loads(line)
+    spent = {event["id"]: event["core_s"] for event in _lines(output / LOGS / CORE_SECONDS)}
+    for event in _lines(output / LOGS / "builds.jsonl"):
         if event["event"] == "built" and event["status"] != str(Status.UNJUDGED):
             place = ASSETS if event["status"] == str(Status.PASSED) else REJECTED
-            yield made_of(output / place / event["id"], event["seconds"], Path(event["input"]))
+            made = made_of(output / place / event["id"], event["seconds"], Path(event["input"]))
+            yield replace(made, core_s=spent.get(event["id"], 0.0))
+
+
+def _lines(log: Path) -> list[dict[str, Any]]:
+    text = log.read_text(encoding="utf-8") if log.exists() else ""
+    return [json.loads(line) for line in text.splitlines()]
 
 
 def made_of(folder: Path, seconds: float, source: Path) -> Made:

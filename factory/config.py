@@ -151,7 +151,7 @@ class HullsConfig:
     """
 
     most: int = 180
-    coarsest: float = 4.0
+    coarsest: float = 16.0
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ from .targets.handles import find_handle
 #: Its version is raised when the same hulls would be cut, weighed or held otherwise.
 FINISH = Stage(
     "finish",
-    version=14,
+    version=15,
     settings=("separate", "inertia", "decompose.max_vertices"),
     libraries=("numpy", "scipy", "trimesh", "manifold3d"),
 )
@@ -56,9 +56,9 @@ def manufacture(
     with stages.clock.stage("decompose"):
         config = stages.config.decompose
         pieces = decompose(planned, config, stages.store, built.pieces, plan.hollow)
-        if plan.fewer:
+        if plan.fewer is not None:
             rooms = [room_around(planned, part) for part in range(len(planned.parts))]
-            pieces = fewer(pieces, stages.config, stages.store, rooms)
+            pieces = fewer(pieces, plan.fewer, stages.config, stages.store, rooms)
     density = intake.provenance.density or stages.config.inertia.density
     # By content: other settings of the decomposition that give the same hulls change nothing more.
     shapes = contents((planned.mesh.vertices, planned.mesh.faces, planned.parts, planned.joints))

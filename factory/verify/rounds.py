@@ -20,6 +20,9 @@ from .drafts import ReadingDraft
 from .repair import next_plan
 from .validate import Verdict, inspect, validate
 
+#: An asset of too many hulls gets fewer in so many steps at most.
+LIGHTER = 3
+
 
 @dataclass(frozen=True, eq=False)
 class Rounds:
@@ -46,13 +49,7 @@ class Rounds:
             InputRejected: nothing can be made of it.
         """
         draft = self._repaired(self._made(first_plan(self.reading, self._spare), "0"), "")
-        many = draft.asset.hull_count > self.stages.config.hulls.most
-        if draft.passes and many:
-            lighter = self._made(replace(draft.plan, fewer=True), "fewer")
-            draft = (
-                replace(lighter, before=draft.before or draft.asset) if lighter.passes else draft
-            )
-        return draft
+        return self._lighter(draft) if draft.passes else draft
 
     def simulated(
         self, draft: ReadingDraft, others: tuple[Finding, ...]
@@ -105,6 +102,22 @@ class Rounds:
                 break
             draft = self._made(plan, f"{name}{attempt + 1}")
         return draft if draft is first else replace(draft, before=first.asset)
+
+    def _lighter(self, draft: ReadingDraft) -> ReadingDraft:
+        """The same with fewer hulls, where it has too many and passes with those."""
+        most = self.stages.config.hulls.most
+        aim = most
+        first = draft.before or draft.asset
+        for attempt in range(LIGHTER):
+            # Hulls are joined before they are cut apart, which makes several of one.
+            aim -= max(0, draft.asset.hull_count - most) if attempt else 0
+            if draft.asset.hull_count <= most or aim <= 0:
+                break
+            lighter = self._made(replace(draft.plan, fewer=aim), f"fewer-{attempt}")
+            if not lighter.passes:
+                break
+            draft = replace(lighter, before=first)
+        return draft
 
     def _next(self, verdict: Verdict, draft: ReadingDraft) -> Plan | None:
         """What to do differently, if anything could help and there is time."""

@@ -23,13 +23,14 @@ FEWER = Stage(
     libraries=("manifold3d", "scipy"),
 )
 #: Multiples of the error that are tried, one after another, until there are few enough.
-COARSER = (1.5, 2.0, 3.0, 4.0, 6.0, 8.0)
+COARSER = (1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0)
 #: Parts of fewer hulls than this are left as they are.
 FEW = 8
 
 
 def fewer(
     pieces: tuple[PartHulls, ...],
+    most: int,
     config: BuildConfig,
     store: Store | None = None,
     rooms: Sequence[Room] = (),
@@ -40,7 +41,8 @@ def fewer(
 
     Args:
         pieces: hulls per part.
-        config: how many an asset may have, and the decomposition's error.
+        most: how many there may be.
+        config: how far the error may go, and the decomposition's own.
         store: results are kept here by content; without it everything is computed anew.
         rooms: of each part, what others take: no joined hull takes more of it; empty: of none.
     """
@@ -48,7 +50,7 @@ def fewer(
     many = sorted(range(len(pieces)), key=lambda part: -len(pieces[part].hulls))
     for times in (each for each in COARSER if each <= config.hulls.coarsest):
         for part in many:
-            if sum(len(piece.hulls) for piece in joined) <= config.hulls.most:
+            if sum(len(piece.hulls) for piece in joined) <= most:
                 return tuple(joined)
             if len(pieces[part].hulls) >= FEW:
                 room = rooms[part] if rooms else NOWHERE

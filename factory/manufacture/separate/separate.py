@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 
 import numpy as np
@@ -13,7 +13,6 @@ from ...articulation import Articulation, Joint
 from ...asset import Hull
 from ...config import SeparateConfig
 from ...mesh import FloatArray
-from ..decompose.convex import limit_vertices
 from ..decompose.decompose import PartHulls
 from ..hinges import is_crooked
 from ..poses import held_by, jointed, joints_between, relative_poses
@@ -25,6 +24,7 @@ from .hung import HUB_SHARE, ROUND_SHARE, at_an_edge, planed_limit, seat_roundne
 from .outcome import Pair, Planed, Separation, SeparationRefusal
 from .overlap import overlap, part_solids, thickness_m
 from .pits import TURNED_ROOM, Pit, stands_out_m, swept_share
+from .rejoin import with_hulls
 from .turned import Turned
 
 #: Hulls that get so much deeper along a joint are in each other's way, however fat they are [m].
@@ -69,20 +69,10 @@ def separate(
     for pair in filter(bench.nears, wanted):
         bench.cut(pair)
     after = tuple(
-        _with_hulls(piece, tuple(kept), max_vertices)
+        with_hulls(piece, kept, max_vertices)
         for piece, kept in zip(pieces, bench.hulls, strict=True)
     )
     return Separation(after, bench.refused, bench.hidden, bench.planed)
-
-
-def _with_hulls(piece: PartHulls, hulls: tuple[Hull, ...], max_vertices: int) -> PartHulls:
-    if len(hulls) == len(piece.hulls) and all(
-        a is b for a, b in zip(hulls, piece.hulls, strict=True)
-    ):
-        return piece
-    return replace(
-        piece, hulls=tuple(limit_vertices(hull, max_vertices) for hull in hulls), exact=False
-    )
 
 
 @dataclass

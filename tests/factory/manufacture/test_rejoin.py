@@ -1,0 +1,43 @@
+"""What cuts left needlessly apart is joined again, and nothing is filled by it."""
+
+import numpy as np
+import pytest
+import trimesh
+
+from asset_factory.factory.asset import Hull
+from asset_factory.factory.manufacture.decompose.convex import depth_below
+from asset_factory.factory.manufacture.decompose.decompose import PartHulls
+from asset_factory.factory.manufacture.separate.rejoin import with_hulls
+
+
+def block(size, center=(0.0, 0.0, 0.0)):
+    made = trimesh.creation.box(size)
+    return Hull(np.asarray(made.vertices) + center, np.asarray(made.faces))
+
+
+PANEL = PartHulls((block((0.3, 0.3, 0.02)),), "exact", (), True)
+#: The panel in nine tiles, without the one in the middle.
+TILES = [
+    block((0.1, 0.1, 0.02), (0.1 * i, 0.1 * j, 0.0))
+    for i in (-1, 0, 1)
+    for j in (-1, 0, 1)
+    if (i, j) != (0, 0)
+]
+
+
+def test_tiles_around_a_hole_become_four_walls_and_the_hole_stays_open():
+    after = with_hulls(PANEL, TILES, 64)
+    assert len(after.hulls) == 4
+    assert not after.exact
+    assert sum(hull.volume for hull in after.hulls) == pytest.approx(8 * 0.1 * 0.1 * 0.02)
+    hole = np.random.default_rng(0).uniform(-0.0499, 0.0499, (500, 3)) * [1.0, 1.0, 0.2]
+    assert max(depth_below(hull, hole).max() for hull in after.hulls) < 0.0
+
+
+def test_tiles_further_apart_than_rounding_stay_apart():
+    apart = [block((0.1, 0.1, 0.02)), block((0.1, 0.1, 0.02), (0.101, 0.0, 0.0))]
+    assert len(with_hulls(PANEL, apart, 64).hulls) == 2
+
+
+def test_a_part_that_was_not_cut_is_the_same():
+    assert with_hulls(PANEL, list(PANEL.hulls), 64) is PANEL

@@ -1,0 +1,73 @@
+"""An asset of too many hulls gets fewer, as many times as cutting apart makes several of one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from asset_factory.factory.config import BuildConfig, HullsConfig
+from asset_factory.factory.manufacture.plan import Plan
+from asset_factory.factory.verify import rounds
+from asset_factory.factory.verify.rounds import Rounds
+
+MOST = 100
+
+
+@dataclass(frozen=True)
+class Draft:
+    plan: Plan
+    asset: Any
+    passes: bool = True
+    before: Any = None
+    inspected: Any = None
+
+
+def drafted(
+    monkeypatch: pytest.MonkeyPatch, cut_off: int, refused_below: int = 0
+) -> tuple[Draft, list[int | None]]:
+    """Made of 150 hulls before cutting, or what is asked for; cutting adds so many."""
+    aims: list[int | None] = []
+
+    def made(self: Rounds, plan: Plan, folder: str) -> Draft:
+        aims.append(plan.fewer)
+        count = (150 if plan.fewer is None else min(150, plan.fewer)) + cut_off
+        return Draft(plan, SimpleNamespace(hull_count=count), count >= refused_below)
+
+    monkeypatch.setattr(Rounds, "_made", made)
+    monkeypatch.setattr(Rounds, "_next", lambda self, verdict, draft: None)
+    monkeypatch.setattr(rounds, "dispensable_joints", lambda *asked: None)
+    monkeypatch.setattr(rounds, "first_plan", lambda *asked: Plan())
+    config = replace(BuildConfig(), hulls=HullsConfig(most=MOST))
+    nothing: Any = None
+    stages: Any = SimpleNamespace(config=config)
+    draft: Any = Rounds(nothing, nothing, Path(), nothing, stages).drafted()
+    return draft, aims
+
+
+def test_what_cutting_adds_is_asked_for_less(monkeypatch: pytest.MonkeyPatch) -> None:
+    draft, aims = drafted(monkeypatch, cut_off=30)
+    assert aims == [None, MOST, MOST - 30]
+    assert draft.asset.hull_count == MOST
+    assert draft.before.hull_count == 180
+
+
+def test_nothing_is_made_again_of_what_is_light(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert drafted(monkeypatch, cut_off=-50)[1] == [None]
+
+
+def test_what_passes_with_more_only_keeps_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    draft, aims = drafted(monkeypatch, cut_off=30, refused_below=120)
+    assert aims == [None, MOST, MOST - 30]
+    assert draft.asset.hull_count == 130
+
+
+def test_where_cutting_makes_more_than_may_be_the_least_is_kept(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    draft, aims = drafted(monkeypatch, cut_off=120)
+    assert aims == [None, MOST]
+    assert draft.asset.hull_count == 220
