@@ -35,8 +35,6 @@ LEAST_AREA = 0.012
 #: What opens is a container: so thick as a share of the panel's shorter and longer side.
 THICK_SHORT = 0.15
 THICK_LONG = 0.08
-#: The object is there so wide as a share of its whole width: no tank on a bowl.
-LEAST_SPAN = 0.5
 #: A handle belongs to a panel if it is that far inside [pixels].
 INSIDE = 1.0
 
@@ -97,9 +95,9 @@ def candidates_of(scene: FrontScene, found: Sequence[Rectangle]) -> list[PanelCa
     if last_row - first_row < FLAT * PIXELS:
         return []
     kept: list[Rectangle] = []
-    for each in _usable(scene, (_whole(scene), *found[:MOST_FOUND])):
+    for each in _usable(scene, (whole_side(scene), *found[:MOST_FOUND])):
         known = any(in_common(each, other) >= SAME for other in kept)
-        if not known and _deep(scene, each):
+        if not known and deep(scene, each):
             kept.append(each)
         if len(kept) >= MOST:
             break
@@ -107,7 +105,7 @@ def candidates_of(scene: FrontScene, found: Sequence[Rectangle]) -> list[PanelCa
     return [*(PanelCandidate(each, (each,)) for each in kept), *cuts]
 
 
-def _whole(scene: FrontScene) -> Rectangle:
+def whole_side(scene: FrontScene) -> Rectangle:
     """All that is seen: the flush front of a box has no other outline."""
     first_row, last_row, first_column, last_column = scene.relief.box
     return Rectangle(
@@ -121,7 +119,7 @@ def _whole(scene: FrontScene) -> Rectangle:
 def _divided(scene: FrontScene, rectangle: Rectangle) -> list[PanelCandidate]:
     """A rectangle with several pulls, cut between them, or between pairs of them."""
     pulls = main_pulls(scene.handles_in(rectangle), rectangle)
-    if len(pulls) < 2 or not _of_one_kind(pulls):
+    if len(pulls) < 2 or not of_one_kind(pulls):
         return []
     short = min(scene.relief.shape)
     found = []
@@ -153,7 +151,7 @@ def _paired(pulls: Sequence[Protrusion], rectangle: Rectangle) -> list[Protrusio
     return pairs
 
 
-def _of_one_kind(pulls: Sequence[Protrusion]) -> bool:
+def of_one_kind(pulls: Sequence[Protrusion]) -> bool:
     """Whether handles are of one make, upright or level, as on one piece of furniture."""
     longest = np.array([float(pull.size.max()) for pull in pulls])
     widest = np.array([float(pull.size.min()) for pull in pulls])
@@ -174,7 +172,7 @@ def _usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
     return [each for each, fits in zip(found, good, strict=True) if fits]
 
 
-def _deep(scene: FrontScene, rectangle: Rectangle) -> bool:
+def deep(scene: FrontScene, rectangle: Rectangle) -> bool:
     """Whether there is something behind a rectangle that could be open."""
     inner = tuple(
         slice(int(low), int(high) + 1)

@@ -8,7 +8,7 @@ from scipy import ndimage
 from ...mesh import FloatArray
 from .candidates import main_pulls
 from .fronts import Front
-from .panels import FrontPanel
+from .groups import FrontPanel
 from .rectangles import Rectangle
 from .sight import SQUARE, Sight
 

@@ -10,12 +10,10 @@ import numpy as np
 from ...mesh import FloatArray
 from .candidates import FrontScene, PanelCandidate, candidates_of
 from .features import NAMES, Context, features
+from .groups import FrontPanel, Group, together
 from .learned import load_judge
-from .panels import FrontPanel
 from .rectangles import Rectangle
 
-#: Two panels may share this much of the smaller one.
-OVERLAP = 0.08
 #: Log-odds from which a panel is sure.
 SURE = 0.6
 
@@ -45,7 +43,7 @@ def layout_of(scene: FrontScene, found: Sequence[Rectangle]) -> PanelLayout:
         for group in rated(scene, candidates_of(scene, found))
         if min(panel.value for panel in group.panels) >= SURE
     ]
-    chosen = _together(groups)
+    chosen = together(groups)
     return PanelLayout(
         tuple(panel for group in chosen for panel in group.panels),
         sum(group.value for group in chosen),
@@ -60,24 +58,6 @@ def value_of(scene: FrontScene, panels: Sequence[FrontPanel], found: Sequence[Re
     around = Context(scene, others or [panel.rectangle for panel in panels])
     rows = [features(around, panel.rectangle, cut=panel.cut) for panel in panels]
     return float(load_judge("panel", NAMES).logits(np.stack(rows))[:, 0].sum())
-
-
-@dataclass(frozen=True, eq=False)
-class Group:
-    """Panels that are there together or not at all.
-
-    Attributes:
-        rectangle: around them.
-        panels: one, or the pieces of the rectangle.
-    """
-
-    rectangle: Rectangle
-    panels: tuple[FrontPanel, ...]
-
-    @property
-    def value(self) -> float:
-        """Log-odds of all of them, as if each were independent."""
-        return sum(panel.value for panel in self.panels)
 
 
 def rated(scene: FrontScene, candidates: Sequence[PanelCandidate]) -> list[Group]:
@@ -103,24 +83,3 @@ def described(
     around = Context(scene, [each.rectangle for each in candidates if not each.cut])
     pieces = [(piece, each.cut) for each in candidates for piece in each.pieces]
     return pieces, np.stack([features(around, piece, cut=cut) for piece, cut in pieces])
-
-
-def _apart(one: Rectangle, other: Rectangle) -> bool:
-    return one.shared(other) <= OVERLAP * min(one.area, other.area)
-
-
-def _together(groups: Sequence[Group]) -> list[Group]:
-    """The set without overlaps that is worth most: greedy, then exchanges that gain."""
-    chosen: list[Group] = []
-    for _ in range(3):
-        changed = False
-        for group in groups:
-            if group in chosen:
-                continue
-            against = [g for g in chosen if not _apart(group.rectangle, g.rectangle)]
-            if group.value > sum(g.value for g in against) + 1e-9:
-                chosen = [g for g in chosen if g not in against] + [group]
-                changed = True
-        if not changed:
-            break
-    return chosen

@@ -11,9 +11,9 @@ import numpy as np
 from ...mesh import FloatArray
 from .candidates import FrontScene
 from .features import ALIGNED, MOTION_NAMES, motion_features
+from .groups import FrontPanel
 from .handles import GripShape, Protrusion
 from .learned import load_judge
-from .panels import FrontPanel
 from .relief import Relief
 from .sight import Sight
 

@@ -3,39 +3,37 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from ...geometry.elevations import PIXELS
-from .candidates import FrontScene, in_common, main_pulls, mean_in
+from .candidates import (
+    FLAT,
+    MOST,
+    MOST_FOUND,
+    SAME,
+    FrontScene,
+    deep,
+    in_common,
+    main_pulls,
+    mean_in,
+    of_one_kind,
+    whole_side,
+)
 from .dividing import divided
 from .features import ALIGNED, BEVEL, outline_sides
+from .groups import FrontPanel, Group, apart, together
 from .handles import Protrusion
 from .rectangles import SHORTEST, Rectangle
 from .relief import Relief
 
-#: Rectangles with so much in common (intersection over union) are one.
-SAME = 0.8
-#: Two panels may share this much of the smaller one.
-OVERLAP = 0.08
-#: Rectangles looked at, best first.
-MOST = 60
-MOST_FOUND = 1500
 #: A rectangle is cut between at most so many handles, and what each piece is then worth.
 MOST_PIECES = 9
 CUT_VALUE = 1.2
-#: A front is at least so high, as a share of the object's longest extent: no hob, no keyboard.
-FLAT = 0.12
-#: And then the handles are alike up to this ratio of their sizes.
-ONE_KIND = 2.0
 #: Of a rectangle so much must be seen and face the viewer.
 SOLID = 0.9
 #: And so much of the picture's area it covers.
 LEAST_AREA = 0.015
-#: What opens is a container: so thick as a share of the panel's shorter and longer side.
-THICK_SHORT = 0.15
-THICK_LONG = 0.08
 #: The object is there so wide as a share of its whole width: no tank on a bowl.
 LEAST_SPAN = 0.5
 #: A seam that crosses a rectangle is covered so far, by the shape alone.
@@ -50,33 +48,6 @@ PLINTH = 0.13
 LEAST_VALUE = 0.8
 
 
-@dataclass(frozen=True, eq=False)
-class FrontPanel:
-    """A rectangle that opens.
-
-    Attributes:
-        rectangle: where it is.
-        handles: its pulls, the most prominent first.
-        value: what speaks for it: grows with evidence, no probability.
-        cut: its border is half-way between handles; nobody saw a seam there.
-    """
-
-    rectangle: Rectangle
-    handles: tuple[Protrusion, ...]
-    value: float
-    cut: bool = False
-
-    @property
-    def handle(self) -> Protrusion | None:
-        """The one that it is pulled by."""
-        return self.handles[0] if self.handles else None
-
-    @property
-    def aspect(self) -> float:
-        """Width over height."""
-        return float(self.rectangle.size[1] / max(self.rectangle.size[0], 1))
-
-
 def choose(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[FrontPanel, ...]:
     """The panels of one side that can be there together.
 
@@ -87,67 +58,33 @@ def choose(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[FrontPanel, .
     first_row, last_row, _, _ = scene.relief.box
     if last_row - first_row < FLAT * PIXELS:
         return ()
-    usable = _usable(scene, (*found[:MOST_FOUND], _whole(scene)))
+    usable = _usable(scene, (*found[:MOST_FOUND], whole_side(scene)))
     rated = [
-        _Group.of(FrontPanel(each, scene.handles_in(each), _value(scene, each))) for each in usable
+        Group(each, (FrontPanel(each, scene.handles_in(each), _value(scene, each)),))
+        for each in usable
     ]
     rated.sort(key=lambda group: -group.value)
-    kept: list[_Group] = []
+    kept: list[Group] = []
     for group in rated:
         known = any(in_common(group.rectangle, other.rectangle) >= SAME for other in kept)
-        if not known and _deep(scene, group.rectangle):
+        if not known and deep(scene, group.rectangle):
             kept.append(group)
         if len(kept) >= MOST:
             break
     kept += [cut for each in kept if (cut := _divided(scene, each.rectangle)) is not None]
     pulled = [group for group in kept if group.panels[0].handles and group.value >= LEAST_VALUE]
     pulled.sort(key=lambda group: -group.value)
-    chosen = [panel for group in _together(pulled) for panel in group.panels]
+    chosen = [panel for group in together(pulled) for panel in group.panels]
     bare = [group for group in kept if not group.panels[0].handles]
     return (*chosen, *_without_handles(scene.relief, chosen, bare))
 
 
-@dataclass(frozen=True, eq=False)
-class _Group:
-    """Panels that are there together or not at all.
-
-    Attributes:
-        rectangle: around them.
-        panels: one, or the pieces of the rectangle.
-        value: of all of them.
-    """
-
-    rectangle: Rectangle
-    panels: tuple[FrontPanel, ...]
-    value: float
-
-    @classmethod
-    def of(cls, panel: FrontPanel) -> _Group:
-        return cls(panel.rectangle, (panel,), panel.value)
-
-
-def _rated(scene: FrontScene, rectangle: Rectangle) -> _Group:
-    handles = scene.handles_in(rectangle)
-    return _Group.of(FrontPanel(rectangle, handles, _value(scene, rectangle)))
-
-
-def _whole(scene: FrontScene) -> Rectangle:
-    """All that is seen: the flush front of a box has no other outline."""
-    first_row, last_row, first_column, last_column = scene.relief.box
-    return Rectangle(
-        np.array([first_row, first_column]),
-        np.array([last_row, last_column]),
-        np.ones(4),
-        np.ones(4),
-    )
-
-
-def _divided(scene: FrontScene, rectangle: Rectangle) -> _Group | None:
+def _divided(scene: FrontScene, rectangle: Rectangle) -> Group | None:
     """A rectangle with several pulls, cut between them."""
     pulls = main_pulls(scene.handles_in(rectangle), rectangle)
     if not 2 <= len(pulls) <= MOST_PIECES or _crossings(scene, rectangle) > len(pulls):
         return None
-    if not _of_one_kind(pulls):
+    if not of_one_kind(pulls):
         return None
     pieces = divided(rectangle, pulls, scene.level, scene.upright)
     short = min(scene.relief.shape)
@@ -155,16 +92,7 @@ def _divided(scene: FrontScene, rectangle: Rectangle) -> _Group | None:
         return None
     value = CUT_VALUE + 2.0 * (rectangle.closed - 0.75)
     panels = tuple(FrontPanel(piece, (handle,), value, cut=True) for piece, handle in pieces)
-    return _Group(rectangle, panels, value * len(panels))
-
-
-def _of_one_kind(pulls: Sequence[Protrusion]) -> bool:
-    """Whether handles are of one make, upright or level, as on one piece of furniture."""
-    longest = np.array([float(pull.size.max()) for pull in pulls])
-    widest = np.array([float(pull.size.min()) for pull in pulls])
-    return bool(
-        longest.max() <= ONE_KIND * longest.min() and widest.max() <= ONE_KIND * widest.min() + 2.0
-    )
+    return Group(rectangle, panels)
 
 
 def _usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
@@ -185,18 +113,6 @@ def _usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
         & (span * relief.shape[1] >= LEAST_SPAN * (box[3] - box[2]))
     )
     return [each for each, fits in zip(found, good, strict=True) if fits]
-
-
-def _deep(scene: FrontScene, rectangle: Rectangle) -> bool:
-    """Whether there is something behind a rectangle that could be open."""
-    inner = tuple(
-        slice(int(low), int(high) + 1)
-        for low, high in zip(rectangle.low, rectangle.high, strict=True)
-    )
-    short = float(rectangle.size.min())
-    long = float(rectangle.size.max())
-    behind = float(np.median(scene.thickness[inner]))
-    return behind >= max(THICK_SHORT * short, THICK_LONG * long)
 
 
 def _value(scene: FrontScene, rectangle: Rectangle) -> float:
@@ -242,40 +158,19 @@ def _crossings(scene: FrontScene, rectangle: Rectangle) -> int:
     return count
 
 
-def _apart(one: Rectangle, other: Rectangle) -> bool:
-    return one.shared(other) <= OVERLAP * min(one.area, other.area)
-
-
-def _together(groups: Sequence[_Group]) -> list[_Group]:
-    """The set without overlaps that is worth most: greedy, then exchanges that gain."""
-    chosen: list[_Group] = []
-    for _ in range(3):
-        changed = False
-        for group in groups:
-            if group in chosen:
-                continue
-            against = [g for g in chosen if not _apart(group.rectangle, g.rectangle)]
-            if group.value > sum(g.value for g in against) + 1e-9:
-                chosen = [g for g in chosen if g not in against] + [group]
-                changed = True
-        if not changed:
-            break
-    return chosen
-
-
 def _without_handles(
-    relief: Relief, pulled: Sequence[FrontPanel], bare: Sequence[_Group]
+    relief: Relief, pulled: Sequence[FrontPanel], bare: Sequence[Group]
 ) -> list[FrontPanel]:
     """Panels without a handle beside one that has one and is like them."""
     free = [
         group
         for group in bare
-        if all(_apart(group.rectangle, other.rectangle) for other in pulled)
+        if all(apart(group.rectangle, other.rectangle) for other in pulled)
         and any(_alike(group.rectangle, other.rectangle) for other in pulled)
         and _engraved(group.rectangle)
         and not _plinth(relief, group.rectangle)
     ]
-    return [panel for group in _together(free) for panel in group.panels]
+    return [panel for group in together(free) for panel in group.panels]
 
 
 def _engraved(rectangle: Rectangle) -> bool:

@@ -12,9 +12,9 @@ from ...geometry.crossings import Side
 from ...mesh import FloatArray
 from .cutting import Region
 from .fronts import Front
+from .groups import FrontPanel
 from .lids import Lid
 from .motions import OpensBy
-from .panels import FrontPanel
 
 #: A panel whose back edge nobody sees reaches so far behind its rim: share of the object's depth,
 #: and of the picture [pixels].

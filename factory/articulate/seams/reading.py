@@ -11,10 +11,11 @@ from ...geometry.crossings import Side
 from ...mesh import IntArray, Mesh
 from .fronts import AROUND, Front, fronts_of
 from .glimpses import glimpsed
+from .groups import FrontPanel
 from .layouts import layout_of, value_of
 from .lids import Lid, find_lids
 from .motions import Opening, openings_of
-from .panels import FrontPanel, choose
+from .panels import choose
 from .placing import OpeningPart, lid_mover, panel_mover
 from .rectangles import Rectangle
 from .relief import Relief, reliefs_of

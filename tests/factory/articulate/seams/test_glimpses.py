@@ -11,8 +11,8 @@ from tests.samples import one_piece
 from asset_factory.factory.articulate.seams import fronts as fronts_module
 from asset_factory.factory.articulate.seams.fronts import Front, fronts_of
 from asset_factory.factory.articulate.seams.glimpses import glimpsed
+from asset_factory.factory.articulate.seams.groups import FrontPanel
 from asset_factory.factory.articulate.seams.motions import OpensBy, openings_of
-from asset_factory.factory.articulate.seams.panels import FrontPanel
 from asset_factory.factory.articulate.seams.reading import read_reliefs
 from asset_factory.factory.articulate.seams.rectangles import Rectangle
 from asset_factory.factory.articulate.seams.relief import Relief, reliefs_of
