@@ -108,5 +108,5 @@ def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:
         config: every stage's settings.
     """
     registry = Registry(output, create=True)
-    with registry.staging_folder() as staging, Judge(config.own_checks) as judge:
+    with registry.staging_folder() as staging, Judge(config.checks) as judge:
         return register(registry, make_asset(source, staging, config, output / CACHE, judge))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from asset_factory.sim_checks.config import LIMIT, CheckConfig
 
@@ -142,19 +142,16 @@ class DecomposeConfig:
 
 @dataclass(frozen=True)
 class HullsConfig:
-    """How many hulls an asset may have, and how much of it they must cover.
+    """How many hulls an asset may have.
 
     Attributes:
         most: an asset of more has them joined, with up to ``coarsest`` times the decomposition's
             error, if it still passes then; files of 400 take SAPIEN seconds to load.
         coarsest: see ``most``.
-        least_covered: share of a link's visible surface that must lie within ``gap_m`` of its
-            hulls; of files of others ``checks`` asks for less.
     """
 
     most: int = 180
     coarsest: float = 16.0
-    least_covered: float = 0.95
 
 
 @dataclass(frozen=True)
@@ -303,9 +300,3 @@ class BuildConfig:
     checks: CheckConfig = field(default_factory=CheckConfig)
     repair: RepairConfig = field(default_factory=RepairConfig)
     readings: ReadingsConfig = field(default_factory=ReadingsConfig)
-
-    @property
-    def own_checks(self) -> CheckConfig:
-        """What is asked of an asset of one's own, whose hulls need not leave as much bare."""
-        covered = max(self.hulls.least_covered, self.checks.lint.least_covered)
-        return replace(self.checks, lint=replace(self.checks.lint, least_covered=covered))

@@ -75,10 +75,7 @@ HARD: Mapping[str, str] = {
     "missing_limits": "a joint that needs limits and has none",
     "zero_axis": "an axis of no length",
     "axis_not_unit": "a slide's axis not of length 1, which engines move by other lengths",
-    "collision_gap": (
-        "a tenth of a link's visible surface (of an asset built here a twentieth) over 10 mm "
-        "outside what can be touched"
-    ),
+    "collision_gap": "a tenth of a link's visible surface over 10 mm outside what can be touched",
     "density_implausible": "a hundred times what any material has, or a hundredth [kg/m3]",
     "unknown_joint_type": "a joint that no two engines move alike",
     "invalid_dynamics": "negative or infinite damping or friction",

@@ -49,7 +49,7 @@ def build_here(
     shutil.rmtree(staging, ignore_errors=True)
     staging.mkdir(parents=True)
     with asking(address), weights_at(weights or {}):
-        return make_asset(source, staging, config, cache, _judge(config.own_checks), place)
+        return make_asset(source, staging, config, cache, _judge(config.checks), place)
 
 
 def _judge(config: CheckConfig) -> Judge:

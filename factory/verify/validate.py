@@ -23,7 +23,7 @@ JUDGE = "asset_factory.sim_checks"
 COLLISION_LIBRARIES = ("numpy", "scipy", "trimesh", "python-fcl")
 #: The judge's very code counts: what a mended judge would reject must not pass by being kept.
 INSPECT = Stage(
-    "inspect", version=3, settings=("checks", "hulls"), libraries=COLLISION_LIBRARIES, code=(JUDGE,)
+    "inspect", version=2, settings=("checks",), libraries=COLLISION_LIBRARIES, code=(JUDGE,)
 )
 VALIDATE = Stage(
     "validate",
