@@ -7,7 +7,7 @@ import numpy as np
 from ...asset import Hull
 from ...mesh import FloatArray
 from ..decompose.convex import hull_of
-from .clip import clipped
+from .clip import clipped, volumes_below
 
 #: Most pieces that are kept of one hull.
 MOST_PIECES = 4
@@ -47,16 +47,14 @@ def carved(
     while rest is not None and len(kept) < most:
         heights = (rest.vertices @ planes[:, :3].T).max(axis=0) - planes[:, 3]
         tried = np.argsort(-heights, kind="stable")[:PLANES_TRIED]
-        outside = [(_beyond(rest, planes[k]), k) for k in tried if heights[k] > SPLINTER_M]
-        piece, plane = max(
-            outside, key=lambda found: found[0].volume if found[0] else 0.0, default=(None, 0)
-        )
-        if piece is None or piece.volume < least:
+        tried = tried[heights[tried] > SPLINTER_M]
+        outside = volumes_below(rest, -planes[tried, :3], -planes[tried, 3])
+        if not (outside >= least).any():
+            break
+        plane = int(tried[outside.argmax()])
+        piece = clipped(rest, -planes[plane, :3], -float(planes[plane, 3]))
+        if piece is None:
             break
         kept.append(piece)
         rest = clipped(rest, planes[plane, :3], float(planes[plane, 3]))
     return kept
-
-
-def _beyond(hull: Hull, plane: FloatArray) -> Hull | None:
-    return clipped(hull, -plane[:3], -float(plane[3]))

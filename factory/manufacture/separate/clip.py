@@ -14,6 +14,8 @@ from ..decompose.convex import hull_of
 SHEET_M = 0.003
 #: Of which at least this much is to be left by a cut [m].
 LEFT_M = 0.001
+#: Of what is needed between two hulls, shares that may go off the first.
+SHARES = (0.0, 0.5, 1.0)
 #: Volumes that differ by less than this share do so by rounding.
 ROUNDING_SHARE = 1e-9
 
@@ -97,30 +99,24 @@ def cut_apart(
         The hulls; ``None`` for one of which nothing is left.
     """
     deep = met.depth > clearance_m
-    rounding = ROUNDING_SHARE * (a.volume + b.volume)
-    best: tuple[float, Hull | None, Hull | None] | None = None
-    for number, direction in enumerate(met.directions if deep else met.directions[:1]):
-        needed = float(met.reaches[number]) + clearance_m
-        for share in (0.0, 0.5, 1.0) if deep else (_thicker_gives(a, b, pose, direction),):
-            cut = clipped if deep else given_way
-            first = cut(a, direction, float(met.first_ends[number]) - share * needed)
-            # The second can only lose more.
-            if best is not None and _lost(a, first) > best[0] + rounding:
-                continue
-            back = direction @ pose[:3, :3]
-            start = (
-                float(met.second_starts[number])
-                + (1.0 - share) * needed
-                - float(direction @ pose[:3, 3])
-                - float(met.lags[number])
-            )
-            second = cut(b, -back, -start)
-            lost = _lost(a, first) + _lost(b, second)
-            if best is None or lost < best[0]:
-                best = lost, first, second
-    if best is None:
-        return a, b
-    return best[1], best[2]
+    count = len(met.directions) if deep else 1
+    shares = np.array(SHARES) if deep else np.array([_thicker_gives(a, b, pose, met.directions[0])])
+    needed = met.reaches[:count, None] + clearance_m
+    ends = (met.first_ends[:count, None] - shares * needed).ravel()
+    shifts = met.directions[:count] @ pose[:3, 3] + met.lags[:count]
+    starts = (met.second_starts[:count, None] + (1.0 - shares) * needed - shifts[:, None]).ravel()
+    normals = np.repeat(met.directions[:count], len(shares), axis=0)
+    backs = normals @ pose[:3, :3]
+    best = 0
+    if deep:
+        left = volumes_below(a, normals, ends) + volumes_below(b, -backs, -starts)
+        # Of cuts that differ by rounding only the first.
+        best = int((left >= left.max() - ROUNDING_SHARE * (a.volume + b.volume)).argmax())
+    cut = clipped if deep else given_way
+    return (
+        cut(a, normals[best], float(ends[best])),
+        cut(b, -backs[best], -float(starts[best])),
+    )
 
 
 def _thicker_gives(a: Hull, b: Hull, pose: FloatArray, direction: FloatArray) -> float:
@@ -128,10 +124,6 @@ def _thicker_gives(a: Hull, b: Hull, pose: FloatArray, direction: FloatArray) ->
     first = float(np.ptp(a.vertices @ direction))
     second = float(np.ptp(b.vertices @ (direction @ pose[:3, :3])))
     return first / (first + second)
-
-
-def _lost(before: Hull, after: Hull | None) -> float:
-    return before.volume - (0.0 if after is None else after.volume)
 
 
 def given_way(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
@@ -144,6 +136,33 @@ def given_way(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
     if over <= 0.0 or float(np.ptp(along)) > SHEET_M or float(along.min()) < offset - LEFT_M:
         return clipped(hull, normal, offset)
     return Hull(hull.vertices - over * normal, hull.faces)
+
+
+def volumes_below(hull: Hull, normals: FloatArray, offsets: FloatArray) -> FloatArray:
+    """Volumes of what :func:`clipped` leaves of a hull at each of several planes [m3], shape [n].
+
+    By the divergence theorem, seen from a point of the plane, from where the cut face takes no
+    room: a triangle counts by the share of it that lies below.
+
+    Args:
+        hull: any.
+        normals: unit vectors, shape [n, 3].
+        offsets: what is kept has ``normal . x <= offset`` [m], shape [n].
+    """
+    center = hull.vertices.mean(axis=0)
+    points = hull.vertices - center
+    levels = offsets - normals @ center
+    corners = points[hull.faces]
+    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    heights = (points @ normals.T - levels)[hull.faces]
+    heights.sort(axis=1)
+    low, middle, high = heights[:, 0], heights[:, 1], heights[:, 2]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        top = high**2 / ((high - low) * (high - middle))
+        bottom = low**2 / ((low - high) * (low - middle))
+    below = np.select([high <= 0.0, middle <= 0.0, low < 0.0], [1.0, 1.0 - top, bottom], 0.0)
+    cones = np.einsum("ij,ij->i", corners[:, 0], areas)[:, None] - areas @ normals.T * levels
+    return np.asarray((below * cones).sum(axis=0) / 6.0)
 
 
 def clipped(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:

@@ -17,12 +17,10 @@ from ...articulation import Joint
 from ...asset import Hull
 from ...mesh import FloatArray
 from .along import cut_apart_along, near_pairs
-from .clip import ROUNDING_SHARE, clipped, meeting
+from .clip import ROUNDING_SHARE, SHARES, clipped, meeting
 
 #: A cylinder is cut as a prism of so many sides.
 SIDES = 72
-#: Of what is needed between two hulls, shares that may go off the first.
-SHARES = (0.0, 0.5, 1.0)
 #: What is nearer than the clearance by less is so by rounding [m].
 ROUNDING_M = 1e-5
 

@@ -13,7 +13,12 @@ from asset_factory.factory.manufacture.decompose.decompose import PartHulls
 from asset_factory.factory.manufacture.poses import relative_poses
 from asset_factory.factory.manufacture.separate import separate
 from asset_factory.factory.manufacture.separate.along import hull_depth
-from asset_factory.factory.manufacture.separate.clip import clipped, cut_apart, meeting
+from asset_factory.factory.manufacture.separate.clip import (
+    clipped,
+    cut_apart,
+    meeting,
+    volumes_below,
+)
 from asset_factory.factory.mesh import Mesh, concatenate
 
 CONFIG = SeparateConfig()
@@ -237,3 +242,27 @@ def test_two_hulls_cut_apart_have_the_gap_and_take_no_room(seed):
             assert inside.max() < 1e-9
     if met.depth > -0.002 and first is not None and second is not None:
         assert meeting(first, second, pose).depth <= -0.002 + 1e-6
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 10_000))
+def test_what_a_plane_would_leave_of_a_hull_is_known_before_it_is_cut(seed):
+    generator = np.random.default_rng(seed)
+    made = trimesh.convex.convex_hull(generator.normal(size=(16, 3)) + generator.normal(size=3))
+    one = Hull(made.vertices, made.faces)
+    # Planes through corners as well, and planes beside the hull.
+    normals = np.concatenate([generator.normal(size=(4, 3)), np.eye(3)])
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    heights = one.vertices @ normals.T
+    offsets = heights.min(axis=0) + generator.uniform(-0.2, 1.2, 7) * np.ptp(heights, axis=0)
+    offsets[:2] = heights[3, :2]
+    left = [clipped(one, *plane) for plane in zip(normals, offsets, strict=True)]
+    volumes = [0.0 if hull is None else hull.volume for hull in left]
+    assert volumes_below(one, normals, offsets) == pytest.approx(volumes, abs=1e-9 * one.volume)
+
+
+def test_a_box_cut_by_planes_along_its_faces_leaves_its_share():
+    shares = volumes_below(
+        hull((1, 2, 3), (5, 0, 0)), np.array([[1.0, 0, 0]] * 4), np.array([4.5, 4.75, 5.5, 9.0])
+    )
+    assert shares == pytest.approx([0.0, 1.5, 6.0, 6.0])
