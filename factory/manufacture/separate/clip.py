@@ -156,7 +156,7 @@ def volumes_below(hull: Hull, normals: FloatArray, offsets: FloatArray) -> Float
     areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     heights = (points @ normals.T - levels)[hull.faces]
     heights.sort(axis=1)
-    low, middle, high = heights[:, 0], heights[:, 1], heights[:, 2]
+    low, middle, high = heights.transpose(1, 0, 2)
     with np.errstate(divide="ignore", invalid="ignore"):
         top = high**2 / ((high - low) * (high - middle))
         bottom = low**2 / ((low - high) * (low - middle))
