@@ -135,7 +135,8 @@ def built(inputs: Sequence[Path], output: Path, kinds: str, workers: int) -> Ite
         place = ASSETS if result.entry.status is Status.PASSED else REJECTED
         made = made_of(output / place / result.entry.id, result.seconds, Path(result.input))
         now = core_seconds()
-        made = replace(made, core_s=now - before) if workers == 1 else made
+        # A process that was killed takes its time with it: then it is not known.
+        made = replace(made, core_s=max(0.0, now - before)) if workers == 1 else made
         yield made
         with (output / LOGS / CORE_SECONDS).open("a", encoding="utf-8") as file:
             file.write(json.dumps({"id": result.entry.id, "core_s": made.core_s}) + "\n")
