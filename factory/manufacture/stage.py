@@ -66,8 +66,7 @@ def manufacture(
     finish = partial(_finished, planned, pieces, plan, density, stages)
     finished = stages.recall("finish", _Finished, key, finish)
     asset = Asset(intake.name, planned, finished.bodies, (), built.surfaces)
-    findings = (*_own_findings(asset), *finished.findings)
-    return asset, findings
+    return asset, (*_own_findings(asset), *finished.findings)
 
 
 def with_targets(asset: Asset, stages: Stages) -> Asset:

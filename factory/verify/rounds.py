@@ -107,17 +107,20 @@ class Rounds:
         """The same with fewer hulls, where it has too many and passes with those."""
         most = self.stages.config.hulls.most
         aim = most
-        first = draft.before or draft.asset
+        lightest = draft
+        excess = draft.asset.hull_count - most
         for attempt in range(LIGHTER):
+            if excess <= 0 or aim <= 0:
+                break
+            made = self._made(replace(draft.plan, fewer=aim), f"fewer-{attempt}")
+            if not made.passes:
+                break
+            if made.asset.hull_count < lightest.asset.hull_count:
+                lightest = replace(made, before=draft.before or draft.asset)
             # Hulls are joined before they are cut apart, which makes several of one.
-            aim -= max(0, draft.asset.hull_count - most) if attempt else 0
-            if draft.asset.hull_count <= most or aim <= 0:
-                break
-            lighter = self._made(replace(draft.plan, fewer=aim), f"fewer-{attempt}")
-            if not lighter.passes:
-                break
-            draft = replace(lighter, before=first)
-        return draft
+            excess = made.asset.hull_count - most
+            aim -= excess
+        return lightest
 
     def _next(self, verdict: Verdict, draft: ReadingDraft) -> Plan | None:
         """What to do differently, if anything could help and there is time."""

@@ -27,14 +27,18 @@ class Draft:
 
 
 def drafted(
-    monkeypatch: pytest.MonkeyPatch, cut_off: int, refused_below: int = 0
+    monkeypatch: pytest.MonkeyPatch, cut_off: int, refused_below: int = 0, fat: int = 0
 ) -> tuple[Draft, list[int | None]]:
-    """Made of 150 hulls before cutting, or what is asked for; cutting adds so many."""
+    """Made of 150 hulls before cutting, or what is asked for; cutting adds so many.
+
+    Where hulls were joined it adds ``fat`` besides: what is coarser is more in the way.
+    """
     aims: list[int | None] = []
 
     def made(self: Rounds, plan: Plan, folder: str) -> Draft:
         aims.append(plan.fewer)
-        count = (150 if plan.fewer is None else min(150, plan.fewer)) + cut_off
+        count = 150 if plan.fewer is None else min(150, plan.fewer) + fat
+        count += cut_off
         return Draft(plan, SimpleNamespace(hull_count=count), count >= refused_below)
 
     monkeypatch.setattr(Rounds, "_made", made)
@@ -71,3 +75,10 @@ def test_where_cutting_makes_more_than_may_be_the_least_is_kept(
     draft, aims = drafted(monkeypatch, cut_off=120)
     assert aims == [None, MOST]
     assert draft.asset.hull_count == 220
+
+
+def test_what_becomes_heavier_by_joining_stays_as_it_was(monkeypatch: pytest.MonkeyPatch) -> None:
+    draft, aims = drafted(monkeypatch, cut_off=30, fat=90)
+    assert aims == [None, MOST]
+    assert draft.asset.hull_count == 180
+    assert draft.before is None
