@@ -145,11 +145,16 @@ class HullsConfig:
     """How many hulls an asset may have.
 
     Attributes:
-        most: an asset of more has them joined, with up to ``coarsest`` times the decomposition's
-            error, if it still passes then; files of 400 take SAPIEN seconds to load.
+        wanted: an asset of more has them joined, with up to ``coarse`` times the decomposition's
+            error, unless it is rejected then and passes without.
+        coarse: see ``wanted``.
+        most: an asset that still has more has them joined with up to ``coarsest`` times the error,
+            if it still passes then; files of 400 take SAPIEN seconds to load.
         coarsest: see ``most``.
     """
 
+    wanted: int = 32
+    coarse: float = 2.0
     most: int = 180
     coarsest: float = 16.0
 
@@ -248,7 +253,7 @@ class RepairConfig:
     """
 
     kinds: str = "all"
-    max_rounds: int = 6
+    max_rounds: int = 7
     near_mm: float = 2.4
     least_range_share: float = 0.5
     small_share: float = 0.15

@@ -49,6 +49,7 @@ SOFT: Mapping[str, str] = {
     "planed": "what was taken off collision geometry that can be seen, so that parts clear [mm]",
     "meshes_overlap": "hulls were left overlapping, because the meshes themselves do",
     "not_separated": "hulls were left overlapping, because no cut keeps both parts",
+    "hulls_joined": "hulls of a part were joined, because the asset has many",
     "degraded_decomposition": "what was given up in the decomposition of a part",
     "other_reading": "how else the input could be read, and what became of that",
     "articulation_note": "what was assumed or guessed of parts and joints",

@@ -35,6 +35,7 @@ class Plan:
         given_up: guessed joints whose parts cannot be parts of their own, made one with what they
             lie on.
         hollow: parts whose open surfaces are never closed or filled, whatever stands in them.
+        closely: hulls stay as close to the surfaces as they were decomposed, however many.
         fewer: the asset has too many hulls: they are joined, further off the surfaces, until so
             few are left.
         steps: what was decided, one sentence each, oldest first.
@@ -49,6 +50,7 @@ class Plan:
     given_up: frozenset[str] = frozenset()
     build_fronts: bool = False
     hollow: frozenset[str] = frozenset()
+    closely: bool = False
     fewer: int | None = None
     rehung: frozenset[str] = frozenset()
     steps: tuple[str, ...] = ()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -54,11 +54,7 @@ def manufacture(
         built.articulation, replace(plan, given_up=frozenset(), rehung=frozenset())
     )
     with stages.clock.stage("decompose"):
-        config = stages.config.decompose
-        pieces = decompose(planned, config, stages.store, built.pieces, plan.hollow)
-        if plan.fewer is not None:
-            rooms = [room_around(planned, part) for part in range(len(planned.parts))]
-            pieces = fewer(pieces, plan.fewer, stages.config, stages.store, rooms)
+        pieces, joined = _hulls(planned, built.pieces, plan, stages)
     density = intake.provenance.density or stages.config.inertia.density
     # By content: other settings of the decomposition that give the same hulls change nothing more.
     shapes = contents((planned.mesh.vertices, planned.mesh.faces, planned.parts, planned.joints))
@@ -66,7 +62,33 @@ def manufacture(
     finish = partial(_finished, planned, pieces, plan, density, stages)
     finished = stages.recall("finish", _Finished, key, finish)
     asset = Asset(intake.name, planned, finished.bodies, (), built.surfaces)
-    return asset, (*_own_findings(asset), *finished.findings)
+    return asset, (*_own_findings(asset), *joined, *finished.findings)
+
+
+def _hulls(
+    planned: Articulation, known: Sequence[PartHulls | None], plan: Plan, stages: Stages
+) -> tuple[tuple[PartHulls, ...], list[Finding]]:
+    """Of every part, joined where the asset has many of them; and what was joined."""
+    config = stages.config
+    most = config.hulls.wanted if plan.fewer is None else plan.fewer
+    coarsest = config.hulls.coarse if plan.fewer is None else config.hulls.coarsest
+    plain = decompose(planned, config.decompose, stages.store, known, plan.hollow)
+    if sum(len(piece.hulls) for piece in plain) <= most or (plan.closely and plan.fewer is None):
+        return plain, []
+    rooms = [room_around(planned, part) for part in range(len(planned.parts))]
+    joined = fewer(plain, most, coarsest, config, stages.store, rooms)
+    off_mm = 1000.0 * coarsest * config.decompose.error_m
+    return joined, [
+        Finding(
+            "hulls_joined",
+            Severity.SOFT,
+            f"part {part.name!r}: {len(before.hulls)} hulls joined to {len(after.hulls)}, "
+            f"up to {off_mm:g} mm off the surface that those stand for",
+            parts=(part.name,),
+        )
+        for part, before, after in zip(planned.parts, plain, joined, strict=True)
+        if len(after.hulls) < len(before.hulls)
+    ]
 
 
 def with_targets(asset: Asset, stages: Stages) -> Asset:

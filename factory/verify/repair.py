@@ -8,6 +8,7 @@ from ..asset import Asset
 from ..config import RepairConfig
 from ..manufacture.plan import Plan, Spare
 from .repairs.build_fronts import build_fronts
+from .repairs.closely import fit_closely
 from .repairs.evidence import RepairEvidence
 from .repairs.exclude import exclude_knuckles
 from .repairs.give_up import give_up_guesses
@@ -26,6 +27,7 @@ Repair = Callable[[RepairEvidence, Plan], Plan | None]
 REPAIRS: tuple[Repair, ...] = (
     separate_hulls,
     exclude_knuckles,
+    fit_closely,
     rehang_doors,
     mend_joints,
     pull_in,
@@ -36,7 +38,7 @@ REPAIRS: tuple[Repair, ...] = (
 )
 #: Those that change collision geometry only; all others change joints or parts.
 GEOMETRY: frozenset[Repair] = frozenset(
-    {separate_hulls, exclude_knuckles, build_fronts, hollow_out}
+    {separate_hulls, exclude_knuckles, fit_closely, build_fronts, hollow_out}
 )
 
 

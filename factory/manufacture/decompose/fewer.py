@@ -1,11 +1,10 @@
-"""An asset of too many hulls gets fewer, further off the surfaces they stand for, and says so."""
+"""An asset of many hulls gets fewer, further off the surfaces they stand for."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
 
-from ...asset import Hull
 from ...config import BuildConfig
 from ...runtime.keys import Stage
 from ...runtime.packing import contents
@@ -13,17 +12,20 @@ from ...runtime.store import Store
 from .convex import aspect, limit_vertices
 from .decompose import OBLONG_ASPECT, PartHulls, packed, unpacked
 from .merge import merge
+from .methods import slot_of
 from .room import NOWHERE, Room
 
 #: Its version is raised when the same hulls would be joined otherwise.
 FEWER = Stage(
     "fewer",
-    version=2,
-    settings=("hulls", "decompose.max_vertices"),
+    version=3,
+    settings=("decompose.error_m", "decompose.max_vertices"),
     libraries=("manifold3d", "scipy"),
 )
 #: Multiples of the error that are tried, one after another, until there are few enough.
 COARSER = (1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0)
+#: Up to this multiple slots stay as open as the decomposition left them.
+GENTLE = 2.0
 #: Parts of fewer hulls than this are left as they are.
 FEW = 8
 
@@ -31,6 +33,7 @@ FEW = 8
 def fewer(
     pieces: tuple[PartHulls, ...],
     most: int,
+    coarsest: float,
     config: BuildConfig,
     store: Store | None = None,
     rooms: Sequence[Room] = (),
@@ -42,13 +45,14 @@ def fewer(
     Args:
         pieces: hulls per part.
         most: how many there may be.
-        config: how far the error may go, and the decomposition's own.
+        coarsest: largest error, in multiples of the decomposition's.
+        config: of the decomposition.
         store: results are kept here by content; without it everything is computed anew.
         rooms: of each part, what others take: no joined hull takes more of it; empty: of none.
     """
     joined = list(pieces)
     many = sorted(range(len(pieces)), key=lambda part: -len(pieces[part].hulls))
-    for times in (each for each in COARSER if each <= config.hulls.coarsest):
+    for times in (each for each in COARSER if each <= coarsest):
         for part in many:
             if sum(len(piece.hulls) for piece in joined) <= most:
                 return tuple(joined)
@@ -74,18 +78,14 @@ def _kept(
 
 
 def _joined(piece: PartHulls, error_m: float, config: BuildConfig, room: Room) -> PartHulls:
-    hulls: tuple[Hull, ...] = tuple(
-        limit_vertices(hull, config.decompose.max_vertices)
-        for hull in merge(list(piece.hulls), error_m, None, room)
-    )
-    told = (
-        f"{len(piece.hulls)} hulls joined to {len(hulls)} with an error of {1000 * error_m:g} mm, "
-        f"so that the asset has at most {config.hulls.most}"
-    )
+    slot_m = slot_of(config.decompose) if error_m <= GENTLE * config.decompose.error_m else None
+    merged = merge(list(piece.hulls), error_m, slot_m, room)
+    if len(merged) == len(piece.hulls):
+        return piece
+    hulls = tuple(limit_vertices(hull, config.decompose.max_vertices) for hull in merged)
     return replace(
         piece,
         hulls=hulls,
-        degraded=(*piece.degraded, told),
         exact=False,
         oblong=sum(aspect(hull) > OBLONG_ASPECT for hull in hulls),
     )

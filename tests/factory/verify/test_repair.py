@@ -192,3 +192,24 @@ def test_what_nobody_gets_into_is_made_hollow_once():
     assert next_plan(found, Plan(), RepairConfig(kinds="none"), NONE_SMALL) is None
     soft = Finding("interior_filled", Severity.SOFT, "little is left", parts=("lever",))
     assert next_plan(verdict(soft), Plan(), CONFIG, NONE_SMALL) is None
+
+
+JOINED = Finding("hulls_joined", Severity.SOFT, "12 hulls joined to 8", parts=("base",))
+
+
+def test_hulls_that_were_joined_are_left_apart_before_any_joint_is_changed():
+    given = verdict(
+        JOINED, hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=1.5)]
+    )
+    plan = next_plan(given, Plan(), CONFIG, NONE_SMALL)
+    assert plan.closely
+    assert not plan.upper
+    assert "base" in plan.steps[-1]
+    assert next_plan(given, plan, CONFIG, NONE_SMALL).upper == {"hinge": 1.5}
+
+
+def test_joined_hulls_stay_joined_where_nothing_is_wrong_or_there_are_too_many():
+    wrong = hard("rest_penetration")
+    assert next_plan(verdict(JOINED), Plan(), CONFIG, NONE_SMALL) is None
+    assert next_plan(verdict(JOINED, wrong), Plan(fewer=10), CONFIG, NONE_SMALL) is None
+    assert next_plan(verdict(wrong), Plan(), CONFIG, NONE_SMALL) is None

@@ -1,0 +1,56 @@
+"""An asset of many hulls has them joined, and says of which parts, unless it is to fit closely."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from asset_factory.factory.asset import Asset
+from asset_factory.factory.config import BuildConfig, HullsConfig
+from asset_factory.factory.intake.intake import Intake, Provenance
+from asset_factory.factory.manufacture.plan import Plan
+from asset_factory.factory.manufacture.stage import manufacture
+from asset_factory.factory.runtime.stages import Stages
+from asset_factory.factory.runtime.store import Store
+from asset_factory.factory.training.objects import make_object
+from asset_factory.sim_checks import Finding
+
+
+@pytest.fixture(scope="module")
+def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("joined")
+
+
+def made(kept: Path, wanted: int, plan: Plan) -> tuple[Asset, list[Finding]]:
+    whole = make_object("dresser", seed=3)
+    provenance = Provenance("dresser.glb", "0" * 64)
+    intake = Intake("dresser", whole.mesh, np.arange(len(whole.mesh.faces)), np.eye(4), provenance)
+    config = replace(BuildConfig(), hulls=HullsConfig(wanted=wanted))
+    asset, findings = manufacture(whole, plan, intake, Stages(config, Store(kept)))
+    return asset, [each for each in findings if each.code == "hulls_joined"]
+
+
+def test_parts_of_many_hulls_are_joined_and_named(kept: Path) -> None:
+    plain, nothing = made(kept, 10_000, Plan())
+    joined, told = made(kept, 8, Plan())
+    assert not nothing
+    assert joined.hull_count < plain.hull_count
+    fewer = {
+        part.name
+        for part, before, after in zip(
+            plain.articulation.parts, plain.bodies, joined.bodies, strict=True
+        )
+        if len(after.hulls) < len(before.hulls)
+    }
+    assert {part for each in told for part in each.parts} == fewer
+    assert "up to 10 mm off" in told[0].message
+
+
+def test_hulls_that_are_to_fit_closely_stay_as_they_are(kept: Path) -> None:
+    plain, _ = made(kept, 10_000, Plan())
+    closely, told = made(kept, 8, Plan(closely=True))
+    assert not told
+    assert closely.hull_count == plain.hull_count
