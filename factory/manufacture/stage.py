@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cache, partial
 
 from asset_factory.sim_checks import Finding, Severity
 
@@ -72,11 +72,11 @@ def _hulls(
     config = stages.config
     most = config.hulls.wanted if plan.fewer is None else plan.fewer
     coarsest = config.hulls.coarse if plan.fewer is None else config.hulls.coarsest
-    plain = decompose(planned, config.decompose, stages.store, known, plan.hollow)
+    room_of = cache(partial(room_around, planned))
+    plain = decompose(planned, config.decompose, stages.store, known, plan.hollow, room_of)
     if sum(len(piece.hulls) for piece in plain) <= most or (plan.closely and plan.fewer is None):
         return plain, []
-    rooms = [room_around(planned, part) for part in range(len(planned.parts))]
-    joined = fewer(plain, most, coarsest, config, stages.store, rooms)
+    joined = fewer(plain, most, coarsest, config, stages.store, room_of)
     off_mm = 1000.0 * coarsest * config.decompose.error_m
     return joined, [
         Finding(

@@ -11,6 +11,7 @@ import math
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
+from ..particulate.network.shape import AxisForm
 from .batches import Batch
 from .matching import arranged, arranged_columns, match
 
@@ -45,7 +46,8 @@ class LossSettings:
         motion: cross-entropy of the motion class.
         revolute_direction, prismatic_direction: distance of directions, not normalised.
         revolute_range, prismatic_range: distance of limits.
-        closest_points: distance of the nearest points on the axes.
+        closest_points: distance of the nearest points on the axes; of a network that says axes by
+            their moments, distance of those.
         auxiliary: cross-entropy of each point's part after every block but the last.
         auxiliary_points: one in so many points takes part in it.
         root_first: the base always answers to query 0.
@@ -185,13 +187,13 @@ class Answers:
         queries: see :func:`..matching.match`.
         mask_logits: before they are put in the parts' order, shape [batch, n, parts].
         parts: of the part heads, in the parts' order, by the names of ``PartOutputs``.
-        closest_points: shape [batch, n, 3].
+        closest_points: shape [batch, n, 3]; ``None`` of a network that says axes by their moments.
     """
 
     queries: Tensor
     mask_logits: Tensor
     parts: Any
-    closest_points: Tensor
+    closest_points: Tensor | None
 
 
 def forward(network: Any, batch: Batch, settings: LossSettings) -> tuple[Answers, list[Tensor]]:
@@ -211,7 +213,8 @@ def forward(network: Any, batch: Batch, settings: LossSettings) -> tuple[Answers
     masks = network.mask_logits(hidden, queries)
     found = match(masks, batch.part_ids, batch.counts, root_first=settings.root_first)
     queries = arranged(queries, found)
-    closest = network.closest_points(hidden, queries, batch.part_ids)
+    votes = network.shape.axis_form is AxisForm.CLOSEST_POINTS
+    closest = network.closest_points(hidden, queries, batch.part_ids) if votes else None
     return Answers(found, masks, network.part_outputs(queries), closest), early
 
 
@@ -255,7 +258,7 @@ def losses(
     for name in ("revolute_range", "prismatic_range"):
         error = (getattr(parts, name).float() - getattr(batch, name)).abs().mean(-1)
         found[name] = _sum(error, getattr(targets, name)) / max(getattr(counts, name), 1.0)
-    error = (answers.closest_points.float() - batch.closest_points).abs().mean(-1)
+    error = _place_error(answers, batch)
     found["closest_points"] = _sum(error, targets.closest_points) / max(counts.closest_points, 1.0)
     found["auxiliary"] = (
         _auxiliary(early, answers.queries, batch, counts, settings) if early else zero
@@ -305,6 +308,15 @@ def _direction_error(said: Tensor, true: Tensor, limits: Tensor, sign_free: bool
     return torch.where(
         either, torch.minimum(straight, (said.float() + true).abs().mean(-1)), straight
     )
+
+
+def _place_error(answers: Answers, batch: Batch) -> Tensor:
+    """How far each point's axis is off: its nearest point, or its moment; shape [batch, n]."""
+    if answers.closest_points is not None:
+        return (answers.closest_points.float() - batch.closest_points).abs().mean(-1)
+    part = batch.part_ids[..., None].expand(-1, -1, 3)
+    moment = batch.revolute_direction.gather(1, part).cross(batch.closest_points, dim=-1)
+    return (answers.parts.revolute_moment.float().gather(1, part) - moment).abs().mean(-1)
 
 
 def _sum(values: Tensor, where: Tensor) -> Tensor:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ConfigError
+from ..particulate.network.shape import AxisForm
 from ..presets import overlay
 from .bounds import require_within
 from .settings import FEATURES, KINDS, PRECISIONS, DataSource, TrainConfig
@@ -103,6 +104,7 @@ def _check(config: TrainConfig, where: str) -> None:
         )
     allowed = {
         "network.features": (network.features, FEATURES),
+        "network.axes": (network.axes, tuple(AxisForm)),
         "run.precision": (config.run.precision, PRECISIONS),
     }
     for name, (value, values) in allowed.items():

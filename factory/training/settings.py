@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ..particulate.components import COMPONENT_FEATURES
-from ..particulate.network.shape import NetworkShape
+from ..particulate.network.shape import AxisForm, NetworkShape
 from .losses import LossSettings
 from .sample import DrawSettings
 from .schedule import ScheduleSettings
@@ -61,6 +61,8 @@ class NetworkSettings:
         hidden, blocks, heads, mlp_ratio, raw_coords, max_parts: see ``NetworkShape``.
         features: of a point beside place and normal: ``none``, or ``components``, what its
             connected component looks like.
+        axes: ``per_point_closest``: every point votes for where its part's axis is; or
+            ``per_part_plucker``: its part says so once, by a moment. See ``AxisForm``.
         dropout: in training.
         quiet_start: weights on the fast sinusoids, those that turn by more than ``quiet_below`` per
             unit of length, start the smaller the faster they are: a short training has no use for
@@ -75,6 +77,7 @@ class NetworkSettings:
     raw_coords: bool = True
     max_parts: int = 16
     features: str = "none"
+    axes: str = AxisForm.CLOSEST_POINTS.value
     dropout: float = 0.0
     quiet_start: bool = False
     quiet_below: float = 30.0
@@ -90,6 +93,7 @@ class NetworkSettings:
             raw_coords=self.raw_coords,
             max_parts=self.max_parts,
             features=COMPONENT_FEATURES if self.features == "components" else 0,
+            axis_form=AxisForm(self.axes),
         )
 
 

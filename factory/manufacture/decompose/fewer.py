@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import replace
 
 from ...config import BuildConfig
@@ -30,13 +30,17 @@ GENTLE = 2.0
 FEW = 8
 
 
+def _anywhere(_part: int) -> Room:
+    return NOWHERE
+
+
 def fewer(
     pieces: tuple[PartHulls, ...],
     most: int,
     coarsest: float,
     config: BuildConfig,
     store: Store | None = None,
-    rooms: Sequence[Room] = (),
+    room_of: Callable[[int], Room] = _anywhere,
 ) -> tuple[PartHulls, ...]:
     """The same parts with their hulls joined, those of most hulls first, until all are few enough.
 
@@ -48,7 +52,7 @@ def fewer(
         coarsest: largest error, in multiples of the decomposition's.
         config: of the decomposition.
         store: results are kept here by content; without it everything is computed anew.
-        rooms: of each part, what others take: no joined hull takes more of it; empty: of none.
+        room_of: what others take of each part's, by its index: no joined hull takes more of it.
     """
     joined = list(pieces)
     many = sorted(range(len(pieces)), key=lambda part: -len(pieces[part].hulls))
@@ -57,9 +61,8 @@ def fewer(
             if sum(len(piece.hulls) for piece in joined) <= most:
                 return tuple(joined)
             if len(pieces[part].hulls) >= FEW:
-                room = rooms[part] if rooms else NOWHERE
                 error_m = times * config.decompose.error_m
-                joined[part] = _kept(pieces[part], error_m, config, store, room)
+                joined[part] = _kept(pieces[part], error_m, config, store, room_of(part))
     return tuple(joined)
 
 

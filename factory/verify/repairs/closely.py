@@ -9,9 +9,14 @@ from .evidence import RepairEvidence
 
 
 def fit_closely(evidence: RepairEvidence, plan: Plan) -> Plan | None:
-    """All of an asset that is rejected, once; not where it was joined because it had too many."""
+    """All of an asset that is rejected for a part that was joined, once.
+
+    Not where hulls were joined because the asset had too many.
+    """
+    if plan.closely or plan.fewer is not None:
+        return None
     joined = {part for each in evidence.found("hulls_joined") for part in each.parts}
-    if plan.closely or plan.fewer is not None or not joined or not evidence.hard:
+    if not any(joined.intersection(each.parts or joined) for each in evidence.hard):
         return None
     step = f"left the hulls of {', '.join(sorted(joined))} as many as they were: joined ones failed"
     return replace(plan, closely=True, steps=(*plan.steps, step))

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.optimize import linear_sum_assignment
 
 from asset_factory.factory.particulate.model import load_model
-from asset_factory.factory.particulate.network.shape import NetworkShape
+from asset_factory.factory.particulate.network.shape import AxisForm, NetworkShape
 from asset_factory.factory.particulate.network.transformer import PartArticulationTransformer
 from asset_factory.factory.training.batches import Batch, collate
 from asset_factory.factory.training.losses import (
@@ -229,3 +229,30 @@ def test_an_upright_axis_is_the_same_joint_turned_about():
         assert torch.where((same - was).abs() < 1e-6, same, other).allclose(was, atol=1e-6)
     assert (limits[..., 0] <= limits[..., 1]).all()
     assert taught(batch, LossSettings()) is batch
+
+
+def test_a_network_that_says_axes_by_moments_is_taught_those_of_the_annotated_axes():
+    shape = replace(SHAPE, axis_form=AxisForm.PLUCKER)
+    torch.manual_seed(0)
+    network = PartArticulationTransformer(shape)
+    batch = boxes(6)
+    settings = LossSettings()
+    targets = targets_of(batch, settings)
+    counts = Counts(*count(batch, targets, settings))
+    assert counts.closest_points > 0
+    answers, early = forward(network, batch, settings)
+    assert answers.closest_points is None
+    # The moment of the axis through any of its points, as a part says it.
+    moment = torch.zeros_like(answers.parts.revolute_moment)
+    for row in range(len(batch)):
+        for part in range(int(batch.counts[row])):
+            points = batch.closest_points[row][batch.part_ids[row] == part]
+            if len(points):
+                direction = batch.revolute_direction[row, part]
+                moment[row, part] = torch.linalg.cross(direction, points[0])
+    told = replace(answers, parts=replace(answers.parts, revolute_moment=moment))
+    right = losses(told, early, batch, targets, counts, settings)["closest_points"]
+    assert right.item() == pytest.approx(0.0, abs=1e-5)
+    wrong = replace(told, parts=replace(answers.parts, revolute_moment=moment + 0.5))
+    found = losses(wrong, early, batch, targets, counts, settings)["closest_points"]
+    assert found.item() == pytest.approx(0.5, abs=1e-5)

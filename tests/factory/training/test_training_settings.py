@@ -61,7 +61,7 @@ def test_components_bring_their_channels():
         ('[[data]]\nkind = "sampled"\n', "wants a path"),
         (f'[network]\nfeatures = "partfield"\n{DATA}', "PartField is not computed while training"),
         (f"[network]\nheads = 5\n{DATA}", "do not divide the width 768"),
-        (f"[network]\ndepth = 5\n{DATA}", "no setting 'depth'; there are blocks"),
+        (f"[network]\ndepth = 5\n{DATA}", "no setting 'depth'; there are axes, blocks"),
         (f"[loss]\nmask = -1.0\n{DATA}", "loss.mask: is -1.0, want 0 or more"),
         (f"[schedule]\nsteps = 0\n{DATA}", "schedule.steps: is 0, want 1 or more"),
         (f'[run]\nprecision = "float8"\n{DATA}', "'float32' or 'bfloat16'"),

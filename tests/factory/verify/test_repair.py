@@ -213,3 +213,10 @@ def test_joined_hulls_stay_joined_where_nothing_is_wrong_or_there_are_too_many()
     assert next_plan(verdict(JOINED), Plan(), CONFIG, NONE_SMALL) is None
     assert next_plan(verdict(JOINED, wrong), Plan(fewer=10), CONFIG, NONE_SMALL) is None
     assert next_plan(verdict(wrong), Plan(), CONFIG, NONE_SMALL) is None
+
+
+def test_joined_hulls_stay_joined_where_other_parts_are_wrong():
+    wrong = hard("rest_penetration", parts=("door", "handle"))
+    assert next_plan(verdict(JOINED, wrong), Plan(), CONFIG, NONE_SMALL) is None
+    unplaced = hard("simulator_crashed", parts=())
+    assert next_plan(verdict(JOINED, unplaced), Plan(), CONFIG, NONE_SMALL).closely
