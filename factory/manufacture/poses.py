@@ -32,26 +32,36 @@ def relative_poses(articulation: Articulation, a: int, b: int, count: int) -> li
             {**lower, joint.name: float(q)}
             for q in np.linspace(joint.lower, joint.upper, steps + 1)[1:]
         ]
-    relative = []
-    for given in values:
-        poses = articulation.poses(given)
-        relative.append(np.asarray(np.linalg.inv(poses[a]) @ poses[b]))
-    return relative
+    # Of these two alone: a keyboard has a hundred parts, each of which asks about all others.
+    above_a, above_b = (_joints_above(articulation, part)[::-1] for part in (a, b))
+    return [
+        np.asarray(np.linalg.inv(_pose(above_a, given)) @ _pose(above_b, given)) for given in values
+    ]
 
 
 def joints_between(articulation: Articulation, a: int, b: int) -> list[Joint]:
     """The joints that move one of two parts and not the other."""
-
-    def above(part: int) -> set[str]:
-        names: set[str] = set()
-        joint = articulation.parent_joint(part)
-        while joint is not None:
-            names.add(joint.name)
-            joint = articulation.parent_joint(joint.parent)
-        return names
-
-    between = above(a) ^ above(b)
+    above_a, above_b = ({j.name for j in _joints_above(articulation, part)} for part in (a, b))
+    between = above_a ^ above_b
     return [joint for joint in articulation.movable_joints if joint.name in between]
+
+
+def _joints_above(articulation: Articulation, part: int) -> list[Joint]:
+    """From the one that holds a part up to the root's."""
+    found = []
+    joint = articulation.parent_joint(part)
+    while joint is not None:
+        found.append(joint)
+        joint = articulation.parent_joint(joint.parent)
+    return found
+
+
+def _pose(joints: list[Joint], values: dict[str, float]) -> FloatArray:
+    """Motion from rest of what hangs on joints from the root down, [4, 4]."""
+    pose = np.eye(4)
+    for joint in joints:
+        pose = pose @ joint.motion(values.get(joint.name, 0.0))
+    return pose
 
 
 def jointed(articulation: Articulation, a: int, b: int) -> bool:

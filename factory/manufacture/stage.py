@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cache, partial
+from functools import partial
 
 from asset_factory.sim_checks import Finding, Severity
 
@@ -17,7 +17,7 @@ from ..runtime.packing import contents
 from ..runtime.stages import Stages
 from .decompose.decompose import PartHulls, decompose
 from .decompose.fewer import fewer
-from .decompose.room import room_around
+from .decompose.room import Rooms
 from .inertia import carrier_inertial, part_inertial
 from .plan import Plan, as_planned
 from .separate import Separation, separate
@@ -72,11 +72,11 @@ def _hulls(
     config = stages.config
     most = config.hulls.wanted if plan.fewer is None else plan.fewer
     coarsest = config.hulls.coarse if plan.fewer is None else config.hulls.coarsest
-    room_of = cache(partial(room_around, planned))
-    plain = decompose(planned, config.decompose, stages.store, known, plan.hollow, room_of)
+    rooms = Rooms(planned)
+    plain = decompose(planned, config.decompose, stages.store, known, plan.hollow, rooms)
     if sum(len(piece.hulls) for piece in plain) <= most or (plan.closely and plan.fewer is None):
         return plain, []
-    joined = fewer(plain, most, coarsest, config, stages.store, room_of)
+    joined = fewer(plain, most, coarsest, config, stages.store, rooms)
     off_mm = 1000.0 * coarsest * config.decompose.error_m
     return joined, [
         Finding(

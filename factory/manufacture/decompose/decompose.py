@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -18,7 +18,7 @@ from ...runtime.keys import Stage
 from ...runtime.store import Store
 from .convex import aspect
 from .part import PartPieces, split_part
-from .room import Room, room_around
+from .room import Room, Rooms
 
 #: Its version is raised when the same part would get other hulls.
 DECOMPOSE = Stage(
@@ -61,7 +61,7 @@ def decompose(
     store: Store | None = None,
     known: Sequence[PartHulls | None] = (),
     hollow: Collection[str] = (),
-    room_of: Callable[[int], Room] | None = None,
+    rooms: Rooms | None = None,
 ) -> tuple[PartHulls, ...]:
     """Convex hulls for every part, in the parts' order.
 
@@ -72,13 +72,13 @@ def decompose(
         store: results are kept here by content; without it everything is computed anew.
         known: hulls of parts that have them already, ``None`` for the others; empty: of none.
         hollow: names of parts whose open surfaces are walls, never closed or filled.
-        room_of: what others take of each part's, by its index, where that is known; else it is
-            looked for.
+        rooms: of that articulation, where somebody else asks them, too.
 
     Raises:
         InputRejected: ``too_many_hulls``, or ``decomposition_failed`` where no body can be made of
             a part.
     """
+    rooms = rooms or Rooms(articulation)
     results = []
     for index, part in enumerate(articulation.parts):
         given = known[index] if known else None
@@ -88,7 +88,7 @@ def decompose(
         if not len(part.faces):
             results.append(PartHulls((), "none", (), True))
             continue
-        room = room_of(index) if room_of else room_around(articulation, index)
+        room = rooms.around(index)
         work = _Work(part.name, articulation.part_mesh(index), room, part.name in hollow)
         results.append(_cached(work, config, store))
     return tuple(results)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 
 from ...config import BuildConfig
@@ -13,7 +12,7 @@ from .convex import aspect, limit_vertices
 from .decompose import OBLONG_ASPECT, PartHulls, packed, unpacked
 from .merge import merge
 from .methods import slot_of
-from .room import NOWHERE, Room
+from .room import NOWHERE, Room, Rooms
 
 #: Its version is raised when the same hulls would be joined otherwise.
 FEWER = Stage(
@@ -30,17 +29,13 @@ GENTLE = 2.0
 FEW = 8
 
 
-def _anywhere(_part: int) -> Room:
-    return NOWHERE
-
-
 def fewer(
     pieces: tuple[PartHulls, ...],
     most: int,
     coarsest: float,
     config: BuildConfig,
     store: Store | None = None,
-    room_of: Callable[[int], Room] = _anywhere,
+    rooms: Rooms | None = None,
 ) -> tuple[PartHulls, ...]:
     """The same parts with their hulls joined, those of most hulls first, until all are few enough.
 
@@ -52,7 +47,7 @@ def fewer(
         coarsest: largest error, in multiples of the decomposition's.
         config: of the decomposition.
         store: results are kept here by content; without it everything is computed anew.
-        room_of: what others take of each part's, by its index: no joined hull takes more of it.
+        rooms: what others take of each part's: no joined hull takes more of it.
     """
     joined = list(pieces)
     many = sorted(range(len(pieces)), key=lambda part: -len(pieces[part].hulls))
@@ -62,7 +57,8 @@ def fewer(
                 return tuple(joined)
             if len(pieces[part].hulls) >= FEW:
                 error_m = times * config.decompose.error_m
-                joined[part] = _kept(pieces[part], error_m, config, store, room_of(part))
+                room = rooms.around(part) if rooms else NOWHERE
+                joined[part] = _kept(pieces[part], error_m, config, store, room)
     return tuple(joined)
 
 

@@ -75,27 +75,58 @@ class Room:
 NOWHERE = Room()
 
 
-def room_around(articulation: Articulation, part: int) -> Room:
-    """Points of all other parts as they pass one part.
+class Rooms:
+    """What others take of each part's room, as they pass it.
 
     Args:
         articulation: parts and joints.
-        part: index of the part whose hulls are to be made.
     """
-    own = articulation.part_mesh(part)
-    if not len(own.faces):
-        return NOWHERE
-    low = own.vertices[np.unique(own.faces)].min(axis=0)
-    high = own.vertices[np.unique(own.faces)].max(axis=0)
-    found = [_nowhere()]
-    for other, there in enumerate(articulation.parts):
-        if other == part or not len(there.faces):
-            continue
-        points = _spread(articulation.part_mesh(other))
-        for pose in relative_poses(articulation, part, other, POSES):
-            moved = points @ pose[:3, :3].T + pose[:3, 3]
-            found.append(moved[((moved > low) & (moved < high)).all(axis=1)])
-    return Room(_thinned(np.concatenate(found)))
+
+    def __init__(self, articulation: Articulation) -> None:
+        self._articulation = articulation
+        self._found: dict[int, Room] = {}
+        self._spread: dict[int, FloatArray] = {}
+
+    def around(self, part: int) -> Room:
+        """Of one part, by its index: looked for once."""
+        if part not in self._found:
+            self._found[part] = self._around(part)
+        return self._found[part]
+
+    def _around(self, part: int) -> Room:
+        own = self._articulation.part_mesh(part)
+        if not len(own.faces):
+            return NOWHERE
+        seen = own.vertices[np.unique(own.faces)]
+        low, high = seen.min(axis=0), seen.max(axis=0)
+        found = [_nowhere()]
+        for other in range(len(self._articulation.parts)):
+            points = _nowhere() if other == part else self._points_of(other)
+            if not len(points):
+                continue
+            corners = _corners(points)
+            for pose in relative_poses(self._articulation, part, other, POSES):
+                reach = _moved(corners, pose)
+                if (reach.max(axis=0) > low).all() and (reach.min(axis=0) < high).all():
+                    moved = _moved(points, pose)
+                    found.append(moved[((moved > low) & (moved < high)).all(axis=1)])
+        return Room(_thinned(np.concatenate(found)))
+
+    def _points_of(self, part: int) -> FloatArray:
+        if part not in self._spread:
+            mesh = self._articulation.part_mesh(part)
+            self._spread[part] = _spread(mesh) if len(mesh.faces) else _nowhere()
+        return self._spread[part]
+
+
+def _moved(points: FloatArray, pose: FloatArray) -> FloatArray:
+    return np.asarray(points @ pose[:3, :3].T + pose[:3, 3])
+
+
+def _corners(points: FloatArray) -> FloatArray:
+    """Of the box around points, shape [8, 3]."""
+    ends = np.stack([points.min(axis=0), points.max(axis=0)])
+    return np.stack(np.meshgrid(*ends.T, indexing="ij"), axis=-1).reshape(-1, 3)
 
 
 def _spread(mesh: Mesh) -> FloatArray:
