@@ -149,7 +149,7 @@ class HullsConfig:
             error, unless it is rejected then and passes without.
         coarse: see ``wanted``.
         most: an asset that still has more has them joined with up to ``coarsest`` times the error,
-            if it still passes then; files of 400 take SAPIEN seconds to load.
+            on the same terms; files of 400 take SAPIEN seconds to load.
         coarsest: see ``most``.
     """
 

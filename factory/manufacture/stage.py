@@ -10,7 +10,7 @@ from asset_factory.sim_checks import Finding, Severity
 
 from ..articulation import Articulation
 from ..asset import Asset, Inertial, PartBody, Target
-from ..config import BuildConfig
+from ..config import BuildConfig, HullsConfig
 from ..intake.intake import Intake
 from ..runtime.keys import Stage
 from ..runtime.packing import contents
@@ -70,25 +70,31 @@ def _hulls(
 ) -> tuple[tuple[PartHulls, ...], list[Finding]]:
     """Of every part, joined where the asset has many of them; and what was joined."""
     config = stages.config
-    most = config.hulls.wanted if plan.fewer is None else plan.fewer
-    coarsest = config.hulls.coarse if plan.fewer is None else config.hulls.coarsest
     rooms = Rooms(planned)
     plain = decompose(planned, config.decompose, stages.store, known, plan.hollow, rooms)
-    if sum(len(piece.hulls) for piece in plain) <= most or (plan.closely and plan.fewer is None):
-        return plain, []
-    joined = fewer(plain, most, coarsest, config, stages.store, rooms)
-    off_mm = 1000.0 * coarsest * config.decompose.error_m
-    return joined, [
+    found = plain
+    errors_m: dict[int, float] = {}
+    for most, coarsest in _aims(plan, config.hulls):
+        if sum(len(piece.hulls) for piece in found) <= most:
+            break
+        found, errors_m = fewer(plain, most, coarsest, config, stages.store, rooms)
+    return found, [
         Finding(
             "hulls_joined",
             Severity.SOFT,
-            f"part {part.name!r}: {len(before.hulls)} hulls joined to {len(after.hulls)}, "
-            f"up to {off_mm:g} mm off the surface that those stand for",
-            parts=(part.name,),
+            f"part {planned.parts[part].name!r}: {len(plain[part].hulls)} hulls joined to "
+            f"{len(found[part].hulls)} with an error of {1000 * error_m:g} mm",
+            parts=(planned.parts[part].name,),
         )
-        for part, before, after in zip(planned.parts, plain, joined, strict=True)
-        if len(after.hulls) < len(before.hulls)
+        for part, error_m in sorted(errors_m.items())
     ]
+
+
+def _aims(plan: Plan, hulls: HullsConfig) -> list[tuple[int, float]]:
+    """How many hulls there may be, and joined with how many times the error, one after another."""
+    if plan.fewer is not None:
+        return [(plan.fewer, hulls.coarsest)]
+    return [] if plan.closely else [(hulls.wanted, hulls.coarse), (hulls.most, hulls.coarsest)]
 
 
 def with_targets(asset: Asset, stages: Stages) -> Asset:

@@ -36,7 +36,7 @@ def fewer(
     config: BuildConfig,
     store: Store | None = None,
     rooms: Rooms | None = None,
-) -> tuple[PartHulls, ...]:
+) -> tuple[tuple[PartHulls, ...], dict[int, float]]:
     """The same parts with their hulls joined, those of most hulls first, until all are few enough.
 
     Where even the largest error leaves more, the asset keeps those.
@@ -48,18 +48,24 @@ def fewer(
         config: of the decomposition.
         store: results are kept here by content; without it everything is computed anew.
         rooms: what others take of each part's: no joined hull takes more of it.
+
+    Returns:
+        The parts, and the error [m] of each one that was joined, by its index.
     """
     joined = list(pieces)
+    errors_m: dict[int, float] = {}
     many = sorted(range(len(pieces)), key=lambda part: -len(pieces[part].hulls))
     for times in (each for each in COARSER if each <= coarsest):
         for part in many:
             if sum(len(piece.hulls) for piece in joined) <= most:
-                return tuple(joined)
+                return tuple(joined), errors_m
             if len(pieces[part].hulls) >= FEW:
                 error_m = times * config.decompose.error_m
                 room = rooms.around(part) if rooms else NOWHERE
                 joined[part] = _kept(pieces[part], error_m, config, store, room)
-    return tuple(joined)
+                if len(joined[part].hulls) < len(pieces[part].hulls):
+                    errors_m[part] = error_m
+    return tuple(joined), errors_m
 
 
 def _kept(

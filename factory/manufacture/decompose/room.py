@@ -98,7 +98,8 @@ class Rooms:
         if not len(own.faces):
             return NOWHERE
         seen = own.vertices[np.unique(own.faces)]
-        low, high = seen.min(axis=0), seen.max(axis=0)
+        low = seen.min(axis=0)
+        high = seen.max(axis=0)
         found = [_nowhere()]
         for other in range(len(self._articulation.parts)):
             points = _nowhere() if other == part else self._points_of(other)

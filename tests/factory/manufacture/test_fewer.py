@@ -25,13 +25,14 @@ def comb(teeth, gap_m):
 
 def test_few_hulls_stay_as_they_are():
     pieces = (comb(10, 0.012), comb(3, 0.012))
-    assert fewer(pieces, 13, 16.0, CONFIG) == pieces
+    assert fewer(pieces, 13, 16.0, CONFIG) == (pieces, {})
 
 
 def test_too_many_are_joined_where_most_are():
     # Slots of 12 mm: filled from an error of 6 mm on.
     pieces = (comb(10, 0.012), comb(3, 0.012))
-    many, few = fewer(pieces, 8, 16.0, CONFIG)
+    (many, few), errors_m = fewer(pieces, 8, 16.0, CONFIG)
+    assert errors_m == {0: 0.015}
     assert few is pieces[1]
     assert len(many.hulls) < 5
     assert not many.exact
@@ -43,9 +44,10 @@ def test_what_would_fill_too_much_stays_open(tmp_path):
     # Slots of 100 mm are no matter of a few millimetres.
     pieces = (comb(10, 0.1),)
     store = Store(tmp_path)
-    first = fewer(pieces, 4, 16.0, CONFIG, store)
+    first, nothing = fewer(pieces, 4, 16.0, CONFIG, store)
+    assert not nothing
     assert len(first[0].hulls) == 10
-    again = fewer(pieces, 4, 16.0, CONFIG, store)
+    again, _ = fewer(pieces, 4, 16.0, CONFIG, store)
     assert [hull.vertices.tolist() for hull in again[0].hulls] == [
         hull.vertices.tolist() for hull in first[0].hulls
     ]
@@ -54,7 +56,7 @@ def test_what_would_fill_too_much_stays_open(tmp_path):
 def test_slots_stay_open_while_the_error_is_small_and_a_small_error_leaves_many():
     # Slots of 12 mm are wider than twice the decomposition's error.
     pieces = (comb(10, 0.012),)
-    assert fewer(pieces, 4, 2.0, CONFIG) == pieces
-    assert len(fewer(pieces, 4, 3.0, CONFIG)[0].hulls) < 10
+    assert fewer(pieces, 4, 2.0, CONFIG) == (pieces, {})
+    assert len(fewer(pieces, 4, 3.0, CONFIG)[0][0].hulls) < 10
     narrow = (comb(10, 0.008),)
-    assert len(fewer(narrow, 4, 2.0, CONFIG)[0].hulls) < 10
+    assert len(fewer(narrow, 4, 2.0, CONFIG)[0][0].hulls) < 10
