@@ -2,10 +2,10 @@
 
     python benchmarks/ablations.py OUTPUT --described train_infinigen --real DATA [--only NAME ...]
 
-Small networks that differ from the first in one thing, trained alike on the same objects, half of
-them as modelled and half made one-piece skins. Then each is asked alone about real one-piece
+Small networks that differ from the first in one thing, trained alike on the same objects, as
+modelled and made one-piece skins. Then each is asked alone about real one-piece
 surfaces and real modelled meshes. What is done already is kept: call it again to go on, with
-``--only`` to share the work between processes. Prints a table.
+``--only`` to share the work between processes. Prints a line for each network and set.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ cache = "{cache}"
 """
 #: Means over all joints; of places those that turn.
 FIGURES = ("recall", "precision", "axis_of_all", "place_of_all", "joint_right")
-#: Weight, character and source of what is learned from: made objects are twice as often seen.
+#: What is learned from: made objects are seen twice as often as those of the folder.
 SOURCES = """\
 [[data]]
 kind = "sampled"
@@ -135,7 +135,7 @@ def recipe_of(variant: Variant, steps: int, objects: Path, described: Path, cach
 
 
 def make_objects(folder: Path, character: str, count: int) -> None:
-    """The same objects in each character, but for those of which not all moving parts are seen."""
+    """The same objects in each character; what has a part that nobody sees stays as modelled."""
     folder.mkdir(parents=True, exist_ok=True)
     skins = float(character == "skin")
     settings = MixtureSettings(artist=1.0 - skins, generated=0.0, skin=skins)

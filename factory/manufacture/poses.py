@@ -74,7 +74,5 @@ def jointed(articulation: Articulation, a: int, b: int) -> bool:
 
 def held_by(articulation: Articulation, part: int) -> int | None:
     """The next part above one that has a body; ``None`` if there is none."""
-    joint = articulation.parent_joint(part)
-    while joint is not None and not len(articulation.parts[joint.parent].faces):
-        joint = articulation.parent_joint(joint.parent)
-    return None if joint is None else joint.parent
+    holders = (joint.parent for joint in _joints_above(articulation, part))
+    return next((part for part in holders if len(articulation.parts[part].faces)), None)
