@@ -59,7 +59,7 @@ class Evaluate:
     predictions: Path | None = None
     """Folder of <case>.npz files in the published model's format, over meshes of --meshes."""
     fused: bool = False
-    """Make each object one closed, bumpy skin first, as image-to-3D tools give it."""
+    """Make each object one closed skin with its seams engraved first, as image-to-3D tools do."""
     meshes: Path | None = None
     """Write the cases' meshes there as <case>.obj and evaluate nothing."""
     convention: str = "physical"

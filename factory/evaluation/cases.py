@@ -26,6 +26,8 @@ from .stored import imported
 POSES = ("closed", "open")
 YAWS = ("front", "random")
 FULL_TURN = 2.0 * np.pi
+#: Of skins along their longest side, about as fine as image-to-3D tools give them.
+CELLS = 200
 
 
 @dataclass(frozen=True)
@@ -65,8 +67,8 @@ class Request:
         digest: of that file; empty if any will do, which is then not kept.
         front_yaw: turn that brings its front to -Y [deg]; ``None`` where that is unknown.
         seed: of a procedural object.
-        fused: made one closed, bumpy skin, as image-to-3D tools give it; parts that nothing is seen
-            of are gone.
+        fused: made one closed skin with seams engraved, as image-to-3D tools give it; parts that
+            nothing is seen of are gone.
     """
 
     name: str
@@ -279,10 +281,10 @@ def _original(request: Request, store: Store | None) -> Articulation:
 
 
 def _fused(whole: Articulation, seed: int) -> Articulation:
-    from ..training.objects.characters import fused_like
+    from ..training.objects.characters import skin_like
 
     try:
-        return fused_like(whole, seed)
+        return skin_like(whole, seed, cells=CELLS, engraved=1.0)
     except ValueError as error:
         raise InputRejected("nothing_seen", f"cannot be made one skin: {error}") from error
 

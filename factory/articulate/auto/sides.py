@@ -143,9 +143,9 @@ def sightings(mesh: Mesh, pieces: IntArray) -> tuple[Sightings, ...]:
 def _is_panel(mover: OpeningPart) -> bool:
     """Whether a part is a panel of a side; a lid has one plane, a mesh askew other sides."""
     planes = mover.region.normals
-    return len(planes) == PANEL_PLANES and any(
-        np.allclose(side.frame[2], planes[-1]) for side in Side
-    )
+    if mover.kind is JointKind.CONTINUOUS or len(planes) != PANEL_PLANES:
+        return False
+    return any(np.allclose(side.frame[2], planes[-1]) for side in Side)
 
 
 def _sighted(

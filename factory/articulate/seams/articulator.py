@@ -74,6 +74,7 @@ def _articulation(cut: CutMesh, reading: MeshReading) -> Articulation:
                 child=number,
                 axis=mover.axis,
                 origin=mover.origin,
+                lower=mover.lower,
                 upper=mover.upper,
                 confidence=mover.confidence * mover.sure,
             )

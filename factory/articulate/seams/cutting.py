@@ -29,6 +29,10 @@ class Region:
         """The same turned about the origin; ``rotation`` has shape [3, 3]."""
         return Region(self.normals @ rotation.T, self.offsets)
 
+    def holds(self, point: FloatArray) -> bool:
+        """Whether a point, shape [3], lies inside."""
+        return bool((self.normals @ point <= self.offsets).all())
+
     def same(self, other: Region) -> bool:
         """Whether the other one has the same planes."""
         return np.array_equal(self.normals, other.normals) and np.array_equal(

@@ -30,7 +30,7 @@ class OpeningPart:
     """A part and its joint, object frame [m].
 
     Attributes:
-        name: what to call it: ``door``, ``drawer``, ``flap`` or ``lid``.
+        name: what to call it: ``door``, ``drawer``, ``flap``, ``lid`` or ``knob``.
         region: what it fills.
         kind: of its joint.
         axis: unit, shape [3]; positive opens.
@@ -38,6 +38,7 @@ class OpeningPart:
         upper: limit [rad] or [m].
         confidence: that there is such a part, 0 to 1.
         sure: that it moves so, if there is one, 0 to 1.
+        lower: limit [rad] or [m], closed.
     """
 
     name: str
@@ -48,6 +49,7 @@ class OpeningPart:
     upper: float
     confidence: float
     sure: float
+    lower: float = 0.0
 
     def turned(self, rotation: FloatArray) -> OpeningPart:
         """The same of an object that is turned about the origin; ``rotation`` has shape [3, 3]."""

@@ -12,6 +12,8 @@ from ...mesh import IntArray, Mesh
 from .fronts import AROUND, Front, fronts_of
 from .glimpses import glimpsed
 from .groups import FrontPanel
+from .handles import Face, cleared
+from .knobs import knobs_on
 from .layouts import layout_of, value_of
 from .lids import Lid, find_lids
 from .motions import Opening, openings_of
@@ -79,6 +81,25 @@ def read(mesh: Mesh, pieces: IntArray | None = None) -> tuple[MeshReading, ...]:
 def read_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[MeshReading, ...]:
     """The readings of an object that is seen from its sides and from above."""
     seen = _Sides.of(reliefs)
+    knobs = max((knobs_on(*side) for side in seen.with_top(reliefs[Side.TOP])), key=len)
+    found = _openings(seen)
+    if not knobs:
+        return found
+    return tuple(_with(reading, knobs) for reading in found or (MeshReading((), (), 1.0),))
+
+
+def _with(reading: MeshReading, knobs: Sequence[OpeningPart]) -> MeshReading:
+    """A reading with those knobs that sit on nothing that opens."""
+    fixed = tuple(
+        knob
+        for knob in knobs
+        if not any(mover.region.holds(knob.origin) for mover in reading.movers)
+    )
+    return replace(reading, movers=(*reading.movers, *fixed))
+
+
+def _openings(seen: _Sides) -> tuple[MeshReading, ...]:
+    """What opens, without knobs."""
     odds = value_of(seen.front.scene, seen.panels, seen.found[seen.side])
     if seen.has_lid(odds < 0.0):
         return _lid_readings(seen.fronts, seen.lids)
@@ -116,6 +137,10 @@ class _Sides:
         panels = {side: choose(fronts[side].scene, found[side]) for side in AROUND}
         side = max(AROUND, key=lambda each: _front_value(panels[each], each))
         return cls(fronts, found, side, panels[side], find_lids(fronts, reliefs[Side.TOP]))
+
+    def with_top(self, top: Relief) -> list[tuple[Relief, Face]]:
+        """The sides and the top, each with its face."""
+        return [*((each.relief, each.face) for each in self.fronts.values()), (top, cleared(top))]
 
     @property
     def front(self) -> Front:

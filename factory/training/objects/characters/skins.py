@@ -25,13 +25,16 @@ SIMPLIFIED = 0.75
 FACES = (6_000, 60_000)
 
 
-def skin_like(articulation: Articulation, seed: int, cells: int | None = None) -> Articulation:
+def skin_like(
+    articulation: Articulation, seed: int, cells: int | None = None, engraved: float = ENGRAVED
+) -> Articulation:
     """One closed skin around the whole object, as large generative models give it.
 
     Args:
         articulation: any with a surface.
         seed: of everything that varies.
         cells: along the longest side; drawn by default.
+        engraved: how likely its seams are engraved.
 
     Returns:
         The same parts and joints over the skin of the outside, but for parts that nothing is seen
@@ -53,7 +56,7 @@ def skin_like(articulation: Articulation, seed: int, cells: int | None = None) -
 
     shares = (np.arange(count) + rng.random(count)) / count
     points, below = original.sampled(shares, rng)
-    groove = int(rng.integers(DEPTHS[0], DEPTHS[1] + 1)) if rng.random() < ENGRAVED else 0
+    groove = int(rng.integers(DEPTHS[0], DEPTHS[1] + 1)) if rng.random() < engraved else 0
     bumps = float(rng.choice([0.0, 0.1, 0.3]))
     vertices, faces, nearest = skin(
         points,

@@ -15,12 +15,16 @@ from asset_factory.factory.mesh import Mesh
 UP = np.array([0.0, 0.0, 1.0])
 HINGED = JointKind.REVOLUTE
 SLIDES = JointKind.PRISMATIC
+TURNS = JointKind.CONTINUOUS
 #: What opens: kind, axis (sign matters: positive opens) and a point on the axis; the mirror is x.
 OPENS = {
     "fridge": [(HINGED, (0, 0, 1), (0.6, 0, 0)), (HINGED, (0, 0, 1), (0.6, 0, 0))],
     "drawers": [(SLIDES, (0, -1, 0), None)] * 3,
     "doors": [(HINGED, (0, 0, -1), (0.03, 0, 0)), (HINGED, (0, 0, 1), (0.87, 0, 0))],
-    "stove": [(HINGED, (1, 0, 0), (0, 0, 0.12))],
+    "stove": [
+        (HINGED, (1, 0, 0), (0, 0, 0.12)),
+        *((TURNS, (0, 1, 0), (x, 0, 0.78)) for x in (0.28, 0.35, 0.42)),
+    ],
     "chest": [(HINGED, (-1, 0, 0), (0, 0.5, 0.36))],
 }
 STAYS = ("plain_box", "table")

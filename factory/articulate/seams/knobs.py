@@ -1,0 +1,71 @@
+"""Knobs of a one-piece mesh: round things of one size in a row, which are turned."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...articulation import JointKind
+from .cutting import Region
+from .handles import Face, Protrusion
+from .placing import OpeningPart
+from .relief import Relief
+
+#: A knob's sides differ by no more than this, and it covers so much of its box: a disc 0.79.
+ROUND = 1.3
+FULL = 0.65
+#: It stands off by this share of its width; a button less.
+PROUD = 0.25
+#: Rows of so many are knobs; more are studs.
+FEWEST = 3
+MOST = 10
+#: Where a knob ends, before what carries it, and around it [pixels].
+FOOT = 1.0
+AROUND = 1.0
+#: That round things in a row are knobs, and that those turn.
+CONFIDENCE = 0.7
+SURE = 0.9
+
+
+def knobs_on(relief: Relief, face: Face) -> tuple[OpeningPart, ...]:
+    """The knobs of one side, if it has a row of them.
+
+    Args:
+        relief: the side.
+        face: it without knobs and handles.
+    """
+    found = [handle for handle in face.handles if handle.control and _is_knob(handle)]
+    if not FEWEST <= len(found) <= MOST:
+        return ()
+    return tuple(_mover(relief, face, knob) for knob in found)
+
+
+def _is_knob(handle: Protrusion) -> bool:
+    width = float(handle.size.min())
+    is_round = handle.size.max() <= ROUND * width and handle.fill >= FULL
+    return bool(is_round and handle.height >= PROUD * width)
+
+
+def _mover(relief: Relief, face: Face, knob: Protrusion) -> OpeningPart:
+    """A knob that turns clockwise without end: where it stops is not seen."""
+    raster = relief.raster
+    right, up, away = raster.side.frame
+    rows, columns = (slice(int(a), int(b) + 1) for a, b in zip(knob.low, knob.high, strict=True))
+    carrier = float(np.median(face.height[rows, columns]))
+    back = raster.near - (carrier + FOOT) * raster.pixel
+    low = raster.low[::-1] + (knob.low - AROUND) * raster.pixel
+    high = raster.low[::-1] + (knob.high + AROUND) * raster.pixel
+    height, across = (low + high) / 2.0
+    return OpeningPart(
+        name="knob",
+        region=Region(
+            np.stack([right, -right, up, -up, away]),
+            np.array([high[1], -low[1], high[0], -low[0], back]),
+        ),
+        kind=JointKind.CONTINUOUS,
+        axis=away,
+        origin=across * right + height * up + back * away,
+        lower=-np.pi,
+        upper=np.pi,
+        confidence=CONFIDENCE,
+        sure=SURE,
+    )
