@@ -118,6 +118,54 @@ def chest(edge=EDGE):
     return mesh_of(solid, edge)
 
 
+def thick_doors(edge=EDGE):
+    """Two doors over the whole front, 0.1 m thick, as a groove on the sides and on top shows."""
+    solid = _box((0.0, 0.0, 0.0), (0.9, 0.7, 1.6))
+    solid = _engraved(solid, ((0.45, 0.0), (0.45, 1.6)))
+    half = GROOVE / 2.0
+    around = _box((-1.0, 0.1 - half, -1.0), (2.0, 0.1 + half, 2.0))
+    solid -= around - _box((GROOVE, -1.0, -1.0), (0.9 - GROOVE, 1.0, 1.6 - GROOVE))
+    solid += bar((0.39, 0.6), (0.41, 1.1)) + bar((0.49, 0.6), (0.51, 1.1))
+    return mesh_of(solid, edge)
+
+
+def pair_with_level_bars(edge=EDGE):
+    """Two tall doors, each with a level bar at its top."""
+    solid = _box((0.0, 0.0, 0.0), (0.9, 0.5, 0.9))
+    for low, high in ((0.03, 0.448), (0.452, 0.87)):
+        solid = _engraved(solid, *frame(low, 0.04, high, 0.86))
+        solid += bar((low + 0.14, 0.8), (high - 0.14, 0.82))
+    return mesh_of(solid, edge)
+
+
+def tall_drawers(edge=EDGE):
+    """Three drawers over the whole width, each with a bar at its top, the lowest tall."""
+    solid = _box((0.0, 0.0, 0.0), (0.5, 0.5, 0.9))
+    for low, high in ((0.02, 0.42), (0.43, 0.71), (0.72, 0.88)):
+        solid = _engraved(solid, *frame(0.02, low, 0.48, high))
+        solid += bar((0.15, high - 0.05), (0.35, high - 0.03))
+    return mesh_of(solid, edge)
+
+
+def cooktop(edge=EDGE):
+    """A flat box under a plate that overhangs, with four knobs in a row on it."""
+    from manifold3d import Manifold
+
+    solid = _box((0.0, 0.0, 0.0), (0.8, 0.5, 0.08)) + _box((-0.02, -0.02, 0.08), (0.82, 0.52, 0.1))
+    for x in (0.2, 0.3, 0.4, 0.5):
+        knob = Manifold.cylinder(0.03, 0.02, circular_segments=24)
+        solid += knob.translate([x, 0.06, 0.099])
+    return mesh_of(solid, edge)
+
+
+def buttons(edge=EDGE):
+    """A box with four low round buttons in a row: pressed, not turned."""
+    solid = _box((0.0, 0.0, 0.0), (0.6, 0.5, 0.9))
+    for x in (0.2, 0.26, 0.32, 0.38):
+        solid += _knob(x, 0.8, off=0.008)
+    return mesh_of(solid, edge)
+
+
 def plain_box(edge=EDGE):
     """Nothing opens."""
     return mesh_of(_box((0.0, 0.0, 0.0), (0.6, 0.5, 0.9)), edge)

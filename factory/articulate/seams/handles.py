@@ -8,7 +8,7 @@ from enum import StrEnum
 import numpy as np
 from scipy import ndimage
 
-from ...geometry.crossings import BoolArray
+from ...geometry.crossings import BoolArray, Side
 from ...mesh import FloatArray, IntArray
 from .relief import Relief
 
@@ -26,11 +26,17 @@ BORDER = 4
 SMALLEST = 0.02
 #: A handle's shorter side is at most this share of the picture's shorter side.
 WIDEST = 0.2
-#: Three of one size in a row are controls if their centres lie within this share of their size.
-#: and no farther apart than so many times their size, in a row and in a column.
+#: Three of one size in a row are controls if their centres lie within this share of their size,
+#: and no farther apart than so many times their size; in a column on a side, where drawers have
+#: their knobs, so many times.
 IN_ROW = 0.35
 ALIKE = 1.6
-SPACING = (3.5, 2.0)
+SPACING = 3.5
+IN_COLUMN = 2.0
+FEWEST = 3
+#: Long ones are more and closer: doors in a row have such handles, too.
+FEWEST_LONG = 4
+SPACING_LONG = 2.5
 #: Twins on opposite sides differ by less than that share of the picture.
 TWIN = 0.03
 #: What stands off less than that share of the highest handle of a side is none.
@@ -150,7 +156,9 @@ def cleared(relief: Relief) -> Face:
             covered[region] |= grown
             height = height.copy()
             height[region] = np.where(grown, np.minimum(height, opened)[region], height[region])
-    return Face(height, covered, _with_controls(found))
+    return Face(
+        height, covered, _with_controls(found, SPACING if relief.side is Side.TOP else IN_COLUMN)
+    )
 
 
 def _roughness(relief: Relief) -> float:
@@ -207,24 +215,27 @@ def _border(low: IntArray, high: IntArray, shape: tuple[int, int]) -> list[tuple
     ]
 
 
-def _with_controls(found: list[Protrusion]) -> tuple[Protrusion, ...]:
+def _with_controls(found: list[Protrusion], in_column: float) -> tuple[Protrusion, ...]:
     """Handles with those marked that are controls, without those far lower than the others."""
     highest = max((handle.height for handle in found), default=0.0)
     found = [handle for handle in found if handle.height >= OF_HIGHEST * highest]
-    knobs = [i for i, h in enumerate(found) if h.size.max() < ALIKE * h.size.min()]
     controls: set[int] = set()
-    for i in knobs:
-        for along, spacing in enumerate(SPACING):
-            row = [j for j in knobs if _beside(found[i], found[j], along)]
-            if len(row) >= 3 and _close(found, row, 1 - along, spacing):
+    for handle in found:
+        is_round = handle.size.max() < ALIKE * handle.size.min()
+        fewest = FEWEST if is_round else FEWEST_LONG
+        for along, most in enumerate((SPACING, in_column)):
+            row = [j for j, other in enumerate(found) if _beside(handle, other, along)]
+            spacing = most if is_round else min(most, SPACING_LONG)
+            if len(row) >= fewest and _close(found, row, 1 - along, spacing):
                 controls |= set(row)
     return tuple(replace(h, control=i in controls) for i, h in enumerate(found))
 
 
 def _beside(one: Protrusion, other: Protrusion, along: int) -> bool:
     apart = abs(float(other.center[along] - one.center[along]))
-    ratio = float(other.size.max() / one.size.max())
-    return apart <= IN_ROW * float(one.size.max()) and 1.0 / ALIKE <= ratio <= ALIKE
+    ratio = other.size / one.size
+    alike = bool((ratio >= 1.0 / ALIKE).all() and (ratio <= ALIKE).all())
+    return alike and apart <= IN_ROW * float(one.size.max())
 
 
 def _close(found: list[Protrusion], row: list[int], axis: int, spacing: float) -> bool:

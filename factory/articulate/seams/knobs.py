@@ -1,4 +1,4 @@
-"""Knobs of a one-piece mesh: round things of one size in a row, which are turned."""
+"""Knobs of a one-piece mesh: small things of one size in a row, which are turned."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ from .handles import Face, Protrusion
 from .placing import OpeningPart
 from .relief import Relief
 
-#: A knob's sides differ by no more than this, and it covers so much of its box: a disc 0.79.
-ROUND = 1.3
+#: A knob covers so much of its box: a disc 0.79.
 FULL = 0.65
 #: It stands off by this share of its width; a button less.
 PROUD = 0.25
@@ -40,9 +39,7 @@ def knobs_on(relief: Relief, face: Face) -> tuple[OpeningPart, ...]:
 
 
 def _is_knob(handle: Protrusion) -> bool:
-    width = float(handle.size.min())
-    is_round = handle.size.max() <= ROUND * width and handle.fill >= FULL
-    return bool(is_round and handle.height >= PROUD * width)
+    return bool(handle.fill >= FULL and handle.height >= PROUD * handle.size.min())
 
 
 def _mover(relief: Relief, face: Face, knob: Protrusion) -> OpeningPart:

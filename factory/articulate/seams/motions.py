@@ -4,31 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 
 import numpy as np
 
 from ...mesh import FloatArray
 from .candidates import FrontScene
+from .company import said_by_company
 from .features import ALIGNED, MOTION_NAMES, motion_features
 from .groups import FrontPanel
 from .handles import GripShape, Protrusion
 from .learned import load_judge
 from .relief import Relief
 from .sight import Sight
+from .ways import OpensBy
 
 #: What is less deep than this share of a panel's shorter side holds no drawer.
 SHALLOW = 0.3
-
-
-class OpensBy(StrEnum):
-    """How a panel opens, as the viewer sees it: the edge of its hinge, or outwards."""
-
-    LEFT = "left"
-    RIGHT = "right"
-    BOTTOM = "bottom"
-    TOP = "top"
-    OUT = "out"
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,19 +45,22 @@ def openings_of(
 ) -> tuple[Opening, ...]:
     """The ways in which each panel of a side may open, as three judges see it, each counting alike.
 
-    Rules, a judge of rectangles that learned, and the picture network.
+    Rules, a judge of rectangles that learned, and the picture network; then its company.
     """
     if not panels:
         return ()
     every = [panel.rectangle for panel in panels]
     rows = np.stack([motion_features(scene, each, every) for each in every])
     learned = load_judge("motion", MOTION_NAMES).logits(rows)
+    has_controls = any(handle.control for handle in scene.face.handles)
+    company = said_by_company(panels, has_controls=has_controls)
     found = []
-    for panel, said in zip(panels, learned, strict=True):
+    for panel, said, told in zip(panels, learned, company, strict=True):
         ruled = _weights(scene.relief, panel, panels)
         values = np.array([ruled[way] for way in OpensBy])
         seen = np.log(sight.ways_of(panel.rectangle))
         weights = dict(zip(OpensBy, (_logs(values) + _logs(said) + seen) / 3.0, strict=True))
+        weights = {way: weight + told.get(way, 0.0) for way, weight in weights.items()}
         found.append(Opening(panel, _ranked(_possible(scene.relief, panel, weights))))
     return tuple(found)
 

@@ -23,7 +23,7 @@ from .candidates import (
 from .dividing import divided
 from .features import ALIGNED, BEVEL, outline_sides
 from .groups import FrontPanel, Group, apart, together
-from .handles import Protrusion
+from .handles import GripShape, Protrusion
 from .rectangles import SHORTEST, Rectangle
 from .relief import Relief
 
@@ -42,6 +42,8 @@ CROSSED = 0.85
 FULL_HEIGHT = 4.0
 #: Panels on a front without any handle must be closed and engraved to this.
 CLOSED_BARE = 0.82
+#: A bar is at most so thick, as a share of the panel across it.
+GRIP = 0.6
 #: No drawer is so low at the foot of a front (shares of the front's height).
 PLINTH = 0.13
 #: What a rectangle must be worth.
@@ -126,6 +128,8 @@ def _value(scene: FrontScene, rectangle: Rectangle) -> float:
     controls = sum(rectangle.holds(handle.center) for handle in face.handles if handle.control)
     if pulls:
         value += 2.0 * _certainty(handles[0]) - 1.5 * (pulls - 1)
+        across = int(handles[0].grip is GripShape.UPRIGHT)
+        value -= 2.0 * bool(handles[0].size[across] > GRIP * rectangle.size[across])
     if controls >= 3 and pulls == 0:
         value -= 3.0
     elif controls >= 3:

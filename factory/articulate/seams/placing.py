@@ -11,10 +11,11 @@ from ...articulation import JointKind
 from ...geometry.crossings import Side
 from ...mesh import FloatArray
 from .cutting import Region
+from .edges import seen_thickness
 from .fronts import Front
 from .groups import FrontPanel
 from .lids import Lid
-from .motions import OpensBy
+from .ways import OpensBy
 
 #: A panel whose back edge nobody sees reaches so far behind its rim: share of the object's depth,
 #: and of the picture [pixels].
@@ -84,24 +85,33 @@ def _borders(front: Front, panel: FrontPanel) -> tuple[FloatArray, ...]:
 
 
 def panel_mover(
-    front: Front, panel: FrontPanel, way: OpensBy, behind: float, confidence: float, sure: float
+    fronts: Mapping[Side, Front],
+    side: Side,
+    panel: FrontPanel,
+    way: OpensBy,
+    confidence: float,
+    sure: float,
 ) -> OpeningPart:
     """A panel of a front that opens in one way.
 
     Args:
-        front: the side.
+        fronts: the four sides.
+        side: the panel's.
         panel: one of its panels.
         way: how it opens.
-        behind: how deep the object is, seen from this side [m].
         confidence: as in :class:`OpeningPart`.
         sure: likewise.
     """
+    front = fronts[side]
+    behind = front.relief.depth
     raster = front.relief.raster
     right, up, away = raster.side.frame
     low = raster.low[::-1] + panel.rectangle.low * raster.pixel
     high = raster.low[::-1] + panel.rectangle.high * raster.pixel
-    thickness = max(THICKNESS * behind, LEAST_THICKNESS * raster.pixel)
     rim = raster.near + rim_depth(front, panel) * raster.pixel
+    thickness = seen_thickness(fronts, side, panel, rim)
+    if thickness is None:
+        thickness = max(THICKNESS * behind, LEAST_THICKNESS * raster.pixel)
     region = Region(
         np.stack([right, -right, up, -up, away]),
         np.array([high[1], -low[1], high[0], -low[0], rim + thickness]),

@@ -82,7 +82,7 @@ def read_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[MeshReading, ...]:
     """The readings of an object that is seen from its sides and from above."""
     seen = _Sides.of(reliefs)
     knobs = max((knobs_on(*side) for side in seen.with_top(reliefs[Side.TOP])), key=len)
-    found = _openings(seen)
+    found = _openings(seen, has_knobs=bool(knobs))
     if not knobs:
         return found
     return tuple(_with(reading, knobs) for reading in found or (MeshReading((), (), 1.0),))
@@ -98,17 +98,17 @@ def _with(reading: MeshReading, knobs: Sequence[OpeningPart]) -> MeshReading:
     return replace(reading, movers=(*reading.movers, *fixed))
 
 
-def _openings(seen: _Sides) -> tuple[MeshReading, ...]:
-    """What opens, without knobs."""
+def _openings(seen: _Sides, *, has_knobs: bool) -> tuple[MeshReading, ...]:
+    """What opens, without knobs; what has some is an appliance, whose top is no lid."""
     odds = value_of(seen.front.scene, seen.panels, seen.found[seen.side])
-    if seen.has_lid(odds < 0.0):
+    if not has_knobs and seen.has_lid(odds < 0.0):
         return _lid_readings(seen.fronts, seen.lids)
     by_rules = seen.front_readings()
     layouts = {side: layout_of(seen.fronts[side].scene, seen.found[side]) for side in AROUND}
     side = max(AROUND, key=lambda each: layouts[each].value + USUAL_FRONT[each])
     if layouts[side].value <= max((odds if by_rules else 0.0) + MARGIN, 0.0):
         return by_rules or _glimpsed_readings(seen.fronts)
-    learned = _front_readings(seen.fronts[side], layouts[side].panels, _learned_confidence)
+    learned = _front_readings(seen.fronts, side, layouts[side].panels, _learned_confidence)
     return (*learned[: MOST_READINGS - 1], *by_rules)[:MOST_READINGS]
 
 
@@ -162,14 +162,14 @@ class _Sides:
         """Of the panels, if there is enough to them."""
         if self.value < LEAST_FRONT:
             return ()
-        return _front_readings(self.front, self.panels, _ruled_confidence)
+        return _front_readings(self.fronts, self.side, self.panels, _ruled_confidence)
 
 
 def _glimpsed_readings(fronts: Mapping[Side, Front]) -> tuple[MeshReading, ...]:
     """Of the side on which the picture network alone is surest of most."""
     panels = {side: glimpsed(fronts[side]) for side in AROUND}
     side = max(AROUND, key=lambda each: _front_value(panels[each], each))
-    return _front_readings(fronts[side], panels[side], _learned_confidence)
+    return _front_readings(fronts, side, panels[side], _learned_confidence)
 
 
 def _front_value(panels: Sequence[FrontPanel], side: Side) -> float:
@@ -203,14 +203,18 @@ def _lid_readings(fronts: Mapping[Side, Front], lids: list[Lid]) -> tuple[MeshRe
 
 
 def _front_readings(
-    front: Front, panels: Sequence[FrontPanel], confidence: Callable[[FrontPanel], float]
+    fronts: Mapping[Side, Front],
+    side: Side,
+    panels: Sequence[FrontPanel],
+    confidence: Callable[[FrontPanel], float],
 ) -> tuple[MeshReading, ...]:
+    front = fronts[side]
     seen = [panel for panel in panels if front.sight.shows(panel.rectangle) >= LEAST_SEEN]
     if not seen:
         return ()
 
     openings = openings_of(front.scene, seen, front.sight)
-    best = _reading(front, openings, confidence)
+    best = _reading(fronts, side, openings, confidence)
     found = [best]
     for index, opening in enumerate(openings):
         for rank, (_, share) in enumerate(opening.ways[1:], start=1):
@@ -218,21 +222,23 @@ def _front_readings(
                 continue
             ways = (opening.ways[rank], *opening.ways[:rank], *opening.ways[rank + 1 :])
             other = (*openings[:index], replace(opening, ways=ways), *openings[index + 1 :])
-            found.append(_reading(front, other, confidence))
+            found.append(_reading(fronts, side, other, confidence))
     found[1:] = sorted(found[1:], key=lambda reading: -reading.probability)
     return tuple(found[:MOST_READINGS])
 
 
 def _reading(
-    front: Front, openings: tuple[Opening, ...], confidence: Callable[[FrontPanel], float]
+    fronts: Mapping[Side, Front],
+    side: Side,
+    openings: tuple[Opening, ...],
+    confidence: Callable[[FrontPanel], float],
 ) -> MeshReading:
-    behind = front.relief.depth
     movers = tuple(
         panel_mover(
-            front,
+            fronts,
+            side,
             opening.panel,
             opening.way,
-            behind,
             confidence(opening.panel),
             opening.ways[0][1],
         )

@@ -71,8 +71,9 @@ def lines_of(seams: Seams, first: int, last: int) -> Lines:
         last: the highest.
     """
     everything = seams.all
-    wide = ndimage.maximum_filter1d(everything, 3, axis=0) * seams.known
-    shape = ndimage.maximum_filter1d(seams.relief, 3, axis=0) * seams.known
+    known = seams.known.copy()
+    wide = ndimage.maximum_filter1d(everything, 3, axis=0) * known
+    shape = ndimage.maximum_filter1d(seams.relief, 3, axis=0) * known
     length = max(int(SHORTEST * everything.shape[1]), 8)
     run = ndimage.uniform_filter1d(wide, length, axis=1)
     strength = np.where(run >= COVERED, wide, 0.0).sum(axis=1)
@@ -81,8 +82,13 @@ def lines_of(seams: Seams, first: int, last: int) -> Lines:
     strength[:first] = 0.0
     strength[last + 1 :] = 0.0
     at = _peaks(strength, length)
+    # The object ends at its outline, whatever handle hides that.
+    for row in (first, last):
+        hidden = known[row] == 0.0
+        for each in (wide, shape, known):
+            each[row, hidden] = 1.0
     at = np.unique(np.concatenate([at, [first, last]]))
-    return Lines(at, _sums(wide[at]), _sums(shape[at]), _sums(seams.known[at]))
+    return Lines(at, _sums(wide[at]), _sums(shape[at]), _sums(known[at]))
 
 
 def _peaks(strength: FloatArray, least: float) -> IntArray:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...articulate.seams.learned import LearnedJudge
-from ...articulate.seams.motions import OpensBy
+from ...articulate.seams.ways import OpensBy
 from .learning import Examples, averaged, fitted
 from .rows import Rows
 

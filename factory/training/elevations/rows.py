@@ -12,8 +12,8 @@ from ...articulate.seams.features import motion_features
 from ...articulate.seams.fronts import AROUND, OPPOSITE, Front
 from ...articulate.seams.handles import cleared
 from ...articulate.seams.layouts import described
-from ...articulate.seams.motions import OpensBy
 from ...articulate.seams.rectangles import Rectangle
+from ...articulate.seams.ways import OpensBy
 from ...articulation import Articulation
 from ...geometry.crossings import Side
 from ...mesh import FloatArray

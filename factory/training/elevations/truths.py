@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...articulate.seams.motions import OpensBy
 from ...articulate.seams.rectangles import Rectangle
+from ...articulate.seams.ways import OpensBy
 from ...articulation import Articulation, Joint, JointKind
 from ...geometry.crossings import Side
 from .pictures import Picture

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ...articulate.seams.motions import OpensBy
 from ...articulate.seams.sight import CUES, GRID, SQUARE, cues_of
+from ...articulate.seams.ways import OpensBy
 from ...articulation import Articulation, JointKind
 from ...geometry.crossings import BoolArray, Side
 from ...mesh import FloatArray, IntArray

@@ -12,11 +12,12 @@ from asset_factory.factory.articulate.seams import fronts as fronts_module
 from asset_factory.factory.articulate.seams.fronts import Front, fronts_of
 from asset_factory.factory.articulate.seams.glimpses import glimpsed
 from asset_factory.factory.articulate.seams.groups import FrontPanel
-from asset_factory.factory.articulate.seams.motions import OpensBy, openings_of
+from asset_factory.factory.articulate.seams.motions import openings_of
 from asset_factory.factory.articulate.seams.reading import read_reliefs
 from asset_factory.factory.articulate.seams.rectangles import Rectangle
 from asset_factory.factory.articulate.seams.relief import Relief, reliefs_of
 from asset_factory.factory.articulate.seams.sight import SQUARE, Sight
+from asset_factory.factory.articulate.seams.ways import OpensBy
 from asset_factory.factory.geometry.crossings import Side
 
 #: First row and column of the two doors, and those after the last, in squares.

@@ -26,8 +26,12 @@ OPENS = {
         *((TURNS, (0, 1, 0), (x, 0, 0.78)) for x in (0.28, 0.35, 0.42)),
     ],
     "chest": [(HINGED, (-1, 0, 0), (0, 0.5, 0.36))],
+    "thick_doors": [(HINGED, (0, 0, -1), (0, 0, 0)), (HINGED, (0, 0, 1), (0.9, 0, 0))],
+    "pair_with_level_bars": [(HINGED, (0, 0, -1), (0.03, 0, 0)), (HINGED, (0, 0, 1), (0.87, 0, 0))],
+    "tall_drawers": [(SLIDES, (0, -1, 0), None)] * 3,
+    "cooktop": [(TURNS, (0, 0, -1), (x, 0.06, 0)) for x in (0.2, 0.3, 0.4, 0.5)],
 }
-STAYS = ("plain_box", "table")
+STAYS = ("plain_box", "table", "buttons")
 
 
 @cache
@@ -109,6 +113,12 @@ def test_what_does_not_open_stays_rigid(name: str, quarters: int) -> None:
     assert not found.joints
     assert found.notes
     assert len(SeamsArticulator().readings(sample(name))) == 1
+
+
+def test_a_door_is_as_thick_as_the_seam_beside_it_shows() -> None:
+    found = read(sample("thick_doors"))
+    for part in (1, 2):
+        assert found.part_mesh(part).bounds[1][1] == pytest.approx(0.1, abs=0.01)
 
 
 @pytest.mark.parametrize("quarters", range(4))

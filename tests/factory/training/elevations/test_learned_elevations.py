@@ -9,7 +9,7 @@ import pytest
 
 from asset_factory.factory.articulate.seams.features import MOTION_NAMES, NAMES
 from asset_factory.factory.articulate.seams.learned import LearnedJudge, load_judge
-from asset_factory.factory.articulate.seams.motions import OpensBy
+from asset_factory.factory.articulate.seams.ways import OpensBy
 from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.training.elevations.learning import Examples, averaged, fitted
 from asset_factory.factory.training.elevations.pictures import pictures_of

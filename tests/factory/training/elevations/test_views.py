@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from asset_factory.factory.articulate.seams.motions import OpensBy
 from asset_factory.factory.articulate.seams.sight import CUES
+from asset_factory.factory.articulate.seams.ways import OpensBy
 from asset_factory.factory.training.elevations.views import (
     UNKNOWN,
     SideView,
