@@ -158,6 +158,24 @@ def cooktop(edge=EDGE):
     return mesh_of(solid, edge)
 
 
+def microwave(edge=EDGE):
+    """A door without a handle beside three knobs, one above the other."""
+    solid = _box((0.0, 0.0, 0.0), (0.6, 0.4, 0.35))
+    solid = _engraved(solid, *frame(0.015, 0.015, 0.45, 0.335))
+    for z in (0.1, 0.16, 0.22):
+        solid += _knob(0.525, z)
+    return mesh_of(solid, edge)
+
+
+def doors_with_grown_knobs(edge=EDGE):
+    """A pair of doors whose knobs touch over the seam between them."""
+    solid = _box((0.0, 0.0, 0.0), (0.9, 0.5, 0.8))
+    for low, high in ((0.03, 0.45), (0.45, 0.87)):
+        solid = _engraved(solid, *frame(low, 0.04, high, 0.76))
+    solid += _knob(0.43, 0.5) + _knob(0.47, 0.5)
+    return mesh_of(solid, edge)
+
+
 def buttons(edge=EDGE):
     """A box with four low round buttons in a row: pressed, not turned."""
     solid = _box((0.0, 0.0, 0.0), (0.6, 0.5, 0.9))

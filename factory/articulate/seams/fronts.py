@@ -16,6 +16,7 @@ from .handles import Face, cleared
 from .rectangles import SHORTEST, Rectangle, lines_of, rectangles_of
 from .relief import Relief
 from .sight import Sight, sight_of
+from .twins import parted
 
 AROUND = (Side.FRONT, Side.RIGHT, Side.BACK, Side.LEFT)
 OPPOSITE = {
@@ -57,9 +58,8 @@ class Front:
         rows = lines_of(self.level, first_row, last_row)
         upright = upright_seams(self.relief, self.face).turned()
         columns = lines_of(upright, first_column, last_column)
-        return FrontScene(
-            self.relief, self.face, thickness(self.relief, self.behind), rows, columns
-        )
+        face = parted(self.face, columns)
+        return FrontScene(self.relief, face, thickness(self.relief, self.behind), rows, columns)
 
     def rectangles(self) -> tuple[Rectangle, ...]:
         """Those that are closed by seams, the best first."""

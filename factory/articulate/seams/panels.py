@@ -60,10 +60,10 @@ def choose(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[FrontPanel, .
     first_row, last_row, _, _ = scene.relief.box
     if last_row - first_row < FLAT * PIXELS:
         return ()
-    usable = _usable(scene, (*found[:MOST_FOUND], whole_side(scene)))
+    solid = usable(scene, (*found[:MOST_FOUND], whole_side(scene)))
     rated = [
         Group(each, (FrontPanel(each, scene.handles_in(each), _value(scene, each)),))
-        for each in usable
+        for each in solid
     ]
     rated.sort(key=lambda group: -group.value)
     kept: list[Group] = []
@@ -97,8 +97,10 @@ def _divided(scene: FrontScene, rectangle: Rectangle) -> Group | None:
     return Group(rectangle, panels)
 
 
-def _usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
-    """Those that are solid and face the viewer, where the object is wide."""
+def usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
+    """Those rectangles that are solid and face the viewer, where the object is wide."""
+    if not found:
+        return []
     relief = scene.relief
     box = relief.box
     whole = max((box[1] - box[0]) * (box[3] - box[2]), 1)

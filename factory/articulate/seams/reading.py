@@ -9,10 +9,12 @@ import numpy as np
 
 from ...geometry.crossings import Side
 from ...mesh import IntArray, Mesh
+from .appliances import appliance_door
+from .candidates import in_common
 from .fronts import AROUND, Front, fronts_of
 from .glimpses import glimpsed
 from .groups import FrontPanel
-from .handles import Face, cleared
+from .handles import cleared
 from .knobs import knobs_on
 from .layouts import layout_of, value_of
 from .lids import Lid, find_lids
@@ -37,6 +39,10 @@ LEAST_OTHER = 0.1
 MARGIN = 2.0
 #: A panel of which the picture network sees less than this share is none.
 LEAST_SEEN = 0.2
+#: What has a handle and is closed by grooves and steps to this is one, whoever sees it.
+EVIDENT = 0.95
+#: Panels with so much in common (intersection over union) are one.
+SAME = 0.7
 #: Value of a panel that is right as often as not, and how fast confidence grows with it.
 EVEN = 1.5
 SLOPE = 0.8
@@ -81,11 +87,21 @@ def read(mesh: Mesh, pieces: IntArray | None = None) -> tuple[MeshReading, ...]:
 def read_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[MeshReading, ...]:
     """The readings of an object that is seen from its sides and from above."""
     seen = _Sides.of(reliefs)
-    knobs = max((knobs_on(*side) for side in seen.with_top(reliefs[Side.TOP])), key=len)
-    found = _openings(seen, has_knobs=bool(knobs))
-    if not knobs:
-        return found
-    return tuple(_with(reading, knobs) for reading in found or (MeshReading((), (), 1.0),))
+    top = reliefs[Side.TOP]
+    knobs = {side: knobs_on(each.relief, each.face) for side, each in seen.fronts.items()}
+    knobs[Side.TOP] = knobs_on(top, cleared(top))
+    side = max(knobs, key=lambda each: len(knobs[each]))
+    if not knobs[side]:
+        return _openings(seen, has_knobs=False)
+    found = _openings(seen, has_knobs=True) or _appliance_readings(seen, side)
+    return tuple(_with(reading, knobs[side]) for reading in found)
+
+
+def _appliance_readings(seen: _Sides, side: Side) -> tuple[MeshReading, ...]:
+    """Of what has knobs on one side and nothing else that opens: its door, if there is one."""
+    door = appliance_door(seen.fronts[side], seen.found[side]) if side in AROUND else None
+    openings = () if door is None else (door,)
+    return (_reading(seen.fronts, side, openings, _learned_confidence),)
 
 
 def _with(reading: MeshReading, knobs: Sequence[OpeningPart]) -> MeshReading:
@@ -106,10 +122,22 @@ def _openings(seen: _Sides, *, has_knobs: bool) -> tuple[MeshReading, ...]:
     by_rules = seen.front_readings()
     layouts = {side: layout_of(seen.fronts[side].scene, seen.found[side]) for side in AROUND}
     side = max(AROUND, key=lambda each: layouts[each].value + USUAL_FRONT[each])
-    if layouts[side].value <= max((odds if by_rules else 0.0) + MARGIN, 0.0):
+    learned = layouts[side]
+    if by_rules and side is seen.side and _within(learned.panels, seen.panels):
+        return by_rules
+    if learned.value <= max((odds if by_rules else 0.0) + MARGIN, 0.0):
         return by_rules or _glimpsed_readings(seen.fronts)
-    learned = _front_readings(seen.fronts, side, layouts[side].panels, _learned_confidence)
-    return (*learned[: MOST_READINGS - 1], *by_rules)[:MOST_READINGS]
+    readings = _front_readings(seen.fronts, side, learned.panels, _learned_confidence)
+    return (*readings[: MOST_READINGS - 1], *by_rules)[:MOST_READINGS]
+
+
+def _within(few: Sequence[FrontPanel], many: Sequence[FrontPanel]) -> bool:
+    """Whether all of ``few`` are among ``many``, and each of the others has a handle."""
+    known = [
+        any(in_common(each.rectangle, other.rectangle) >= SAME for other in few) for each in many
+    ]
+    others = [each for each, same in zip(many, known, strict=True) if not same]
+    return sum(known) >= len(few) > 0 and all(each.handles for each in others)
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,10 +165,6 @@ class _Sides:
         panels = {side: choose(fronts[side].scene, found[side]) for side in AROUND}
         side = max(AROUND, key=lambda each: _front_value(panels[each], each))
         return cls(fronts, found, side, panels[side], find_lids(fronts, reliefs[Side.TOP]))
-
-    def with_top(self, top: Relief) -> list[tuple[Relief, Face]]:
-        """The sides and the top, each with its face."""
-        return [*((each.relief, each.face) for each in self.fronts.values()), (top, cleared(top))]
 
     @property
     def front(self) -> Front:
@@ -209,7 +233,7 @@ def _front_readings(
     confidence: Callable[[FrontPanel], float],
 ) -> tuple[MeshReading, ...]:
     front = fronts[side]
-    seen = [panel for panel in panels if front.sight.shows(panel.rectangle) >= LEAST_SEEN]
+    seen = [panel for panel in panels if _is_seen(front, panel)]
     if not seen:
         return ()
 
@@ -225,6 +249,12 @@ def _front_readings(
             found.append(_reading(fronts, side, other, confidence))
     found[1:] = sorted(found[1:], key=lambda reading: -reading.probability)
     return tuple(found[:MOST_READINGS])
+
+
+def _is_seen(front: Front, panel: FrontPanel) -> bool:
+    """Whether the picture network sees a panel, or nobody needs to: a handle within a groove."""
+    evident = bool(panel.handles) and float(panel.rectangle.relief.min()) >= EVIDENT
+    return evident or front.sight.shows(panel.rectangle) >= LEAST_SEEN
 
 
 def _reading(

@@ -29,6 +29,14 @@ OPENS = {
     "thick_doors": [(HINGED, (0, 0, -1), (0, 0, 0)), (HINGED, (0, 0, 1), (0.9, 0, 0))],
     "pair_with_level_bars": [(HINGED, (0, 0, -1), (0.03, 0, 0)), (HINGED, (0, 0, 1), (0.87, 0, 0))],
     "tall_drawers": [(SLIDES, (0, -1, 0), None)] * 3,
+    "microwave": [
+        (HINGED, (0, 0, -1), (0.015, 0, 0)),
+        *((TURNS, (0, 1, 0), (0.525, 0, z)) for z in (0.1, 0.16, 0.22)),
+    ],
+    "doors_with_grown_knobs": [
+        (HINGED, (0, 0, -1), (0.03, 0, 0)),
+        (HINGED, (0, 0, 1), (0.87, 0, 0)),
+    ],
     "cooktop": [(TURNS, (0, 0, -1), (x, 0.06, 0)) for x in (0.2, 0.3, 0.4, 0.5)],
 }
 STAYS = ("plain_box", "table", "buttons")
