@@ -147,6 +147,15 @@ def tall_drawers(edge=EDGE):
     return mesh_of(solid, edge)
 
 
+def filing_cabinet(edge=EDGE):
+    """Five drawers above each other, a bar on each: handles, no controls."""
+    solid = _box((0.0, 0.0, 0.0), (0.5, 0.6, 1.3))
+    for low in (0.03, 0.28, 0.53, 0.78, 1.03):
+        solid = _engraved(solid, *frame(0.02, low, 0.48, low + 0.24))
+        solid += bar((0.15, low + 0.18), (0.35, low + 0.2))
+    return mesh_of(solid, edge)
+
+
 def cooktop(edge=EDGE):
     """A flat box under a plate that overhangs, with four knobs in a row on it."""
     from manifold3d import Manifold

@@ -34,9 +34,11 @@ ALIKE = 1.6
 SPACING = 3.5
 IN_COLUMN = 2.0
 FEWEST = 3
-#: Long ones are more and closer: doors in a row have such handles, too.
+#: Long ones are more, closer and short, as shares of the picture's longer side: doors in a row and
+#: drawers in a column have such handles, too.
 FEWEST_LONG = 4
 SPACING_LONG = 2.5
+LONGEST = 0.08
 #: Twins on opposite sides differ by less than that share of the picture.
 TWIN = 0.03
 #: What stands off less than that share of the highest handle of a side is none.
@@ -156,9 +158,7 @@ def cleared(relief: Relief) -> Face:
             covered[region] |= grown
             height = height.copy()
             height[region] = np.where(grown, np.minimum(height, opened)[region], height[region])
-    return Face(
-        height, covered, _with_controls(found, SPACING if relief.side is Side.TOP else IN_COLUMN)
-    )
+    return Face(height, covered, _with_controls(found, relief))
 
 
 def _roughness(relief: Relief) -> float:
@@ -215,17 +215,22 @@ def _border(low: IntArray, high: IntArray, shape: tuple[int, int]) -> list[tuple
     ]
 
 
-def _with_controls(found: list[Protrusion], in_column: float) -> tuple[Protrusion, ...]:
+def _with_controls(found: list[Protrusion], relief: Relief) -> tuple[Protrusion, ...]:
     """Handles with those marked that are controls, without those far lower than the others."""
     highest = max((handle.height for handle in found), default=0.0)
     found = [handle for handle in found if handle.height >= OF_HIGHEST * highest]
+    above = relief.side is Side.TOP
     controls: set[int] = set()
     for handle in found:
         is_round = handle.size.max() < ALIKE * handle.size.min()
-        fewest = FEWEST if is_round else FEWEST_LONG
-        for along, most in enumerate((SPACING, in_column)):
+        if is_round:
+            fewest, spacings = FEWEST, (SPACING, SPACING if above else IN_COLUMN)
+        elif handle.size.max() <= LONGEST * max(relief.shape):
+            fewest, spacings = FEWEST_LONG, (SPACING_LONG, SPACING_LONG if above else 0.0)
+        else:
+            continue
+        for along, spacing in enumerate(spacings):
             row = [j for j, other in enumerate(found) if _beside(handle, other, along)]
-            spacing = most if is_round else min(most, SPACING_LONG)
             if len(row) >= fewest and _close(found, row, 1 - along, spacing):
                 controls |= set(row)
     return tuple(replace(h, control=i in controls) for i, h in enumerate(found))

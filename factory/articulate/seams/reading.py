@@ -39,10 +39,12 @@ LEAST_OTHER = 0.1
 MARGIN = 2.0
 #: A panel of which the picture network sees less than this share is none.
 LEAST_SEEN = 0.2
-#: What has a handle and is closed by grooves and steps to this is one, whoever sees it.
+#: What is closed by grooves and steps to this, and has a handle that stands off so far [pixels],
+#: is one, whoever sees it.
 EVIDENT = 0.95
+STANDS_OFF = 4.0
 #: Panels with so much in common (intersection over union) are one.
-SAME = 0.7
+SAME = 0.8
 #: Value of a panel that is right as often as not, and how fast confidence grows with it.
 EVEN = 1.5
 SLOPE = 0.8
@@ -123,21 +125,12 @@ def _openings(seen: _Sides, *, has_knobs: bool) -> tuple[MeshReading, ...]:
     layouts = {side: layout_of(seen.fronts[side].scene, seen.found[side]) for side in AROUND}
     side = max(AROUND, key=lambda each: layouts[each].value + USUAL_FRONT[each])
     learned = layouts[side]
-    if by_rules and side is seen.side and _within(learned.panels, seen.panels):
+    if by_rules and side is seen.side and seen.has_all_of(learned.panels):
         return by_rules
     if learned.value <= max((odds if by_rules else 0.0) + MARGIN, 0.0):
         return by_rules or _glimpsed_readings(seen.fronts)
     readings = _front_readings(seen.fronts, side, learned.panels, _learned_confidence)
     return (*readings[: MOST_READINGS - 1], *by_rules)[:MOST_READINGS]
-
-
-def _within(few: Sequence[FrontPanel], many: Sequence[FrontPanel]) -> bool:
-    """Whether all of ``few`` are among ``many``, and each of the others has a handle."""
-    known = [
-        any(in_common(each.rectangle, other.rectangle) >= SAME for other in few) for each in many
-    ]
-    others = [each for each, same in zip(many, known, strict=True) if not same]
-    return sum(known) >= len(few) > 0 and all(each.handles for each in others)
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,11 +175,26 @@ class _Sides:
             return False
         return doubtful or self.lids[0].value > self.value - 1.0
 
+    def has_all_of(self, few: Sequence[FrontPanel]) -> bool:
+        """Whether ``few`` are among the panels, and the others have handles and seams around."""
+        if not few or not all(any(_same(each, other) for other in self.panels) for each in few):
+            return False
+        others = [each for each in self.panels if not any(_same(each, other) for other in few)]
+        return all(each.handles and self._is_closed(each) for each in others)
+
+    def _is_closed(self, panel: FrontPanel) -> bool:
+        found = self.found[self.side]
+        return not panel.cut or any(in_common(panel.rectangle, each) >= SAME for each in found)
+
     def front_readings(self) -> tuple[MeshReading, ...]:
         """Of the panels, if there is enough to them."""
         if self.value < LEAST_FRONT:
             return ()
         return _front_readings(self.fronts, self.side, self.panels, _ruled_confidence)
+
+
+def _same(one: FrontPanel, other: FrontPanel) -> bool:
+    return in_common(one.rectangle, other.rectangle) >= SAME
 
 
 def _glimpsed_readings(fronts: Mapping[Side, Front]) -> tuple[MeshReading, ...]:
@@ -253,7 +261,8 @@ def _front_readings(
 
 def _is_seen(front: Front, panel: FrontPanel) -> bool:
     """Whether the picture network sees a panel, or nobody needs to: a handle within a groove."""
-    evident = bool(panel.handles) and float(panel.rectangle.relief.min()) >= EVIDENT
+    pulled = panel.handle is not None and panel.handle.height >= STANDS_OFF
+    evident = pulled and float(panel.rectangle.relief.min()) >= EVIDENT
     return evident or front.sight.shows(panel.rectangle) >= LEAST_SEEN
 
 

@@ -29,6 +29,7 @@ OPENS = {
     "thick_doors": [(HINGED, (0, 0, -1), (0, 0, 0)), (HINGED, (0, 0, 1), (0.9, 0, 0))],
     "pair_with_level_bars": [(HINGED, (0, 0, -1), (0.03, 0, 0)), (HINGED, (0, 0, 1), (0.87, 0, 0))],
     "tall_drawers": [(SLIDES, (0, -1, 0), None)] * 3,
+    "filing_cabinet": [(SLIDES, (0, -1, 0), None)] * 5,
     "microwave": [
         (HINGED, (0, 0, -1), (0.015, 0, 0)),
         *((TURNS, (0, 1, 0), (0.525, 0, z)) for z in (0.1, 0.16, 0.22)),
