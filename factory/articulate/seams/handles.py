@@ -219,21 +219,28 @@ def _with_controls(found: list[Protrusion], relief: Relief) -> tuple[Protrusion,
     """Handles with those marked that are controls, without those far lower than the others."""
     highest = max((handle.height for handle in found), default=0.0)
     found = [handle for handle in found if handle.height >= OF_HIGHEST * highest]
-    above = relief.side is Side.TOP
     controls: set[int] = set()
     for handle in found:
-        is_round = handle.size.max() < ALIKE * handle.size.min()
-        if is_round:
-            fewest, spacings = FEWEST, (SPACING, SPACING if above else IN_COLUMN)
-        elif handle.size.max() <= LONGEST * max(relief.shape):
-            fewest, spacings = FEWEST_LONG, (SPACING_LONG, SPACING_LONG if above else 0.0)
-        else:
-            continue
-        for along, spacing in enumerate(spacings):
+        fewest = FEWEST if _is_round(handle) else FEWEST_LONG
+        for along, spacing in enumerate(_spacings(handle, relief)):
             row = [j for j, other in enumerate(found) if _beside(handle, other, along)]
             if len(row) >= fewest and _close(found, row, 1 - along, spacing):
                 controls |= set(row)
     return tuple(replace(h, control=i in controls) for i, h in enumerate(found))
+
+
+def _is_round(handle: Protrusion) -> bool:
+    return bool(handle.size.max() < ALIKE * handle.size.min())
+
+
+def _spacings(handle: Protrusion, relief: Relief) -> tuple[float, float]:
+    """How far apart controls like it may lie in a row and in a column, in their sizes."""
+    above = relief.side is Side.TOP
+    if _is_round(handle):
+        return SPACING, SPACING if above else IN_COLUMN
+    if handle.size.max() > LONGEST * max(relief.shape):
+        return 0.0, 0.0
+    return SPACING_LONG, SPACING_LONG if above else 0.0
 
 
 def _beside(one: Protrusion, other: Protrusion, along: int) -> bool:

@@ -40,7 +40,8 @@ def _halves(handle: Protrusion, upright: Lines) -> tuple[Protrusion, ...]:
     ends = np.array(
         [handle.low[0] - reach, handle.low[0], handle.high[0] + 1, handle.high[0] + reach]
     )
-    start, stop = ends[[0, 2]], ends[[1, 3]]
+    start = ends[[0, 2]]
+    stop = ends[[1, 3]]
     inside = np.flatnonzero((start >= 0) & (stop <= last))
     lines = np.flatnonzero((share >= MIDDLE[0]) & (share <= MIDDLE[1]))
     if not len(inside) or not len(lines):
