@@ -1,4 +1,4 @@
-"""Panels without a seam between them, cut half-way between their handles."""
+"""Panels without a seam between them, cut between their handles."""
 
 from __future__ import annotations
 
@@ -12,6 +12,9 @@ from .rectangles import Lines, Rectangle
 
 #: A line that is covered so far between two handles is taken for the seam.
 WEAK = 0.3
+#: Handles are along one end of their panels if the room beyond the last is less than this share of
+#: the room beyond the first.
+ALONG_END = 0.4
 #: Handles must be that far apart, as a share of what they divide.
 LEAST_GAP = 0.01
 
@@ -67,12 +70,16 @@ def _gaps(
     """Where a line along the other axis passes between handles."""
     ordered = sorted(handles, key=lambda handle: float(handle.low[axis]))
     reach = float(ordered[0].high[axis])
+    before = float(ordered[0].low[axis] - rectangle.low[axis])
+    behind = float(rectangle.high[axis] - max(handle.high[axis] for handle in handles))
     found = []
     for handle in ordered[1:]:
         start = float(handle.low[axis])
         share = (start - reach) / max(float(rectangle.size[axis]), 1.0)
         if share >= LEAST_GAP:
             at, cover = _seam_between(lines, rectangle, axis, reach, start)
+            if cover == 0.0:
+                at = _unseen(reach, start, before, behind)
             found.append(_Gap(axis, share, at, cover))
         reach = max(reach, float(handle.high[axis]))
     return found
@@ -81,14 +88,33 @@ def _gaps(
 def _seam_between(
     lines: Lines, rectangle: Rectangle, axis: int, start: float, stop: float
 ) -> tuple[int, float]:
-    """Where the best covered line between two places is, and its cover; else the middle."""
+    """Where the best covered line between two places is, and its cover; 0 without one."""
     between = np.flatnonzero((lines.at > start) & (lines.at < stop))
     if len(between):
         cover = lines.covered(between, rectangle.low[1 - axis], rectangle.high[1 - axis])
         best = int(cover.argmax())
         if cover[best] >= WEAK:
             return int(lines.at[between[best]]), float(cover[best])
-    return round((start + stop) / 2.0), 0.0
+    return round(start), 0.0
+
+
+def _unseen(start: float, stop: float, before: float, behind: float) -> int:
+    """Where to cut between two handles if no seam is seen.
+
+    Half-way; where handles are along one end of their panels, each keeps as much room there as the
+    outermost has.
+
+    Args:
+        start: where the first of the handles ends.
+        stop: where the second begins.
+        before: room between the rectangle's first handle and its end.
+        behind: between its last handle and its other end.
+    """
+    if behind < ALONG_END * before and start + behind < stop:
+        return round(start + behind)
+    if before < ALONG_END * behind and stop - before > start:
+        return round(stop - before)
+    return round((start + stop) / 2.0)
 
 
 def _halves(rectangle: Rectangle, axis: int, at: int) -> tuple[Rectangle, Rectangle]:
