@@ -102,6 +102,8 @@ def read_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[MeshReading, ...]:
 def _appliance_readings(seen: _Sides, side: Side) -> tuple[MeshReading, ...]:
     """Of what has knobs on one side and nothing else that opens: its door, if there is one."""
     door = appliance_door(seen.fronts[side], seen.found[side]) if side in AROUND else None
+    if door is not None and not _is_seen(seen.fronts[side], door.panel):
+        door = None
     openings = () if door is None else (door,)
     return (_reading(seen.fronts, side, openings, _learned_confidence),)
 
