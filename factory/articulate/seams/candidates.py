@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -96,8 +96,7 @@ def candidates_of(scene: FrontScene, found: Sequence[Rectangle]) -> list[PanelCa
         return []
     kept: list[Rectangle] = []
     for each in _usable(scene, (whole_side(scene), *found[:MOST_FOUND])):
-        known = any(in_common(each, other) >= SAME for other in kept)
-        if not known and deep(scene, each):
+        if not is_among(each, kept) and deep(scene, each):
             kept.append(each)
         if len(kept) >= MOST:
             break
@@ -209,6 +208,11 @@ def main_pulls(handles: Sequence[Protrusion], rectangle: Rectangle) -> list[Prot
         if not (level and mirrored and apart and low) and not small:
             pulls.append(other)
     return pulls
+
+
+def is_among(rectangle: Rectangle, others: Iterable[Rectangle]) -> bool:
+    """Whether it is one of several rectangles, give or take an edge."""
+    return any(in_common(rectangle, other) >= SAME for other in others)
 
 
 def in_common(one: Rectangle, other: Rectangle) -> float:

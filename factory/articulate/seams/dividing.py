@@ -77,9 +77,8 @@ def _gaps(
         start = float(handle.low[axis])
         share = (start - reach) / max(float(rectangle.size[axis]), 1.0)
         if share >= LEAST_GAP:
-            at, cover = _seam_between(lines, rectangle, axis, reach, start)
-            if cover == 0.0:
-                at = _unseen(reach, start, before, behind)
+            seam = _seam_between(lines, rectangle, axis, reach, start)
+            at, cover = seam or (_unseen(reach, start, before, behind), 0.0)
             found.append(_Gap(axis, share, at, cover))
         reach = max(reach, float(handle.high[axis]))
     return found
@@ -87,15 +86,15 @@ def _gaps(
 
 def _seam_between(
     lines: Lines, rectangle: Rectangle, axis: int, start: float, stop: float
-) -> tuple[int, float]:
-    """Where the best covered line between two places is, and its cover; 0 without one."""
+) -> tuple[int, float] | None:
+    """Where the best covered line between two places is, and its cover."""
     between = np.flatnonzero((lines.at > start) & (lines.at < stop))
     if len(between):
         cover = lines.covered(between, rectangle.low[1 - axis], rectangle.high[1 - axis])
         best = int(cover.argmax())
         if cover[best] >= WEAK:
             return int(lines.at[between[best]]), float(cover[best])
-    return round(start), 0.0
+    return None
 
 
 def _unseen(start: float, stop: float, before: float, behind: float) -> int:

@@ -37,14 +37,13 @@ def seen_thickness(
     """
     _, _, first, last = fronts[side].relief.box
     right = side.frame[0]
-    outer = {
-        1.0: last - int(panel.rectangle.high[1]) <= AT_OUTLINE,
-        -1.0: int(panel.rectangle.low[1]) - first <= AT_OUTLINE,
-    }
+    at_left = int(panel.rectangle.low[1]) - first <= AT_OUTLINE
+    at_right = last - int(panel.rectangle.high[1]) <= AT_OUTLINE
+    looking = {other: float(other.frame[2] @ right) for other in AROUND}
     beside = [
         fronts[other]
         for other in AROUND
-        if outer.get(-round(float(other.frame[2] @ right), 3), False)
+        if (at_left and looking[other] > 0.5) or (at_right and looking[other] < -0.5)
     ]
     found = [_seam(fronts[side], panel, rim, other) for other in beside]
     seen = [each for each in found if each is not None]

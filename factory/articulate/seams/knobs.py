@@ -5,22 +5,20 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulation import JointKind
-from .cutting import Region
-from .handles import Face, Protrusion
-from .placing import OpeningPart
+from .handles import FEWEST, Face, Protrusion
+from .placing import OpeningPart, box_before
 from .relief import Relief
 
 #: A knob covers so much of its box: a disc 0.79.
 FULL = 0.65
 #: It stands off by this share of its width; a button less.
 PROUD = 0.25
-#: Rows of so many are knobs; more are studs.
-FEWEST = 3
+#: More in a row are studs.
 MOST = 10
 #: Where a knob ends, before what carries it, and around it [pixels].
 FOOT = 1.0
 AROUND = 1.0
-#: That round things in a row are knobs, and that those turn.
+#: That small things in a row are knobs, and that those turn.
 CONFIDENCE = 0.7
 SURE = 0.9
 
@@ -54,10 +52,7 @@ def _mover(relief: Relief, face: Face, knob: Protrusion) -> OpeningPart:
     height, across = (low + high) / 2.0
     return OpeningPart(
         name="knob",
-        region=Region(
-            np.stack([right, -right, up, -up, away]),
-            np.array([high[1], -low[1], high[0], -low[0], back]),
-        ),
+        region=box_before(raster.side, low, high, back),
         kind=JointKind.CONTINUOUS,
         axis=away,
         origin=across * right + height * up + back * away,

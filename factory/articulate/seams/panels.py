@@ -11,10 +11,9 @@ from .candidates import (
     FLAT,
     MOST,
     MOST_FOUND,
-    SAME,
     FrontScene,
     deep,
-    in_common,
+    is_among,
     main_pulls,
     mean_in,
     of_one_kind,
@@ -68,7 +67,7 @@ def choose(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[FrontPanel, .
     rated.sort(key=lambda group: -group.value)
     kept: list[Group] = []
     for group in rated:
-        known = any(in_common(group.rectangle, other.rectangle) >= SAME for other in kept)
+        known = is_among(group.rectangle, (other.rectangle for other in kept))
         if not known and deep(scene, group.rectangle):
             kept.append(group)
         if len(kept) >= MOST:

@@ -62,6 +62,22 @@ class OpeningPart:
         )
 
 
+def box_before(side: Side, low: FloatArray, high: FloatArray, back: float) -> Region:
+    """All of a rectangle of one side that is before a depth, in that side's frame [m].
+
+    Args:
+        side: that is looked at.
+        low: up and to the right, shape [2].
+        high: likewise.
+        back: that depth, away from the viewer.
+    """
+    right, up, away = side.frame
+    return Region(
+        np.stack([right, -right, up, -up, away]),
+        np.array([high[1], -low[1], high[0], -low[0], back]),
+    )
+
+
 def rim_depth(front: Front, panel: FrontPanel) -> float:
     """How far behind the nearest point the outer edge of a panel lies [pixels]."""
     top, bottom, left, right = _borders(front, panel)
@@ -112,10 +128,7 @@ def panel_mover(
     thickness = seen_thickness(fronts, side, panel, rim)
     if thickness is None:
         thickness = max(THICKNESS * behind, LEAST_THICKNESS * raster.pixel)
-    region = Region(
-        np.stack([right, -right, up, -up, away]),
-        np.array([high[1], -low[1], high[0], -low[0], rim + thickness]),
-    )
+    region = box_before(raster.side, low, high, rim + thickness)
     middle = (low + high) / 2.0
     across, height = {
         OpensBy.LEFT: (low[1], middle[0]),

@@ -10,7 +10,7 @@ import numpy as np
 from ...geometry.crossings import Side
 from ...mesh import IntArray, Mesh
 from .appliances import appliance_door
-from .candidates import in_common
+from .candidates import is_among
 from .fronts import AROUND, Front, fronts_of
 from .glimpses import glimpsed
 from .groups import FrontPanel
@@ -43,8 +43,6 @@ LEAST_SEEN = 0.2
 #: is one, whoever sees it.
 EVIDENT = 0.95
 STANDS_OFF = 4.0
-#: Panels with so much in common (intersection over union) are one.
-SAME = 0.8
 #: Value of a panel that is right as often as not, and how fast confidence grows with it.
 EVEN = 1.5
 SLOPE = 0.8
@@ -179,24 +177,22 @@ class _Sides:
 
     def has_all_of(self, few: Sequence[FrontPanel]) -> bool:
         """Whether ``few`` are among the panels, and the others have handles and seams around."""
-        if not few or not all(any(_same(each, other) for other in self.panels) for each in few):
+        own = [panel.rectangle for panel in self.panels]
+        those = [panel.rectangle for panel in few]
+        if not those or not all(is_among(each, own) for each in those):
             return False
-        others = [each for each in self.panels if not any(_same(each, other) for other in few)]
-        return all(each.handles and self._is_closed(each) for each in others)
-
-    def _is_closed(self, panel: FrontPanel) -> bool:
-        found = self.found[self.side]
-        return not panel.cut or any(in_common(panel.rectangle, each) >= SAME for each in found)
+        others = [panel for panel in self.panels if not is_among(panel.rectangle, those)]
+        seams = self.found[self.side]
+        return all(
+            panel.handles and (not panel.cut or is_among(panel.rectangle, seams))
+            for panel in others
+        )
 
     def front_readings(self) -> tuple[MeshReading, ...]:
         """Of the panels, if there is enough to them."""
         if self.value < LEAST_FRONT:
             return ()
         return _front_readings(self.fronts, self.side, self.panels, _ruled_confidence)
-
-
-def _same(one: FrontPanel, other: FrontPanel) -> bool:
-    return in_common(one.rectangle, other.rectangle) >= SAME
 
 
 def _glimpsed_readings(fronts: Mapping[Side, Front]) -> tuple[MeshReading, ...]:
