@@ -193,6 +193,40 @@ def buttons(edge=EDGE):
     return mesh_of(solid, edge)
 
 
+def bar_across(edge=EDGE):
+    """An oven: its door is all of the front but a strip above, with a bar from side to side."""
+    solid = _box((0.0, 0.0, 0.0), (0.7, 0.6, 0.85))
+    solid = _engraved(solid, ((0.0, 0.7), (0.7, 0.7)))
+    solid += _box((0.0, -0.04, 0.62), (0.7, 0.001, 0.645))
+    return mesh_of(solid, edge)
+
+
+def moulding(edge=EDGE):
+    """A box with a flat ledge across its front: no handle."""
+    solid = _box((0.0, 0.0, 0.0), (0.7, 0.6, 0.85))
+    solid = _engraved(solid, ((0.0, 0.7), (0.7, 0.7)))
+    solid += _box((0.0, -0.01, 0.6), (0.7, 0.001, 0.645))
+    return mesh_of(solid, edge)
+
+
+def proud_drawers(edge=EDGE):
+    """A low desk's two drawers, whose fronts stand before the frame, a small bar on each."""
+    solid = _box((0.0, 0.0, 0.0), (1.4, 0.6, 0.75)) - _box((0.06, -1.0, -1.0), (1.34, 1.0, 0.6))
+    for low in (0.1, 0.72):
+        solid += _box((low, -0.01, 0.63), (low + 0.58, 0.001, 0.72))
+        solid += bar((low + 0.25, 0.67), (low + 0.33, 0.685), off=0.035)
+    return mesh_of(solid, edge)
+
+
+def slab_door(edge=EDGE):
+    """A small fridge: a slab without a handle above a plinth, a groove behind it on three sides."""
+    solid = _box((0.0, 0.0, 0.0), (0.5, 0.55, 0.85)) - _box((-1.0, -1.0, -1.0), (1.0, 0.04, 0.06))
+    half = GROOVE / 2.0
+    around = _box((-1.0, 0.06 - half, 0.06), (2.0, 0.06 + half, 2.0))
+    solid -= around - _box((GROOVE, -1.0, -1.0), (0.5 - GROOVE, 1.0, 0.85 - GROOVE))
+    return mesh_of(solid, edge)
+
+
 def plain_box(edge=EDGE):
     """Nothing opens."""
     return mesh_of(_box((0.0, 0.0, 0.0), (0.6, 0.5, 0.9)), edge)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from ...geometry.crossings import Side
+from ...mesh import FloatArray
 from .fronts import AROUND, Front
 from .groups import FrontPanel
 
@@ -35,29 +36,59 @@ def seen_thickness(
         panel: one that may reach to the outline.
         rim: depth of its outer edge in that side's frame [m].
     """
+    beside = _beside(fronts, side, panel)
+    found = [_seams(fronts[side], panel, rim, other) for other in beside]
+    pair = _agreeing(found, fronts[side])
+    if pair is not None:
+        return pair
+    seen = [_best(each) for each in found if len(each)]
+    if not seen:
+        return None
+    thickness, cover = max(seen, key=lambda each: each[1])
+    return thickness if len(beside) == 1 or cover >= ALONE else None
+
+
+def is_slab(fronts: Mapping[Side, Front], side: Side, panel: FrontPanel, rim: float) -> bool:
+    """Whether both sides beside a panel show its back edge at one depth; arguments as above."""
+    found = [_seams(fronts[side], panel, rim, other) for other in _beside(fronts, side, panel)]
+    return _agreeing(found, fronts[side]) is not None
+
+
+def _best(seams: FloatArray) -> tuple[float, float]:
+    behind, cover = seams[seams[:, 1].argmax()]
+    return float(behind), float(cover)
+
+
+def _agreeing(found: Sequence[FloatArray], front: Front) -> float | None:
+    """How far behind the rim [m] two sides show a seam, the best covered one."""
+    if len(found) != 2:
+        return None
+    (one, other) = found
+    apart = np.abs(one[:, None, 0] - other[None, :, 0])
+    cover = one[:, None, 1] + other[None, :, 1]
+    cover = np.where(apart <= SAME * front.relief.raster.pixel, cover, 0.0)
+    if not cover.any():
+        return None
+    at, beside = np.unravel_index(int(cover.argmax()), cover.shape)
+    return float(one[at, 0] + other[beside, 0]) / 2.0
+
+
+def _beside(fronts: Mapping[Side, Front], side: Side, panel: FrontPanel) -> list[Front]:
+    """The sides that a panel reaches."""
     _, _, first, last = fronts[side].relief.box
     right = side.frame[0]
     at_left = int(panel.rectangle.low[1]) - first <= AT_OUTLINE
     at_right = last - int(panel.rectangle.high[1]) <= AT_OUTLINE
     looking = {other: float(other.frame[2] @ right) for other in AROUND}
-    beside = [
+    return [
         fronts[other]
         for other in AROUND
         if (at_left and looking[other] > 0.5) or (at_right and looking[other] < -0.5)
     ]
-    found = [_seam(fronts[side], panel, rim, other) for other in beside]
-    seen = [each for each in found if each is not None]
-    if not seen:
-        return None
-    pixel = fronts[side].relief.raster.pixel
-    if len(seen) == 2 and abs(seen[0][0] - seen[1][0]) <= SAME * pixel:
-        return (seen[0][0] + seen[1][0]) / 2.0
-    thickness, cover = max(seen, key=lambda each: each[1])
-    return thickness if len(beside) == 1 or cover >= ALONE else None
 
 
-def _seam(front: Front, panel: FrontPanel, rim: float, beside: Front) -> tuple[float, float] | None:
-    """The best upright seam behind a panel: how far behind its rim [m], and how far covered."""
+def _seams(front: Front, panel: FrontPanel, rim: float, beside: Front) -> FloatArray:
+    """The upright seams behind a panel: how far behind its rim [m], how far covered; [n, 2]."""
     own = front.relief.raster
     raster = beside.relief.raster
     lines = beside.scene.upright
@@ -69,8 +100,8 @@ def _seam(front: Front, panel: FrontPanel, rim: float, beside: Front) -> tuple[f
     heights = own.low[1] + np.array([panel.rectangle.low[0], panel.rectangle.high[0]]) * own.pixel
     rows = np.clip(np.rint((heights - raster.low[1]) / raster.pixel), 0, raster.rows - 1)
     start, stop = rows.astype(np.int64)
-    if not len(near) or stop <= start:
-        return None
+    if stop <= start:
+        return np.zeros((0, 2))
     covers = lines.covered(near, start, stop)
-    best = int(covers.argmax())
-    return (float(behind[near[best]]), float(covers[best])) if covers[best] >= COVERED else None
+    seen = covers >= COVERED
+    return np.stack([behind[near[seen]], covers[seen]], axis=1)

@@ -26,6 +26,9 @@ SURE = 0.8
 ENDS = 0.6
 MOST_PULLS = 2
 
+#: A panel ends at most so far within what it was cut along [squares].
+REACH = 4
+
 #: First row and the one after the last, likewise of columns [squares].
 Block = tuple[int, int, int, int]
 
@@ -69,6 +72,7 @@ def _middle(profile: FloatArray) -> int:
 
 def _panel(front: Front, block: Block) -> FrontPanel | None:
     """A block, if the network is sure of it."""
+    block = _settled(front.sight, block)
     sides = _ends(front.sight, block)
     low = SQUARE * np.array([block[0], block[2]])
     high = np.minimum(SQUARE * np.array([block[1], block[3]]), np.array(front.relief.shape) - 1)
@@ -81,6 +85,21 @@ def _panel(front: Front, block: Block) -> FrontPanel | None:
         return None
     odds = float(np.log(sure / (1.0 - sure))) if sure < 1.0 else np.inf
     return FrontPanel(rectangle, handles, odds)
+
+
+def _settled(sight: Sight, block: Block) -> Block:
+    """A block whose sides have moved in to the surest end near each."""
+    bottom, top, left, right = block
+    rows = sight.level[bottom:top, left:right].mean(axis=1)
+    columns = sight.upright[bottom:top, left:right].mean(axis=0)
+    if min(len(rows), len(columns)) < 2 * REACH:
+        return block
+    return (
+        bottom + int(rows[:REACH].argmax()),
+        top - int(rows[::-1][:REACH].argmax()),
+        left + int(columns[:REACH].argmax()),
+        right - int(columns[::-1][:REACH].argmax()),
+    )
 
 
 def _ends(sight: Sight, block: Block) -> FloatArray:

@@ -26,6 +26,11 @@ BORDER = 4
 SMALLEST = 0.02
 #: A handle's shorter side is at most this share of the picture's shorter side.
 WIDEST = 0.2
+#: A bar from outline to outline is at most so thin, as a share of the picture's longer side, and
+#: stands off so far [pixels]; a moulding less.
+THIN = 0.05
+INSET = 3
+STANDS_OFF = 5.0
 #: Three of one size in a row are controls if their centres lie within this share of their size,
 #: and no farther apart than so many times their size; in a column on a side, where drawers have
 #: their knobs, so many times.
@@ -81,6 +86,10 @@ class Protrusion:
     def size(self) -> FloatArray:
         """Rows and columns."""
         return np.asarray(self.high - self.low + 1.0)
+
+    def holds(self, other: Protrusion) -> bool:
+        """Whether another stands on it: then it is a panel in front of its frame."""
+        return bool((other.low > self.low).all() and (other.high < self.high).all())
 
     @property
     def grip(self) -> GripShape:
@@ -149,7 +158,7 @@ def cleared(relief: Relief) -> Face:
         for index, where in enumerate(ndimage.find_objects(labels), start=1):
             mask = labels[where] == index
             handle = _handle(relief, height, opened, where, mask)
-            if handle is None:
+            if handle is None or any(handle.holds(other) for other in found):
                 continue
             found.append(handle)
             region = tuple(slice(max(part.start - 2, 0), part.stop + 2) for part in where)
@@ -196,9 +205,23 @@ def _handle(
             return None
         carried = seen & (np.abs(height[strip] - under) < most)
         shares.append(float(carried.mean()) if carried.size else 0.0)
-    if sorted(shares)[1] < SUPPORTED or sum(shares) < SUPPORTED * 3.0:
+    across = _reaches_across(relief, low, high)
+    if across and (min(shares[:2]) < SUPPORTED or top - under < STANDS_OFF):
         return None
+    if not across and (sorted(shares)[1] < SUPPORTED or sum(shares) < SUPPORTED * 3.0):
+        return None
+    if across:
+        # What carries it ends where it does.
+        low[1] += INSET
+        high[1] -= INSET
     return Protrusion(low, high, top - under, float(mask.mean()))
+
+
+def _reaches_across(relief: Relief, low: IntArray, high: IntArray) -> bool:
+    """Whether a blob is a thin bar from outline to outline, as doors of fridges and ovens have."""
+    _, _, first, last = relief.box
+    thin = high[0] - low[0] + 1 <= THIN * max(relief.shape)
+    return bool(thin and low[1] - first <= BORDER and last - high[1] <= BORDER)
 
 
 def _border(low: IntArray, high: IntArray, shape: tuple[int, int]) -> list[tuple[slice, slice]]:

@@ -56,28 +56,39 @@ def choose(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[FrontPanel, .
         scene: the side.
         found: its closed rectangles, the best first.
     """
-    first_row, last_row, _, _ = scene.relief.box
-    if last_row - first_row < FLAT * PIXELS:
-        return ()
-    solid = usable(scene, (*found[:MOST_FOUND], whole_side(scene)))
-    rated = [
-        Group(each, (FrontPanel(each, scene.handles_in(each), _value(scene, each)),))
-        for each in solid
-    ]
-    rated.sort(key=lambda group: -group.value)
-    kept: list[Group] = []
-    for group in rated:
-        known = is_among(group.rectangle, (other.rectangle for other in kept))
-        if not known and deep(scene, group.rectangle):
-            kept.append(group)
-        if len(kept) >= MOST:
-            break
+    kept = rated(scene, found)
     kept += [cut for each in kept if (cut := _divided(scene, each.rectangle)) is not None]
     pulled = [group for group in kept if group.panels[0].handles and group.value >= LEAST_VALUE]
     pulled.sort(key=lambda group: -group.value)
     chosen = [panel for group in together(pulled) for panel in group.panels]
     bare = [group for group in kept if not group.panels[0].handles]
     return (*chosen, *_without_handles(scene.relief, chosen, bare))
+
+
+def rated(scene: FrontScene, found: Sequence[Rectangle]) -> list[Group]:
+    """Each rectangle that may be a panel with what speaks for it, the likeliest first.
+
+    Args:
+        scene: the side.
+        found: its closed rectangles, the best first.
+    """
+    first_row, last_row, _, _ = scene.relief.box
+    if last_row - first_row < FLAT * PIXELS:
+        return []
+    solid = usable(scene, (*found[:MOST_FOUND], whole_side(scene)))
+    groups = [
+        Group(each, (FrontPanel(each, scene.handles_in(each), _value(scene, each)),))
+        for each in solid
+    ]
+    groups.sort(key=lambda group: -group.value)
+    kept: list[Group] = []
+    for group in groups:
+        known = is_among(group.rectangle, (other.rectangle for other in kept))
+        if not known and deep(scene, group.rectangle):
+            kept.append(group)
+        if len(kept) >= MOST:
+            break
+    return kept
 
 
 def _divided(scene: FrontScene, rectangle: Rectangle) -> Group | None:

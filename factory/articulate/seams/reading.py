@@ -23,6 +23,7 @@ from .panels import choose
 from .placing import OpeningPart, lid_mover, panel_mover
 from .rectangles import Rectangle
 from .relief import Relief, reliefs_of
+from .slabs import slabs_on
 from .straight import straightening
 
 MOST_READINGS = 4
@@ -128,7 +129,7 @@ def _openings(seen: _Sides, *, has_knobs: bool) -> tuple[MeshReading, ...]:
     if by_rules and side is seen.side and seen.has_all_of(learned.panels):
         return by_rules
     if learned.value <= max((odds if by_rules else 0.0) + MARGIN, 0.0):
-        return by_rules or _glimpsed_readings(seen.fronts)
+        return by_rules or _glimpsed_readings(seen.fronts) or _slab_readings(seen)
     readings = _front_readings(seen.fronts, side, learned.panels, _learned_confidence)
     return (*readings[: MOST_READINGS - 1], *by_rules)[:MOST_READINGS]
 
@@ -200,6 +201,13 @@ def _glimpsed_readings(fronts: Mapping[Side, Front]) -> tuple[MeshReading, ...]:
     panels = {side: glimpsed(fronts[side]) for side in AROUND}
     side = max(AROUND, key=lambda each: _front_value(panels[each], each))
     return _front_readings(fronts, side, panels[side], _learned_confidence)
+
+
+def _slab_readings(seen: _Sides) -> tuple[MeshReading, ...]:
+    """Of the side with the largest slabs."""
+    panels = {side: slabs_on(seen.fronts, side, seen.found[side]) for side in AROUND}
+    side = max(AROUND, key=lambda each: _front_value(panels[each], each))
+    return _front_readings(seen.fronts, side, panels[side], _learned_confidence)
 
 
 def _front_value(panels: Sequence[FrontPanel], side: Side) -> float:

@@ -72,6 +72,15 @@ def test_without_an_end_in_between_they_are_one(box: Front) -> None:
     assert found.rectangle.high.tolist() == [180, 146]
 
 
+def test_a_frame_that_looks_like_a_panel_is_left_out(box: Front) -> None:
+    front = with_sight(box)
+    front.sight.panel[7:93, 9:76] = 0.95
+    panels = glimpsed(front)
+    corners = sorted((*each.rectangle.low, *each.rectangle.high) for each in panels)
+    expected = [[SQUARE * at for at in (*low, *high)] for low, high in DOORS]
+    assert np.abs(np.array(corners) - expected).max() <= SQUARE
+
+
 def test_where_nothing_else_is_found_it_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
     reliefs = reliefs_of(one_piece.plain_box(), None)
     assert read_reliefs(reliefs) == ()

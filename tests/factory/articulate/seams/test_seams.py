@@ -38,9 +38,11 @@ OPENS = {
         (HINGED, (0, 0, -1), (0.03, 0, 0)),
         (HINGED, (0, 0, 1), (0.87, 0, 0)),
     ],
+    "bar_across": [(HINGED, (1, 0, 0), (0, 0, 0))],
+    "proud_drawers": [(SLIDES, (0, -1, 0), None)] * 2,
     "cooktop": [(TURNS, (0, 0, -1), (x, 0.06, 0)) for x in (0.2, 0.3, 0.4, 0.5)],
 }
-STAYS = ("plain_box", "table", "buttons")
+STAYS = ("plain_box", "table", "buttons", "moulding")
 
 
 @cache
@@ -128,6 +130,20 @@ def test_a_door_is_as_thick_as_the_seam_beside_it_shows() -> None:
     found = read(sample("thick_doors"))
     for part in (1, 2):
         assert found.part_mesh(part).bounds[1][1] == pytest.approx(0.1, abs=0.01)
+
+
+@pytest.mark.parametrize("quarters", range(4))
+def test_a_slab_that_both_sides_show_is_a_door_without_a_handle(quarters: int) -> None:
+    turn = np.eye(4)
+    turn[:3, :3] = np.rint(rotation_about(UP, quarters * np.pi / 2.0))
+    found = read(sample("slab_door").transformed(turn))
+    (joint,) = found.joints
+    assert abs(joint.axis @ UP) > 0.99
+    place = turn[:3, :3].T @ joint.origin
+    assert place[1] == pytest.approx(0.0, abs=0.02)
+    assert min(abs(place[0]), abs(place[0] - 0.5)) < 0.02
+    door = found.part_mesh(joint.child).vertices @ turn[:3, :3]
+    assert np.ptp(door[:, 1]) == pytest.approx(0.06, abs=0.012)
 
 
 @pytest.mark.parametrize("quarters", range(4))

@@ -1,0 +1,47 @@
+"""Doors without a handle: slabs in front of a box, whose back edge both sides beside them show."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from ...geometry.crossings import Side
+from .edges import is_slab
+from .fronts import Front
+from .groups import FrontPanel, Group, together
+from .panels import rated
+from .placing import rim_depth
+from .rectangles import Rectangle
+
+#: A slab takes so much of the height of what is seen, and is so closed by seams.
+LEAST = 0.25
+CLOSED = 0.8
+#: How sure it is, as log-odds.
+SURE = 0.8
+
+
+def slabs_on(
+    fronts: Mapping[Side, Front], side: Side, found: Sequence[Rectangle]
+) -> tuple[FrontPanel, ...]:
+    """The slabs of one side, from outline to outline.
+
+    Args:
+        fronts: the four sides.
+        side: that is looked at.
+        found: its rectangles closed by seams.
+    """
+    front = fronts[side]
+    first, last, _, _ = front.relief.box
+    fit = [
+        group
+        for group in rated(front.scene, found)
+        if group.rectangle.closed >= CLOSED
+        and group.rectangle.size[0] >= LEAST * (last - first)
+        and is_slab(fronts, side, group.panels[0], _rim(front, group))
+    ]
+    return tuple(replace(group.panels[0], value=SURE) for group in together(fit))
+
+
+def _rim(front: Front, group: Group) -> float:
+    raster = front.relief.raster
+    return float(raster.near + rim_depth(front, group.panels[0]) * raster.pixel)
