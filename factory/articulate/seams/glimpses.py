@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy import ndimage
 
-from ...mesh import FloatArray
+from ...mesh import FloatArray, IntArray
 from .candidates import main_pulls
 from .fronts import Front
 from .groups import FrontPanel
@@ -25,9 +25,13 @@ LEAST = 6
 SURE = 0.8
 ENDS = 0.6
 MOST_PULLS = 2
+#: One of a row of controls may be a panel's only pull; what holds more is where they sit.
+MOST_CONTROLS = 1
 
 #: A panel ends at most so far within what it was cut along [squares].
 REACH = 4
+#: Lines are seen more exactly than squares [pixels].
+SNAP = 4
 
 #: First row and the one after the last, likewise of columns [squares].
 Block = tuple[int, int, int, int]
@@ -74,8 +78,12 @@ def _panel(front: Front, block: Block) -> FrontPanel | None:
     """A block, if the network is sure of it."""
     block = _settled(front.sight, block)
     sides = _ends(front.sight, block)
-    low = SQUARE * np.array([block[0], block[2]])
-    high = np.minimum(SQUARE * np.array([block[1], block[3]]), np.array(front.relief.shape) - 1)
+    lines = front.scene.level.at, front.scene.upright.at
+    low, high = (
+        np.array([_snapped(SQUARE * at, near) for at, near in zip(corner, lines, strict=True)])
+        for corner in (block[::2], block[1::2])
+    )
+    high = np.minimum(high, np.array(front.relief.shape) - 1)
     rectangle = Rectangle(low, high, sides, sides)
     sure = front.sight.shows(rectangle)
     if (high - low).min() < SQUARE * LEAST or sure < SURE or sides.mean() < ENDS:
@@ -83,8 +91,17 @@ def _panel(front: Front, block: Block) -> FrontPanel | None:
     handles = front.scene.handles_in(rectangle)
     if len(main_pulls(handles, rectangle)) > MOST_PULLS:
         return None
+    controls = [each for each in front.face.handles if each.control]
+    if not handles and sum(rectangle.holds(each.center) for each in controls) > MOST_CONTROLS:
+        return None
     odds = float(np.log(sure / (1.0 - sure))) if sure < 1.0 else np.inf
     return FrontPanel(rectangle, handles, odds)
+
+
+def _snapped(at: int, lines: IntArray) -> int:
+    """The nearest line, if it is near [pixels]."""
+    nearest = int(lines[np.abs(lines - at).argmin()])
+    return nearest if abs(nearest - at) <= SNAP else at
 
 
 def _settled(sight: Sight, block: Block) -> Block:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,6 +23,7 @@ from .panels import choose
 from .placing import OpeningPart, lid_mover, panel_mover
 from .rectangles import Rectangle
 from .relief import Relief, reliefs_of
+from .revising import revised
 from .slabs import slabs_on
 from .straight import straightening
 
@@ -104,7 +105,7 @@ def _appliance_readings(seen: _Sides, side: Side) -> tuple[MeshReading, ...]:
     if door is not None and not _is_seen(seen.fronts[side], door.panel):
         door = None
     openings = () if door is None else (door,)
-    return (_reading(seen.fronts, side, openings, _learned_confidence),)
+    return (_reading(seen.fronts, side, openings),)
 
 
 def _with(reading: MeshReading, knobs: Sequence[OpeningPart]) -> MeshReading:
@@ -129,8 +130,8 @@ def _openings(seen: _Sides, *, has_knobs: bool) -> tuple[MeshReading, ...]:
     if by_rules and side is seen.side and seen.has_all_of(learned.panels):
         return by_rules
     if learned.value <= max((odds if by_rules else 0.0) + MARGIN, 0.0):
-        return by_rules or _glimpsed_readings(seen.fronts) or _slab_readings(seen)
-    readings = _front_readings(seen.fronts, side, learned.panels, _learned_confidence)
+        return by_rules or _glimpsed_readings(seen) or _slab_readings(seen)
+    readings = seen.readings_of(side, learned.panels)
     return (*readings[: MOST_READINGS - 1], *by_rules)[:MOST_READINGS]
 
 
@@ -193,38 +194,55 @@ class _Sides:
         """Of the panels, if there is enough to them."""
         if self.value < LEAST_FRONT:
             return ()
-        return _front_readings(self.fronts, self.side, self.panels, _ruled_confidence)
+        sure = [replace(each, value=_log_odds(each.value)) for each in self.panels]
+        return self.readings_of(self.side, sure)
+
+    def readings_of(self, side: Side, panels: Sequence[FrontPanel]) -> tuple[MeshReading, ...]:
+        """Of panels of one side whose values are log-odds; with others that fit them better."""
+        front = self.fronts[side]
+        seen = [panel for panel in panels if _is_seen(front, panel)]
+        if not seen:
+            return ()
+        seen = revised(front, seen, self.found[side])
+        openings = openings_of(front.scene, seen, front.sight)
+        best = _reading(self.fronts, side, openings)
+        found = [best]
+        for index, opening in enumerate(openings):
+            for rank, (_, share) in enumerate(opening.ways[1:], start=1):
+                if share < LEAST_OTHER:
+                    continue
+                ways = (opening.ways[rank], *opening.ways[:rank], *opening.ways[rank + 1 :])
+                other = (*openings[:index], replace(opening, ways=ways), *openings[index + 1 :])
+                found.append(_reading(self.fronts, side, other))
+        found[1:] = sorted(found[1:], key=lambda reading: -reading.probability)
+        return tuple(found[:MOST_READINGS])
 
 
-def _glimpsed_readings(fronts: Mapping[Side, Front]) -> tuple[MeshReading, ...]:
+def _glimpsed_readings(seen: _Sides) -> tuple[MeshReading, ...]:
     """Of the side on which the picture network alone is surest of most."""
-    panels = {side: glimpsed(fronts[side]) for side in AROUND}
+    panels = {side: glimpsed(seen.fronts[side]) for side in AROUND}
     side = max(AROUND, key=lambda each: _front_value(panels[each], each))
-    return _front_readings(fronts, side, panels[side], _learned_confidence)
+    return seen.readings_of(side, panels[side])
 
 
 def _slab_readings(seen: _Sides) -> tuple[MeshReading, ...]:
     """Of the side with the largest slabs."""
     panels = {side: slabs_on(seen.fronts, side, seen.found[side]) for side in AROUND}
     side = max(AROUND, key=lambda each: _front_value(panels[each], each))
-    return _front_readings(seen.fronts, side, panels[side], _learned_confidence)
+    return seen.readings_of(side, panels[side])
 
 
 def _front_value(panels: Sequence[FrontPanel], side: Side) -> float:
     return sum(panel.value for panel in panels) + USUAL_FRONT[side] if panels else 0.0
 
 
-def _ruled_confidence(panel: FrontPanel) -> float:
-    return confidence_of(panel.value)
+def _log_odds(value: float) -> float:
+    """Of a part being one, by what rules find to speak for it."""
+    return SLOPE * (value - EVEN)
 
 
-def _learned_confidence(panel: FrontPanel) -> float:
-    return float(1.0 / (1.0 + np.exp(-panel.value)))
-
-
-def confidence_of(value: float) -> float:
-    """Probability of a part, by what speaks for it."""
-    return float(1.0 / (1.0 + np.exp(-SLOPE * (value - EVEN))))
+def _chance(log_odds: float) -> float:
+    return float(1.0 / (1.0 + np.exp(-log_odds)))
 
 
 def _lid_readings(fronts: Mapping[Side, Front], lids: list[Lid]) -> tuple[MeshReading, ...]:
@@ -232,37 +250,12 @@ def _lid_readings(fronts: Mapping[Side, Front], lids: list[Lid]) -> tuple[MeshRe
     values = np.array([value for _, value in lid.hinges])
     shares = np.exp(2.0 * (values - values.max()))
     shares /= shares.sum()
-    sure = confidence_of(lid.value)
+    sure = _chance(_log_odds(lid.value))
     return tuple(
         MeshReading((lid_mover(fronts, lid, hinge, sure, float(share)),), (), sure * float(share))
         for (hinge, _), share in zip(lid.hinges, shares, strict=True)
         if share >= LEAST_OTHER
     )[:MOST_READINGS]
-
-
-def _front_readings(
-    fronts: Mapping[Side, Front],
-    side: Side,
-    panels: Sequence[FrontPanel],
-    confidence: Callable[[FrontPanel], float],
-) -> tuple[MeshReading, ...]:
-    front = fronts[side]
-    seen = [panel for panel in panels if _is_seen(front, panel)]
-    if not seen:
-        return ()
-
-    openings = openings_of(front.scene, seen, front.sight)
-    best = _reading(fronts, side, openings, confidence)
-    found = [best]
-    for index, opening in enumerate(openings):
-        for rank, (_, share) in enumerate(opening.ways[1:], start=1):
-            if share < LEAST_OTHER:
-                continue
-            ways = (opening.ways[rank], *opening.ways[:rank], *opening.ways[rank + 1 :])
-            other = (*openings[:index], replace(opening, ways=ways), *openings[index + 1 :])
-            found.append(_reading(fronts, side, other, confidence))
-    found[1:] = sorted(found[1:], key=lambda reading: -reading.probability)
-    return tuple(found[:MOST_READINGS])
 
 
 def _is_seen(front: Front, panel: FrontPanel) -> bool:
@@ -276,7 +269,6 @@ def _reading(
     fronts: Mapping[Side, Front],
     side: Side,
     openings: tuple[Opening, ...],
-    confidence: Callable[[FrontPanel], float],
 ) -> MeshReading:
     movers = tuple(
         panel_mover(
@@ -284,7 +276,7 @@ def _reading(
             side,
             opening.panel,
             opening.way,
-            confidence(opening.panel),
+            _chance(opening.panel.value),
             opening.ways[0][1],
         )
         for opening in openings

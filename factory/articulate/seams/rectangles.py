@@ -27,7 +27,7 @@ LEAST_MEAN = 0.72
 
 @dataclass(frozen=True, eq=False)
 class Lines:
-    """PanelCandidate lines in one direction.
+    """Lines in one direction that may be sides of panels.
 
     Attributes:
         at: their places across [pixels], ascending, shape [n].
@@ -63,7 +63,7 @@ class Lines:
 
 
 def lines_of(seams: Seams, first: int, last: int) -> Lines:
-    """PanelCandidate horizontal lines; hand in turned evidence for vertical ones.
+    """Horizontal lines that may be sides of panels; hand in turned evidence for vertical ones.
 
     Args:
         seams: in that direction.

@@ -1,0 +1,114 @@
+"""What the picture network changes about panels that others found."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.samples import one_piece
+
+from asset_factory.factory.articulate.seams.fronts import Front, fronts_of
+from asset_factory.factory.articulate.seams.groups import FrontPanel
+from asset_factory.factory.articulate.seams.rectangles import Rectangle
+from asset_factory.factory.articulate.seams.relief import reliefs_of
+from asset_factory.factory.articulate.seams.revising import revised
+from asset_factory.factory.articulate.seams.sight import SQUARE, Sight
+from asset_factory.factory.articulate.seams.ways import OpensBy
+from asset_factory.factory.geometry.crossings import Side
+
+
+def rectangle(low: tuple[int, int], high: tuple[int, int]) -> Rectangle:
+    return Rectangle(np.array(low), np.array(high), np.ones(4), np.ones(4))
+
+
+def with_sight(front: Front, seen: list[Rectangle]) -> Front:
+    """The same, and the network is sure of these alone."""
+    shape = tuple(-(-length // SQUARE) for length in front.relief.shape)
+    panel, level, upright = np.zeros(shape), np.zeros(shape), np.zeros(shape)
+    for each in seen:
+        bottom, left = each.low // SQUARE
+        top, right = each.high // SQUARE
+        panel[bottom:top, left:right] = 0.95
+        level[[bottom - 1, top], left:right] = 0.95
+        upright[bottom:top, [left - 1, right]] = 0.95
+    told = replace(front)
+    told.__dict__["sight"] = Sight(
+        panel, np.zeros(shape), level, upright, np.full((len(OpensBy), *shape), 1.0 / len(OpensBy))
+    )
+    return told
+
+
+@pytest.fixture(scope="module")
+def doors() -> Front:
+    """Of a pair of doors with an upright bar on each."""
+    return fronts_of(reliefs_of(one_piece.doors(), None))[Side.FRONT]
+
+
+@pytest.fixture
+def pair(doors: Front) -> list[FrontPanel]:
+    """The doors, as they are."""
+    bottom, top, left, right = doors.relief.box
+    middle = (left + right) // 2
+    rectangles = (
+        rectangle((bottom + 10, left + 10), (top - 10, middle - 2)),
+        rectangle((bottom + 10, middle + 2), (top - 10, right - 10)),
+    )
+    found = [FrontPanel(each, doors.scene.handles_in(each), 0.5) for each in rectangles]
+    assert all(len(panel.handles) == 1 for panel in found)
+    return found
+
+
+def moved(panel: FrontPanel, low: int = 0, high: int = 0) -> FrontPanel:
+    """With its left and right side elsewhere [pixels]."""
+    old = panel.rectangle
+    return replace(
+        panel,
+        rectangle=rectangle((old.low[0], old.low[1] + low), (old.high[0], old.high[1] + high)),
+    )
+
+
+def columns(panels: list[FrontPanel]) -> list[list[int]]:
+    return sorted([int(each.rectangle.low[1]), int(each.rectangle.high[1])] for each in panels)
+
+
+def test_cuts_that_nobody_saw_move_to_the_ends_seen(doors: Front, pair: list[FrontPanel]) -> None:
+    front = with_sight(doors, [panel.rectangle for panel in pair])
+    cut = [replace(moved(pair[0], high=-12), cut=True), replace(moved(pair[1], low=-12), cut=True)]
+    assert np.abs(np.subtract(columns(revised(front, cut, [])), columns(pair))).max() <= 4
+
+
+def test_a_cut_stays_where_the_network_sees_one_of_two(
+    doors: Front, pair: list[FrontPanel]
+) -> None:
+    front = with_sight(doors, [pair[0].rectangle])
+    cut = [replace(panel, cut=True) for panel in pair]
+    assert revised(front, cut, []) == cut
+
+
+def test_a_doubted_panel_becomes_what_is_seen_around_its_handle(
+    doors: Front, pair: list[FrontPanel]
+) -> None:
+    front = with_sight(doors, [pair[0].rectangle])
+    wide = moved(pair[0], high=pair[1].rectangle.high[1] - pair[0].rectangle.high[1])
+    (found,) = revised(front, [wide], [])
+    assert found.handles == wide.handles
+    assert np.abs(np.subtract(columns([found]), columns([pair[0]]))).max() <= 4
+
+
+def test_a_doubted_panel_stays_if_nothing_better_is_seen(
+    doors: Front, pair: list[FrontPanel]
+) -> None:
+    assert revised(with_sight(doors, []), pair, []) == pair
+
+
+def test_what_the_network_is_sure_of_stays(doors: Front, pair: list[FrontPanel]) -> None:
+    front = with_sight(doors, [panel.rectangle for panel in pair])
+    assert revised(front, pair, []) == pair
+
+
+def test_a_panel_seen_beside_others_is_added(doors: Front, pair: list[FrontPanel]) -> None:
+    front = with_sight(doors, [panel.rectangle for panel in pair])
+    found = revised(front, pair[:1], [])
+    assert found[0] is pair[0]
+    assert np.abs(np.subtract(columns(found), columns(pair))).max() <= 4
