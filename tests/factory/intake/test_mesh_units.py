@@ -136,6 +136,8 @@ def test_units_are_guessed_from_plausible_sizes(
         ("holder", "furniture_bench_parts", None),
         ("robot", "", None),
         ("tablet", "", "tablet"),
+        ("phone_booth", "", "phone_booth"),
+        ("mailbox", "", "mailbox"),
     ],
 )
 def test_category_is_guessed_from_names(stem: str, folder: str, category: str | None) -> None:
