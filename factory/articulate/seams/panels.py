@@ -33,6 +33,8 @@ CUT_VALUE = 1.2
 SOLID = 0.9
 #: And so much of the picture's area it covers.
 LEAST_AREA = 0.015
+#: No door or drawer is slimmer, as its width over its height.
+SLIMMEST = 0.15
 #: The object is there so wide as a share of its whole width: no tank on a bowl.
 LEAST_SPAN = 0.5
 #: A seam that crosses a rectangle is covered so far, by the shape alone.
@@ -108,7 +110,7 @@ def _divided(scene: FrontScene, rectangle: Rectangle) -> Group | None:
 
 
 def usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
-    """Those rectangles that are solid and face the viewer, where the object is wide."""
+    """Those that are solid, no slivers, and face the viewer, where the object is wide."""
     if not found:
         return []
     relief = scene.relief
@@ -124,6 +126,7 @@ def usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
     good = (
         (size.prod(axis=1) >= LEAST_AREA * whole)
         & (solid >= SOLID)
+        & (size[:, 1] >= SLIMMEST * size[:, 0])
         & (span * relief.shape[1] >= LEAST_SPAN * (box[3] - box[2]))
     )
     return [each for each, fits in zip(found, good, strict=True) if fits]

@@ -41,6 +41,8 @@ LEAST_OTHER = 0.1
 MARGIN = 2.0
 #: A panel of which the picture network sees less than this share is none.
 LEAST_SEEN = 0.2
+#: Of panels of which it sees that much nobody else's doubts count.
+CLEAR = 0.85
 #: What is closed by grooves and steps to this, and has a handle that stands off so far [pixels],
 #: is one, whoever sees it.
 EVIDENT = 0.95
@@ -121,7 +123,7 @@ def _with(reading: MeshReading, knobs: Sequence[OpeningPart]) -> MeshReading:
 def _openings(seen: _Sides, *, has_knobs: bool) -> tuple[MeshReading, ...]:
     """What opens, without knobs; what has some is an appliance, whose top is no lid."""
     odds = value_of(seen.front.scene, seen.panels, seen.found[seen.side])
-    if not has_knobs and seen.has_lid(odds < 0.0):
+    if not has_knobs and seen.has_lid(odds < 0.0 and not seen.is_clear):
         return _lid_readings(seen.fronts, seen.lids)
     by_rules = seen.front_readings()
     layouts = {side: layout_of(seen.fronts[side].scene, seen.found[side]) for side in AROUND}
@@ -170,6 +172,13 @@ class _Sides:
     def value(self) -> float:
         """What speaks for the panels."""
         return _front_value(self.panels, self.side)
+
+    @property
+    def is_clear(self) -> bool:
+        """Whether the picture network is sure of all of several panels."""
+        areas = [panel.rectangle.area for panel in self.panels]
+        shown = [self.front.sight.shows(panel.rectangle) for panel in self.panels]
+        return len(areas) > 1 and bool(np.average(shown, weights=areas) >= CLEAR)
 
     def has_lid(self, doubtful: bool) -> bool:
         """Whether it is a lid that opens, and no panels; ``doubtful`` ones count for nothing."""

@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from .candidates import in_common
 from .fronts import Front
 from .glimpses import glimpsed
 from .groups import FrontPanel, apart
 from .panels import rated
 from .rectangles import Rectangle
+from .sight import SQUARE
 
 #: Of a panel of which the network sees less, another rectangle with the same handle may be better:
 #: one of which it sees so much, so closed by seams, with less in common (intersection over union).
@@ -21,6 +24,12 @@ OTHER = 0.7
 #: Where nobody saw a seam between panels, the network must see so many there, and so much of them.
 FEWEST = 2
 MOST_OF = 0.85
+#: Two knobs that have grown together are at most so wide, as a share of both doors, and so many
+#: times as wide as high; between these shares of the width, so sure an end parts the doors.
+GROWN = 0.25
+WIDEST = 3.0
+MIDDLE = (0.4, 0.6)
+PARTED = 0.45
 
 
 def revised(
@@ -37,8 +46,38 @@ def revised(
     others = [
         group.panels[0] for group in rated(front.scene, found) if group.rectangle.closed >= CLOSED
     ]
-    kept = _exchanged(front, _recut(panels, glimpses), [*glimpses, *others])
+    halves = [half for panel in panels for half in _parted(front, panel)]
+    kept = _exchanged(front, _recut(halves, glimpses), [*glimpses, *others])
     return [*kept, *_clear(glimpses, kept)]
+
+
+def _parted(front: Front, panel: FrontPanel) -> tuple[FrontPanel, ...]:
+    """Two doors, if the network sees an end behind the only knob, which is then both of theirs."""
+    whole = panel.rectangle
+    if len(panel.handles) != 1:
+        return (panel,)
+    knob = panel.handles[0]
+    rows, columns = knob.size
+    if columns > min(WIDEST * rows, GROWN * whole.size[1]):
+        return (panel,)
+    inside = slice(whole.low[0] // SQUARE + 1, whole.high[0] // SQUARE)
+    ends = front.sight.upright[inside]
+    sure = np.maximum(ends[:, :-1], ends[:, 1:]).mean(axis=0)
+    at = SQUARE * (np.arange(len(sure)) + 1)
+    share = (at - whole.low[1]) / whole.size[1]
+    behind = (at > knob.low[1]) & (at < knob.high[1]) & (share > MIDDLE[0]) & (share < MIDDLE[1])
+    sure = np.where(behind, sure, 0.0)
+    if sure.max() < PARTED:
+        return (panel,)
+    seam = int(at[sure.argmax()])
+    left = replace(whole, high=np.array([whole.high[0], seam]))
+    right = replace(whole, low=np.array([whole.low[0], seam]))
+    on_left = replace(knob, high=np.array([knob.high[0], seam - 1]))
+    on_right = replace(knob, low=np.array([knob.low[0], seam + 1]))
+    return (
+        replace(panel, rectangle=left, handles=(on_left,)),
+        replace(panel, rectangle=right, handles=(on_right,)),
+    )
 
 
 def _recut(panels: Sequence[FrontPanel], glimpses: Sequence[FrontPanel]) -> list[FrontPanel]:

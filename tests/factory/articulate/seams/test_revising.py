@@ -112,3 +112,24 @@ def test_a_panel_seen_beside_others_is_added(doors: Front, pair: list[FrontPanel
     found = revised(front, pair[:1], [])
     assert found[0] is pair[0]
     assert np.abs(np.subtract(columns(found), columns(pair))).max() <= 4
+
+
+@pytest.mark.parametrize(("seen", "count"), [(0.9, 2), (0.2, 1)])
+def test_a_knob_on_an_end_that_is_seen_opens_two_doors(
+    doors: Front, pair: list[FrontPanel], seen: float, count: int
+) -> None:
+    low = pair[0].rectangle.low
+    high = pair[1].rectangle.high
+    middle = (low + high) // 2
+    half = np.array([4, 8])
+    knob = replace(pair[0].handles[0], low=middle - half, high=middle + half)
+    whole = replace(pair[0], rectangle=rectangle(tuple(low), tuple(high)), handles=(knob,))
+    front = with_sight(doors, [whole.rectangle])
+    front.sight.upright[:, middle[1] // SQUARE] = seen
+    found = revised(front, [whole], [])
+    assert len(found) == count
+    if count == 2:
+        seam = int(found[0].rectangle.high[1])
+        assert abs(seam - middle[1]) <= SQUARE
+        assert found[1].rectangle.low[1] == seam
+        assert found[0].handles[0].high[1] < seam < found[1].handles[0].low[1]
