@@ -32,7 +32,7 @@ def appliance_door(front: Front, found: Sequence[Rectangle]) -> Opening | None:
         front: the side with the knobs.
         found: its rectangles closed by seams.
     """
-    controls = [handle for handle in front.face.handles if handle.control]
+    controls = [handle for handle in front.scene.face.handles if handle.control]
     seen = float(front.relief.seen.sum())
     fit = [
         each

@@ -32,6 +32,13 @@ ONE_KIND = 2.0
 SOLID = 0.8
 #: And so much of the picture's area it covers.
 LEAST_AREA = 0.012
+#: A strip along a side, so wide as a share of the rectangle and at least [pixels], that lies so far
+#: behind its middle [pixels] belongs to something else: the wall behind a stove's top. Edges that
+#: are round to so far in [pixels] do not count.
+ROUNDED = 5
+STRIP = 0.08
+LEAST_STRIP = 4
+BEHIND = 24.0
 #: What opens is a container: so thick as a share of the panel's shorter and longer side.
 THICK_SHORT = 0.15
 THICK_LONG = 0.08
@@ -95,13 +102,15 @@ def candidates_of(scene: FrontScene, found: Sequence[Rectangle]) -> list[PanelCa
     if last_row - first_row < FLAT * PIXELS:
         return []
     kept: list[Rectangle] = []
-    for each in _usable(scene, (whole_side(scene), *found[:MOST_FOUND])):
+    usable = _usable(scene, (whole_side(scene), *found[:MOST_FOUND]))
+    for each in (*usable[:1], *level_first(scene, usable[1:])):
         if not is_among(each, kept) and deep(scene, each):
             kept.append(each)
         if len(kept) >= MOST:
             break
     cuts = [cut for each in kept for cut in _divided(scene, each)]
-    return [*(PanelCandidate(each, (each,)) for each in kept), *cuts]
+    level = [each for each, back in zip(kept, steps_back(scene, kept), strict=True) if not back]
+    return [*(PanelCandidate(each, (each,)) for each in level), *cuts]
 
 
 def whole_side(scene: FrontScene) -> Rectangle:
@@ -169,6 +178,38 @@ def _usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
     facing = relief.seen & ((relief.facing > 0.7) | scene.face.covered)
     good = ((high - low).prod(axis=1) >= LEAST_AREA * whole) & (mean_in(facing, low, high) >= SOLID)
     return [each for each, fits in zip(found, good, strict=True) if fits]
+
+
+def level_first(scene: FrontScene, rectangles: Sequence[Rectangle]) -> list[Rectangle]:
+    """The same, those last that step back: they may be cut into panels, but are none."""
+    back = steps_back(scene, rectangles)
+    return [rectangles[index] for index in np.argsort(back, kind="stable")]
+
+
+def steps_back(scene: FrontScene, rectangles: Sequence[Rectangle]) -> BoolArray:
+    """Whether rectangles end in strips that lie far behind their middle, shape [n]."""
+    if not rectangles:
+        return np.zeros(0, np.bool_)
+    low = np.array([each.low for each in rectangles]) + ROUNDED
+    high = np.maximum(np.array([each.high for each in rectangles]) - ROUNDED, low + 1)
+    seen = scene.relief.seen
+    height = np.where(seen, scene.face.height, 0.0)
+
+    def mean_height(low: IntArray, high: IntArray) -> FloatArray:
+        share = mean_in(seen, low, high)
+        return np.where(share > 0.0, mean_in(height, low, high) / np.maximum(share, 1e-9), np.inf)
+
+    width = np.maximum((STRIP * (high - low)).astype(np.int64), LEAST_STRIP)
+    width = np.minimum(width, (high - low) // 3)
+    strips = [
+        mean_height(*strip)
+        for axis in (0, 1)
+        for strip in (
+            (low, np.where(np.arange(2) == axis, low + width, high)),
+            (np.where(np.arange(2) == axis, high - width, low), high),
+        )
+    ]
+    return np.asarray(np.min(strips, axis=0) < mean_height(low + width, high - width) - BEHIND)
 
 
 def deep(scene: FrontScene, rectangle: Rectangle) -> bool:

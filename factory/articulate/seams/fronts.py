@@ -11,6 +11,7 @@ import numpy as np
 from ...geometry.crossings import Side
 from ...mesh import FloatArray
 from .candidates import FrontScene
+from .controls import with_strips
 from .evidence import Seams, level_seams, upright_seams
 from .handles import Face, cleared
 from .rectangles import SHORTEST, Rectangle, lines_of, rectangles_of
@@ -58,7 +59,7 @@ class Front:
         rows = lines_of(self.level, first_row, last_row)
         upright = upright_seams(self.relief, self.face).turned()
         columns = lines_of(upright, first_column, last_column)
-        face = parted(self.face, columns)
+        face = with_strips(parted(self.face, columns), rows, columns)
         return FrontScene(self.relief, face, thickness(self.relief, self.behind), rows, columns)
 
     def rectangles(self) -> tuple[Rectangle, ...]:

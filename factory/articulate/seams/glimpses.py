@@ -91,7 +91,7 @@ def _panel(front: Front, block: Block) -> FrontPanel | None:
     handles = front.scene.handles_in(rectangle)
     if len(main_pulls(handles, rectangle)) > MOST_PULLS:
         return None
-    controls = [each for each in front.face.handles if each.control]
+    controls = [each for each in front.scene.face.handles if each.control]
     if not handles and sum(rectangle.holds(each.center) for each in controls) > MOST_CONTROLS:
         return None
     odds = float(np.log(sure / (1.0 - sure))) if sure < 1.0 else np.inf

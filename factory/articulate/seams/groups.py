@@ -63,17 +63,21 @@ def apart(one: Rectangle, other: Rectangle) -> bool:
 
 
 def together(groups: Sequence[Group]) -> list[Group]:
-    """The set without overlaps that is worth most: greedy, then exchanges that gain."""
-    chosen: list[Group] = []
-    for _ in range(3):
-        changed = False
-        for group in groups:
-            if group in chosen:
-                continue
-            against = [g for g in chosen if not apart(group.rectangle, g.rectangle)]
-            if group.value > sum(g.value for g in against) + 1e-9:
-                chosen = [g for g in chosen if g not in against] + [group]
-                changed = True
-        if not changed:
-            break
-    return chosen
+    """The set without overlaps that is worth most, of those that start with any one group.
+
+    To each start the others are added in order of their value, if nothing is in their way.
+    """
+    ordered = sorted(groups, key=lambda group: -group.value)
+    clear = [[apart(one.rectangle, other.rectangle) for other in ordered] for one in ordered]
+    best: list[int] = []
+    most = 0.0
+    for start in range(len(ordered)):
+        chosen = [start]
+        for index, group in enumerate(ordered):
+            if group.value > 0.0 and all(clear[index][other] for other in chosen):
+                chosen.append(index)
+        worth = sum(ordered[index].value for index in chosen)
+        if worth > most + 1e-9:
+            best = chosen
+            most = worth
+    return [ordered[index] for index in sorted(best)]

@@ -48,6 +48,9 @@ LONGEST = 0.08
 TWIN = 0.03
 #: What stands off less than that share of the highest handle of a side is none.
 OF_HIGHEST = 0.35
+#: So many that hardly stand off, by less than so many times the least, are bumps of the surface.
+FEWEST_BUMPS = 5
+HARDLY = 1.2
 
 
 class GripShape(StrEnum):
@@ -167,6 +170,9 @@ def cleared(relief: Relief) -> Face:
             covered[region] |= grown
             height = height.copy()
             height[region] = np.where(grown, np.minimum(height, opened)[region], height[region])
+    bumps = {handle for handle in found if handle.height < HARDLY * least}
+    if len(bumps) >= FEWEST_BUMPS:
+        found = [handle for handle in found if handle not in bumps]
     return Face(height, covered, _with_controls(found, relief))
 
 

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy import ndimage
 
-from ...geometry.crossings import Side
+from ...geometry.crossings import BoolArray, Side
 from ...mesh import FloatArray
 from .evidence import Seams
 from .fronts import AROUND, OPPOSITE, Front
 from .relief import Relief
+from .sight import SQUARE
 
 #: A lid's height, as a share of the object's: from a flat one to a chest's.
 HEIGHT = (0.03, 0.6)
@@ -37,8 +38,25 @@ SLENDER = 2.0
 TIE = 0.5
 #: How far the seam may wander up and down [pixels].
 WANDER = 3
-#: A latch or a handle lies within this share of the height of the seam, or above it.
+#: So much of a lid the network must see; and so much of one without a seam on one side, where its
+#: hinge hides it, or above several panels.
+SEEN = 0.2
+CLEARLY_SEEN = 0.3
+#: A latch or a handle lies within this share of the height of the seam, or above it; of the side's
+#: width it takes at most so much, and lies near its middle (1), where hinges lie near its ends (0).
 LATCH_REACH = 0.1
+LATCH_WIDTH = 0.4
+CENTRAL = 0.6
+#: Hinges are at most so wide, as a share of the side's width.
+HINGE_WIDTH = 0.2
+#: What speaks for a side whose seam alone is not seen, which has hinges, or a latch across; and for
+#: one below which wheels reach out.
+#: A pedal is what lies within so much of the nearest of a foot [pixels].
+NEAREST = 4.0
+UNSEEN = 1.5
+HINGED = 1.0
+LATCHED = 1.2
+WHEELED = 2.0
 #: Fronts mostly face -Y or +X, so that lids are mostly hinged across from there.
 USUAL_HINGE = {Side.BACK: 0.3, Side.LEFT: 0.2, Side.FRONT: 0.0, Side.RIGHT: 0.0}
 
@@ -50,12 +68,18 @@ class Lid:
     Attributes:
         row: of the seam in the pictures of the four sides; the same in all.
         value: what speaks for it, no probability.
+        seen: share of it that the picture network takes for a lid, 0 to 1.
         hinges: sides where its hinge may be, likeliest first, with what speaks for each.
     """
 
     row: int
     value: float
+    seen: float
     hinges: tuple[tuple[Side, float], ...]
+
+    def is_seen(self, *, beside_panels: bool) -> bool:
+        """Whether the picture network sees enough of it; it sees some in any top."""
+        return self.seen >= (CLEARLY_SEEN if beside_panels else SEEN)
 
 
 def find_lids(fronts: Mapping[Side, Front], top: Relief) -> list[Lid]:
@@ -80,20 +104,40 @@ def find_lids(fronts: Mapping[Side, Front], top: Relief) -> list[Lid]:
     strength = covers.mean(axis=0) + 0.5 * shapes.mean(axis=0)
     for row in np.argsort(-strength, kind="stable"):
         share = (last - row) / height
-        good = covers[:, row].min() >= LEAST_SIDE and covers[:, row].mean() >= LEAST_MEAN
+        told = _told(covers[:, row])
+        good = covers[told, row].min() >= LEAST_SIDE and covers[told, row].mean() >= LEAST_MEAN
         if not (good and HEIGHT[0] <= share <= HEIGHT[1]) or row >= rows - 2:
             continue
         if any(abs(lid.row - int(row)) <= 2 * WANDER for lid in found):
             continue
-        value = _value(fronts, top, int(row), share, covers[:, row], shapes[:, row])
-        if value is not None:
-            found.append(Lid(int(row), value, _hinges(fronts, int(row))))
+        value = _value(fronts, top, int(row), share, covers[told, row], shapes[told, row])
+        if value is None:
+            continue
+        shown = [_seen_above(fronts[side], int(row)) for side in AROUND]
+        seen = float(np.mean(shown, where=told))
+        hidden = [side for side, tells in zip(AROUND, told, strict=True) if not tells]
+        if not hidden or seen >= CLEARLY_SEEN:
+            found.append(Lid(int(row), value, seen, _hinges(fronts, int(row), hidden)))
     found.sort(key=lambda lid: -lid.value)
     # The rim below belongs to the body as often as to the lid, and moves without harm.
     near = [lid for lid in found if lid.value >= found[0].value - TIE]
     return sorted(
         found, key=lambda lid: (lid is not max(near, key=lambda one: one.row), -lid.value)
     )
+
+
+def _told(covers: FloatArray) -> BoolArray:
+    """The sides that count, shape [4]: all, or all but the one on which no seam is seen."""
+    told = np.ones(len(covers), np.bool_)
+    told[covers.argmin()] = covers.min() >= LEAST_SIDE
+    return told
+
+
+def _seen_above(front: Front, row: int) -> float:
+    """Share of what is above a row that the picture network takes for a lid, 0 to 1."""
+    lid = front.sight.lid[row // SQUARE + 1 :]
+    seen = front.relief.seen[::SQUARE, ::SQUARE][row // SQUARE + 1 :]
+    return float(lid[seen].mean()) if seen.any() else 0.0
 
 
 def _cover(relief: Relief, seams: Seams, evidence: FloatArray) -> FloatArray:
@@ -170,38 +214,72 @@ def _has_body(fronts: Mapping[Side, Front], row: int, height: int, first: int) -
 
 
 def _latched(fronts: Mapping[Side, Front], row: int, height: int) -> bool:
-    return any(_latches(fronts[side], row, height) for side in AROUND)
+    return any(_at_seam(fronts[side], row, height, LATCH_WIDTH) for side in AROUND)
 
 
-def _latches(front: Front, row: int, height: int) -> list[float]:
-    """How central each handle is that lies at a seam or above it, 0 to 1."""
+def _at_seam(front: Front, row: int, height: int, widest: float) -> list[tuple[float, float]]:
+    """Of each handle at a seam or above it, how central it is, 0 to 1, and on which half, -1 or 1.
+
+    Args:
+        front: the side.
+        row: of the seam.
+        height: of the object [pixels].
+        widest: share of the side's width that it takes at most.
+    """
     _, _, left, right = front.relief.box
     middle = (left + right) / 2.0
     half = max((right - left) / 2.0, 1.0)
-    return [
-        1.0 - abs(handle.center[1] - middle) / half
+    aside = [
+        (float(handle.center[1]) - middle) / half
         for handle in front.face.handles
-        if handle.high[0] >= row - LATCH_REACH * height
+        if handle.high[0] >= row - LATCH_REACH * height and handle.size[1] <= 2.0 * widest * half
     ]
+    return [(1.0 - abs(each), float(np.sign(each))) for each in aside]
 
 
-def _hinges(fronts: Mapping[Side, Front], row: int) -> tuple[tuple[Side, float], ...]:
+def _latch(front: Front, row: int, height: int) -> float:
+    """How central the most central latch of a side is, 0 to 1; 0 without one."""
+    found = [central for central, _ in _at_seam(front, row, height, LATCH_WIDTH)]
+    return max((each for each in found if each >= CENTRAL), default=0.0)
+
+
+def _has_hinges(front: Front, row: int, height: int) -> bool:
+    """Whether something small sits at the seam towards both ends of a side."""
+    found = _at_seam(front, row, height, HINGE_WIDTH)
+    return {half for central, half in found if central < CENTRAL} == {-1.0, 1.0}
+
+
+def _hinges(
+    fronts: Mapping[Side, Front], row: int, hidden: Sequence[Side]
+) -> tuple[tuple[Side, float], ...]:
+    """Where the hinge may be; ``hidden``: sides on which no seam is seen."""
     first, last, _, _ = fronts[Side.FRONT].relief.box
     height = last - first
     widths = {side: float(_widths(fronts[side].relief)[row - 2 : row + 3].max()) for side in AROUND}
     longest = max(widths.values())
     value = {}
     for side in AROUND:
-        across = _latches(fronts[OPPOSITE[side]], row, height)
-        here = _latches(fronts[side], row, height)
+        front = fronts[side]
         value[side] = USUAL_HINGE[side] + 3.0 * (widths[side] / longest - 1.0)
-        value[side] += 1.2 * max([*across, 0.0]) - 1.2 * max([*here, 0.0])
-        value[side] += _foot(fronts, side, first, height)
+        value[side] += UNSEEN * (side in hidden) + HINGED * _has_hinges(front, row, height)
+        value[side] += LATCHED * _latch(fronts[OPPOSITE[side]], row, height)
+        value[side] -= LATCHED * _latch(front, row, height)
+        value[side] += WHEELED * _foot(fronts, side, first, height)
     return tuple(sorted(value.items(), key=lambda each: -each[1]))
 
 
 def _foot(fronts: Mapping[Side, Front], side: Side, first: int, height: int) -> float:
-    """Wheels lie below the hinge: how far the foot reaches out to a side, -1 to 1."""
+    """How far wheels reach out at the foot of a side, below a hinge, -1 to 1.
+
+    A pedal reaches out on the other side: it has no ends beyond the middle.
+    """
+    reach = _reach(fronts, side, first, height)
+    out = side if reach > 0.0 else OPPOSITE[side]
+    return -reach if _has_pedal(fronts[out], first, height) else reach
+
+
+def _reach(fronts: Mapping[Side, Front], side: Side, first: int, height: int) -> float:
+    """How much further a foot reaches out to a side than to the opposite one, -1 to 1."""
     view = Side.FRONT if side in (Side.LEFT, Side.RIGHT) else Side.RIGHT
     relief = fronts[view].relief
     foot = np.flatnonzero(relief.seen[first : first + max(height // 8, 1)].any(axis=0))
@@ -213,3 +291,13 @@ def _foot(fronts: Mapping[Side, Front], side: Side, first: int, height: int) -> 
     offset = (reach_right - reach_left) / max(float(len(upper)), 1.0)
     to_right = side in (Side.RIGHT, Side.BACK)
     return float(np.clip(10.0 * (offset if to_right else -offset), -1.0, 1.0))
+
+
+def _has_pedal(front: Front, first: int, height: int) -> bool:
+    """Whether what is nearest at the foot of a side is in its middle."""
+    relief = front.relief
+    foot = np.where(relief.seen, relief.height, -np.inf)[first : first + max(height // 8, 1)]
+    nearest = np.flatnonzero((foot > foot.max() - NEAREST).any(axis=0))
+    _, _, left, right = relief.box
+    middle = np.abs(nearest - (left + right) / 2.0) / max((right - left) / 2.0, 1.0)
+    return bool(middle.max() < 1.0 - CENTRAL)

@@ -17,6 +17,7 @@ from .candidates import (
     main_pulls,
     mean_in,
     of_one_kind,
+    steps_back,
     whole_side,
 )
 from .dividing import divided
@@ -58,8 +59,9 @@ def choose(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[FrontPanel, .
         scene: the side.
         found: its closed rectangles, the best first.
     """
-    kept = rated(scene, found)
-    kept += [cut for each in kept if (cut := _divided(scene, each.rectangle)) is not None]
+    every = _groups(scene, found)
+    kept = _level(scene, every)
+    kept += [cut for each in every if (cut := _divided(scene, each.rectangle)) is not None]
     pulled = [group for group in kept if group.panels[0].handles and group.value >= LEAST_VALUE]
     pulled.sort(key=lambda group: -group.value)
     chosen = [panel for group in together(pulled) for panel in group.panels]
@@ -74,6 +76,16 @@ def rated(scene: FrontScene, found: Sequence[Rectangle]) -> list[Group]:
         scene: the side.
         found: its closed rectangles, the best first.
     """
+    return _level(scene, _groups(scene, found))
+
+
+def _level(scene: FrontScene, groups: Sequence[Group]) -> list[Group]:
+    back = steps_back(scene, [group.rectangle for group in groups])
+    return [group for group, steps in zip(groups, back, strict=True) if not steps]
+
+
+def _groups(scene: FrontScene, found: Sequence[Rectangle]) -> list[Group]:
+    """Each rectangle that may be a panel or may be cut into some, those last that step back."""
     first_row, last_row, _, _ = scene.relief.box
     if last_row - first_row < FLAT * PIXELS:
         return []
@@ -82,9 +94,10 @@ def rated(scene: FrontScene, found: Sequence[Rectangle]) -> list[Group]:
         Group(each, (FrontPanel(each, scene.handles_in(each), _value(scene, each)),))
         for each in solid
     ]
-    groups.sort(key=lambda group: -group.value)
+    back = steps_back(scene, solid)
+    order = sorted(range(len(groups)), key=lambda index: (back[index], -groups[index].value))
     kept: list[Group] = []
-    for group in groups:
+    for group in (groups[index] for index in order):
         known = is_among(group.rectangle, (other.rectangle for other in kept))
         if not known and deep(scene, group.rectangle):
             kept.append(group)

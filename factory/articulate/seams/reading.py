@@ -11,6 +11,7 @@ from ...geometry.crossings import Side
 from ...mesh import IntArray, Mesh
 from .appliances import appliance_door
 from .candidates import is_among
+from .company import without_control_panels
 from .fronts import AROUND, Front, fronts_of
 from .glimpses import glimpsed
 from .groups import FrontPanel
@@ -92,7 +93,7 @@ def read_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[MeshReading, ...]:
     """The readings of an object that is seen from its sides and from above."""
     seen = _Sides.of(reliefs)
     top = reliefs[Side.TOP]
-    knobs = {side: knobs_on(each.relief, each.face) for side, each in seen.fronts.items()}
+    knobs = {side: knobs_on(each.relief, each.scene.face) for side, each in seen.fronts.items()}
     knobs[Side.TOP] = knobs_on(top, cleared(top))
     side = max(knobs, key=lambda each: len(knobs[each]))
     if not knobs[side]:
@@ -184,7 +185,10 @@ class _Sides:
         """Whether it is a lid that opens, and no panels; ``doubtful`` ones count for nothing."""
         if not self.lids or self.lids[0].value < LEAST_LID:
             return False
-        return doubtful or self.lids[0].value > self.value - 1.0
+        if not self.lids[0].is_seen(beside_panels=len(self.panels) > 1):
+            return False
+        of_lid = all(self.front.sight.is_of_lid(panel.rectangle) for panel in self.panels)
+        return doubtful or of_lid or self.lids[0].value > self.value - 1.0
 
     def has_all_of(self, few: Sequence[FrontPanel]) -> bool:
         """Whether ``few`` are among the panels, and the others have handles and seams around."""
@@ -212,7 +216,7 @@ class _Sides:
         seen = [panel for panel in panels if _is_seen(front, panel)]
         if not seen:
             return ()
-        seen = revised(front, seen, self.found[side])
+        seen = without_control_panels(revised(front, seen, self.found[side]))
         openings = openings_of(front.scene, seen, front.sight)
         best = _reading(self.fronts, side, openings)
         found = [best]

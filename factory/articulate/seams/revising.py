@@ -23,7 +23,7 @@ CLOSED = 0.8
 OTHER = 0.7
 #: Where nobody saw a seam between panels, the network must see so many there, and so much of them.
 FEWEST = 2
-MOST_OF = 0.85
+MOST_OF = 0.75
 #: Two knobs that have grown together are at most so wide, as a share of both doors, and so many
 #: times as wide as high; between these shares of the width, so sure an end parts the doors.
 GROWN = 0.25

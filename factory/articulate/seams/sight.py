@@ -61,6 +61,11 @@ class Sight:
         inside = self.panel[_squares_in(rectangle)]
         return float(inside.mean()) if inside.size else 0.0
 
+    def is_of_lid(self, rectangle: Rectangle) -> bool:
+        """Whether more of a rectangle belongs to a lid than to a door, drawer or flap."""
+        squares = _squares_in(rectangle)
+        return bool(self.lid[squares].sum() > self.panel[squares].sum())
+
     def ways_of(self, rectangle: Rectangle) -> FloatArray:
         """How likely what is in a rectangle opens in each way; even chances in a tiny one."""
         squares = _squares_in(rectangle)

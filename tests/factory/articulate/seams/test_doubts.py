@@ -9,10 +9,15 @@ import pytest
 from tests.samples import one_piece
 
 from asset_factory.factory.articulate.seams import reading
+from asset_factory.factory.articulate.seams.candidates import steps_back
+from asset_factory.factory.articulate.seams.company import without_control_panels
+from asset_factory.factory.articulate.seams.controls import with_strips
 from asset_factory.factory.articulate.seams.fronts import fronts_of
+from asset_factory.factory.articulate.seams.groups import FrontPanel, Group, together
+from asset_factory.factory.articulate.seams.handles import Face, Protrusion
 from asset_factory.factory.articulate.seams.lids import Lid
 from asset_factory.factory.articulate.seams.panels import usable
-from asset_factory.factory.articulate.seams.rectangles import Rectangle
+from asset_factory.factory.articulate.seams.rectangles import Lines, Rectangle
 from asset_factory.factory.articulate.seams.relief import reliefs_of
 from asset_factory.factory.geometry.crossings import Side
 
@@ -39,9 +44,74 @@ def test_doubtful_panels_yield_to_a_lid_unless_the_network_sees_them(
 ) -> None:
     seen = reading._Sides.of(reliefs_of(one_piece.doors(), None))
     assert len(seen.panels) == 2
-    lid = Lid(seen.front.relief.box[1] // 2, seen.value - 2.0, ((Side.BACK, 0.0),))
+    lid = Lid(seen.front.relief.box[1] // 2, seen.value - 2.0, 1.0, ((Side.BACK, 0.0),))
     sight = seen.front.sight
     seen.front.__dict__["sight"] = replace(sight, panel=np.full_like(sight.panel, shown))
     monkeypatch.setattr(reading, "value_of", lambda *_: -1.0)
     movers = reading._openings(replace(seen, lids=[lid]), has_knobs=False)[0].movers
     assert [mover.name.split("_")[0] for mover in movers] == wanted
+
+
+@pytest.mark.parametrize(("seen", "beside_panels", "wanted"), [
+    (0.1, False, False), (0.25, False, True), (0.25, True, False), (0.35, True, True),
+])  # fmt: skip
+def test_lids_are_seen_by_the_network(seen: float, beside_panels: bool, wanted: bool) -> None:
+    assert Lid(3, 5.0, seen, ()).is_seen(beside_panels=beside_panels) is wanted
+
+
+def _rectangle(*corners: int) -> Rectangle:
+    bottom, left, top, right = corners
+    return Rectangle(np.array([bottom, left]), np.array([top, right]), np.ones(4), np.ones(4))
+
+
+def _group(value: float, *corners: int) -> Group:
+    rectangle = _rectangle(*corners)
+    return Group(rectangle, (FrontPanel(rectangle, (), value),))
+
+
+def test_several_small_panels_beat_a_large_one_that_is_worth_more_than_each() -> None:
+    rows = [_group(3.0, 10 * row, 0, 10 * row + 10, 40) for row in range(3)]
+    assert together([_group(6.0, 0, 0, 30, 40), *rows]) == rows
+    whole = _group(10.0, 0, 0, 30, 40)
+    assert together([whole, *rows]) == [whole]
+
+
+def test_what_ends_far_behind_its_middle_is_no_panel() -> None:
+    scene = fronts_of(reliefs_of(one_piece.plain_box(), None))[Side.FRONT].scene
+    bottom, top, left, right = scene.relief.box
+    edge = (bottom + 3 * top) // 4
+    height = scene.face.height.copy()
+    height[edge:] -= 60.0
+    scene = replace(scene, face=replace(scene.face, height=height))
+    both = [_rectangle(bottom, left, end, right) for end in (top, edge)]
+    assert steps_back(scene, both).tolist() == [True, False]
+
+
+def _handle(row: int, column: int, rows: int, columns: int) -> Protrusion:
+    high = np.array([row + rows - 1, column + columns - 1])
+    return Protrusion(np.array([row, column]), high, 6.0, 1.0)
+
+
+def test_a_narrow_panel_with_a_knob_beside_a_door_with_a_bar_is_for_controls() -> None:
+    door = FrontPanel(_rectangle(0, 0, 100, 120), (_handle(20, 110, 60, 5),), 1.0)
+    narrow = _rectangle(0, 120, 100, 170)
+    knob = FrontPanel(narrow, (_handle(80, 140, 12, 12),), 1.0)
+    bar = FrontPanel(narrow, (_handle(20, 125, 60, 5),), 1.0)
+    assert without_control_panels([door, knob]) == [door]
+    assert without_control_panels([door, bar]) == [door, bar]
+
+
+@pytest.mark.parametrize(("parted", "wanted"), [(False, True), (True, False)])
+def test_knobs_far_apart_on_one_strip_turn_unless_seams_part_them(
+    parted: bool, wanted: bool
+) -> None:
+    knobs = tuple(_handle(90, column, 8, 8) for column in (20, 90, 160))
+    face = Face(np.zeros((120, 200)), np.zeros((120, 200), np.bool_), knobs)
+    level = _lines([75, 110], 200)
+    upright = _lines([60, 130] if parted else [], 120)
+    assert all(each.control is wanted for each in with_strips(face, level, upright).handles)
+
+
+def _lines(at: list[int], length: int) -> Lines:
+    sums = np.tile(np.arange(length + 1.0), (len(at), 1))
+    return Lines(np.array(at, np.int64), sums, sums, sums)
