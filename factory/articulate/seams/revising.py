@@ -24,6 +24,9 @@ OTHER = 0.7
 #: Where nobody saw a seam between panels, the network must see so many there, and so much of them.
 FEWEST = 2
 MOST_OF = 0.75
+#: What the network sees may lie over another panel so far, as a share of its own size: its ends
+#: are a few pixels off.
+STRIP = 0.15
 #: Two knobs that have grown together are at most so wide, as a share of both doors, and so many
 #: times as wide as high; between these shares of the width, so sure an end parts the doors.
 GROWN = 0.25
@@ -48,7 +51,7 @@ def revised(
     ]
     halves = [half for panel in panels for half in _parted(front, panel)]
     kept = _exchanged(front, _recut(halves, glimpses), [*glimpses, *others])
-    return [*kept, *_clear(glimpses, kept)]
+    return [*kept, *_clear([_cut_back(each, kept) for each in glimpses], kept)]
 
 
 def _parted(front: Front, panel: FrontPanel) -> tuple[FrontPanel, ...]:
@@ -109,6 +112,24 @@ def _exchanged(
         if fit:
             kept[index] = replace(panel, rectangle=max(fit, key=lambda each: each.area))
     return kept
+
+
+def _cut_back(panel: FrontPanel, others: Sequence[FrontPanel]) -> FrontPanel:
+    """Without a narrow strip along one side that it shares with another panel."""
+    whole = panel.rectangle
+    low, high = whole.low.copy(), whole.high.copy()
+    for other in (each.rectangle for each in others):
+        if not whole.shared(other):
+            continue
+        for axis in (0, 1):
+            most = STRIP * whole.size[axis]
+            if 0 < other.high[axis] - low[axis] <= most:
+                low[axis] = other.high[axis]
+                break
+            if 0 < high[axis] - other.low[axis] <= most:
+                high[axis] = other.low[axis]
+                break
+    return replace(panel, rectangle=replace(whole, low=low, high=high))
 
 
 def _area(panels: Sequence[FrontPanel]) -> float:

@@ -114,6 +114,15 @@ def test_a_panel_seen_beside_others_is_added(doors: Front, pair: list[FrontPanel
     assert np.abs(np.subtract(columns(found), columns(pair))).max() <= 4
 
 
+def test_what_is_seen_beside_a_panel_ends_at_its_border(
+    doors: Front, pair: list[FrontPanel]
+) -> None:
+    wide = moved(pair[0], high=int(pair[1].rectangle.size[1]) // 8)
+    found = revised(with_sight(doors, [panel.rectangle for panel in pair]), [wide], [])
+    assert len(found) == 2
+    assert found[1].rectangle.low[1] == wide.rectangle.high[1]
+
+
 @pytest.mark.parametrize(("seen", "count"), [(0.9, 2), (0.2, 1)])
 def test_a_knob_on_an_end_that_is_seen_opens_two_doors(
     doors: Front, pair: list[FrontPanel], seen: float, count: int
