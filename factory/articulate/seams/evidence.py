@@ -66,6 +66,18 @@ class Seams:
             1.0 - SHARES["color"] * self.color
         )
 
+    def only(self, where: BoolArray) -> Seams:
+        """Without what is not there."""
+        return Seams(
+            self.groove * where,
+            self.step * where,
+            self.crease * where,
+            self.dark * where,
+            self.color * where,
+            self.border * where,
+            self.known,
+        )
+
     def turned(self) -> Seams:
         """Rows and columns exchanged."""
         return Seams(

@@ -56,11 +56,17 @@ class Front:
     def scene(self) -> FrontScene:
         """The side with its candidate lines."""
         first_row, last_row, first_column, last_column = self.relief.box
-        rows = lines_of(self.level, first_row, last_row)
-        upright = upright_seams(self.relief, self.face).turned()
-        columns = lines_of(upright, first_column, last_column)
+        level, upright = self._own_seams()
+        rows = lines_of(level, first_row, last_row)
+        columns = lines_of(upright.turned(), first_column, last_column)
         face = with_strips(parted(self.face, columns), rows, columns)
         return FrontScene(self.relief, face, thickness(self.relief, self.behind), rows, columns)
+
+    def _own_seams(self) -> tuple[Seams, Seams]:
+        """Evidence for seams, horizontal and vertical, without what the network knows is none."""
+        kept = ~self.sight.runs_on(self.relief.shape)
+        upright = upright_seams(self.relief, self.face)
+        return self.level.only(kept[0]), upright.only(kept[1])
 
     def rectangles(self) -> tuple[Rectangle, ...]:
         """Those that are closed by seams, the best first."""

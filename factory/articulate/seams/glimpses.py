@@ -9,8 +9,9 @@ from ...mesh import FloatArray, IntArray
 from .candidates import main_pulls
 from .fronts import Front
 from .groups import FrontPanel
+from .panels import SOLID
 from .rectangles import Rectangle
-from .sight import SQUARE, Sight
+from .sight import SQUARE, Block, Sight
 
 #: A square belongs to a panel from this probability.
 LIKELY = 0.4
@@ -32,9 +33,6 @@ MOST_CONTROLS = 1
 REACH = 4
 #: Lines are seen more exactly than squares [pixels].
 SNAP = 4
-
-#: First row and the one after the last, likewise of columns [squares].
-Block = tuple[int, int, int, int]
 
 
 def glimpsed(front: Front) -> tuple[FrontPanel, ...]:
@@ -77,7 +75,7 @@ def _middle(profile: FloatArray) -> int:
 def _panel(front: Front, block: Block) -> FrontPanel | None:
     """A block, if the network is sure of it."""
     block = _settled(front.sight, block)
-    sides = _ends(front.sight, block)
+    sides = front.sight.ends_of(block)
     lines = front.scene.level.at, front.scene.upright.at
     low, high = (
         np.array([_snapped(SQUARE * at, near) for at, near in zip(corner, lines, strict=True)])
@@ -87,6 +85,8 @@ def _panel(front: Front, block: Block) -> FrontPanel | None:
     rectangle = Rectangle(low, high, sides, sides)
     sure = front.sight.shows(rectangle)
     if (high - low).min() < SQUARE * LEAST or sure < SURE or sides.mean() < ENDS:
+        return None
+    if front.relief.seen[low[0] : high[0], low[1] : high[1]].mean() < SOLID:
         return None
     handles = front.scene.handles_in(rectangle)
     if len(main_pulls(handles, rectangle)) > MOST_PULLS:
@@ -116,20 +116,4 @@ def _settled(sight: Sight, block: Block) -> Block:
         top - int(rows[::-1][:REACH].argmax()),
         left + int(columns[:REACH].argmax()),
         right - int(columns[::-1][:REACH].argmax()),
-    )
-
-
-def _ends(sight: Sight, block: Block) -> FloatArray:
-    """How surely it ends at the bottom, top, left and right, 0 to 1, shape [4]."""
-    bottom, top, left, right = block
-    level = np.pad(sight.level[:, left:right], ((2, 2), (0, 0)))
-    upright = np.pad(sight.upright[bottom:top], ((0, 0), (2, 2)))
-    # Padded by two, so that the square before the first is the second of three.
-    return np.array(
-        [
-            level[bottom : bottom + 3].max(axis=0).mean(),
-            level[top + 1 : top + 4].max(axis=0).mean(),
-            upright[:, left : left + 3].max(axis=1).mean(),
-            upright[:, right + 1 : right + 4].max(axis=1).mean(),
-        ]
     )

@@ -41,7 +41,9 @@ LEAST_OTHER = 0.1
 #: By how much what was learned must prefer its own panels to those of the rules, in log-odds.
 MARGIN = 2.0
 #: A panel of which the picture network sees less than this share is none.
-LEAST_SEEN = 0.2
+LEAST_SEEN = 0.15
+#: One without a handle beside others must end so surely on each side, as it sees it.
+LEAST_ENDS = 0.4
 #: Of panels of which it sees that much nobody else's doubts count.
 CLEAR = 0.85
 #: What is closed by grooves and steps to this, and has a handle that stands off so far [pixels],
@@ -214,6 +216,8 @@ class _Sides:
         """Of panels of one side whose values are log-odds; with others that fit them better."""
         front = self.fronts[side]
         seen = [panel for panel in panels if _is_seen(front, panel)]
+        if len(seen) > 1:
+            seen = [panel for panel in seen if panel.handles or _has_ends(front, panel)]
         if not seen:
             return ()
         seen = without_control_panels(revised(front, seen, self.found[side]))
@@ -276,6 +280,11 @@ def _is_seen(front: Front, panel: FrontPanel) -> bool:
     pulled = panel.handle is not None and panel.handle.height >= STANDS_OFF
     evident = pulled and float(panel.rectangle.relief.min()) >= EVIDENT
     return evident or front.sight.shows(panel.rectangle) >= LEAST_SEEN
+
+
+def _has_ends(front: Front, panel: FrontPanel) -> bool:
+    """Whether the picture network sees it end on all sides, as planks and plates do not."""
+    return bool(front.sight.ends(panel.rectangle).min() >= LEAST_ENDS)
 
 
 def _reading(

@@ -14,6 +14,7 @@ from importlib import resources
 import numpy as np
 from scipy import ndimage
 
+from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray
 from .rectangles import Rectangle
 from .relief import Relief
@@ -33,9 +34,18 @@ GRID = SQUARE * 2**HALVINGS
 GROOVE = 9
 BUMP = 17
 
+#: A panel runs on where all squares of such a window are so sure to be of one, and no square of
+#: the narrower window is surer to be an end.
+WITHIN = 7
+SURE = 0.7
+NEAR = 5
+NO_END = 0.15
+
 #: Added to what all squares together say of each way: a glance at few decides nothing.
 LEAST_CHANCE = 10.0
 
+#: First row and the one after the last, likewise of columns [squares].
+Block = tuple[int, int, int, int]
 Weights = Mapping[str, FloatArray]
 
 
@@ -60,6 +70,39 @@ class Sight:
         """Share of a rectangle that belongs to a door, drawer or flap, 0 to 1; 0 of a tiny one."""
         inside = self.panel[_squares_in(rectangle)]
         return float(inside.mean()) if inside.size else 0.0
+
+    def runs_on(self, shape: tuple[int, ...]) -> BoolArray:
+        """Where a panel surely does not end, below or above, left or right; [2, rows, columns].
+
+        Args:
+            shape: of the side [pixels].
+        """
+        sure = ndimage.minimum_filter(self.panel, WITHIN) >= SURE
+        ends = [ndimage.maximum_filter(each, NEAR) for each in (self.level, self.upright)]
+        known = np.stack([sure & (each < NO_END) for each in ends])
+        pixels = known.repeat(SQUARE, axis=1).repeat(SQUARE, axis=2)
+        return np.asarray(pixels[:, : shape[0], : shape[1]])
+
+    def ends(self, rectangle: Rectangle) -> FloatArray:
+        """How surely what opens ends at a rectangle's bottom, top, left and right, shape [4]."""
+        bottom, left = rectangle.low // SQUARE
+        top, right = np.maximum(rectangle.high // SQUARE, rectangle.low // SQUARE + 1)
+        return self.ends_of((int(bottom), int(top), int(left), int(right)))
+
+    def ends_of(self, block: Block) -> FloatArray:
+        """Likewise, of squares."""
+        bottom, top, left, right = block
+        level = np.pad(self.level[:, left:right], ((2, 2), (0, 0)))
+        upright = np.pad(self.upright[bottom:top], ((0, 0), (2, 2)))
+        # Padded by two, so that the square before the first is the second of three.
+        return np.array(
+            [
+                level[bottom : bottom + 3].max(axis=0).mean(),
+                level[top + 1 : top + 4].max(axis=0).mean(),
+                upright[:, left : left + 3].max(axis=1).mean(),
+                upright[:, right + 1 : right + 4].max(axis=1).mean(),
+            ]
+        )
 
     def is_of_lid(self, rectangle: Rectangle) -> bool:
         """Whether more of a rectangle belongs to a lid than to a door, drawer or flap."""

@@ -14,6 +14,7 @@ from ...geometry.crossings import Raster, Side, crossings
 from ...geometry.elevations import PIXELS, Elevation, nearest
 from ...geometry.posing import face_parts
 from ...mesh import FloatArray, IntArray
+from .decorations import Decorations
 
 #: Gaps up to so many pixels are closed, as a skin closes them.
 GAP = 5
@@ -31,9 +32,7 @@ class Looks:
         bumps: height of wide and of narrow bumps [pixels].
         grain: noise of the brightness.
         plain: one colour all over, sRGB; ``None``: those of the parts.
-        planks: distance of lines that are no seams [pixels], how deep [pixels] and how dark; 0:
-            none.
-        level: whether they are horizontal.
+        decorations: what lies on it that is no seam.
         sunken: share of the shade that grooves and corners have.
     """
 
@@ -44,8 +43,7 @@ class Looks:
     bumps: tuple[float, float]
     grain: float
     plain: tuple[float, float, float] | None
-    planks: tuple[float, float, float]
-    level: bool
+    decorations: Decorations
     sunken: float
 
     @classmethod
@@ -53,7 +51,6 @@ class Looks:
         """Some generator's hand."""
         gray = float(rng.uniform(0.2, 0.9))
         plain = (gray, gray, gray) if rng.random() < 0.5 else tuple(rng.uniform(0.1, 0.9, 3))
-        planked = rng.random() < 0.2
         return cls(
             deep=float(rng.uniform(0.2, 2.5)) if rng.random() < 0.8 else 0.0,
             wide=float(rng.uniform(0.5, 1.6)),
@@ -62,12 +59,7 @@ class Looks:
             bumps=(float(rng.exponential(0.15)), float(rng.exponential(0.04))),
             grain=float(rng.exponential(0.02)),
             plain=plain if rng.random() < 0.5 else None,
-            planks=(
-                float(rng.uniform(14.0, 60.0)) if planked else 0.0,
-                float(rng.uniform(0.0, 1.5)),
-                float(rng.uniform(0.5, 1.0)),
-            ),
-            level=bool(rng.random() < 0.5),
+            decorations=Decorations.drawn(rng),
             sunken=float(rng.uniform(0.0, 0.08)),
         )
 
@@ -112,9 +104,9 @@ def _picture(
     height = _smooth(closed[tuple(where)], looks.blurred[0])
     border = _border(part)
     height = height - _engraved(border, looks, rng) + _bumps(height.shape, looks, rng)
-    line = _planks(height.shape, looks)
-    height = height - looks.planks[1] * line
-    lab = _painted(shown.color[tuple(where)], height, border, line, looks, rng)
+    decoration = looks.decorations.on(part, rng)
+    height = height + _smooth(decoration.height, looks.blurred[0])
+    lab = _painted(shown.color[tuple(where)], height, border, decoration.light, looks, rng)
     slope = np.gradient(height)
     facing = 1.0 / np.sqrt(1.0 + slope[0] ** 2 + slope[1] ** 2)
     relief = Relief(
@@ -180,21 +172,11 @@ def _bumps(shape: tuple[int, ...], looks: Looks, rng: np.random.Generator) -> Fl
     return wide * _wavy(shape, 10.0, rng) + narrow * _wavy(shape, 1.0, rng)
 
 
-def _planks(shape: tuple[int, ...], looks: Looks) -> FloatArray:
-    """1 on decorative lines, shape [rows, columns]."""
-    step = looks.planks[0]
-    if not step:
-        return np.zeros(shape)
-    rows, columns = np.indices(shape)
-    along = rows if looks.level else columns
-    return np.where(along % step < 1.5, 1.0, 0.0)
-
-
 def _painted(
     color: FloatArray,
     height: FloatArray,
     border: FloatArray,
-    line: FloatArray,
+    decorated: FloatArray,
     looks: Looks,
     rng: np.random.Generator,
 ) -> FloatArray:
@@ -204,7 +186,7 @@ def _painted(
     dip = ndimage.grey_closing(height, size=(9, 9)) - height
     light = 1.0 - looks.sunken * np.clip(dip, 0.0, 5.0)
     light = light * np.where(border <= looks.wide, looks.dark, 1.0)
-    light = light * (1.0 - (1.0 - looks.planks[2]) * line)
+    light = light * decorated
     light = light * (1.0 + 0.15 * _wavy(height.shape, 40.0, rng))
     light = light * (1.0 + looks.grain * rng.normal(size=height.shape))
     shaded = np.clip(color * light[..., None], 0.0, 1.0)

@@ -81,6 +81,15 @@ def test_a_frame_that_looks_like_a_panel_is_left_out(box: Front) -> None:
     assert np.abs(np.array(corners) - expected).max() <= SQUARE
 
 
+def test_nothing_opens_where_nothing_is_there(box: Front) -> None:
+    seen = box.relief.seen.copy()
+    (bottom, left), (top, right) = DOORS[0]
+    seen[SQUARE * bottom : SQUARE * top, SQUARE * left : SQUARE * right] = False
+    holed = replace(box, relief=replace(box.relief, seen=seen))
+    (door,) = glimpsed(with_sight(holed))
+    assert door.rectangle.low[1] == pytest.approx(SQUARE * DOORS[1][0][1], abs=SQUARE)
+
+
 def test_where_nothing_else_is_found_it_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
     reliefs = reliefs_of(one_piece.plain_box(), None)
     assert read_reliefs(reliefs) == ()

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy import signal
 from tests.samples import one_piece
 
 from asset_factory.factory.articulate.seams import reading, sight
+from asset_factory.factory.articulate.seams.fronts import fronts_of
 from asset_factory.factory.articulate.seams.reading import read_reliefs
 from asset_factory.factory.articulate.seams.rectangles import Rectangle
 from asset_factory.factory.articulate.seams.relief import Relief, relief_of, reliefs_of
@@ -93,6 +96,66 @@ def test_a_rectangle_shows_a_panel_as_far_as_it_covers_one() -> None:
     assert seen.shows(_rectangle((42, 2), (78, 58))) == 0.0
     assert seen.shows(_rectangle((2, 2), (78, 58))) == pytest.approx(0.5, abs=0.02)
     assert seen.shows(_rectangle((2, 2), (3, 3))) == 0.0
+
+
+def _seeing_two_doors() -> Sight:
+    """Of 40 by 60 squares, one door beside another, parted at square 30."""
+    panel = np.ones((40, 60))
+    upright = np.zeros((40, 60))
+    upright[:, 29:31] = 0.9
+    level = np.zeros((40, 60))
+    level[[0, -1]] = 0.6
+    return Sight(panel, np.zeros((40, 60)), level, upright, np.zeros((5, 40, 60)))
+
+
+def test_a_panel_runs_on_where_the_network_sees_one_and_no_end() -> None:
+    level, upright = _seeing_two_doors().runs_on((79, 119))
+    assert level.shape == upright.shape == (79, 119)
+    assert upright[:, :50].all()
+    assert upright[:, 70:].all()
+    assert not upright[:, 56:64].any()
+    assert level[10:60].all()
+    assert not level[:2].any()
+    doubtful = replace(_seeing_two_doors(), panel=np.full((40, 60), 0.5))
+    assert not doubtful.runs_on((79, 119)).any()
+
+
+def test_ends_are_as_sure_as_the_squares_along_them() -> None:
+    seen = _seeing_two_doors()
+    assert seen.ends(_rectangle((0, 60), (79, 119))) == pytest.approx([0.6, 0.6, 0.9, 0.0])
+    assert seen.ends(_rectangle((20, 20), (60, 40))) == pytest.approx([0.0] * 4)
+
+
+def test_lines_on_a_panel_that_runs_on_part_nothing() -> None:
+    front = fronts_of(reliefs_of(one_piece.doors(), None))[Side.FRONT]
+    middle = front.relief.shape[1] // 2
+    assert np.abs(front.scene.upright.at - middle).min() <= 4
+    seen = front.sight
+    nowhere = np.zeros_like(seen.panel)
+    sure = replace(seen, panel=np.ones_like(seen.panel), level=nowhere, upright=nowhere)
+    told = replace(front)
+    told.__dict__["sight"] = sure
+    assert np.abs(told.scene.upright.at - middle).min() > 20
+
+
+@pytest.mark.parametrize(("end", "count"), [(0.9, 2), (0.1, 1)])
+def test_a_panel_without_a_handle_ends_on_all_sides(end: float, count: int) -> None:
+    reliefs = reliefs_of(one_piece.doors(), None)
+    sides = reading._Sides.of(reliefs)
+    pulled, bare = (replace(panel, value=1.0) for panel in sides.panels)
+    bare = replace(bare, handles=())
+    seen = sides.front.sight
+    rows, columns = seen.panel.shape
+    told = replace(sides.front)
+    told.__dict__["sight"] = replace(
+        seen,
+        panel=np.full((rows, columns), 0.5),
+        level=np.full((rows, columns), end),
+        upright=np.full((rows, columns), end),
+    )
+    fronts = {**sides.fronts, sides.side: told}
+    best, *_ = replace(sides, fronts=fronts).readings_of(sides.side, [pulled, bare])
+    assert len(best.movers) == count
 
 
 def _rectangle(low: tuple[int, int], high: tuple[int, int]) -> Rectangle:
