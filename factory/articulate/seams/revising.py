@@ -117,7 +117,8 @@ def _exchanged(
 def _cut_back(panel: FrontPanel, others: Sequence[FrontPanel]) -> FrontPanel:
     """Without a narrow strip along one side that it shares with another panel."""
     whole = panel.rectangle
-    low, high = whole.low.copy(), whole.high.copy()
+    low = whole.low.copy()
+    high = whole.high.copy()
     for other in (each.rectangle for each in others):
         if not whole.shared(other):
             continue
