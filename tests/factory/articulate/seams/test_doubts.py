@@ -46,7 +46,10 @@ def test_doubtful_panels_yield_to_a_lid_unless_the_network_sees_them(
     assert len(seen.panels) == 2
     lid = Lid(seen.front.relief.box[1] // 2, seen.value - 2.0, 1.0, ((Side.BACK, 0.0),))
     sight = seen.front.sight
-    seen.front.__dict__["sight"] = replace(sight, panel=np.full_like(sight.panel, shown))
+    no_end = np.zeros_like(sight.panel)
+    seen.front.__dict__["sight"] = replace(
+        sight, panel=np.full_like(sight.panel, shown), level=no_end, upright=no_end
+    )
     monkeypatch.setattr(reading, "value_of", lambda *_: -1.0)
     movers = reading._openings(replace(seen, lids=[lid]), has_knobs=False)[0].movers
     assert [mover.name.split("_")[0] for mover in movers] == wanted
