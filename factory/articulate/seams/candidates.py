@@ -101,15 +101,20 @@ def candidates_of(scene: FrontScene, found: Sequence[Rectangle]) -> list[PanelCa
     first_row, last_row, _, _ = scene.relief.box
     if last_row - first_row < FLAT * PIXELS:
         return []
-    kept: list[Rectangle] = []
     usable = _usable(scene, (whole_side(scene), *found[:MOST_FOUND]))
-    for each in (*usable[:1], *level_first(scene, usable[1:])):
+    back = steps_back(scene, usable)
+    kept: list[Rectangle] = []
+    level: list[Rectangle] = []
+    # What steps back may be cut into panels, but is none, and all but the whole side comes last.
+    for index in sorted(range(len(usable)), key=lambda index: index > 0 and back[index]):
+        each = usable[index]
         if not is_among(each, kept) and deep(scene, each):
             kept.append(each)
+            if not back[index]:
+                level.append(each)
         if len(kept) >= MOST:
             break
     cuts = [cut for each in kept for cut in _divided(scene, each)]
-    level = [each for each, back in zip(kept, steps_back(scene, kept), strict=True) if not back]
     return [*(PanelCandidate(each, (each,)) for each in level), *cuts]
 
 
@@ -178,12 +183,6 @@ def _usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
     facing = relief.seen & ((relief.facing > 0.7) | scene.face.covered)
     good = ((high - low).prod(axis=1) >= LEAST_AREA * whole) & (mean_in(facing, low, high) >= SOLID)
     return [each for each, fits in zip(found, good, strict=True) if fits]
-
-
-def level_first(scene: FrontScene, rectangles: Sequence[Rectangle]) -> list[Rectangle]:
-    """The same, those last that step back: they may be cut into panels, but are none."""
-    back = steps_back(scene, rectangles)
-    return [rectangles[index] for index in np.argsort(back, kind="stable")]
 
 
 def steps_back(scene: FrontScene, rectangles: Sequence[Rectangle]) -> BoolArray:

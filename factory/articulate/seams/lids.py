@@ -49,10 +49,10 @@ LATCH_WIDTH = 0.4
 CENTRAL = 0.6
 #: Hinges are at most so wide, as a share of the side's width.
 HINGE_WIDTH = 0.2
-#: What speaks for a side whose seam alone is not seen, which has hinges, or a latch across; and for
-#: one below which wheels reach out.
 #: A pedal is what lies within so much of the nearest of a foot [pixels].
 NEAREST = 4.0
+#: What speaks for a side whose seam alone is not seen, which has hinges, or a latch across; and for
+#: one below which wheels reach out.
 UNSEEN = 1.5
 HINGED = 1.0
 LATCHED = 1.2

@@ -59,9 +59,10 @@ def choose(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[FrontPanel, .
         scene: the side.
         found: its closed rectangles, the best first.
     """
-    every = _groups(scene, found)
-    kept = _level(scene, every)
-    kept += [cut for each in every if (cut := _divided(scene, each.rectangle)) is not None]
+    level, others = _groups(scene, found)
+    every = (*level, *others)
+    cuts = [cut for each in every if (cut := _divided(scene, each.rectangle)) is not None]
+    kept = [*level, *cuts]
     pulled = [group for group in kept if group.panels[0].handles and group.value >= LEAST_VALUE]
     pulled.sort(key=lambda group: -group.value)
     chosen = [panel for group in together(pulled) for panel in group.panels]
@@ -76,19 +77,15 @@ def rated(scene: FrontScene, found: Sequence[Rectangle]) -> list[Group]:
         scene: the side.
         found: its closed rectangles, the best first.
     """
-    return _level(scene, _groups(scene, found))
+    level, _ = _groups(scene, found)
+    return level
 
 
-def _level(scene: FrontScene, groups: Sequence[Group]) -> list[Group]:
-    back = steps_back(scene, [group.rectangle for group in groups])
-    return [group for group, steps in zip(groups, back, strict=True) if not steps]
-
-
-def _groups(scene: FrontScene, found: Sequence[Rectangle]) -> list[Group]:
-    """Each rectangle that may be a panel or may be cut into some, those last that step back."""
+def _groups(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[list[Group], list[Group]]:
+    """Rectangles that may be panels, and those that step back, which may only be cut into some."""
     first_row, last_row, _, _ = scene.relief.box
     if last_row - first_row < FLAT * PIXELS:
-        return []
+        return [], []
     solid = usable(scene, (*found[:MOST_FOUND], whole_side(scene)))
     groups = [
         Group(each, (FrontPanel(each, scene.handles_in(each), _value(scene, each)),))
@@ -96,14 +93,16 @@ def _groups(scene: FrontScene, found: Sequence[Rectangle]) -> list[Group]:
     ]
     back = steps_back(scene, solid)
     order = sorted(range(len(groups)), key=lambda index: (back[index], -groups[index].value))
-    kept: list[Group] = []
-    for group in (groups[index] for index in order):
-        known = is_among(group.rectangle, (other.rectangle for other in kept))
-        if not known and deep(scene, group.rectangle):
-            kept.append(group)
-        if len(kept) >= MOST:
+    level: list[Group] = []
+    others: list[Group] = []
+    for index in order:
+        rectangle = groups[index].rectangle
+        known = is_among(rectangle, (other.rectangle for other in (*level, *others)))
+        if not known and deep(scene, rectangle):
+            (others if back[index] else level).append(groups[index])
+        if len(level) + len(others) >= MOST:
             break
-    return kept
+    return level, others
 
 
 def _divided(scene: FrontScene, rectangle: Rectangle) -> Group | None:

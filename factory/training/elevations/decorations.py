@@ -18,6 +18,11 @@ PLATED = 0.3
 GRAINED = 0.4
 #: How often planks and straps run over all that is seen, not over single parts.
 OVERALL = 0.5
+#: Of single parts so many are decorated, and so many of these the other way round.
+TAKEN = 0.7
+OTHERWISE = 0.2
+#: Grooves between planks are so wide [pixels].
+GROOVE = 1.5
 
 
 @dataclass(frozen=True)
@@ -109,14 +114,14 @@ class Decorations:
             yield np.ones(part.shape, np.bool_), self.level
             return
         for each in np.unique(part):
-            if rng.random() < 0.7:
-                yield part == each, self.level != (rng.random() < 0.2)
+            if rng.random() < TAKEN:
+                yield part == each, self.level != (rng.random() < OTHERWISE)
 
     def _lines(self, where: BoolArray, level: bool) -> BoolArray:
         step = self.planks[0]
         if not step:
             return np.zeros(where.shape, np.bool_)
-        return np.asarray((_along(where, level)[0] + 0.5 * step) % step < 1.5)
+        return np.asarray((_along(where, level)[0] + 0.5 * step) % step < GROOVE)
 
     def _bands(self, where: BoolArray, level: bool) -> BoolArray:
         along, extent = _along(where, level)
