@@ -201,8 +201,8 @@ def _ring(rectangle: Rectangle, shape: tuple[int, int]) -> list[tuple[slice, sli
 
 def _alike(rectangle: Rectangle, others: Sequence[Rectangle]) -> list[float]:
     """How many rectangles of the same size lie beside it and above or below it."""
-    low = np.array([other.low for other in others])
-    size = np.array([other.size for other in others])
+    low = np.array([other.low for other in others]).reshape(-1, 2)
+    size = np.array([other.size for other in others]).reshape(-1, 2)
     apart = np.abs(low - rectangle.low)
     differ = np.abs(size - rectangle.size)
     beside = (apart[:, 0] <= ALIGNED) & (differ <= ALIGNED).all(axis=1)

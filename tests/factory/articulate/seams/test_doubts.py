@@ -9,12 +9,17 @@ import pytest
 from tests.samples import one_piece
 
 from asset_factory.factory.articulate.seams import reading
-from asset_factory.factory.articulate.seams.candidates import steps_back
+from asset_factory.factory.articulate.seams.candidates import (
+    PanelCandidate,
+    steps_back,
+    whole_side,
+)
 from asset_factory.factory.articulate.seams.company import without_control_panels
 from asset_factory.factory.articulate.seams.controls import with_strips
 from asset_factory.factory.articulate.seams.fronts import fronts_of
 from asset_factory.factory.articulate.seams.groups import FrontPanel, Group, together
 from asset_factory.factory.articulate.seams.handles import Face, Protrusion
+from asset_factory.factory.articulate.seams.layouts import rated
 from asset_factory.factory.articulate.seams.lids import Lid
 from asset_factory.factory.articulate.seams.panels import usable
 from asset_factory.factory.articulate.seams.rectangles import Lines, Rectangle
@@ -36,6 +41,18 @@ def test_slivers_are_no_doors() -> None:
         for share in (0.2, 0.1)
     )
     assert usable(scene, [door, sliver]) == [door]
+
+
+def test_a_front_may_show_nothing_but_pieces_between_handles() -> None:
+    scene = fronts_of(reliefs_of(one_piece.plain_box(), None))[Side.FRONT].scene
+    whole = whole_side(scene)
+    middle = (whole.low[0] + whole.high[0]) // 2
+    pieces = (
+        replace(whole, high=np.array([middle, whole.high[1]])),
+        replace(whole, low=np.array([middle, whole.low[1]])),
+    )
+    (group,) = rated(scene, [PanelCandidate(whole, pieces)])
+    assert np.isfinite([panel.value for panel in group.panels]).all()
 
 
 @pytest.mark.parametrize(("shown", "wanted"), [(0.95, ["door", "door"]), (0.5, ["lid"])])
