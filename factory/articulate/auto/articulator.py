@@ -13,8 +13,6 @@ from ...config import AutoConfig, BuildConfig, ParticulateConfig
 from ...errors import ConfigError
 from ...geometry.areas import face_areas
 from ...geometry.components import connected_components
-from ...geometry.crossings import Side
-from ...geometry.elevations import elevation
 from ...intake.intake import Intake
 from ...mesh import FloatArray, IntArray, Mesh
 from ...particulate.inference import Network
@@ -25,20 +23,15 @@ from ..geometric import GeometricArticulator
 from ..naming import JOINT_SUFFIX, numbered
 from ..rigid import rigid_articulation
 from .contacts import contacts_of, settled
+from .hidden import without_hidden
 from .partition import Sharing, share_out, shells
 from .parts import agreed_parts
-from .proposal import Proposal
+from .proposal import Proposal, Source
 from .proposals import propose
 from .sides import SURE_SIGHT, sightings
 from .skins import Make, different, least_of, seam_readings
-from .trust import SIGNS, Trust, load_trust
+from .trust import Trust, load_trust
 from .views import MOST_VIEWS, look_around
-
-_RULES, _SIDES, _NETWORK = range(3)
-#: What has at most this share of a mesh's area, and shows at most this share of its own, through
-#: gaps, is no mover.
-LITTLE = 0.03
-HIDDEN = 0.03
 
 
 @dataclass(frozen=True)
@@ -86,7 +79,7 @@ class AutoArticulator:
         proposals = self.proposals(mesh, face_areas(mesh))
         own = self.decide(mesh, proposals)
         sure = [each for each in self._rated(proposals) if each.confidence >= least]
-        ruled = [each.faces for each in sure if _source(each) == _RULES]
+        ruled = [each.faces for each in sure if each.source is Source.RULES]
         fuller = []
         full = []
         for shown in sightings(mesh, connected_components(mesh)):
@@ -110,10 +103,10 @@ class AutoArticulator:
         """The articulation of those proposals that can be trusted and can be there together."""
         rated = self._rated(proposals)
         rated.sort(key=lambda proposal: -proposal.confidence)
-        if any(_source(proposal) == _SIDES for proposal in rated):
-            rated.sort(key=_source)
+        if any(proposal.source is Source.SIDES for proposal in rated):
+            rated.sort(key=lambda proposal: proposal.source)
         least = least_of(self.trust, self.config.least_confidence)
-        rated = _without_hidden(mesh, rated)
+        rated = without_hidden(mesh, rated)
         sure = [proposal for proposal in rated if proposal.confidence >= least]
         left = [proposal for proposal in rated if proposal.confidence < least]
         notes: tuple[str, ...] = ()
@@ -219,36 +212,12 @@ def load_auto(
     )
 
 
-def _without_hidden(mesh: Mesh, rated: list[Proposal]) -> list[Proposal]:
-    """Without what only the network says of little pieces that no side shows: runners, shelf pins.
-
-    Nothing can take hold of those, and they bar what really moves.
-    """
-    areas = face_areas(mesh)
-    small = [
-        _source(each) == _NETWORK and areas[each.faces].sum() <= LITTLE * areas.sum()
-        for each in rated
-    ]
-    if not any(small):
-        return rated
-    shown = np.zeros(len(areas))
-    for side in Side:
-        picture = elevation(mesh, side)
-        pixels = np.bincount(picture.face[picture.seen], minlength=len(areas))
-        shown += pixels * picture.raster.pixel**2
-    return [
-        each
-        for each, little in zip(rated, small, strict=True)
-        if not little or shown[each.faces].sum() > HIDDEN * areas[each.faces].sum()
-    ]
-
-
 def _shared_out(mesh: Mesh, sure: list[Proposal]) -> tuple[list[Proposal], Sharing]:
     """The faces shared out among proposals, without those of the network that are bodies."""
     areas = face_areas(mesh)
     sharing = share_out([proposal.faces for proposal in sure], areas)
     boxes = [mesh.submesh(np.flatnonzero(proposal.faces)).bounds for proposal in sure]
-    doubted = [_source(proposal) == _NETWORK for proposal in sure]
+    doubted = [proposal.source is Source.NETWORK for proposal in sure]
     bodies = shells(sharing, boxes, doubted, areas)
     if not bodies:
         return sure, sharing
@@ -261,13 +230,6 @@ def _with_loose(mesh: Mesh, face_part: IntArray) -> IntArray:
     areas = face_areas(mesh)
     contacts = contacts_of(mesh, connected_components(mesh), areas)
     return settled(contacts, face_part, areas)
-
-
-def _source(proposal: Proposal) -> int:
-    """Who says so; where two proposals cannot both be, the lower one is believed."""
-    if proposal.signs[SIGNS.index("learned")] > 0.0:
-        return _NETWORK
-    return _SIDES if proposal.signs[SIGNS.index("sides")] > 0.0 else _RULES
 
 
 def _assembled(

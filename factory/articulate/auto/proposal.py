@@ -3,13 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from enum import IntEnum
 
 import numpy as np
 
 from ...mesh import FloatArray, read_only
 from ...particulate.surface import BoolArray
 from ..evidence import SeenMotion
+from .trust import SIGNS
 from .views import Slide
+
+
+class Source(IntEnum):
+    """Who says so; where two proposals cannot both be, the lower one is believed."""
+
+    RULES = 0
+    SIDES = 1
+    NETWORK = 2
 
 
 @dataclass(frozen=True)
@@ -38,3 +48,10 @@ class Proposal:
     def __post_init__(self) -> None:
         object.__setattr__(self, "faces", read_only(self.faces, np.bool_))
         object.__setattr__(self, "signs", read_only(self.signs))
+
+    @property
+    def source(self) -> Source:
+        """Who says so."""
+        if self.signs[SIGNS.index("learned")] > 0.0:
+            return Source.NETWORK
+        return Source.SIDES if self.signs[SIGNS.index("sides")] > 0.0 else Source.RULES

@@ -9,9 +9,11 @@ import pytest
 from modelled_furniture import board, bookcase, creased_cupboard, drawer_chest, fridge
 
 from asset_factory.factory.articulate.auto.articulator import AutoArticulator
+from asset_factory.factory.articulate.auto.hidden import without_hidden
 from asset_factory.factory.articulate.auto.proposal import Proposal
 from asset_factory.factory.articulate.auto.sides import Sightings, sightings
 from asset_factory.factory.articulate.auto.trust import load_trust, signs_of
+from asset_factory.factory.articulate.evidence import SeenMotion
 from asset_factory.factory.articulation import Articulation, JointKind
 from asset_factory.factory.config import AutoConfig, BuildConfig
 from asset_factory.factory.geometry.components import connected_components
@@ -149,3 +151,15 @@ def test_a_little_piece_that_no_side_shows_is_no_mover_by_the_networks_word_alon
     found = nobody.decide(mesh, made)
     (joint,) = found.movable_joints
     assert knob[found.parts[joint.child].faces].all()
+
+
+def test_a_rack_behind_a_door_may_move_and_a_pair_of_runners_may_not() -> None:
+    oven = board((0.0, 0.0, 0.0), (0.6, 0.6, 0.8))
+    bars = [board((x, 0.1, 0.4), (x + 0.01, 0.5, 0.41)) for x in np.linspace(0.1, 0.49, 9)]
+    for pieces, kept in ((bars, True), (bars[::8], False)):
+        mesh = concatenate([oven, *pieces])
+        faces = np.arange(len(mesh.faces)) >= len(oven.faces)
+        word = signs_of({"learned": 1.0})
+        motion = SeenMotion(JointKind.PRISMATIC, np.array([0.0, -1.0, 0.0]), np.zeros(3), 0.0, 0.3)
+        said = Proposal("part", faces, motion, word)
+        assert (without_hidden(mesh, [said]) == [said]) is kept
