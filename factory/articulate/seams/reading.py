@@ -42,8 +42,10 @@ LEAST_OTHER = 0.1
 MARGIN = 2.0
 #: A panel of which the picture network sees less than this share is none.
 LEAST_SEEN = 0.15
-#: One without a handle beside others must end so surely on each side, as it sees it.
+#: One without a handle beside others must end so surely on each side, as it sees it, and to this
+#: share of its surest side.
 LEAST_ENDS = 0.4
+EVEN_ENDS = 0.6
 #: Of panels of which it sees that much nobody else's doubts count.
 CLEAR = 0.85
 #: What is closed by grooves and steps to this, and has a handle that stands off so far [pixels],
@@ -284,7 +286,8 @@ def _is_seen(front: Front, panel: FrontPanel) -> bool:
 
 def _has_ends(front: Front, panel: FrontPanel) -> bool:
     """Whether the picture network sees it end on all sides, as planks and plates do not."""
-    return bool(front.sight.ends(panel.rectangle).min() >= LEAST_ENDS)
+    ends = front.sight.ends(panel.rectangle)
+    return bool(ends.min() >= max(LEAST_ENDS, EVEN_ENDS * ends.max()))
 
 
 def _reading(

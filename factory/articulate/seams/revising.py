@@ -12,6 +12,7 @@ from .fronts import Front
 from .glimpses import glimpsed
 from .groups import FrontPanel, apart
 from .panels import rated
+from .planks import beyond_planks
 from .rectangles import Rectangle
 from .sight import SQUARE
 
@@ -50,7 +51,8 @@ def revised(
         group.panels[0] for group in rated(front.scene, found) if group.rectangle.closed >= CLOSED
     ]
     halves = [half for panel in panels for half in _parted(front, panel)]
-    kept = _exchanged(front, _recut(halves, glimpses), [*glimpses, *others])
+    whole = beyond_planks(front, halves)
+    kept = _exchanged(front, _recut(whole, glimpses), [*glimpses, *others])
     return [*kept, *_clear([_cut_back(each, kept) for each in glimpses], kept)]
 
 

@@ -10,6 +10,7 @@ from tests.samples import one_piece
 
 from asset_factory.factory.articulate.seams.fronts import Front, fronts_of
 from asset_factory.factory.articulate.seams.groups import FrontPanel
+from asset_factory.factory.articulate.seams.planks import beyond_planks
 from asset_factory.factory.articulate.seams.rectangles import Rectangle
 from asset_factory.factory.articulate.seams.relief import reliefs_of
 from asset_factory.factory.articulate.seams.revising import revised
@@ -142,3 +143,23 @@ def test_a_knob_on_an_end_that_is_seen_opens_two_doors(
         assert abs(seam - middle[1]) <= SQUARE
         assert found[1].rectangle.low[1] == seam
         assert found[0].handles[0].high[1] < seam < found[1].handles[0].low[1]
+
+
+def test_a_door_found_between_two_planks_goes_on_to_where_it_ends(
+    doors: Front, pair: list[FrontPanel]
+) -> None:
+    bottom, top, _, _ = doors.relief.box
+    left, right = (panel.rectangle for panel in pair)
+    (bar,) = pair[0].handles
+    lines = doors.scene.level.at
+    foot, head = (int(lines[np.abs(lines - at).argmin()]) for at in (bottom + 10, top - 10))
+    door, other = (rectangle((foot, each.low[1]), (head, each.high[1])) for each in (left, right))
+    cell = rectangle((int(bar.low[0]) - 6, left.low[1]), (int(bar.high[0]) + 6, left.high[1]))
+    bare = rectangle((foot, left.low[1]), (int(bar.low[0]) - 6, left.high[1]))
+    cells = [replace(pair[0], rectangle=cell), FrontPanel(bare, (), 0.5)]
+    (found,) = beyond_planks(with_sight(doors, [door, other]), cells)
+    assert found.rectangle.low.tolist() == door.low.tolist()
+    assert found.rectangle.high.tolist() == door.high.tolist()
+
+    ends_there = with_sight(doors, [cell, bare])
+    assert beyond_planks(ends_there, cells) == cells

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from itertools import cycle
 
 import numpy as np
 import pytest
@@ -87,8 +88,7 @@ def test_what_opens_is_found_from_every_side(name: str, quarters: int) -> None:
     require(read(sample(name).transformed(turn)), name, turn[:3, :3])
 
 
-@pytest.mark.parametrize("degrees", [20.0, -7.0, 40.0])
-@pytest.mark.parametrize("name", OPENS)
+@pytest.mark.parametrize(("name", "degrees"), zip(OPENS, cycle([20.0, -7.0, 40.0])))
 def test_an_object_may_stand_askew(name: str, degrees: float) -> None:
     turn = np.eye(4)
     turn[:3, :3] = rotation_about(UP, np.radians(degrees))
@@ -101,8 +101,7 @@ def test_a_mirrored_object_is_read_mirrored(name: str) -> None:
     require(read(sample(name).transformed(mirror)), name, mirror[:3, :3])
 
 
-@pytest.mark.parametrize("scale", [0.05, 30.0])
-@pytest.mark.parametrize("name", OPENS)
+@pytest.mark.parametrize(("name", "scale"), zip(OPENS, cycle([0.05, 30.0])))
 def test_size_does_not_matter(name: str, scale: float) -> None:
     larger = np.diag([scale, scale, scale, 1.0])
     require(read(sample(name).transformed(larger)), name, larger[:3, :3])
@@ -120,10 +119,9 @@ def test_few_triangles_are_enough(name: str) -> None:
 def test_what_does_not_open_stays_rigid(name: str, quarters: int) -> None:
     turn = np.eye(4)
     turn[:3, :3] = np.rint(rotation_about(UP, quarters * np.pi / 2.0))
-    found = read(sample(name).transformed(turn))
+    (found,) = SeamsArticulator().readings(sample(name).transformed(turn))
     assert not found.joints
     assert found.notes
-    assert len(SeamsArticulator().readings(sample(name))) == 1
 
 
 def test_a_door_is_as_thick_as_the_seam_beside_it_shows() -> None:
