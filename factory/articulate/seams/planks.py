@@ -8,13 +8,14 @@ from dataclasses import replace
 from .fronts import Front
 from .groups import FrontPanel, apart
 from .rectangles import Rectangle
-from .sight import SQUARE
 
 #: Where an end is less sure, a panel may go on; to the next line where one is so sure.
 WEAK = 0.45
 STRONG = 0.6
 #: It goes on over what shows so much of a panel, and no handle.
 WITHIN = 0.6
+#: No plank is so narrow [pixels]: that is a frame.
+NARROW = 14
 
 
 def beyond_planks(front: Front, panels: Sequence[FrontPanel]) -> list[FrontPanel]:
@@ -49,7 +50,7 @@ def _moved(
     """With one side where the next sure end is; the same if something else comes first."""
     lines = (front.scene.level, front.scene.upright)[axis].at
     at = (rectangle.high if upper else rectangle.low)[axis]
-    beyond = lines[lines > at + SQUARE] if upper else lines[lines < at - SQUARE][::-1]
+    beyond = lines[lines > at + NARROW] if upper else lines[lines < at - NARROW][::-1]
     for line in beyond:
         wider = _with_side(rectangle, axis, line, upper=upper)
         strip = _with_side(wider, axis, at, upper=not upper)

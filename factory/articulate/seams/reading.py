@@ -218,11 +218,11 @@ class _Sides:
         """Of panels of one side whose values are log-odds; with others that fit them better."""
         front = self.fronts[side]
         seen = [panel for panel in panels if _is_seen(front, panel)]
-        if len(seen) > 1:
-            seen = [panel for panel in seen if panel.handles or _has_ends(front, panel)]
+        seen = _without_planks(front, seen)
         if not seen:
             return ()
         seen = without_control_panels(revised(front, seen, self.found[side]))
+        seen = _without_planks(front, seen) or seen
         openings = openings_of(front.scene, seen, front.sight)
         best = _reading(self.fronts, side, openings)
         found = [best]
@@ -282,6 +282,13 @@ def _is_seen(front: Front, panel: FrontPanel) -> bool:
     pulled = panel.handle is not None and panel.handle.height >= STANDS_OFF
     evident = pulled and float(panel.rectangle.relief.min()) >= EVIDENT
     return evident or front.sight.shows(panel.rectangle) >= LEAST_SEEN
+
+
+def _without_planks(front: Front, panels: list[FrontPanel]) -> list[FrontPanel]:
+    """Of several panels, those with handles and those that end on all sides."""
+    if len(panels) < 2:
+        return panels
+    return [panel for panel in panels if panel.handles or _has_ends(front, panel)]
 
 
 def _has_ends(front: Front, panel: FrontPanel) -> bool:
