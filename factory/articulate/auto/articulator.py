@@ -26,7 +26,7 @@ from .contacts import contacts_of, settled
 from .hidden import without_hidden
 from .partition import Sharing, share_out, shells
 from .parts import agreed_parts
-from .proposal import Proposal, Source
+from .proposal import Proposal, Proposer
 from .proposals import propose
 from .sides import SURE_SIGHT, sightings
 from .skins import Make, different, least_of, seam_readings
@@ -79,7 +79,7 @@ class AutoArticulator:
         proposals = self.proposals(mesh, face_areas(mesh))
         own = self.decide(mesh, proposals)
         sure = [each for each in self._rated(proposals) if each.confidence >= least]
-        ruled = [each.faces for each in sure if each.source is Source.RULES]
+        ruled = [each.faces for each in sure if each.proposer is Proposer.RULES]
         fuller = []
         full = []
         for shown in sightings(mesh, connected_components(mesh)):
@@ -103,8 +103,8 @@ class AutoArticulator:
         """The articulation of those proposals that can be trusted and can be there together."""
         rated = self._rated(proposals)
         rated.sort(key=lambda proposal: -proposal.confidence)
-        if any(proposal.source is Source.SIDES for proposal in rated):
-            rated.sort(key=lambda proposal: proposal.source)
+        if any(proposal.proposer is Proposer.SIDES for proposal in rated):
+            rated.sort(key=lambda proposal: proposal.proposer)
         least = least_of(self.trust, self.config.least_confidence)
         rated = without_hidden(mesh, rated)
         sure = [proposal for proposal in rated if proposal.confidence >= least]
@@ -217,7 +217,7 @@ def _shared_out(mesh: Mesh, sure: list[Proposal]) -> tuple[list[Proposal], Shari
     areas = face_areas(mesh)
     sharing = share_out([proposal.faces for proposal in sure], areas)
     boxes = [mesh.submesh(np.flatnonzero(proposal.faces)).bounds for proposal in sure]
-    doubted = [proposal.source is Source.NETWORK for proposal in sure]
+    doubted = [proposal.proposer is Proposer.NETWORK for proposal in sure]
     bodies = shells(sharing, boxes, doubted, areas)
     if not bodies:
         return sure, sharing

@@ -8,7 +8,7 @@ from ...geometry.areas import face_areas
 from ...geometry.crossings import Side
 from ...geometry.elevations import elevation
 from ...mesh import IntArray, Mesh
-from .proposal import Proposal, Source
+from .proposal import Proposal, Proposer
 
 #: What has at most this share of a mesh's area, and shows at most this share of its own, through
 #: gaps, is no mover.
@@ -28,7 +28,7 @@ def without_hidden(mesh: Mesh, rated: list[Proposal]) -> list[Proposal]:
     """
     areas = face_areas(mesh)
     small = [
-        each.source is Source.NETWORK
+        each.proposer is Proposer.NETWORK
         and areas[each.faces].sum() <= LITTLE * areas.sum()
         and not _is_rack(mesh, np.flatnonzero(each.faces))
         for each in rated

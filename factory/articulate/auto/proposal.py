@@ -14,7 +14,7 @@ from .trust import SIGNS
 from .views import Slide
 
 
-class Source(IntEnum):
+class Proposer(IntEnum):
     """Who says so; where two proposals cannot both be, the lower one is believed."""
 
     RULES = 0
@@ -50,8 +50,8 @@ class Proposal:
         object.__setattr__(self, "signs", read_only(self.signs))
 
     @property
-    def source(self) -> Source:
+    def proposer(self) -> Proposer:
         """Who says so."""
         if self.signs[SIGNS.index("learned")] > 0.0:
-            return Source.NETWORK
-        return Source.SIDES if self.signs[SIGNS.index("sides")] > 0.0 else Source.RULES
+            return Proposer.NETWORK
+        return Proposer.SIDES if self.signs[SIGNS.index("sides")] > 0.0 else Proposer.RULES
