@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -117,12 +117,5 @@ def _unseen(start: float, stop: float, before: float, behind: float) -> int:
 
 
 def _halves(rectangle: Rectangle, axis: int, at: int) -> tuple[Rectangle, Rectangle]:
-    middle_high = rectangle.high.copy()
-    middle_low = rectangle.low.copy()
-    middle_high[axis] = at
-    middle_low[axis] = at
-    unseen = np.zeros(4)
-    return (
-        Rectangle(rectangle.low, middle_high, unseen, unseen),
-        Rectangle(middle_low, rectangle.high, unseen, unseen),
-    )
+    unseen = replace(rectangle, sides=np.zeros(4), relief=np.zeros(4))
+    return unseen.with_side(2 * axis + 1, at), unseen.with_side(2 * axis, at)

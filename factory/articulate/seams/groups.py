@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 from .handles import Protrusion
 from .rectangles import Rectangle
@@ -60,6 +61,16 @@ class Group:
 def apart(one: Rectangle, other: Rectangle) -> bool:
     """Whether two rectangles may both be panels."""
     return one.shared(other) <= OVERLAP * min(one.area, other.area)
+
+
+Placed = TypeVar("Placed", FrontPanel, Group)
+
+
+def clear_of(some: Sequence[Placed], others: Sequence[FrontPanel]) -> list[Placed]:
+    """Those that overlap none of the others."""
+    return [
+        each for each in some if all(apart(each.rectangle, other.rectangle) for other in others)
+    ]
 
 
 def together(groups: Sequence[Group]) -> list[Group]:

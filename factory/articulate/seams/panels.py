@@ -22,7 +22,7 @@ from .candidates import (
 )
 from .dividing import divided
 from .features import ALIGNED, BEVEL, outline_sides
-from .groups import FrontPanel, Group, apart, together
+from .groups import FrontPanel, Group, clear_of, together
 from .handles import GripShape, Protrusion
 from .rectangles import SHORTEST, Rectangle
 from .relief import Relief
@@ -195,9 +195,8 @@ def _without_handles(
     """Panels without a handle beside one that has one and is like them."""
     free = [
         group
-        for group in bare
-        if all(apart(group.rectangle, other.rectangle) for other in pulled)
-        and any(_alike(group.rectangle, other.rectangle) for other in pulled)
+        for group in clear_of(bare, pulled)
+        if any(_alike(group.rectangle, other.rectangle) for other in pulled)
         and _engraved(group.rectangle)
         and not _plinth(relief, group.rectangle)
     ]

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from .fronts import Front
-from .groups import FrontPanel, apart
-from .rectangles import Rectangle
+from .groups import FrontPanel, clear_of
 
 #: Where an end is less sure, a panel may go on; to the next line where one is so sure.
 WEAK = 0.45
@@ -27,45 +26,31 @@ def beyond_planks(front: Front, panels: Sequence[FrontPanel]) -> list[FrontPanel
     """
     pulled = [panel for panel in panels if panel.handles]
     for index, panel in enumerate(pulled):
-        others = [other.rectangle for other in pulled if other is not panel]
-        pulled[index] = _grown(front, panel, others)
-    whole = [panel.rectangle for panel in pulled]
+        pulled[index] = _grown(front, panel, [other for other in pulled if other is not panel])
     bare = [panel for panel in panels if not panel.handles]
-    clear = (panel for panel in bare if all(apart(panel.rectangle, each) for each in whole))
-    return [*pulled, *clear]
+    return [*pulled, *clear_of(bare, pulled)]
 
 
-def _grown(front: Front, panel: FrontPanel, others: Sequence[Rectangle]) -> FrontPanel:
-    rectangle = panel.rectangle
-    for axis in (0, 1):
-        for upper in (False, True):
-            if front.sight.ends(rectangle)[2 * axis + upper] < WEAK:
-                rectangle = _moved(front, rectangle, others, axis, upper=upper)
-    return panel if rectangle is panel.rectangle else replace(panel, rectangle=rectangle)
+def _grown(front: Front, panel: FrontPanel, others: Sequence[FrontPanel]) -> FrontPanel:
+    found = panel
+    for side in range(4):
+        if front.sight.ends(found.rectangle)[side] < WEAK:
+            found = _moved(front, found, others, side)
+    return found
 
 
-def _moved(
-    front: Front, rectangle: Rectangle, others: Sequence[Rectangle], axis: int, *, upper: bool
-) -> Rectangle:
+def _moved(front: Front, panel: FrontPanel, others: Sequence[FrontPanel], side: int) -> FrontPanel:
     """With one side where the next sure end is; the same if something else comes first."""
+    axis, upper = divmod(side, 2)
+    whole = panel.rectangle
     lines = (front.scene.level, front.scene.upright)[axis].at
-    at = (rectangle.high if upper else rectangle.low)[axis]
-    beyond = lines[lines > at + NARROW] if upper else lines[lines < at - NARROW][::-1]
-    for line in beyond:
-        wider = _with_side(rectangle, axis, line, upper=upper)
-        strip = _with_side(wider, axis, at, upper=not upper)
-        if not all(apart(wider, other) for other in others):
-            break
+    at = (whole.high if upper else whole.low)[axis]
+    for line in lines[lines > at + NARROW] if upper else lines[lines < at - NARROW][::-1]:
+        wider = replace(panel, rectangle=whole.with_side(side, line))
+        strip = wider.rectangle.with_side(side ^ 1, at)
         pulled = any(strip.holds(pull.center) for pull in front.scene.face.pulls)
-        if pulled or front.sight.shows(strip) < WITHIN:
+        if pulled or not clear_of([wider], others) or front.sight.shows(strip) < WITHIN:
             break
-        if front.sight.ends(wider)[2 * axis + upper] >= STRONG:
+        if front.sight.ends(wider.rectangle)[side] >= STRONG:
             return wider
-    return rectangle
-
-
-def _with_side(rectangle: Rectangle, axis: int, at: int, *, upper: bool) -> Rectangle:
-    low = rectangle.low.copy()
-    high = rectangle.high.copy()
-    (high if upper else low)[axis] = at
-    return replace(rectangle, low=low, high=high)
+    return panel

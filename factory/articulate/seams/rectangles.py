@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy import ndimage
@@ -105,6 +105,10 @@ def _sums(values: FloatArray) -> FloatArray:
     return np.pad(np.cumsum(values, axis=1), ((0, 0), (1, 0)))
 
 
+#: Sides of a rectangle, in the order of all figures about them.
+BOTTOM, TOP, LEFT, RIGHT = range(4)
+
+
 @dataclass(frozen=True, eq=False)
 class Rectangle:
     """Four lines that close, in pixels of one side.
@@ -138,6 +142,14 @@ class Rectangle:
     def holds(self, point: FloatArray | IntArray, margin: float = 0.0) -> bool:
         """Whether a place (row, column) lies inside."""
         return bool((point >= self.low + margin).all() and (point <= self.high - margin).all())
+
+    def with_side(self, side: int, at: int) -> Rectangle:
+        """The same with one side elsewhere, ``BOTTOM``, ``TOP``, ``LEFT`` or ``RIGHT``."""
+        axis, upper = divmod(side, 2)
+        low = self.low.copy()
+        high = self.high.copy()
+        (high if upper else low)[axis] = at
+        return replace(self, low=low, high=high)
 
     def shared(self, other: Rectangle) -> float:
         """Area of both [pixels]."""

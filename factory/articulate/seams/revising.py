@@ -10,10 +10,10 @@ import numpy as np
 from .candidates import in_common
 from .fronts import Front
 from .glimpses import glimpsed
-from .groups import FrontPanel, apart
+from .groups import FrontPanel, clear_of
 from .panels import rated
 from .planks import beyond_planks
-from .rectangles import Rectangle
+from .rectangles import LEFT, RIGHT, Rectangle
 from .sight import SQUARE
 
 #: Of a panel of which the network sees less, another rectangle with the same handle may be better:
@@ -53,7 +53,7 @@ def revised(
     halves = [half for panel in panels for half in _parted(front, panel)]
     whole = beyond_planks(front, halves)
     kept = _exchanged(front, _recut(whole, glimpses), [*glimpses, *others])
-    return [*kept, *_clear([_cut_back(each, kept) for each in glimpses], kept)]
+    return [*kept, *clear_of([_cut_back(each, kept) for each in glimpses], kept)]
 
 
 def _parted(front: Front, panel: FrontPanel) -> tuple[FrontPanel, ...]:
@@ -75,13 +75,11 @@ def _parted(front: Front, panel: FrontPanel) -> tuple[FrontPanel, ...]:
     if sure.max() < PARTED:
         return (panel,)
     seam = int(at[sure.argmax()])
-    left = replace(whole, high=np.array([whole.high[0], seam]))
-    right = replace(whole, low=np.array([whole.low[0], seam]))
     on_left = replace(knob, high=np.array([knob.high[0], seam - 1]))
     on_right = replace(knob, low=np.array([knob.low[0], seam + 1]))
     return (
-        replace(panel, rectangle=left, handles=(on_left,)),
-        replace(panel, rectangle=right, handles=(on_right,)),
+        replace(panel, rectangle=whole.with_side(RIGHT, seam), handles=(on_left,)),
+        replace(panel, rectangle=whole.with_side(LEFT, seam), handles=(on_right,)),
     )
 
 
@@ -89,7 +87,7 @@ def _recut(panels: Sequence[FrontPanel], glimpses: Sequence[FrontPanel]) -> list
     """Cut where the network sees ends instead of half-way between handles."""
     cut = [panel for panel in panels if panel.cut]
     kept = [panel for panel in panels if not panel.cut]
-    own = [each for each in _clear(glimpses, kept) if not _clear([each], cut)]
+    own = [each for each in clear_of(glimpses, kept) if not clear_of([each], cut)]
     held = all(any(each.rectangle.holds(panel.handles[0].center) for each in own) for panel in cut)
     enough = _area(own) >= MOST_OF * _area(cut)
     return [*kept, *own] if held and enough and len(own) >= FEWEST else list(panels)
@@ -106,7 +104,7 @@ def _exchanged(
         rest = [*kept[:index], *kept[index + 1 :]]
         fit = [
             each.rectangle
-            for each in _clear(others, rest)
+            for each in clear_of(others, rest)
             if panel.handle in each.handles
             and front.sight.shows(each.rectangle) >= SURE
             and in_common(panel.rectangle, each.rectangle) < OTHER
@@ -119,28 +117,20 @@ def _exchanged(
 def _cut_back(panel: FrontPanel, others: Sequence[FrontPanel]) -> FrontPanel:
     """Without a narrow strip along one side that it shares with another panel."""
     whole = panel.rectangle
-    low = whole.low.copy()
-    high = whole.high.copy()
+    found = whole
     for other in (each.rectangle for each in others):
         if not whole.shared(other):
             continue
         for axis in (0, 1):
             most = STRIP * whole.size[axis]
-            if 0 < other.high[axis] - low[axis] <= most:
-                low[axis] = other.high[axis]
+            if 0 < other.high[axis] - found.low[axis] <= most:
+                found = found.with_side(2 * axis, other.high[axis])
                 break
-            if 0 < high[axis] - other.low[axis] <= most:
-                high[axis] = other.low[axis]
+            if 0 < found.high[axis] - other.low[axis] <= most:
+                found = found.with_side(2 * axis + 1, other.low[axis])
                 break
-    return replace(panel, rectangle=replace(whole, low=low, high=high))
+    return replace(panel, rectangle=found)
 
 
 def _area(panels: Sequence[FrontPanel]) -> float:
     return sum(panel.rectangle.area for panel in panels)
-
-
-def _clear(panels: Sequence[FrontPanel], others: Sequence[FrontPanel]) -> list[FrontPanel]:
-    """Those that overlap none of the others."""
-    return [
-        each for each in panels if all(apart(each.rectangle, other.rectangle) for other in others)
-    ]

@@ -22,7 +22,7 @@ from asset_factory.factory.articulate.seams.handles import Face, Protrusion
 from asset_factory.factory.articulate.seams.layouts import rated
 from asset_factory.factory.articulate.seams.lids import Lid
 from asset_factory.factory.articulate.seams.panels import usable
-from asset_factory.factory.articulate.seams.rectangles import Lines, Rectangle
+from asset_factory.factory.articulate.seams.rectangles import BOTTOM, TOP, Lines, Rectangle
 from asset_factory.factory.articulate.seams.relief import reliefs_of
 from asset_factory.factory.geometry.crossings import Side
 
@@ -47,10 +47,7 @@ def test_a_front_may_show_nothing_but_pieces_between_handles() -> None:
     scene = fronts_of(reliefs_of(one_piece.plain_box(), None))[Side.FRONT].scene
     whole = whole_side(scene)
     middle = (whole.low[0] + whole.high[0]) // 2
-    pieces = (
-        replace(whole, high=np.array([middle, whole.high[1]])),
-        replace(whole, low=np.array([middle, whole.low[1]])),
-    )
+    pieces = (whole.with_side(TOP, int(middle)), whole.with_side(BOTTOM, int(middle)))
     (group,) = rated(scene, [PanelCandidate(whole, pieces)])
     assert np.isfinite([panel.value for panel in group.panels]).all()
 
