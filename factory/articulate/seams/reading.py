@@ -52,6 +52,8 @@ CLEAR = 0.85
 #: is one, whoever sees it.
 EVIDENT = 0.95
 STANDS_OFF = 4.0
+#: Several with handles, each closed to this, are no drawing on a chest.
+SHUT = 0.9
 #: Value of a panel that is right as often as not, and how fast confidence grows with it.
 EVEN = 1.5
 SLOPE = 0.8
@@ -128,7 +130,7 @@ def _with(reading: MeshReading, knobs: Sequence[OpeningPart]) -> MeshReading:
 def _openings(seen: _Sides, *, has_knobs: bool) -> tuple[MeshReading, ...]:
     """What opens, without knobs; what has some is an appliance, whose top is no lid."""
     odds = value_of(seen.front.scene, seen.panels, seen.found[seen.side])
-    if not has_knobs and seen.has_lid(odds < 0.0 and not seen.is_clear):
+    if not has_knobs and seen.has_lid(odds < 0.0 and not (seen.is_clear or seen.is_evident)):
         return _lid_readings(seen.fronts, seen.lids)
     by_rules = seen.front_readings()
     layouts = {side: layout_of(seen.fronts[side].scene, seen.found[side]) for side in AROUND}
@@ -184,6 +186,13 @@ class _Sides:
         areas = [panel.rectangle.area for panel in self.panels]
         shown = [self.front.sight.shows(panel.rectangle) for panel in self.panels]
         return len(areas) > 1 and bool(np.average(shown, weights=areas) >= CLEAR)
+
+    @property
+    def is_evident(self) -> bool:
+        """Whether each of several panels has a handle within a groove all around."""
+        return len(self.panels) > 1 and all(
+            panel.handles and float(panel.rectangle.relief.min()) >= SHUT for panel in self.panels
+        )
 
     def has_lid(self, doubtful: bool) -> bool:
         """Whether it is a lid that opens, and no panels; ``doubtful`` ones count for nothing."""
