@@ -103,6 +103,12 @@ def shells(
 
 
 def _within(inner: FloatArray, outer: FloatArray) -> bool:
-    """Whether a box lies in another, but for a margin in proportion to that one's size."""
+    """Whether a box lies in another, or in front of it as a door does.
+
+    Give or take a margin in proportion to the other's size, it ends where that ends, but for one
+    level direction in which they at least touch.
+    """
     margin = AROUND_MARGIN * (outer[1] - outer[0])
-    return bool((inner[0] >= outer[0] - margin).all() and (inner[1] <= outer[1] + margin).all())
+    held = (inner[0] >= outer[0] - margin) & (inner[1] <= outer[1] + margin)
+    touching = (inner[0] <= outer[1] + margin) & (inner[1] >= outer[0] - margin)
+    return bool(touching.all() and held[2] and held[:2].any())

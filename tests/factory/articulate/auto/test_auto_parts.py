@@ -125,6 +125,20 @@ def test_a_part_that_surrounds_another_which_does_not_hang_on_it_is_a_body():
     assert not shells(sharing, [box(0.9, 1.4), boxes[1]], [False, True], areas)
 
 
+def test_what_carries_a_door_in_front_of_it_is_a_body_and_what_has_a_lid_on_top_may_move():
+    areas = np.ones(100)
+    door = np.arange(100) < 10
+    behind = (np.arange(100) >= 10) & (np.arange(100) < 60)
+    sharing = share_out([door, behind], areas)
+    body = np.array([[0.0, 0.0, 0.0], [1.0, 0.5, 1.0]])
+    in_front = np.array([[0.2, -0.1, 0.2], [0.5, 0.02, 0.8]])
+    on_top = np.array([[0.2, 0.1, 0.98], [0.5, 0.4, 1.2]])
+    away = in_front - [0.0, 0.5, 0.0]
+    assert shells(sharing, [in_front, body], [False, True], areas) == {1}
+    assert not shells(sharing, [on_top, body], [False, True], areas)
+    assert not shells(sharing, [away, body], [False, True], areas)
+
+
 def test_a_small_part_beside_a_small_one_or_on_its_host_makes_no_body():
     areas = np.ones(100)
     knob = np.arange(100) < 2
