@@ -7,7 +7,7 @@ from pathlib import Path
 
 from asset_factory.sim_checks.judge import Judge
 
-from .articulate.stage import readings
+from .articulate.standing import standing_readings
 from .articulation import Articulation
 from .config import BuildConfig
 from .errors import InputRejected
@@ -55,7 +55,7 @@ def make_asset(
     try:
         with stages.clock.stage("load"):
             intake = origin.load()
-        likeliest_first = readings(intake, origin.loaded_key, stages)
+        intake, likeliest_first = standing_readings(intake, origin, stages)
         drafts = _drafts(likeliest_first, intake, staging, judge, stages)
         draft, others = best_of(drafts)
         rounds = Rounds(draft.reading, intake, staging, judge, stages)

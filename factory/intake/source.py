@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -74,6 +75,11 @@ class Source:
             "build it again when they are at rest"
         )
         raise InputRejected("input_changed", message, value=float(MOST_READINGS), unit="readings")
+
+    def with_up(self, up: str) -> Source:
+        """The same input, read with another axis up."""
+        intake = replace(self.config.intake, up=up)
+        return Source(self.path, replace(self.config, intake=intake), self.place)
 
     @property
     def loaded_key(self) -> str:

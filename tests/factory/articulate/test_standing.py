@@ -1,0 +1,48 @@
+"""A mesh that lies as it is read is stood up if only so it opens, and never against its owner."""
+
+import numpy as np
+import pytest
+import trimesh
+from one_piece import fridge, microwave
+
+from asset_factory.factory.articulate.standing import standing_readings
+from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.intake.source import Source
+from asset_factory.factory.runtime.stages import Stages
+
+#: Rows are y-up: x, z, -y of a z-up object.
+Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+
+
+def read(path, mesh, turn=None):
+    vertices = mesh.vertices if turn is None else mesh.vertices @ turn.T
+    trimesh.Trimesh(vertices, mesh.faces, process=False).export(path)
+    config = BuildConfig()
+    origin = Source(path, config)
+    return standing_readings(origin.load(), origin, Stages(config))
+
+
+@pytest.mark.parametrize(("suffix", "turn"), [("glb", None), ("obj", Y_UP)])
+def test_two_doors_that_show_only_with_the_other_axis_up_stand_it_up(tmp_path, suffix, turn):
+    mesh = fridge()
+    intake, readings = read(tmp_path / f"fridge.{suffix}", mesh, turn)
+    assert len(readings[0].movable_joints) == 2
+    assert intake.provenance.up == {"glb": "z", "obj": "y"}[suffix]
+    assert intake.provenance.up_source == "sides"
+    assert any("opens" in note and "2 doors" in note for note in intake.provenance.notes)
+    size = intake.mesh.extents / intake.mesh.extents[2]
+    np.testing.assert_allclose(size, mesh.extents / mesh.extents[2], rtol=1e-5)
+
+
+def test_who_said_which_axis_is_up_is_believed(tmp_path):
+    (tmp_path / "fridge.toml").write_text('up = "y"\n')
+    with pytest.raises(InputRejected, match="nothing moves"):
+        read(tmp_path / "fridge.glb", fridge())
+
+
+def test_one_panel_is_no_reason_to_turn_a_mesh_over(tmp_path):
+    with pytest.raises(InputRejected, match="nothing moves"):
+        read(tmp_path / "microwave.glb", microwave())
+    _, readings = read(tmp_path / "upright.glb", microwave(), Y_UP)
+    assert len(readings[0].movable_joints) == 1
