@@ -53,7 +53,7 @@ CLEAR = 0.85
 EVIDENT = 0.95
 STANDS_OFF = 4.0
 #: Several with handles, each closed to this, are no drawing on a chest.
-SHUT = 0.9
+SHUT = 0.75
 #: Value of a panel that is right as often as not, and how fast confidence grows with it.
 EVEN = 1.5
 SLOPE = 0.8
@@ -130,7 +130,7 @@ def _with(reading: MeshReading, knobs: Sequence[OpeningPart]) -> MeshReading:
 def _openings(seen: _Sides, *, has_knobs: bool) -> tuple[MeshReading, ...]:
     """What opens, without knobs; what has some is an appliance, whose top is no lid."""
     odds = value_of(seen.front.scene, seen.panels, seen.found[seen.side])
-    if not has_knobs and seen.has_lid(odds < 0.0 and not (seen.is_clear or seen.is_evident)):
+    if not has_knobs and seen.has_lid(odds < 0.0 and not seen.is_clear):
         return _lid_readings(seen.fronts, seen.lids)
     by_rules = seen.front_readings()
     layouts = {side: layout_of(seen.fronts[side].scene, seen.found[side]) for side in AROUND}
@@ -189,16 +189,16 @@ class _Sides:
 
     @property
     def is_evident(self) -> bool:
-        """Whether each of several panels has a handle within a groove all around."""
+        """Whether each of several panels has a handle and seams around it."""
         return len(self.panels) > 1 and all(
-            panel.handles and float(panel.rectangle.relief.min()) >= SHUT for panel in self.panels
+            panel.handles and panel.rectangle.closed >= SHUT for panel in self.panels
         )
 
     def has_lid(self, doubtful: bool) -> bool:
         """Whether it is a lid that opens, and no panels; ``doubtful`` ones count for nothing."""
         if not self.lids or self.lids[0].value < LEAST_LID:
             return False
-        if not self.lids[0].is_seen(beside_panels=len(self.panels) > 1):
+        if self.is_evident or not self.lids[0].is_seen(beside_panels=len(self.panels) > 1):
             return False
         of_lid = all(self.front.sight.is_of_lid(panel.rectangle) for panel in self.panels)
         return doubtful or of_lid or self.lids[0].value > self.value - 1.0

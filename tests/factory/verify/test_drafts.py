@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from export_samples import cabinet
 
-from asset_factory.factory import build
+from asset_factory.factory.articulate import standing
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.build import build_asset
 from asset_factory.factory.config import BuildConfig, ReadingsConfig
@@ -74,13 +74,13 @@ def _blocked(right: Articulation) -> Articulation:
 
 
 def _reading_as(monkeypatch: pytest.MonkeyPatch, *changes: object) -> None:
-    likeliest = build.readings
+    likeliest = standing.readings
 
     def readings(*asked: object) -> tuple[Articulation, ...]:
         (right,) = likeliest(*asked)
         return tuple(change(right) for change in changes)
 
-    monkeypatch.setattr(build, "readings", readings)
+    monkeypatch.setattr(standing, "readings", readings)
 
 
 CONFIG = BuildConfig(simulators=(), readings=ReadingsConfig(within_s=1e6))

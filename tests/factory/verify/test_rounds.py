@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from asset_factory.factory import build
+from asset_factory.factory.articulate import standing
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.build import build_asset
 from asset_factory.factory.config import BuildConfig, RepairConfig
@@ -26,7 +26,7 @@ CONFIG = BuildConfig(simulators=(), repair=RepairConfig(within_s=1e6))
 def guessed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The joints of the example, as guesses, the surest first."""
     names: list[str] = []
-    likeliest = build.readings
+    likeliest = standing.readings
 
     def readings(*asked: object) -> tuple[Articulation, ...]:
         (right,) = likeliest(*asked)
@@ -37,7 +37,7 @@ def guessed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         names[:] = [joint.name for joint in joints]
         return (replace(right, joints=joints),)
 
-    monkeypatch.setattr(build, "readings", readings)
+    monkeypatch.setattr(standing, "readings", readings)
     return names
 
 
