@@ -211,7 +211,7 @@ def _rectangle(view: PartView, seen: BoolArray) -> tuple[FloatArray, FloatArray]
 def _rim(
     mesh: Mesh, faces: IntArray, view: PartView, rectangle: tuple[FloatArray, FloatArray]
 ) -> float | None:
-    """Depth within which nine tenths of the faces around a part's rim lie [m]."""
+    """Depth down to which nine tenths of the faces around a part's rim reach [m]."""
     corners = (mesh.vertices @ view.side.frame.T)[mesh.faces[faces]]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area = np.linalg.norm(normals, axis=1)
@@ -223,9 +223,12 @@ def _rim(
     chosen = near & level
     if area[chosen].sum() <= 0.0:
         return None
-    order = np.argsort(middle[chosen, 2])
+    # A modelled door's side is two triangles from its front to its back: where those end counts.
+    deep = np.ptp(corners[chosen, :, 2], axis=1) > THINNEST_M
+    depth = np.where(deep, corners[chosen, :, 2].max(axis=1), middle[chosen, 2])
+    order = np.argsort(depth)
     share = np.cumsum(area[chosen][order]) / area[chosen].sum()
-    return float(middle[chosen, 2][order][np.searchsorted(share, 0.9)])
+    return float(depth[order][np.searchsorted(share, 0.9)])
 
 
 def _back(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from modelled_furniture import board, drawer_chest, fridge
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
@@ -82,3 +83,12 @@ def test_without_interior_nothing_is_invented_behind_a_front() -> None:
     made = solids(with_drawer(drawer_chest(), 1, 3), SolidsConfig(interior=False))
     assert not {each.kind for each in made.surfaces} & {"drawer box", "hollow"}
     assert np.ptp(made.articulation.part_mesh(1).vertices[:, 1]) < 0.1
+
+
+@pytest.mark.parametrize("thickness", [0.03, 0.06])
+def test_a_modelled_door_becomes_a_slab_as_thick_as_it_is(thickness: float) -> None:
+    case = board((0.0, 0.0, 0.0), (0.6, 0.5, 1.2))
+    door = board((0.0, -thickness - 0.001, 0.0), (0.6, -0.001, 1.2))
+    made = solids(with_door(concatenate([case, door]), 1), SolidsConfig())
+    (back,) = (record for record in made.surfaces if record.kind == "slab back")
+    assert back.thickness_m == pytest.approx(thickness, abs=1e-3)
