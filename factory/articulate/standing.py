@@ -60,7 +60,8 @@ def _stood_up(
     panels = _panels(found[0])
     if len(panels) < FEWEST or max(panels) < SURE:
         return None
-    was, now = lying.provenance.up, intake.provenance.up
+    was = lying.provenance.up
+    now = intake.provenance.up
     note = (
         f"With its {was} axis up nothing on it opens; with {now} up its sides show {len(panels)} "
         "doors or drawers: taken so. Set up to say otherwise."

@@ -20,8 +20,8 @@ class Provenance:
         digest: SHA-256 over the input file and the files it refers to.
         category: of the object, e.g. ``fridge``; ``None`` if unknown.
         up: the input's up axis, e.g. ``y``.
-        up_source: who said so: ``option``, ``sidecar``, ``format``, ``default``; ``sides``: what its
-            sides show.
+        up_source: who said so: ``option``, ``sidecar``, ``format``, ``default``; ``sides``: only
+            so do they show what opens.
         scale: factor from input units to metres.
         scale_source: ``option``, ``sidecar``, ``category``, ``format``, ``guess`` (no category) or
             ``as_is``.
