@@ -52,10 +52,18 @@ def test_a_front_may_show_nothing_but_pieces_between_handles() -> None:
     assert np.isfinite([panel.value for panel in group.panels]).all()
 
 
-@pytest.mark.parametrize(("shown", "wanted"), [(0.95, ["door", "door"]), (0.5, ["lid"])])
-def test_doubtful_panels_yield_to_a_lid_unless_the_network_sees_them(
-    monkeypatch: pytest.MonkeyPatch, shown: float, wanted: list[str]
+@pytest.mark.parametrize(
+    ("shown", "shut", "wanted"),
+    [
+        (0.95, np.inf, ["door", "door"]),
+        (0.5, np.inf, ["lid"]),
+        (0.5, reading.SHUT, ["door", "door"]),
+    ],
+)
+def test_doubtful_panels_yield_to_a_lid_unless_the_network_sees_them_or_they_are_evident(
+    monkeypatch: pytest.MonkeyPatch, shown: float, shut: float, wanted: list[str]
 ) -> None:
+    monkeypatch.setattr(reading, "SHUT", shut)
     seen = reading._Sides.of(reliefs_of(one_piece.doors(), None))
     assert len(seen.panels) == 2
     lid = Lid(seen.front.relief.box[1] // 2, seen.value - 2.0, 1.0, ((Side.BACK, 0.0),))
