@@ -152,6 +152,40 @@ def test_what_is_left_fixed_is_said_with_its_probability():
     assert "left fixed: the surest of them is right with probability" in found.notes[0]
 
 
+@pytest.mark.parametrize(
+    ("sures", "sign", "config", "moving"),
+    [
+        ((0.40, 0.35), "learned", {}, 0),
+        ((0.50, 0.35), "learned", {}, 2),
+        ((0.40, 0.35), "geometric", {}, 2),
+        ((0.40, 0.35), "learned", {"least_confidence": 0.3}, 2),
+    ],
+)
+def test_where_only_the_network_sees_what_moves_one_part_must_be_surer(
+    monkeypatch, sures, sign, config, moving
+):
+    truth = make_object("cabinet", 3)
+    owner = face_parts(truth)
+    turn = SeenMotion(JointKind.REVOLUTE, UP, np.zeros(3), 0.0, 1.5)
+    asked_for = [
+        Proposal("part", owner == joint.child, turn, signs_of({"learned" if number else sign: 1.0}))
+        for number, joint in enumerate(truth.movable_joints[:2])
+    ]
+    monkeypatch.setattr(
+        AutoArticulator,
+        "_rated",
+        lambda _, found: [
+            replace(each, confidence=sure) for each, sure in zip(found, sures, strict=True)
+        ],
+    )
+    articulator = AutoArticulator(
+        Labeller(truth), (), replace(BELIEVING, least=0.3), SHOWN, AutoConfig(**config)
+    )
+    found = articulator.decide(truth.mesh, asked_for)
+    assert len(found.movable_joints) == moving
+    assert moving or "want 0.45" in found.notes[0]
+
+
 def test_views_are_told_in_the_objects_own_frame():
     truth = turned(make_object("fridge", 2), 0.3)
 
