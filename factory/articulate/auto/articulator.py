@@ -34,8 +34,8 @@ from .trust import Trust, load_trust
 from .views import MOST_VIEWS, look_around
 
 #: Where nobody but the network sees anything that moves, the surest part must be this sure. Of 81
-#: static meshes six opened below it: a bookshelf, a table, a box, a picture, tablets; of 110 objects
-#: that do open, four fall below it, with one joint right of five.
+#: static meshes six opened below it: a bookshelf, a table, a box, a picture, tablets; of 110
+#: objects that do open, four fall below it, with one joint right of five.
 ALONE = 0.45
 
 
