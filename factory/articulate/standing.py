@@ -53,7 +53,8 @@ def _stood_up(
 ) -> tuple[Intake, tuple[Articulation, ...]] | None:
     """Loaded with another axis up, if its sides then show enough that opens."""
     try:
-        intake = origin.load()
+        with stages.clock.stage("load"):
+            intake = origin.load()
         found = readings(intake, origin.loaded_key, stages)
     except InputRejected:
         return None

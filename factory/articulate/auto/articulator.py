@@ -105,10 +105,12 @@ class AutoArticulator:
         """How sure a part must be; one must be surer where only the network sees any."""
         least = least_of(self.trust, self.config.least_confidence)
         likely = [each for each in rated if each.confidence >= least]
-        guessed = all(each.proposer is Proposer.NETWORK for each in likely)
-        if self.config.least_confidence is not None or not likely or not guessed:
+        if not likely or self.config.least_confidence is not None:
             return least
-        return max(least, ALONE) if max(each.confidence for each in likely) < ALONE else least
+        guessed = all(
+            each.proposer is Proposer.NETWORK and each.confidence < ALONE for each in likely
+        )
+        return ALONE if guessed else least
 
     def _rated(self, proposals: Sequence[Proposal]) -> list[Proposal]:
         return [replace(each, confidence=self.trust.confidence(each.signs)) for each in proposals]
