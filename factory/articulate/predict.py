@@ -10,10 +10,11 @@ import numpy as np
 from ..articulation import Articulation, Joint, Part
 from ..config import BuildConfig
 from ..errors import InputRejected
-from ..intake.load import load
+from ..intake.source import Source
 from ..mesh import Mesh
 from ..runtime.numbers import rounded
-from .catalog import choose
+from ..runtime.stages import Stages
+from .standing import standing_readings
 
 
 def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
@@ -24,12 +25,12 @@ def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
         config: how to load it, and which articulator to ask.
 
     Returns:
-        Parts and joints in tree order; or, for an input that cannot be used, ``rejected`` with its
-        reason.
+        Parts and joints in tree order, with what intake noted of it; or, for an input that cannot
+        be used or on which nothing moves, ``rejected`` with its reason.
     """
+    origin = Source(source, config)
     try:
-        intake = load(source, config.intake)
-        articulation = choose(intake, config).articulate(intake.mesh)
+        intake, (likeliest, *_) = standing_readings(origin.load(), origin, Stages(config))
     except InputRejected as rejection:
         reason = {
             "code": rejection.code,
@@ -39,7 +40,8 @@ def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
             "limit": rejection.limit,
         }
         return {"input": source.name, "rejected": reason}
-    return {"input": source.name, **outline(articulation)}
+    told = outline(likeliest)
+    return {"input": source.name, **told, "notes": [*intake.provenance.notes, *told["notes"]]}
 
 
 def outline(articulation: Articulation) -> dict[str, Any]:

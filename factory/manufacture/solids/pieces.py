@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from heapq import heappop, heappush
-from operator import itemgetter
+from operator import attrgetter
 
 import numpy as np
 import numpy.typing as npt
@@ -16,7 +16,7 @@ from scipy.spatial import ConvexHull, QhullError
 from ...asset import Hull
 from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray
-from ..decompose.convex import depth_below, hull_of, limit_vertices
+from ..decompose.convex import hull_of, limit_vertices
 from .box import Box
 from .lattice import Lattice
 
@@ -178,24 +178,23 @@ def _node(matter: Matter, span: Span) -> _Node | None:
     surface = matter.points[box.holds(matter.points, 1e-9)]
     outermost = _extreme(np.concatenate([corners, surface]), DIRECTIONS)
     hull = hull_of(outermost)
-    hulls = _foils(matter, outermost) if hull is None else [hull]
-    wastes = [_waste(matter, trimmed, each) for each in hulls]
-    least = min(zip(hulls, wastes, strict=True), key=itemgetter(1), default=None)
-    return least and _Node(trimmed, *least)
+    if hull is not None:
+        return _Node(trimmed, hull, _waste(matter, trimmed, hull))
+    return min(_foils(matter, trimmed, outermost), key=attrgetter("waste"), default=None)
 
 
-def _foils(matter: Matter, points: FloatArray) -> list[Hull]:
+def _foils(matter: Matter, span: Span, points: FloatArray) -> Iterator[_Node]:
     """What is flat, given thickness to either side: a wall that is modelled as one sheet."""
     if len(points) < 3:
-        return []
+        return
     _, spread, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
     wide = np.ptp(points @ axes.T, axis=0)[1]
     if spread[2] > FLAT * spread[1] or wide < FOIL_CELLS * matter.lattice.step:
-        return []
-    foils = (
-        hull_of(np.concatenate([points, points + side * FOIL_M * axes[2]])) for side in (-1.0, 1.0)
-    )
-    return [foil for foil in foils if foil is not None]
+        return
+    for thickness in (-FOIL_M, FOIL_M):
+        foil = hull_of(np.concatenate([points, points + thickness * axes[2]]))
+        if foil is not None:
+            yield _Node(span, foil, _waste(matter, span, foil))
 
 
 def _trimmed(solid: BoolArray, span: Span) -> Span | None:
@@ -288,14 +287,40 @@ def _waste(matter: Matter, span: Span, hull: Hull) -> float:
 
 
 def filled(lattice: Lattice, weights: Weights, span: Span, hull: Hull) -> float:
-    """Volume of cells within a span that a hull fills, each times its weight [m3]."""
+    """Volume of cells within a span that a hull fills, each times its weight [m3].
+
+    What is thinner than cells may pass between their centres: it fills what it crosses.
+    """
     cells = np.argwhere(weights[span])
     if not len(cells):
         return 0.0
     start = np.array([part.start for part in span])
-    deep = depth_below(hull, lattice.centers(cells + start)) > REACH_M
+    planes = hull.planes * [1.0, 1.0, 1.0, -1.0]
+    deep = _deep(planes, hull.vertices, lattice.step, lattice.centers(cells + start))
     at = tuple(cells[deep].T)
     return float((lattice.volumes[span][at] * weights[span][at]).sum())
+
+
+def _deep(planes: FloatArray, corners: FloatArray, step: float, centers: FloatArray) -> BoolArray:
+    """Which cells' centres lie in a hull; of one thinner than cells, which cells it crosses.
+
+    Args:
+        planes: of the hull, outward normals and offsets, shape [n, 4].
+        corners: of the hull [m], shape [n, 3].
+        step: how large cells are [m].
+        centers: of the cells [m], shape [n, 3].
+    """
+    middle = corners.mean(axis=0)
+    axes = np.linalg.svd(corners - middle, full_matrices=False)[2]
+    heights = (corners - middle) @ axes[2]
+    within = np.ones(len(centers), dtype=bool)
+    if np.ptp(heights) < step:
+        off = (centers - middle) @ axes[2] - 0.5 * (heights.min() + heights.max())
+        within = np.abs(off) < 0.5 * step
+        planes = ConvexHull(corners @ axes[:2].T).equations
+        centers = centers @ axes[:2].T
+    depths = (centers @ planes[:, :-1].T + planes[:, -1]).max(axis=1, initial=-np.inf)
+    return np.asarray(within & (depths < -REACH_M))
 
 
 def _best_cut(matter: Matter, node: _Node) -> tuple[Span, ...]:
@@ -332,18 +357,22 @@ def _cost(matter: Matter, span: Span) -> float:
         [matter.lattice.lines[axis][at[:, axis] + trimmed[axis].start] for axis in range(3)]
     )
     points = np.concatenate([points, matter.sparse[box.holds(matter.sparse, 1e-9)]])
-    try:
-        hull = ConvexHull(_extreme(points, TRIED_DIRECTIONS))
-    except (QhullError, ValueError, IndexError):
-        return 0.0
     own = float((matter.lattice.volumes[trimmed] * matter.solid[trimmed]).sum())
-    waste = max(hull.volume - FULLER * own, 0.0) + _blocked(matter, trimmed, box, hull.equations)
-    size = float(hull.volume)
+    outermost = _extreme(points, TRIED_DIRECTIONS)
+    try:
+        hull = ConvexHull(outermost)
+    except (QhullError, ValueError, IndexError):
+        size = own
+        # Slivers of a sheet, of which no foil is made, are lost.
+        waste = min((foil.waste for foil in _foils(matter, trimmed, outermost)), default=own)
+    else:
+        size = float(hull.volume)
+        waste = max(size - FULLER * own, 0.0) + _blocked(matter, trimmed, box, hull)
     return TIE * min(waste, size) + (size if waste > matter.trifle else 0.0)
 
 
-def _blocked(matter: Matter, span: Span, box: Box, planes: FloatArray) -> float:
-    """How much of what must stay free a hull of some planes fills [m3], times its weight."""
+def _blocked(matter: Matter, span: Span, box: Box, hull: ConvexHull) -> float:
+    """How much of what must stay free a hull fills [m3], times its weight."""
     count = int(np.prod([part.stop - part.start for part in span]))
     if count < EXACT_BELOW:
         cells = np.argwhere(matter.free[span])
@@ -355,7 +384,8 @@ def _blocked(matter: Matter, span: Span, box: Box, planes: FloatArray) -> float:
         inside = box.holds(centers)
         centers = centers[inside]
         each = sizes[inside]
-    deep = (centers @ planes[:, :3].T + planes[:, 3]).max(axis=1, initial=-np.inf) < -REACH_M
+    corners = hull.points[hull.vertices]
+    deep = _deep(hull.equations, corners, matter.lattice.step, centers)
     return float(each[deep].sum())
 
 

@@ -5,6 +5,7 @@ import pytest
 import trimesh
 from one_piece import fridge, microwave
 
+from asset_factory.factory.articulate.predict import predict
 from asset_factory.factory.articulate.standing import standing_readings
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import InputRejected
@@ -32,6 +33,14 @@ def test_two_doors_that_show_only_with_the_other_axis_up_stand_it_up(tmp_path, s
     assert any("opens" in note and "2 doors" in note for note in intake.provenance.notes)
     size = intake.mesh.extents / intake.mesh.extents[2]
     np.testing.assert_allclose(size, mesh.extents / mesh.extents[2], rtol=1e-5)
+
+
+def test_what_is_predicted_stands_up_too_and_says_so(tmp_path):
+    path = tmp_path / "fridge.glb"
+    read(path, fridge())
+    told = predict(path, BuildConfig())
+    assert [joint["type"] for joint in told["joints"]] == ["revolute"] * 2
+    assert any("up its sides show 2 doors" in note for note in told["notes"])
 
 
 def test_who_said_which_axis_is_up_is_believed(tmp_path):

@@ -20,6 +20,7 @@ from asset_factory.factory.manufacture.solids.drawer import CLEAR_M as DRAWER_CL
 from asset_factory.factory.manufacture.solids.frame import working_frame
 from asset_factory.factory.manufacture.solids.lattice import Lattice, enclosed
 from asset_factory.factory.manufacture.solids.pieces import FOIL_M, PATH, Matter, convex_pieces
+from asset_factory.factory.manufacture.solids.reach import reaching
 from asset_factory.factory.manufacture.solids.seam import CutSkin, cut
 from asset_factory.factory.manufacture.solids.skin import skin_parts
 from asset_factory.factory.manufacture.solids.surfaces import boundary, inside_of, outside_of, plate
@@ -171,6 +172,24 @@ def test_a_wall_that_is_a_single_sheet_becomes_a_thin_piece() -> None:
     (wall,) = convex_pieces(matter, 10)
     assert depth_below(wall, sheet).min() > -1e-6
     assert wall.volume == pytest.approx(0.8 * 0.8 * FOIL_M, rel=1e-3)
+
+
+@pytest.mark.parametrize("bent", [0.0, 0.002])
+def test_a_sheet_thinner_than_cells_leaves_free_what_passes_through_it(bent: float) -> None:
+    cells = lattice(cells=60)
+    passed = Box(np.array([0.0, 0.3, 0.35]), np.array([1.0, 0.7, 0.6]))
+    free = np.zeros(cells.shape, dtype=np.uint8)
+    free[cells.span(passed)] = PATH
+    solid = np.zeros(cells.shape, dtype=bool)
+    solid[31, 6:54, 6:54] = True
+    y, z = (each.ravel() for each in np.meshgrid(*[np.linspace(0.1, 0.9, 161)] * 2))
+    sheet = np.column_stack([0.52 + bent * np.sin(20.0 * y), y, z])
+    seen = sheet[~passed.holds(sheet)]
+    nothing = np.zeros(cells.shape, dtype=bool)
+    matter = Matter(cells, solid & (free == 0), nothing, free, seen)
+    walls = reaching(matter, convex_pieces(matter, 20))
+    assert max(depth_below(wall, sheet[passed.holds(sheet, -0.01)]).max() for wall in walls) < 0.0
+    assert np.max([depth_below(wall, seen) for wall in walls], axis=0).min() > -0.01
 
 
 def test_a_knob_begins_clear_of_what_it_stands_on() -> None:
