@@ -14,7 +14,8 @@ from .box import Box
 from .carve import surface_points
 from .knobs import clear_of_bumps, keep_clear
 from .lattice import closed_up, marked
-from .pieces import INSIDE, MOST_CORNERS, PATH, Matter, convex_pieces
+from .matter import INSIDE, PATH, Matter
+from .pieces import MOST_CORNERS, convex_pieces
 from .reach import reaching
 from .sweep import entered, hung, motions
 from .work import Workpiece

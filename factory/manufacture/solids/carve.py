@@ -16,8 +16,9 @@ from .cavity import hollow
 from .drawer import drawer_box
 from .knobs import clear_of_bumps, keep_clear
 from .lattice import closed_up, marked
+from .matter import INSIDE, PATH, Matter
 from .panel import FlatPanel, PanelKind
-from .pieces import INSIDE, PATH, Matter, convex_pieces
+from .pieces import convex_pieces
 from .reach import FAR_M, reaching
 from .slab import FLUSH_M, FrontRelief, handles, relief
 from .work import Workpiece

@@ -13,7 +13,7 @@ from ..separate.carve import carved
 from ..separate.clip import clipped, meeting
 from .box import Box
 from .bump import Bump
-from .pieces import PATH
+from .matter import PATH
 from .sweep import entered, motions
 from .work import Workpiece
 

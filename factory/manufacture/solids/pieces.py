@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from heapq import heappop, heappush
 from operator import attrgetter
 
@@ -19,18 +19,12 @@ from ...mesh import FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from .box import Box
 from .lattice import Lattice
+from .matter import Matter, Weights, any_around
 
 #: A piece may be this much fuller than its matter.
 FULLER = 1.35
-#: What a piece fills wrongly is let be below these shares of all matter, and of the whole lattice.
-TRIFLE = 0.004
-TRIFLE_OF_ALL = 0.0008
 #: Pieces may reach this far into what must stay free [m]; what is cut exactly needs none.
 REACH_M = 0.001
-#: Filling what must stay free is so much worse than filling what is merely empty: an inside, and
-#: where something moves.
-INSIDE = 3
-PATH = 60
 #: Planes tried across each axis.
 PLANES = 4
 #: How much waste counts beside what must be cut again: it tells cuts that are alike apart.
@@ -41,7 +35,6 @@ TRIED_DIRECTIONS = 40
 #: Cells that must stay free are looked at one by one in boxes of fewer cells than this, else a
 #: sample of them.
 EXACT_BELOW = 8000
-SAMPLE = 6000
 #: A sheet is made so thick [m] if it is flatter than this share of its width, and no sliver of
 #: fewer cells.
 FOIL_M = 0.003
@@ -50,64 +43,7 @@ FOIL_CELLS = 2.0
 #: Corners of a hull that engines on the GPU take.
 MOST_CORNERS = 64
 
-Weights = npt.NDArray[np.uint8]
 Span = tuple[slice, slice, slice]
-
-
-@dataclass(frozen=True)
-class Matter:
-    """What is to be made of pieces.
-
-    Attributes:
-        lattice: of cells.
-        solid: cells that belong to it.
-        whole: cells that are within the skin, its own and others.
-        free: how much worse it is to fill a cell than one that is merely empty; 0: no worse.
-        points: of its surface [m], shape [n, 3].
-    """
-
-    lattice: Lattice
-    solid: BoolArray
-    whole: BoolArray
-    free: Weights
-    points: FloatArray
-
-    @cached_property
-    def sparse(self) -> FloatArray:
-        """One point of the surface per eight cells [m], shape [n, 3]."""
-        cells = [
-            np.searchsorted(line, self.points[:, axis]) // 2
-            for axis, line in enumerate(self.lattice.lines)
-        ]
-        first = np.unique(np.column_stack(cells), axis=0, return_index=True)[1]
-        return self.points[first]
-
-    @cached_property
-    def trifle(self) -> float:
-        """What a piece may fill wrongly [m3]."""
-        volumes = self.lattice.volumes
-        return TRIFLE * float(volumes[self.solid].sum()) + TRIFLE_OF_ALL * float(volumes.sum())
-
-    @cached_property
-    def unwanted(self) -> Weights:
-        """How bad it is to fill a cell: one that must stay free, or air; 0: not."""
-        return np.asarray(self.free + (~self.whole & ~self.solid).astype(np.uint8))
-
-    @cached_property
-    def corners(self) -> BoolArray:
-        """Corners of cells that touch the matter and lie within the skin; one more each way."""
-        outside = _any_around(np.pad(~self.whole, 1, constant_values=True))[1:-1, 1:-1, 1:-1]
-        return np.asarray(_any_around(self.solid) & ~outside)
-
-    @cached_property
-    def sampled(self) -> tuple[FloatArray, FloatArray]:
-        """Centres of some cells that must stay free [m], and the weighted volume of each [m3]."""
-        cells = np.argwhere(self.free)
-        stride = max(len(cells) // SAMPLE, 1)
-        chosen = cells[:: stride | 1]
-        at = tuple(chosen.T)
-        sizes = self.lattice.volumes[at] * self.free[at] * (stride | 1)
-        return self.lattice.centers(chosen), sizes
 
 
 @dataclass(frozen=True)
@@ -217,9 +153,9 @@ def _box(lattice: Lattice, span: Span) -> Box:
 
 def _corners(matter: Matter, span: Span) -> FloatArray:
     """Corners of cells between planes that touch the matter and lie within the skin [m]."""
-    touching = _any_around(matter.solid[span])
+    touching = any_around(matter.solid[span])
     wide = tuple(slice(max(part.start - 1, 0), part.stop + 1) for part in span)
-    outside = _any_around(np.pad(~matter.whole[wide], 1, constant_values=True))
+    outside = any_around(np.pad(~matter.whole[wide], 1, constant_values=True))
     offset = [part.start - other.start + 1 for part, other in zip(span, wide, strict=True)]
     deep = ~outside[
         tuple(slice(at, at + size) for at, size in zip(offset, touching.shape, strict=True))
@@ -228,17 +164,6 @@ def _corners(matter: Matter, span: Span) -> FloatArray:
     return np.column_stack(
         [matter.lattice.lines[axis][at[:, axis] + span[axis].start] for axis in range(3)]
     )
-
-
-def _any_around(cells: BoolArray) -> BoolArray:
-    """For each corner of cells whether any of the cells around it is set, one more each way."""
-    result = cells
-    for axis in range(3):
-        pad = [(1, 1) if axis == other else (0, 0) for other in range(3)]
-        padded = np.pad(result, pad)
-        length = padded.shape[axis]
-        result = np.take(padded, range(length - 1), axis) | np.take(padded, range(1, length), axis)
-    return np.asarray(result)
 
 
 def _ends(corners: BoolArray) -> BoolArray:

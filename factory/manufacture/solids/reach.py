@@ -10,7 +10,8 @@ from ...asset import Hull
 from ...mesh import FloatArray
 from ..decompose.convex import depth_below, hull_of, limit_vertices
 from .box import Box
-from .pieces import MOST_CORNERS, Matter, filled
+from .matter import Matter
+from .pieces import MOST_CORNERS, filled
 
 #: What is seen may lie so far outside all pieces [m].
 FAR_M = 0.006

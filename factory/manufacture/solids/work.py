@@ -14,8 +14,8 @@ from ...mesh import FloatArray, IntArray
 from .box import Box
 from .bump import Bump
 from .lattice import Lattice
+from .matter import Weights
 from .panel import FlatPanel
-from .pieces import Weights
 from .seam import CutSkin
 from .views import PartView
 

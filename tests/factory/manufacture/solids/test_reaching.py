@@ -11,7 +11,7 @@ from asset_factory.factory.asset import Hull
 from asset_factory.factory.manufacture.decompose.convex import depth_below, hull_of
 from asset_factory.factory.manufacture.solids.box import Box
 from asset_factory.factory.manufacture.solids.lattice import Lattice
-from asset_factory.factory.manufacture.solids.pieces import PATH, Matter
+from asset_factory.factory.manufacture.solids.matter import PATH, Matter
 from asset_factory.factory.manufacture.solids.reach import FAR_M, reaching
 
 

@@ -19,7 +19,8 @@ from asset_factory.factory.manufacture.solids.drawer import BOTTOM_M, HEIGHT, ST
 from asset_factory.factory.manufacture.solids.drawer import CLEAR_M as DRAWER_CLEAR_M
 from asset_factory.factory.manufacture.solids.frame import working_frame
 from asset_factory.factory.manufacture.solids.lattice import Lattice, enclosed
-from asset_factory.factory.manufacture.solids.pieces import FOIL_M, PATH, Matter, convex_pieces
+from asset_factory.factory.manufacture.solids.matter import PATH, Matter
+from asset_factory.factory.manufacture.solids.pieces import FOIL_M, convex_pieces
 from asset_factory.factory.manufacture.solids.reach import reaching
 from asset_factory.factory.manufacture.solids.seam import CutSkin, cut
 from asset_factory.factory.manufacture.solids.skin import skin_parts

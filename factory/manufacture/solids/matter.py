@@ -1,0 +1,92 @@
+"""What is to be made of convex pieces: cells, and what must stay free of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from ...geometry.crossings import BoolArray
+from ...mesh import FloatArray
+from .lattice import Lattice
+
+#: Filling what must stay free is so much worse than filling what is merely empty: an inside, and
+#: where something moves.
+INSIDE = 3
+PATH = 60
+#: What a piece fills wrongly is let be below these shares of all matter, and of the whole lattice.
+TRIFLE = 0.004
+TRIFLE_OF_ALL = 0.0008
+#: Of cells that must stay free so many are looked at where all would be too many.
+SAMPLE = 6000
+
+Weights = npt.NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class Matter:
+    """What is to be made of pieces.
+
+    Attributes:
+        lattice: of cells.
+        solid: cells that belong to it.
+        whole: cells that are within the skin, its own and others.
+        free: how much worse it is to fill a cell than one that is merely empty; 0: no worse.
+        points: of its surface [m], shape [n, 3].
+    """
+
+    lattice: Lattice
+    solid: BoolArray
+    whole: BoolArray
+    free: Weights
+    points: FloatArray
+
+    @cached_property
+    def sparse(self) -> FloatArray:
+        """One point of the surface per eight cells [m], shape [n, 3]."""
+        cells = [
+            np.searchsorted(line, self.points[:, axis]) // 2
+            for axis, line in enumerate(self.lattice.lines)
+        ]
+        first = np.unique(np.column_stack(cells), axis=0, return_index=True)[1]
+        return self.points[first]
+
+    @cached_property
+    def trifle(self) -> float:
+        """What a piece may fill wrongly [m3]."""
+        volumes = self.lattice.volumes
+        return TRIFLE * float(volumes[self.solid].sum()) + TRIFLE_OF_ALL * float(volumes.sum())
+
+    @cached_property
+    def unwanted(self) -> Weights:
+        """How bad it is to fill a cell: one that must stay free, or air; 0: not."""
+        return np.asarray(self.free + (~self.whole & ~self.solid).astype(np.uint8))
+
+    @cached_property
+    def corners(self) -> BoolArray:
+        """Corners of cells that touch the matter and lie within the skin; one more each way."""
+        outside = any_around(np.pad(~self.whole, 1, constant_values=True))[1:-1, 1:-1, 1:-1]
+        return np.asarray(any_around(self.solid) & ~outside)
+
+    @cached_property
+    def sampled(self) -> tuple[FloatArray, FloatArray]:
+        """Centres of some cells that must stay free [m], and the weighted volume of each [m3]."""
+        cells = np.argwhere(self.free)
+        stride = max(len(cells) // SAMPLE, 1)
+        chosen = cells[:: stride | 1]
+        at = tuple(chosen.T)
+        sizes = self.lattice.volumes[at] * self.free[at] * (stride | 1)
+        return self.lattice.centers(chosen), sizes
+
+
+def any_around(cells: BoolArray) -> BoolArray:
+    """For each corner of cells whether any of the cells around it is set, one more each way."""
+    result = cells
+    for axis in range(3):
+        pad = [(1, 1) if axis == other else (0, 0) for other in range(3)]
+        padded = np.pad(result, pad)
+        length = padded.shape[axis]
+        result = np.take(padded, range(length - 1), axis) | np.take(padded, range(1, length), axis)
+    return np.asarray(result)
