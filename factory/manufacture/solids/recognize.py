@@ -43,6 +43,8 @@ class Recognized:
 def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float) -> Recognized:
     """Tell panels among some parts and cut the skin along them.
 
+    A part whose faces all lie within what another panel claims is no panel, and keeps them.
+
     Args:
         articulation: in the working frame.
         parts: that are patches of one surface.
@@ -65,6 +67,10 @@ def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float)
     skin = CutSkin.of(mesh, part)
     for panel in panels.values():
         skin = _claimed(skin, panel, set(panels) | {0}, behind)
+    lost = [index for index in panels if not (skin.part == index).any()]
+    panels = {index: panel for index, panel in panels.items() if index not in lost}
+    own = part[skin.face]
+    skin = skin.labelled(np.where(np.isin(own, lost), own, skin.part))
     return Recognized(views, panels, skin)
 
 

@@ -92,3 +92,17 @@ def test_a_modelled_door_becomes_a_slab_as_thick_as_it_is(thickness: float) -> N
     made = solids(with_door(concatenate([case, door]), 1), SolidsConfig())
     (back,) = (record for record in made.surfaces if record.kind == "slab back")
     assert back.thickness_m == pytest.approx(thickness, abs=1e-3)
+
+
+def test_a_handle_taken_for_a_drawer_of_its_own_keeps_its_faces() -> None:
+    bar = board((0.2, -0.1, 0.3), (0.4, -0.02, 0.34))
+    mesh = concatenate([*hollow_case(), bar])
+    piece = connected_components(mesh)
+    parts = tuple(
+        Part(name, np.flatnonzero(of))
+        for name, of in (("base", piece < 5), ("bar", piece == 6), ("drawer", piece == 5))
+    )
+    slide = with_drawer(mesh, 5).joints[0]
+    joints = (slide, replace(slide, name="second_slide", child=2))
+    made = solids(Articulation(mesh, parts, joints, "test"), SolidsConfig())
+    assert all(len(part.faces) for part in made.articulation.parts)
