@@ -67,10 +67,11 @@ def solids(articulation: Articulation, config: SolidsConfig, fronts: bool = Fals
         plain = replace(articulation, notes=(*articulation.notes, note))
         return SolidParts(plain, (None,) * len(articulation.parts), ())
     _made(work)
-    hulls = cleared(work)
+    work.hulls = cleared(work)
+    _shown(work)
     made = _turned(meshed(work), turn.T)
     pieces = tuple(
-        _piece(tuple(turned_hull(hull, turn.T) for hull in hulls[index]), len(part.faces))
+        _piece(tuple(turned_hull(hull, turn.T) for hull in work.hulls[index]), len(part.faces))
         for index, part in enumerate(made.parts)
     )
     notes = (*articulation.notes, *work.notes, *_notes(work, pieces))
@@ -133,7 +134,7 @@ def _prepared(
 
 
 def _made(work: Workpiece) -> None:
-    """Every part's pieces and inner faces; panels first, what holds them last."""
+    """Every part's pieces; panels first, what holds them last."""
     order = sorted(work.panels, key=lambda part: work.panels[part].kind is PanelKind.LID)
     share_out(work)
     for part in order:
@@ -147,6 +148,10 @@ def _made(work: Workpiece) -> None:
     hang_panels(work)
     make_rest(work, work.config.most_pieces // 2)
     make_body(work, 0, work.config.most_pieces)
+
+
+def _shown(work: Workpiece) -> None:
+    """Every part's inner faces."""
     for part in work.panels:
         panel_surfaces(work, part)
     for part in work.bumps:

@@ -11,6 +11,7 @@ from ...asset import Hull, InnerSurface
 from ...geometry.colors import linear_of
 from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray, IntArray, Material, Mesh
+from ..decompose.convex import depth_below
 from .box import Box
 from .panel import FlatPanel
 from .seam import CutSkin
@@ -28,6 +29,10 @@ from .work import Workpiece
 
 #: A part whose skin covers less than this share of its pieces' surface is a shred.
 SHRED = 0.4
+#: What is shown of the body around a panel lies so near to the body's pieces [m].
+BACKED_M = 0.01
+#: Points spread within a triangle, as weights of its corners, shape [10, 3].
+SPREAD = np.array([(i, j, 12 - i - j) for i in range(1, 12, 3) for j in range(1, 12 - i, 3)]) / 12
 
 
 def panel_surfaces(work: Workpiece, part: int) -> None:
@@ -43,8 +48,9 @@ def panel_surfaces(work: Workpiece, part: int) -> None:
     strips = rim(edges, column, panel.back, ~panel.open)
     work.add(part, strips, panel, InnerSurface(name, "rim", panel.rule, thickness))
     start = panel.back + work.config.behind_m
-    opening = rim(edges, column, start, ~panel.shared & ~panel.open)
-    work.add(0, flipped(opening), panel, InnerSurface(body, "opening", panel.rule, thickness))
+    opening = flipped(rim(edges, column, start, ~panel.shared & ~panel.open))
+    record = InnerSurface(body, "opening", panel.rule, thickness)
+    work.add(0, _backed(work, panel, opening), panel, record)
     outline = outline_of(own.reshape(-1, 3)[:, :2])
     outline = _clipped(outline, panel)
     if len(outline) < 3:
@@ -59,7 +65,8 @@ def panel_surfaces(work: Workpiece, part: int) -> None:
     wall = work.config.wall_m
     invented = work.closed_behind(part)
     if invented:
-        work.add(0, ring, panel, InnerSurface(body, "frame", panel.rule, wall))
+        record = InnerSurface(body, "frame", panel.rule, wall)
+        work.add(0, _backed(work, panel, ring), panel, record)
     if hollows and invented:
         depth = round(float(hollows[-1].high[2] - hollows[0].low[2]), 4)
         walls = inside_of(hollows, hollows[0].low[2])
@@ -74,6 +81,16 @@ def panel_surfaces(work: Workpiece, part: int) -> None:
         work.add(
             part, outside_of(boards), panel, InnerSurface(name, "drawer box", "hollow", 0.01, depth)
         )
+
+
+def _backed(work: Workpiece, panel: FlatPanel, triangles: FloatArray) -> FloatArray:
+    """Those of some triangles around a panel that lie on the body's pieces for the most part."""
+    if not len(triangles):
+        return triangles
+    points = np.einsum("kc,ncd->nkd", SPREAD, triangles).reshape(-1, 3) @ panel.side.frame
+    depths = [depth_below(hull, points) for hull in work.hulls.get(0, ())]
+    on = np.max(depths, axis=0, initial=-np.inf) > -BACKED_M
+    return triangles[on.reshape(len(triangles), -1).mean(axis=1) >= 0.5]
 
 
 def _clipped(outline: FloatArray, panel: FlatPanel) -> FloatArray:
