@@ -22,6 +22,8 @@ TURNS = 24
 ACROSS = 0.25
 #: What turns further than this is round [rad].
 SPINNING = 3.5
+#: Nor is it a wheel if its own hull is a smaller share of what it sweeps: a lever, a turning door.
+WHEEL_SHARE = 0.2
 
 
 @dataclass(frozen=True)
@@ -93,6 +95,6 @@ def _turned(points: FloatArray, joint: Joint) -> Bump | None:
         rotation = rotation_about(joint.axis, 2.0 * np.pi * turn / TURNS)
         copies.append((hull.vertices - joint.origin) @ rotation.T + joint.origin)
     round_hull = hull_of(np.concatenate(copies))
-    if round_hull is None:
+    if round_hull is None or hull.volume < WHEEL_SHARE * round_hull.volume:
         return None
     return Bump(limit_vertices(round_hull, MOST_CORNERS), "lathe", None, 0.0)

@@ -14,6 +14,8 @@ from .box import Box
 
 #: Even lines nearer to a wanted one than this share of their distance are left out.
 CROWDED = 0.45
+#: Wanted lines nearer to an end than this share of a cell would split off a layer of nothing.
+SHRED = 0.1
 #: A ray per this share of a cell.
 FINER = 0.5
 #: Rays along two of the three axes must agree.
@@ -45,7 +47,8 @@ class Lattice:
             count = max(int(np.ceil(size[axis] / step)), 2)
             even = np.linspace(bounds[0, axis] - 1e-4, bounds[1, axis] + 1e-4, count + 1)
             wanted = np.unique(np.round(planes[axis], 6))
-            wanted = wanted[(wanted > even[0]) & (wanted < even[-1])]
+            shred = SHRED * step
+            wanted = wanted[(wanted > even[0] + shred) & (wanted < even[-1] - shred)]
             if len(wanted):
                 near = np.abs(even[:, None] - wanted[None]).min(axis=1) < CROWDED * step
                 near[[0, -1]] = False

@@ -55,6 +55,12 @@ def test_wanted_planes_are_lines_exactly(axis: int) -> None:
     assert all((np.diff(line) > 0.0).all() for line in lines)
 
 
+def test_planes_at_the_ends_split_off_no_layer_of_nothing() -> None:
+    x, _, z = lattice(([0.001, 0.31], [], [0.999])).lines
+    assert 0.31 in x
+    assert min(np.diff(x).min(), np.diff(z).min()) > 0.005
+
+
 @pytest.mark.parametrize("holed", [False, True])
 def test_what_a_skin_encloses_survives_a_hole(holed: bool) -> None:
     ball = trimesh.creation.icosphere(4, 0.4)
@@ -238,6 +244,15 @@ def test_half_a_wheel_is_turned_into_a_whole_one() -> None:
     assert bump is not None
     assert bump.rule == "lathe"
     assert bump.hull.volume == pytest.approx(np.pi * 0.05**2 * 0.02, rel=0.05)
+
+
+def test_a_lever_that_turns_all_the_way_is_no_wheel() -> None:
+    lever = trimesh.creation.box(
+        (0.2, 0.02, 0.02), trimesh.transformations.translation_matrix([0.1, 0, 0])
+    )
+    points = np.asarray(lever.vertices)
+    joint = Joint("spin", JointKind.CONTINUOUS, 0, 1, [0, 1, 0], [0, 0, 0], -np.pi, np.pi)
+    assert find_bump(points, np.zeros((0, 3)), joint) is None
 
 
 def test_hollows_and_boards_bound_their_volume() -> None:
