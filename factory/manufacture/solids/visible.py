@@ -90,7 +90,7 @@ def _backed(work: Workpiece, panel: FlatPanel, triangles: FloatArray) -> FloatAr
     points = np.einsum("kc,ncd->nkd", SPREAD, triangles).reshape(-1, 3) @ panel.side.frame
     depths = [depth_below(hull, points) for hull in work.hulls.get(0, ())]
     on = np.max(depths, axis=0, initial=-np.inf) > -BACKED_M
-    return triangles[on.reshape(len(triangles), -1).mean(axis=1) >= 0.5]
+    return np.asarray(triangles[on.reshape(len(triangles), -1).mean(axis=1) >= 0.5])
 
 
 def _clipped(outline: FloatArray, panel: FlatPanel) -> FloatArray:
