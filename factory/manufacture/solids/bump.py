@@ -23,7 +23,7 @@ ACROSS = 0.25
 #: What turns further than this is round [rad].
 SPINNING = 3.5
 #: Nor is it a wheel if its own hull is a smaller share of what it sweeps: a lever, a turning door.
-WHEEL_SHARE = 0.2
+WHEEL_SHARE = 0.1
 
 
 @dataclass(frozen=True)
