@@ -240,6 +240,10 @@ def hollow_behind(work: Workpiece, part: int) -> None:
             turned = box.turned(work.panels[other].side.frame.T).grown(wall)
             if other != part:
                 room[work.lattice.span(turned)] = False
+    for other in work.rest:
+        corners = work.skin.corners[work.skin.part == other].reshape(-1, 3)
+        if len(corners):
+            room[work.lattice.span(Box.around(corners).grown(wall))] = False
     boxes = hollow(work.lattice, room, column, frame)
     if not boxes or not (work.filled[part] or panel.kind is PanelKind.DRAWER):
         return

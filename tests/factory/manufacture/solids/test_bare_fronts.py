@@ -94,6 +94,27 @@ def test_a_modelled_door_becomes_a_slab_as_thick_as_it_is(thickness: float) -> N
     assert back.thickness_m == pytest.approx(thickness, abs=1e-3)
 
 
+def test_a_front_gets_no_box_where_a_tray_of_its_own_slides() -> None:
+    low, high = (0.05, 0.03, 0.2), (0.55, 0.36, 0.4)
+    tray = [
+        board(low, (0.55, 0.36, 0.204)),
+        board(low, (0.054, 0.36, 0.4)),
+        board((0.546, 0.03, 0.2), high),
+        board(low, (0.55, 0.034, 0.4)),
+        board((0.05, 0.356, 0.2), high),
+    ]
+    mesh = concatenate([*hollow_case(), *tray])
+    piece = connected_components(mesh)
+    parts = tuple(
+        Part(name, np.flatnonzero(of))
+        for name, of in (("base", piece < 5), ("drawer", piece == 5), ("tray", piece > 5))
+    )
+    slide = with_drawer(mesh, 5).joints[0]
+    joints = (slide, replace(slide, name="tray_slide", child=2))
+    made = solids(Articulation(mesh, parts, joints, "test"), SolidsConfig())
+    assert "drawer box" not in {each.kind for each in made.surfaces}
+
+
 def test_a_handle_taken_for_a_drawer_of_its_own_keeps_its_faces() -> None:
     bar = board((0.2, -0.1, 0.3), (0.4, -0.02, 0.34))
     mesh = concatenate([*hollow_case(), bar])
