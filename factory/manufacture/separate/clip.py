@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...asset import Hull
-from ...mesh import FloatArray
+from ...mesh import FloatArray, IntArray
 from ..decompose.convex import hull_of
 
 #: A hull no thicker than this is a sheet [m].
@@ -16,6 +16,9 @@ SHEET_M = 0.003
 LEFT_M = 0.001
 #: Of what is needed between two hulls, shares that may go off the first.
 SHARES = (0.0, 0.5, 1.0)
+#: Directions with a smaller cosine are unlike one another; so many of those are tried, too.
+ALIKE = 0.7
+UNLIKE = 3
 #: Volumes that differ by less than this share do so by rounding.
 ROUNDING_SHARE = 1e-9
 
@@ -53,7 +56,7 @@ def meeting(
     most: int = 6,
     behind: FloatArray | None = None,
 ) -> HullMeeting:
-    """The best separating face normals of two hulls.
+    """The best separating face normals of two hulls; of two that overlap also some unlike those.
 
     Args:
         a: the first.
@@ -68,10 +71,25 @@ def meeting(
     ends = (a.vertices @ directions.T).max(axis=0)
     lags = np.zeros(len(directions)) if behind is None else np.minimum(directions @ behind, 0.0)
     starts = (points_b @ directions.T).min(axis=0) + lags
-    best = np.argsort(ends - starts, kind="stable")[:most]
+    order = np.argsort(ends - starts, kind="stable")
+    best = order[:most]
+    if ends[best[0]] > starts[best[0]]:
+        best = _with_others(directions, order, best)
     return HullMeeting(
         directions[best], (ends - starts)[best], ends[best], starts[best], lags[best]
     )
+
+
+def _with_others(directions: FloatArray, order: IntArray, best: IntArray) -> IntArray:
+    """The best of some directions and the next best that are unlike all before them.
+
+    A flat button has many faces that look up; a cut across it is found among the others.
+    """
+    for _ in range(UNLIKE):
+        alike = directions[order] @ directions[best].T >= ALIKE
+        others = order[~np.asarray(alike.any(axis=1))]
+        best = np.append(best, others[:1])
+    return best
 
 
 def stand_apart(a: Hull, b: Hull, clearance_m: float) -> bool:

@@ -12,7 +12,7 @@ from ...mesh import FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from .box import Box
 from .carve import surface_points
-from .knobs import clear_of_bumps, keep_clear
+from .knobs import clear_of_bumps, give_way, keep_clear
 from .lattice import closed_up, marked
 from .matter import INSIDE, PATH, Matter
 from .pieces import MOST_CORNERS, convex_pieces
@@ -78,6 +78,7 @@ def make_rest(work: Workpiece, most: int) -> None:
         keep_clear(work, part)
         if not work.hulls[part]:
             continue
+        give_way(work, part)
         joint = work.joints[part - 1]
         passed = entered(work.lattice, work.hulls[part], motions(joint, 24), CLEAR_M)
         host = work.host(part)
@@ -87,13 +88,14 @@ def make_rest(work: Workpiece, most: int) -> None:
 
 def hang_panels(work: Workpiece) -> None:
     """Hang each panel where it swings free, and clear its way where it does not."""
+    points = _standing_points(work, 0)
     for part, panel in work.panels.items():
         joint = work.joints[part - 1]
         hulls = work.hulls[part]
         if not hulls or joint.kind is JointKind.FIXED:
             continue
         slab = max(hulls, key=lambda hull: hull.volume)
-        standing = work.owner == 0
+        standing = _cells(work, 0, points)
         moved, rule = hung(panel, joint, slab, standing, work.lattice)
         if rule != "given":
             off = moved.origin - joint.origin
@@ -112,14 +114,19 @@ def hang_panels(work: Workpiece) -> None:
 
 def make_body(work: Workpiece, part: int, most: int) -> None:
     """Pieces of the body, or of another part that nothing moves: walls around what is free."""
-    points = surface_points(work, part)
-    points = points[~_in_free(work, points) & clear_of_bumps(work, part, points)]
+    points = _standing_points(work, part)
     block_insides(work, part, points)
     blocked = work.blocked(part)
     solid = _cells(work, part, points) & (blocked == 0)
     matter = Matter(work.lattice, solid, work.whole, blocked, points)
     work.hulls[part] = reaching(matter, convex_pieces(matter, most))
     keep_clear(work, part)
+
+
+def _standing_points(work: Workpiece, part: int) -> FloatArray:
+    """Points of the skin of what holds panels and knobs, away from all of them [m], [n, 3]."""
+    points = surface_points(work, part)
+    return points[~_in_free(work, points) & clear_of_bumps(work, part, points)]
 
 
 def _cells(work: Workpiece, part: int, points: FloatArray) -> BoolArray:

@@ -25,6 +25,8 @@ LAYER_M = 0.006
 PRESSES = 8
 #: A piece of which one plane leaves this share is not worth several.
 WELL_LEFT = 0.98
+#: What slides into a panel may take this much of it.
+PANEL_LEFT = 0.9
 
 
 def planes_of_bumps(bumps: dict[int, Bump], joints: list[Joint]) -> list[list[float]]:
@@ -64,8 +66,12 @@ def _way(joint: Joint) -> list[FloatArray]:
 
 def _passed(bump: Bump, joint: Joint) -> FloatArray:
     """Its corners all along its way [m], shape [n, 3]."""
-    corners = bump.hull.vertices
-    return np.concatenate([corners @ pose[:3, :3].T + pose[:3, 3] for pose in _way(joint)])
+    return _moved(bump.hull.vertices, _way(joint))
+
+
+def _moved(points: FloatArray, way: list[FloatArray]) -> FloatArray:
+    """Points at all poses of a way [m], shape [n, 3]."""
+    return np.concatenate([points @ pose[:3, :3].T + pose[:3, 3] for pose in way])
 
 
 def _box(points: FloatArray) -> Box:
@@ -103,8 +109,27 @@ def keep_clear(work: Workpiece, host: int) -> None:
     for part, bump in work.bumps.items():
         if work.host(part) == host:
             passed = _passed(bump, work.joints[part - 1])
-            pieces = (_around(hull, passed) for hull in work.hulls.get(host, ()))
-            work.hulls[host] = tuple(piece for some in pieces for piece in some)
+            work.hulls[host] = _all_around(work.hulls.get(host, ()), passed)
+
+
+def give_way(work: Workpiece, part: int) -> None:
+    """Cut the panel on which something else slides, where that takes little of it."""
+    joint = work.joints[part - 1]
+    host = work.host(part)
+    if host not in work.panels or joint.kind is not JointKind.PRISMATIC:
+        return
+    before = work.hulls.get(host, ())
+    after = before
+    for hull in work.hulls[part]:
+        way = [np.eye(4), *motions(joint, PRESSES)]
+        after = _all_around(after, _moved(hull.vertices, way))
+    left = sum(hull.volume for hull in after)
+    if left >= PANEL_LEFT * sum(hull.volume for hull in before):
+        work.hulls[host] = after
+
+
+def _all_around(hulls: tuple[Hull, ...], passed: FloatArray) -> tuple[Hull, ...]:
+    return tuple(piece for hull in hulls for piece in _around(hull, passed))
 
 
 def _around(hull: Hull, passed: FloatArray) -> list[Hull]:

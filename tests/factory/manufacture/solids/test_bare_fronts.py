@@ -11,6 +11,7 @@ from modelled_furniture import board, drawer_chest, fridge
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.config import SolidsConfig
 from asset_factory.factory.geometry.components import connected_components
+from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.solids.build import solids
 from asset_factory.factory.manufacture.solids.plates import bare_fronts
 from asset_factory.factory.mesh import Mesh, concatenate
@@ -127,3 +128,19 @@ def test_a_handle_taken_for_a_drawer_of_its_own_keeps_its_faces() -> None:
     joints = (slide, replace(slide, name="second_slide", child=2))
     made = solids(Articulation(mesh, parts, joints, "test"), SolidsConfig())
     assert all(len(part.faces) for part in made.articulation.parts)
+
+
+def test_a_button_in_a_door_has_room_to_be_pressed() -> None:
+    case = board((0.0, 0.0, 0.0), (0.6, 0.5, 1.2))
+    door = board((0.0, -0.061, 0.0), (0.6, -0.001, 1.2))
+    button = board((0.28, -0.08, 0.9), (0.32, -0.058, 0.94))
+    hung = with_door(concatenate([case, door, button]), 1)
+    piece = connected_components(hung.mesh)
+    parts = tuple(Part(name, np.flatnonzero(piece == at)) for at, name in enumerate("abc"))
+    press = Joint("press", JointKind.PRISMATIC, 1, 2, -OUT, np.zeros(3), upper=0.015)
+    made = solids(replace(hung, parts=parts, joints=(*hung.joints, press)), SolidsConfig())
+    assert made.pieces[1] is not None
+    pressed = button.vertices + 0.015 * press.axis
+    inner = 0.5 * pressed + 0.5 * pressed.mean(axis=0)
+    assert max(depth_below(hull, inner).max() for hull in made.pieces[1].hulls) < 0.0
+    assert sum(hull.volume for hull in made.pieces[1].hulls) > 0.9 * 0.6 * 0.06 * 1.2
