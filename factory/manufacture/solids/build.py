@@ -23,7 +23,7 @@ from .knobs import make_bumps, planes_of_bumps
 from .lattice import Lattice, enclosed
 from .panel import PanelKind
 from .recognize import cut_bases, recognize, recognize_bumps
-from .skin import parts_to_build
+from .skin import parts_to_build, skin_parts
 from .visible import bump_surfaces, hull_surfaces, meshed, panel_surfaces
 from .work import Workpiece, host_of
 
@@ -68,6 +68,9 @@ def solids(articulation: Articulation, config: SolidsConfig, fronts: bool = Fals
         return SolidParts(plain, (None,) * len(articulation.parts), ())
     _made(work)
     work.hulls = cleared(work)
+    for part in set(work.rest) - set(skin_parts(work.source)):
+        # A body of its own, a rack of wire: what it is made of is known better than cells tell.
+        work.hulls[part] = ()
     _shown(work)
     made = _turned(meshed(work), turn.T)
     pieces = tuple(
@@ -91,7 +94,7 @@ def _notes(work: Workpiece, pieces: tuple[PartHulls | None, ...]) -> Iterator[st
     left = [work.name(part) for part, piece in enumerate(pieces) if piece is None]
     if left:
         names = ", ".join(repr(name) for name in left)
-        yield f"no body could be made of {names} by construction: decomposed as is"
+        yield f"not made by construction, decomposed as is: {names}"
 
 
 def _prepared(

@@ -144,3 +144,19 @@ def test_a_button_in_a_door_has_room_to_be_pressed() -> None:
     inner = 0.5 * pressed + 0.5 * pressed.mean(axis=0)
     assert max(depth_below(hull, inner).max() for hull in made.pieces[1].hulls) < 0.0
     assert sum(hull.volume for hull in made.pieces[1].hulls) > 0.9 * 0.6 * 0.06 * 1.2
+
+
+def test_a_body_behind_a_front_is_left_to_decomposition() -> None:
+    wires = [board((x, 0.05, 0.3), (x + 0.006, 0.36, 0.306)) for x in (0.1, 0.2, 0.3, 0.4)]
+    rails = [board((0.1, y, 0.3), (0.406, y + 0.006, 0.306)) for y in (0.05, 0.354)]
+    mesh = concatenate([*hollow_case(), *wires, *rails])
+    piece = connected_components(mesh)
+    parts = tuple(
+        Part(name, np.flatnonzero(of))
+        for name, of in (("base", piece < 5), ("drawer", piece == 5), ("rack", piece > 5))
+    )
+    slide = with_drawer(mesh, 5).joints[0]
+    joints = (slide, replace(slide, name="rack_slide", child=2))
+    made = solids(Articulation(mesh, parts, joints, "test"), SolidsConfig())
+    assert made.pieces[2] is None
+    assert len(made.articulation.parts[2].faces) == len(parts[2].faces)
