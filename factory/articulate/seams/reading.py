@@ -50,7 +50,7 @@ EVEN_ENDS = 0.6
 CLEAR = 0.85
 #: What is closed by grooves and steps to this, and has a handle that stands off so far [pixels],
 #: is one, whoever sees it.
-EVIDENT = 0.95
+EVIDENT = 0.9
 STANDS_OFF = 4.0
 #: Several with handles, each closed to this, are no drawing on a chest.
 SHUT = 0.75

@@ -140,3 +140,17 @@ def test_knobs_far_apart_on_one_strip_turn_unless_seams_part_them(
 def _lines(at: list[int], length: int) -> Lines:
     sums = np.tile(np.arange(length + 1.0), (len(at), 1))
     return Lines(np.array(at, np.int64), sums, sums, sums)
+
+
+@pytest.mark.parametrize(("closed", "pulled", "wanted"), [
+    (0.91, True, True), (0.85, True, False), (1.0, False, False),
+])  # fmt: skip
+def test_a_groove_all_around_a_handle_needs_no_network(
+    closed: float, pulled: bool, wanted: bool
+) -> None:
+    front = fronts_of(reliefs_of(one_piece.plain_box(), None))[Side.FRONT]
+    front.__dict__["sight"] = replace(front.sight, panel=np.zeros_like(front.sight.panel))
+    sides = np.array([closed, 1.0, 1.0, 1.0])
+    rectangle = Rectangle(np.array([10, 10]), np.array([100, 80]), sides, sides)
+    handles = (_handle(40, 15, 30, 5),) if pulled else ()
+    assert reading._is_seen(front, FrontPanel(rectangle, handles, 3.0)) is wanted
