@@ -43,6 +43,15 @@ OPENS = {
     "cooktop": [(TURNS, (0, 0, -1), (x, 0.06, 0)) for x in (0.2, 0.3, 0.4, 0.5)],
 }
 STAYS = ("plain_box", "table", "buttons", "moulding")
+#: Turned so far about the vertical [degrees], then scaled along x, y and z.
+PLACES = {
+    "as modelled": (0.0, (1.0, 1.0, 1.0)),
+    "a quarter, mirrored": (90.0, (-1.0, 1.0, 1.0)),
+    "half, tiny": (180.0, (0.05, 0.05, 0.05)),
+    "three quarters, huge": (270.0, (30.0, 30.0, 30.0)),
+    "a little askew": (-7.0, (1.0, 1.0, 1.0)),
+    "askew, mirrored": (40.0, (-1.0, 1.0, 1.0)),
+}
 
 
 @cache
@@ -56,7 +65,9 @@ def read(mesh: Mesh) -> Articulation:
 
 
 def require(found: Articulation, name: str, linear: np.ndarray) -> None:
-    """What opens is what was modelled, moved along by ``linear``, shape [3, 3]."""
+    """What opens is what was modelled, moved along by ``linear``, shape [3, 3]; none is certain."""
+    assert all(0.0 < (part.confidence or 0.0) < 1.0 for part in found.parts[1:])
+    assert all(0.0 < (joint.confidence or 0.0) < 1.0 for joint in found.joints)
     wanted = list(OPENS[name])
     assert len(found.joints) == len(wanted), found.joints
     mirrored = np.linalg.det(linear) < 0.0
@@ -80,32 +91,13 @@ def require(found: Articulation, name: str, linear: np.ndarray) -> None:
 
 
 @pytest.mark.parametrize("name", OPENS)
-@pytest.mark.parametrize("quarters", range(4))
-def test_what_opens_is_found_from_every_side(name: str, quarters: int) -> None:
+@pytest.mark.parametrize("placed", PLACES)
+def test_what_opens_is_found_wherever_it_stands(name: str, placed: str) -> None:
+    degrees, sizes = PLACES[placed]
+    linear = rotation_about(UP, np.radians(degrees)) @ np.diag(sizes)
     turn = np.eye(4)
-    turn[:3, :3] = np.rint(rotation_about(UP, quarters * np.pi / 2.0))
+    turn[:3, :3] = np.where(np.abs(linear) < 1e-9, 0.0, linear)
     require(read(sample(name).transformed(turn)), name, turn[:3, :3])
-
-
-@pytest.mark.parametrize("degrees", [20.0, -7.0, 40.0])
-@pytest.mark.parametrize("name", OPENS)
-def test_an_object_may_stand_askew(name: str, degrees: float) -> None:
-    turn = np.eye(4)
-    turn[:3, :3] = rotation_about(UP, np.radians(degrees))
-    require(read(sample(name).transformed(turn)), name, turn[:3, :3])
-
-
-@pytest.mark.parametrize("name", OPENS)
-def test_a_mirrored_object_is_read_mirrored(name: str) -> None:
-    mirror = np.diag([-1.0, 1.0, 1.0, 1.0])
-    require(read(sample(name).transformed(mirror)), name, mirror[:3, :3])
-
-
-@pytest.mark.parametrize("scale", [0.05, 30.0])
-@pytest.mark.parametrize("name", OPENS)
-def test_size_does_not_matter(name: str, scale: float) -> None:
-    larger = np.diag([scale, scale, scale, 1.0])
-    require(read(sample(name).transformed(larger)), name, larger[:3, :3])
 
 
 @pytest.mark.parametrize("name", OPENS)
@@ -179,13 +171,6 @@ def test_readings_are_ranked_and_share_one_mesh() -> None:
         assert len(other.joints) == len(first.joints)
         kinds = [(joint.kind, joint.axis.tolist()) for joint in other.joints]
         assert kinds != [(joint.kind, joint.axis.tolist()) for joint in first.joints]
-
-
-def test_confidence_is_a_probability() -> None:
-    for name in OPENS:
-        found = read(sample(name))
-        assert all(0.0 < (joint.confidence or 0.0) < 1.0 for joint in found.joints)
-        assert all(0.0 < (part.confidence or 0.0) < 1.0 for part in found.parts[1:])
 
 
 def test_nothing_is_read_of_a_flat_or_tiny_mesh() -> None:
