@@ -8,6 +8,7 @@ import numpy as np
 
 from ..articulation import Joint, JointKind
 from ..errors import InputRejected
+from ..geometry.rows import distinct_rows
 from ..mesh import FloatArray, Mesh
 from .draft import Draft
 
@@ -219,7 +220,8 @@ def _posed(draft: Draft, poses: FloatArray) -> Mesh:
     mesh = draft.mesh
     part = np.repeat(draft.face_part[:, None], 3, axis=1)
     keys = np.stack([mesh.faces.ravel(), part.ravel()], axis=1)
-    unique, index = np.unique(keys, axis=0, return_inverse=True)
+    first, index = distinct_rows(keys)
+    unique = keys[first]
     pose = poses[unique[:, 1]]
     vertices = (
         np.einsum("nij,nj->ni", pose[:, :3, :3], mesh.vertices[unique[:, 0]]) + pose[:, :3, 3]

@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..asset import Hull
+from ..geometry.rows import distinct_rows
 from ..mesh import FloatArray, IntArray, Material, Mesh
 from ..runtime.numbers import DECIMALS
 from .text import DECIMALS_UNIT, number, vector
@@ -78,8 +79,8 @@ def _corner_table(
         return [], None
     complete = np.where(np.isfinite(corners).all(axis=-1, keepdims=True), corners, missing)
     flat = np.round(complete.reshape(-1, complete.shape[-1]), DECIMALS_UNIT) + 0.0
-    table, index = np.unique(flat, axis=0, return_inverse=True)
-    return table.tolist(), index.reshape(-1, 3).astype(np.int64)
+    first, index = distinct_rows(flat)
+    return flat[first].tolist(), index.reshape(-1, 3)
 
 
 def filled_normals(mesh: Mesh) -> FloatArray:

@@ -7,6 +7,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components as _graph_components
 
 from ..mesh import IntArray, Mesh
+from .rows import distinct_rows
 
 WELD_SHARE = 1e-6
 """Positions closer than this share of the mesh's diagonal are one vertex."""
@@ -27,8 +28,8 @@ def connected_components(mesh: Mesh) -> IntArray:
     if not len(faces):
         return np.zeros(0, dtype=np.int64)
     corners = np.sort(faces, axis=1)
-    unique, twin = np.unique(corners, axis=0, return_inverse=True)
-    twin = twin.reshape(-1)
+    first, twin = distinct_rows(corners)
+    unique = corners[first]
     proper = (unique[:, 0] != unique[:, 1]) & (unique[:, 1] != unique[:, 2])
     labels = _label_faces(unique, proper)[twin]
     labels = _adopt_slivers(labels, faces, proper[twin])
@@ -39,8 +40,7 @@ def _weld(mesh: Mesh) -> IntArray:
     """Index of the welded vertex of every vertex, shape [vertex_count]."""
     tolerance = max(mesh.diagonal * WELD_SHARE, 1e-12)
     cells = np.round((mesh.vertices - mesh.bounds[0]) / tolerance).astype(np.int64)
-    _, index = np.unique(cells, axis=0, return_inverse=True)
-    return np.asarray(index.reshape(-1), dtype=np.int64)
+    return distinct_rows(cells)[1]
 
 
 def _label_faces(faces: IntArray, proper: IntArray) -> IntArray:

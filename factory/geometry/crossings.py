@@ -135,14 +135,14 @@ def crossings(mesh: Mesh, raster: Raster) -> Crossings:
     corners = local[mesh.faces]
     flat = (corners[:, :, :2] - raster.low) / raster.pixel
     depths = corners[:, :, 2] - raster.near
-    found = [_crossed(flat, depths, pairs, raster) for pairs in _batches(flat, raster)]
+    turns = _doubled_areas(flat)
+    found = [_crossed(flat, depths, turns, pairs, raster) for pairs in _batches(flat, raster)]
     if not found:
         found = [(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros(0))]
     face, pixel, weights, depth = (np.concatenate(parts) for parts in zip(*found, strict=True))
     order = np.lexsort((depth, pixel))
     face = face[order]
-    turn = _doubled_areas(flat[face])
-    return Crossings(raster, pixel[order], depth[order], face, turn > 0.0, weights[order])
+    return Crossings(raster, pixel[order], depth[order], face, turns[face] > 0.0, weights[order])
 
 
 def _batches(flat: FloatArray, raster: Raster) -> Iterator[tuple[IntArray, IntArray, IntArray]]:
@@ -164,38 +164,35 @@ def _batches(flat: FloatArray, raster: Raster) -> Iterator[tuple[IntArray, IntAr
 
 
 def _crossed(
-    flat: FloatArray, depths: FloatArray, batch: tuple[IntArray, IntArray, IntArray], raster: Raster
+    flat: FloatArray,
+    depths: FloatArray,
+    turns: FloatArray,
+    batch: tuple[IntArray, IntArray, IntArray],
+    raster: Raster,
 ) -> tuple[IntArray, IntArray, FloatArray, FloatArray]:
     faces, low, size = batch
     count = size.prod(axis=1)
     owner = np.repeat(np.arange(len(faces)), count)
     place = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
-    column = low[owner, 0] + place % size[owner, 0]
-    row = low[owner, 1] + place // size[owner, 0]
-    corners = flat[faces]
-    area = _doubled_areas(corners)
-    here = np.stack([column, row], axis=1).astype(np.float64)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        weights = np.stack(
-            [
-                _cross(corners[owner, (k + 1) % 3] - here, corners[owner, (k + 2) % 3] - here)
-                / area[owner]
-                for k in range(3)
-            ],
-            axis=1,
-        )
-    inside = (weights >= 0.0).all(axis=1)
-    owner = owner[inside]
-    weights = weights[inside]
+    wide = size[owner, 0]
+    column = low[owner, 0] + place % wide
+    row = low[owner, 1] + place // wide
     face = faces[owner]
+    x = [flat[faces, k, 0][owner] - column for k in range(3)]
+    y = [flat[faces, k, 1][owner] - row for k in range(3)]
+    area = turns[face]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # Of each corner, twice the area that the pixel spans with the other two.
+        shares = [(x[k - 2] * y[k - 1] - y[k - 2] * x[k - 1]) / area for k in range(3)]
+    inside = (shares[0] >= 0.0) & (shares[1] >= 0.0) & (shares[2] >= 0.0)
+    weights = np.stack([share[inside] for share in shares], axis=1)
+    face = face[inside]
     depth = np.einsum("ij,ij->i", weights, depths[face])
     return face, row[inside] * raster.columns + column[inside], weights, depth
 
 
 def _doubled_areas(triangles: FloatArray) -> FloatArray:
     """Twice the signed areas of flat triangles, shape [n, 3, 2]."""
-    return _cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-
-
-def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
-    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    right = triangles[:, 1] - triangles[:, 0]
+    left = triangles[:, 2] - triangles[:, 0]
+    return np.asarray(right[:, 0] * left[:, 1] - right[:, 1] * left[:, 0])

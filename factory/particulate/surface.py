@@ -11,6 +11,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ..geometry.pieces import Sheet, pieces
+from ..geometry.rows import distinct_rows
 from ..mesh import FloatArray, IntArray
 
 BoolArray = npt.NDArray[np.bool_]
@@ -117,8 +118,8 @@ class Surface:
         """
         proper = np.flatnonzero(has_three_corners(self.faces))
         corners = np.sort(self.faces[proper], axis=1)
-        _, first, group = np.unique(corners, axis=0, return_index=True, return_inverse=True)
-        original = proper[first][group.reshape(-1)]
+        first, group = distinct_rows(corners)
+        original = proper[first][group]
         twins = np.stack([original, proper], axis=1)[original != proper]
         edges = _edges(self.faces, np.sort(proper[first]))
         begin = edges.first[:-1][edges.counts == 2]

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ..geometry.rows import distinct_rows
 from ..mesh import FloatArray, IntArray, Material, Mesh
 
 #: Turns z up, front -Y into glTF's y up, front +Z.
@@ -115,7 +116,8 @@ def primitive(
     told = [values for values in (uv, normals) if values is not None]
     flat = [np.round(values[faces].reshape(len(corners), -1), DECIMALS) + 0.0 for values in told]
     rows = np.column_stack([corners.astype(np.float64), *flat])
-    unique, compact = np.unique(rows, axis=0, return_inverse=True)
+    first, compact = distinct_rows(rows)
+    unique = rows[first]
     positions = np.round(mesh.vertices[unique[:, 0].astype(np.int64)], DECIMALS) + 0.0
     attributes = {"POSITION": buffer.vertices(positions.astype(np.float32))}
     if uv is not None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..articulation import JointKind
 from ..asset import Asset
+from ..geometry.rows import distinct_rows
 from ..mesh import FloatArray, IntArray, Material, Mesh, Texture
 from .scene import UNLIMITED, Color, SceneGraph, SceneJoint, SceneSurface
 
@@ -124,7 +125,9 @@ def _surface(
     columns += [] if uv is None else [uv.reshape(-1, 2)]
     if len(columns) == 1:
         return plain_surface(link, mesh.vertices - frame, mesh.faces, material.color)
-    rows, faces = np.unique(np.hstack(columns).astype(np.float32), axis=0, return_inverse=True)
+    rows = np.hstack(columns).astype(np.float32)
+    first, faces = distinct_rows(rows)
+    rows = rows[first]
     return SceneSurface(
         link,
         rows[:, :3],

@@ -9,6 +9,7 @@ import numpy as np
 from manifold3d import Manifold
 
 from ...asset import Hull
+from ...geometry.rows import distinct_rows
 from ...mesh import FloatArray, IntArray
 from .convex import THINNEST_M, concavity, hull_of
 from .pockets import fills_little
@@ -212,7 +213,7 @@ def _heaviest(
     key = np.round(
         np.column_stack([normals * sign, offsets[:, None] * sign / max(size, 1e-12)]) * 1e4
     ).astype(np.int64)
-    _, index, label = np.unique(key, axis=0, return_index=True, return_inverse=True)
-    total = np.bincount(label.reshape(-1), weights=weight)
+    index, label = distinct_rows(key)
+    total = np.bincount(label, weights=weight)
     order = np.argsort(-total, kind="stable")[:PLANES_TRIED]
     return [(normals[index[i]], float(offsets[index[i]])) for i in order]

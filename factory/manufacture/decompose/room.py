@@ -12,6 +12,7 @@ from manifold3d import Manifold
 from ...articulation import Articulation
 from ...asset import Hull
 from ...geometry.areas import face_areas
+from ...geometry.rows import distinct_rows
 from ...mesh import FloatArray, Mesh
 from ..poses import relative_poses
 from .convex import depth_below
@@ -149,7 +150,7 @@ def _spread(mesh: Mesh) -> FloatArray:
 def _thinned(points: FloatArray) -> FloatArray:
     if not len(points):
         return points
-    _, first = np.unique(np.floor(points / GRAIN_M).astype(np.int64), axis=0, return_index=True)
+    first, _ = distinct_rows(np.floor(points / GRAIN_M).astype(np.int64))
     kept = points[np.sort(first)]
     if len(kept) <= MOST:
         return kept

@@ -11,6 +11,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import breadth_first_order, connected_components
 
 from ...asset import Hull
+from ...geometry.rows import distinct_rows
 from ...mesh import FloatArray, IntArray
 
 #: Less volume than this is nothing to collide with [m3]: a cube of a tenth of a millimetre.
@@ -75,8 +76,8 @@ def closes(faces: IntArray) -> bool:
     starts = faces.ravel()
     ends = np.roll(faces, -1, axis=1).ravel()
     edges = np.column_stack([np.minimum(starts, ends), np.maximum(starts, ends)])
-    _, edge = np.unique(edges, axis=0, return_inverse=True)
-    return not np.bincount(edge.reshape(-1), weights=np.sign(ends - starts)).any()
+    _, edge = distinct_rows(edges)
+    return not np.bincount(edge, weights=np.sign(ends - starts)).any()
 
 
 def manifold_of_hull(hull: Hull) -> Manifold:
@@ -141,7 +142,7 @@ def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
     faces = faces[area > 0.0]
     first = faces.argmin(axis=1)
     turned = np.take_along_axis(faces, (first[:, None] + np.arange(3)) % 3, axis=1)
-    _, kept = np.unique(turned, axis=0, return_index=True)
+    kept, _ = distinct_rows(turned)
     return faces[np.sort(kept)]
 
 
@@ -170,7 +171,7 @@ def two_sided_patches(faces: IntArray) -> list[IntArray]:
     Returns:
         Faces of each patch, shape [k, 3].
     """
-    _, kept = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
+    kept, _ = distinct_rows(np.sort(faces, axis=1))
     faces = faces[np.sort(kept)]
     pairs, agrees = neighbours(faces)
     count = len(faces)
@@ -189,8 +190,8 @@ def neighbours(faces: IntArray) -> tuple[IntArray, IntArray]:
     ends = faces[:, [1, 2, 0]].ravel()
     owner = np.repeat(np.arange(len(faces)), 3)
     edges = np.column_stack([np.minimum(starts, ends), np.maximum(starts, ends)])
-    _, label, count = np.unique(edges, axis=0, return_inverse=True, return_counts=True)
-    label = label.reshape(-1)
+    _, label = distinct_rows(edges)
+    count = np.bincount(label)
     order = np.argsort(label, kind="stable")
     order = order[count[label[order]] == 2].reshape(-1, 2)
     forward = (starts < ends)[order]

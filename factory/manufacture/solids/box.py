@@ -42,8 +42,11 @@ class Box:
 
     def holds(self, points: npt.ArrayLike, margin: float = 0.0) -> BoolArray:
         """Which of some points [m], shape [..., 3], lie in it or within ``margin`` [m] of it."""
-        at = np.asarray(points)
-        return np.asarray(((at >= self.low - margin) & (at <= self.high + margin)).all(axis=-1))
+        low = self.low - margin
+        high = self.high + margin
+        x, y, z = np.moveaxis(np.asarray(points), -1, 0)
+        within = (x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1])
+        return np.asarray(within & (z >= low[2]) & (z <= high[2]))
 
     def grown(self, margin: npt.ArrayLike) -> Box:
         """With every side moved out by ``margin`` [m], one or shape [3]."""

@@ -9,6 +9,7 @@ from ...articulation import Joint, JointKind
 from ...asset import Hull
 from ...config import SolidsConfig
 from ...geometry.crossings import BoolArray
+from ...geometry.rows import distinct_rows
 from ...mesh import FloatArray
 from ..decompose.convex import depth_below
 from .box import Box
@@ -75,6 +76,12 @@ def planes_of_panels(
 
 def surface_points(work: Workpiece, part: int) -> FloatArray:
     """Points of a part's skin, close enough for its pieces [m], shape [n, 3]."""
+    if part not in work.points:
+        work.points[part] = _surface_points(work, part)
+    return work.points[part]
+
+
+def _surface_points(work: Workpiece, part: int) -> FloatArray:
     corners = work.skin.corners[work.skin.part == part]
     if not len(corners):
         return np.zeros((0, 3))
@@ -87,7 +94,8 @@ def surface_points(work: Workpiece, part: int) -> FloatArray:
         grid = [(i, j, count - i - j) for i in range(count + 1) for j in range(count + 1 - i)]
         weights = np.array(grid) / count
         found.append(np.einsum("kc,ncd->nkd", weights, some).reshape(-1, 3))
-    return np.unique(np.round(np.concatenate(found), 7), axis=0)
+    points = np.round(np.concatenate(found), 7)
+    return points[distinct_rows(points)[0]]
 
 
 def carve_panel(work: Workpiece, part: int) -> None:

@@ -73,7 +73,7 @@ class Lattice:
         x, y, z = ((each[1:] + each[:-1]) / 2.0 for each in self.lines)
         return x, y, z
 
-    @property
+    @cached_property
     def volumes(self) -> FloatArray:
         """Of every cell [m3], shape [nx, ny, nz]."""
         x, y, z = (np.diff(each) for each in self.lines)

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...geometry.crossings import BoolArray
+from ...geometry.rows import distinct_rows
 from ...mesh import FloatArray
 from .lattice import Lattice
 
@@ -50,7 +51,7 @@ class Matter:
             np.searchsorted(line, self.points[:, axis]) // 2
             for axis, line in enumerate(self.lattice.lines)
         ]
-        first = np.unique(np.column_stack(cells), axis=0, return_index=True)[1]
+        first, _ = distinct_rows(np.column_stack(cells))
         return self.points[first]
 
     @cached_property

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
@@ -53,6 +54,21 @@ class _Node:
     span: Span
     hull: Hull
     waste: float
+
+
+@dataclass(frozen=True)
+class _Nearby:
+    """What cuts of one node are tried with.
+
+    Attributes:
+        points: of the surface in its box [m], shape [n, 3].
+        centers: of cells in it that must stay free [m], shape [m, 3].
+        sizes: the weighted volume of each [m3], shape [m].
+    """
+
+    points: FloatArray
+    centers: FloatArray
+    sizes: FloatArray
 
 
 def convex_pieces(matter: Matter, most: int) -> tuple[Hull, ...]:
@@ -200,7 +216,9 @@ def _extreme(points: FloatArray, count: int) -> FloatArray:
         return points
     size = np.maximum(np.ptp(points, axis=0), 1e-9)
     scaled = ((points - points.min(axis=0)) / size).astype(np.float32)
-    return np.asarray(points[np.unique((_directions(count) @ scaled.T).argmax(axis=1))])
+    outermost = np.zeros(len(points), dtype=bool)
+    outermost[(_directions(count) @ scaled.T).argmax(axis=1)] = True
+    return np.asarray(points[outermost])
 
 
 def _waste(matter: Matter, span: Span, hull: Hull) -> float:
@@ -250,13 +268,23 @@ def _deep(planes: FloatArray, corners: FloatArray, step: float, centers: FloatAr
 
 def _best_cut(matter: Matter, node: _Node) -> tuple[Span, ...]:
     """The two halves of that cut after which least is left to be cut; none if none helps."""
-    best: tuple[float, Span, Span] | None = None
+    best: tuple[Span, ...] = ()
+    least = np.inf
+    nearby = _nearby(matter, node.span)
     for axis, plane in _planes(matter, node.span):
         halves = _halves(node.span, axis, plane)
-        cost = sum(_cost(matter, half) for half in halves)
-        if best is None or cost < best[0]:
-            best = cost, halves[0], halves[1]
-    return () if best is None else best[1:]
+        cost = 0.0
+        for half in sorted(halves, key=_cells_in, reverse=True):
+            cost += _cost(matter, nearby, half)
+            if cost >= least:
+                break
+        else:
+            best, least = halves, cost
+    return best
+
+
+def _cells_in(span: Span) -> int:
+    return math.prod(part.stop - part.start for part in span)
 
 
 def _halves(span: Span, axis: int, plane: int) -> tuple[Span, Span]:
@@ -267,7 +295,15 @@ def _halves(span: Span, axis: int, plane: int) -> tuple[Span, Span]:
     return (first[0], first[1], first[2]), (second[0], second[1], second[2])
 
 
-def _cost(matter: Matter, span: Span) -> float:
+def _nearby(matter: Matter, span: Span) -> _Nearby:
+    box = _box(matter.lattice, span)
+    centers, sizes = matter.sampled
+    inside = box.holds(centers)
+    points = matter.sparse[box.holds(matter.sparse, 1e-9)]
+    return _Nearby(points, centers[inside], sizes[inside])
+
+
+def _cost(matter: Matter, nearby: _Nearby, span: Span) -> float:
     """What is still wrong in some cells: their hull where it must be cut again, and its waste.
 
     A quick estimate: the corners of cells beside the box's own count as its own.
@@ -281,7 +317,7 @@ def _cost(matter: Matter, span: Span) -> float:
     points = np.column_stack(
         [matter.lattice.lines[axis][at[:, axis] + trimmed[axis].start] for axis in range(3)]
     )
-    points = np.concatenate([points, matter.sparse[box.holds(matter.sparse, 1e-9)]])
+    points = np.concatenate([points, nearby.points[box.holds(nearby.points, 1e-9)]])
     own = float((matter.lattice.volumes[trimmed] * matter.solid[trimmed]).sum())
     outermost = _extreme(points, TRIED_DIRECTIONS)
     try:
@@ -292,23 +328,21 @@ def _cost(matter: Matter, span: Span) -> float:
         waste = min((foil.waste for foil in _foils(matter, trimmed, outermost)), default=own)
     else:
         size = float(hull.volume)
-        waste = max(size - FULLER * own, 0.0) + _blocked(matter, trimmed, box, hull)
+        waste = max(size - FULLER * own, 0.0) + _blocked(matter, nearby, trimmed, box, hull)
     return TIE * min(waste, size) + (size if waste > matter.trifle else 0.0)
 
 
-def _blocked(matter: Matter, span: Span, box: Box, hull: ConvexHull) -> float:
+def _blocked(matter: Matter, nearby: _Nearby, span: Span, box: Box, hull: ConvexHull) -> float:
     """How much of what must stay free a hull fills [m3], times its weight."""
-    count = int(np.prod([part.stop - part.start for part in span]))
-    if count < EXACT_BELOW:
+    if _cells_in(span) < EXACT_BELOW:
         cells = np.argwhere(matter.free[span])
         centers = matter.lattice.centers(cells + [part.start for part in span])
         at = tuple(cells.T)
         each = matter.lattice.volumes[span][at] * matter.free[span][at]
     else:
-        centers, sizes = matter.sampled
-        inside = box.holds(centers)
-        centers = centers[inside]
-        each = sizes[inside]
+        inside = box.holds(nearby.centers)
+        centers = nearby.centers[inside]
+        each = nearby.sizes[inside]
     corners = hull.points[hull.vertices]
     deep = _deep(hull.equations, corners, matter.lattice.step, centers)
     return float(each[deep].sum())

@@ -10,6 +10,7 @@ from ...articulation import Articulation
 from ...asset import Hull, InnerSurface
 from ...geometry.colors import linear_of
 from ...geometry.crossings import BoolArray
+from ...geometry.rows import distinct_rows
 from ...mesh import FloatArray, IntArray, Material, Mesh
 from ..decompose.convex import depth_below
 from .box import Box
@@ -210,11 +211,12 @@ def _welded(
     material: IntArray,
     materials: tuple[Material, ...],
 ) -> Mesh:
-    vertices, index = np.unique(np.round(corners.reshape(-1, 3), 7), axis=0, return_inverse=True)
+    points = np.round(corners.reshape(-1, 3), 7)
+    first, index = distinct_rows(points)
     if normals is not None:
         length = np.linalg.norm(normals, axis=2, keepdims=True)
         normals = normals / np.where(length > 0.0, length, 1.0)
-    return Mesh(vertices, index.reshape(-1, 3), uv, normals, material, materials)
+    return Mesh(points[first], index.reshape(-1, 3), uv, normals, material, materials)
 
 
 def _material(work: Workpiece, part: int, materials: list[Material]) -> int:

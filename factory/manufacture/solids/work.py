@@ -41,6 +41,7 @@ class Workpiece:
         boards: per panel, of a drawer's box.
         hulls: per part, made so far.
         added: per part, triangles [m], shape [n, 3, 3].
+        points: per part, of its skin [m], shape [n, 3]; see ``carve.surface_points``.
         filled: per panel, whether what lies right behind it was filled.
         records: of every surface that was invented.
         notes: a sentence each.
@@ -63,6 +64,7 @@ class Workpiece:
     boards: dict[int, tuple[Box, ...]] = field(default_factory=dict)
     hulls: dict[int, tuple[Hull, ...]] = field(default_factory=dict)
     added: dict[int, list[FloatArray]] = field(default_factory=dict)
+    points: dict[int, FloatArray] = field(default_factory=dict)
     filled: dict[int, bool] = field(default_factory=dict)
     records: list[InnerSurface] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
