@@ -22,6 +22,8 @@ FINER = 0.5
 VOTES = 2
 #: Sides of six on which a space is shut in.
 SHUT_IN = 5
+#: Cells along each axis.
+Span = tuple[slice, slice, slice]
 _SIDES = (Side.LEFT, Side.FRONT, Side.BOTTOM)
 
 
@@ -79,13 +81,41 @@ class Lattice:
         x, y, z = (np.diff(each) for each in self.lines)
         return np.asarray(x[:, None, None] * y[None, :, None] * z[None, None, :])
 
-    def span(self, box: Box) -> tuple[slice, slice, slice]:
+    def span(self, box: Box) -> Span:
         """The cells whose centres lie in a box."""
         x, y, z = (
             slice(*np.searchsorted(middle, [box.low[axis], box.high[axis]]))
             for axis, middle in enumerate(self.middles)
         )
         return x, y, z
+
+    def below(self, planes: FloatArray, span: Span, margin: float = 0.0) -> BoolArray:
+        """Cells of a span whose centres lie less than ``margin`` [m] above every one of some planes.
+
+        Those in one column lie between two heights, so that columns are looked at, not cells.
+
+        Args:
+            planes: outward unit normals and offsets, shape [n, 4]: below one the sum of a point's
+                coordinates, each times the normal's, and the offset is negative.
+            span: of cells.
+            margin: negative: how far below all of them.
+        """
+        middles = [middle[part] for middle, part in zip(self.middles, span, strict=True)]
+        axis = int(np.argmax([len(each) for each in middles]))
+        first, second = (other for other in range(3) if other != axis)
+        over = (
+            planes[:, first, None, None] * middles[first][:, None]
+            + planes[:, second, None, None] * middles[second]
+            + (planes[:, 3, None, None] - margin)
+        )
+        slope = planes[:, axis]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ends = -over / slope[:, None, None]
+        low = ends[slope < 0.0].max(axis=0, initial=-np.inf)[..., None]
+        high = ends[slope > 0.0].min(axis=0, initial=np.inf)[..., None]
+        beside = (over[slope == 0.0] < 0.0).all(axis=0)[..., None]
+        inside = beside & (middles[axis] > low) & (middles[axis] < high)
+        return np.asarray(np.moveaxis(inside, -1, axis))
 
     def centers(self, cells: npt.NDArray[np.int64]) -> FloatArray:
         """Centres [m] of cells given by their indices, shape [n, 3]."""

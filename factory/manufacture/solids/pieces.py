@@ -19,7 +19,7 @@ from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from .box import Box
-from .lattice import Lattice
+from .lattice import Lattice, Span
 from .matter import Matter, Weights, any_around
 
 #: A piece may be this much fuller than its matter.
@@ -43,8 +43,6 @@ FLAT = 1e-3
 FOIL_CELLS = 2.0
 #: Corners of a hull that engines on the GPU take.
 MOST_CORNERS = 64
-
-Span = tuple[slice, slice, slice]
 
 
 @dataclass(frozen=True)
@@ -234,36 +232,36 @@ def filled(lattice: Lattice, weights: Weights, span: Span, hull: Hull) -> float:
 
     What is thinner than cells may pass between their centres: it fills what it crosses.
     """
-    cells = np.argwhere(weights[span])
-    if not len(cells):
-        return 0.0
-    start = np.array([part.start for part in span])
-    planes = hull.planes * [1.0, 1.0, 1.0, -1.0]
-    deep = _deep(planes, hull.vertices, lattice.step, lattice.centers(cells + start))
-    at = tuple(cells[deep].T)
-    return float((lattice.volumes[span][at] * weights[span][at]).sum())
+    planes = _within(hull.planes * [1.0, 1.0, 1.0, -1.0], hull.vertices, lattice.step)
+    return _filled(lattice, weights, span, planes)
 
 
-def _deep(planes: FloatArray, corners: FloatArray, step: float, centers: FloatArray) -> BoolArray:
-    """Which cells' centres lie in a hull; of one thinner than cells, which cells it crosses.
+def _filled(lattice: Lattice, weights: Weights, span: Span, planes: FloatArray) -> float:
+    wrong = weights[span]
+    at = lattice.below(planes, span) & (wrong > 0)
+    return float((lattice.volumes[span][at] * wrong[at]).sum())
+
+
+def _within(planes: FloatArray, corners: FloatArray, step: float) -> FloatArray:
+    """Planes below which cells' centres lie in a hull; of one thinner than cells, those it crosses.
 
     Args:
         planes: of the hull, outward normals and offsets, shape [n, 4].
         corners: of the hull [m], shape [n, 3].
         step: how large cells are [m].
-        centers: of the cells [m], shape [n, 3].
     """
     middle = corners.mean(axis=0)
     axes = np.linalg.svd(corners - middle, full_matrices=False)[2]
     heights = (corners - middle) @ axes[2]
-    within = np.ones(len(centers), dtype=bool)
-    if np.ptp(heights) < step:
-        off = (centers - middle) @ axes[2] - 0.5 * (heights.min() + heights.max())
-        within = np.abs(off) < 0.5 * step
-        planes = ConvexHull(corners @ axes[:2].T).equations
-        centers = centers @ axes[:2].T
-    depths = (centers @ planes[:, :-1].T + planes[:, -1]).max(axis=1, initial=-np.inf)
-    return np.asarray(within & (depths < -REACH_M))
+    sides = planes + [0.0, 0.0, 0.0, REACH_M]
+    if np.ptp(heights) >= step:
+        return np.asarray(sides)
+    flat = ConvexHull(corners @ axes[:2].T).equations
+    sides = np.column_stack([flat[:, :2] @ axes[:2], flat[:, 2] + REACH_M])
+    at = float(middle @ axes[2]) + 0.5 * (heights.min() + heights.max())
+    above = np.append(axes[2], -at - 0.5 * step)
+    under = np.append(-axes[2], at - 0.5 * step)
+    return np.concatenate([sides, [above, under]])
 
 
 def _best_cut(matter: Matter, node: _Node) -> tuple[Span, ...]:
@@ -334,18 +332,13 @@ def _cost(matter: Matter, nearby: _Nearby, span: Span) -> float:
 
 def _blocked(matter: Matter, nearby: _Nearby, span: Span, box: Box, hull: ConvexHull) -> float:
     """How much of what must stay free a hull fills [m3], times its weight."""
+    planes = _within(hull.equations, hull.points[hull.vertices], matter.lattice.step)
     if _cells_in(span) < EXACT_BELOW:
-        cells = np.argwhere(matter.free[span])
-        centers = matter.lattice.centers(cells + [part.start for part in span])
-        at = tuple(cells.T)
-        each = matter.lattice.volumes[span][at] * matter.free[span][at]
-    else:
-        inside = box.holds(nearby.centers)
-        centers = nearby.centers[inside]
-        each = nearby.sizes[inside]
-    corners = hull.points[hull.vertices]
-    deep = _deep(hull.equations, corners, matter.lattice.step, centers)
-    return float(each[deep].sum())
+        return _filled(matter.lattice, matter.free, span, planes)
+    inside = box.holds(nearby.centers)
+    heights = nearby.centers[inside] @ planes[:, :3].T + planes[:, 3]
+    deep = heights.max(axis=1, initial=-np.inf) < 0.0
+    return float(nearby.sizes[inside][deep].sum())
 
 
 def _planes(matter: Matter, span: Span) -> Iterator[tuple[int, int]]:

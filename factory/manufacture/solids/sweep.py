@@ -45,22 +45,11 @@ def entered(
         for pose in poses:
             moved = hull.vertices @ pose[:3, :3].T + pose[:3, 3]
             span = lattice.span(Box.around(moved).grown(margin))
-            inside = np.zeros(marked[span].shape)
-            if not inside.size:
+            if not marked[span].size:
                 continue
             normals = planes[:, :3] @ pose[:3, :3].T
             offsets = planes[:, 3] + normals @ pose[:3, 3]
-            x, y, z = (lattice.middles[axis][span[axis]] for axis in range(3))
-            inside -= np.inf
-            for normal, offset in zip(normals, offsets, strict=True):
-                height = (
-                    (normal[0] * x)[:, None, None]
-                    + (normal[1] * y)[None, :, None]
-                    + (normal[2] * z)[None, None, :]
-                    - offset
-                )
-                np.maximum(inside, height, out=inside)
-            marked[span] |= inside < margin
+            marked[span] |= lattice.below(np.column_stack([normals, -offsets]), span, margin)
     return marked
 
 
