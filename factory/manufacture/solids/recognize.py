@@ -125,12 +125,12 @@ def _claimed(skin: CutSkin, panel: FlatPanel, claimants: set[int], behind: float
     frame = panel.side.frame
     wide = panel.reach(0.0, panel.back + behind)
     planes = [(axis, float(end)) for axis in (0, 1) for end in (wide.low[axis], wide.high[axis])]
+    room = wide.turned(frame.T)
+    near = skin.touching(room)
+    pieces = skin.chosen(near)
     for axis, end in (*planes, (2, panel.back), (2, panel.back + behind)):
-        local = skin.corners @ frame.T
-        low = local.min(axis=1)
-        high = local.max(axis=1)
-        near = ((low <= wide.high) & (high >= wide.low)).all(axis=1)
-        skin = cut(skin, frame[axis], end, near)
+        pieces = cut(pieces, frame[axis], end, pieces.touching(room))
+    skin = skin.chosen(~near).joined(pieces)
     middles = skin.middles @ frame.T
     inside = column.holds(middles) | (_inner_side(skin, frame) & _behind(panel).holds(middles))
     own = skin.part == panel.part

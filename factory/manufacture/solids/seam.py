@@ -8,6 +8,7 @@ import numpy as np
 
 from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray, IntArray, Mesh
+from .box import Box
 
 #: Corners this near to a plane lie on it [m].
 ON_PLANE_M = 1e-6
@@ -43,7 +44,13 @@ class CutSkin:
     @property
     def middles(self) -> FloatArray:
         """Centres of the triangles [m], shape [n, 3]."""
-        return np.asarray(self.corners.mean(axis=1))
+        first, second, third = np.moveaxis(self.corners, 1, 0)
+        return np.asarray((first + second + third) / 3.0)
+
+    def touching(self, box: Box) -> BoolArray:
+        """Triangles whose bounds meet a box, shape [n]."""
+        low, high = _ends(self.corners)
+        return np.asarray(((low <= box.high) & (high >= box.low)).all(axis=1))
 
     def chosen(self, which: BoolArray | IntArray) -> CutSkin:
         """Some of the triangles."""
@@ -74,10 +81,19 @@ def cut(skin: CutSkin, normal: FloatArray, offset: float, which: BoolArray) -> C
     """
     height = skin.corners @ normal - offset
     height[np.abs(height) < ON_PLANE_M] = 0.0
-    crossing = which & (height.min(axis=1) < 0.0) & (height.max(axis=1) > 0.0)
+    low, high = _ends(height)
+    crossing = which & (low < 0.0) & (high > 0.0)
     if not crossing.any():
         return skin
     return skin.chosen(~crossing).joined(_halved(skin.chosen(crossing), height[crossing]))
+
+
+def _ends(of_corners: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The least and the greatest of each triangle's three values, given along the second axis."""
+    first, second, third = np.moveaxis(of_corners, 1, 0)
+    low = np.minimum(np.minimum(first, second), third)
+    high = np.maximum(np.maximum(first, second), third)
+    return low, high
 
 
 def _halved(skin: CutSkin, height: FloatArray) -> CutSkin:
@@ -91,8 +107,8 @@ def _halved(skin: CutSkin, height: FloatArray) -> CutSkin:
     weights = skin.weights[rows, turn]
     height = height[rows, turn]
     pieces = [
-        _Ends(corners, weights, height).between(0, 1),
-        _Ends(corners, weights, height).between(0, 2),
+        _Edges(corners, weights, height).between(0, 1),
+        _Edges(corners, weights, height).between(0, 2),
     ]
     at = np.stack([corners[:, 0], corners[:, 1], corners[:, 2], pieces[0][0], pieces[1][0]], 1)
     mixed = np.stack([weights[:, 0], weights[:, 1], weights[:, 2], pieces[0][1], pieces[1][1]], 1)
@@ -106,7 +122,7 @@ def _halved(skin: CutSkin, height: FloatArray) -> CutSkin:
 
 
 @dataclass(frozen=True)
-class _Ends:
+class _Edges:
     corners: FloatArray
     weights: FloatArray
     height: FloatArray
