@@ -90,15 +90,18 @@ class Lattice:
         return x, y, z
 
     def below(self, planes: FloatArray, span: Span, margin: float = 0.0) -> BoolArray:
-        """Cells of a span whose centres lie less than ``margin`` [m] above every one of some planes.
+        """Cells of a span whose centres lie below all of some planes, or so little above them.
 
-        Those in one column lie between two heights, so that columns are looked at, not cells.
+        Those of one column lie between two heights: columns are looked at, not cells.
 
         Args:
-            planes: outward unit normals and offsets, shape [n, 4]: below one the sum of a point's
-                coordinates, each times the normal's, and the offset is negative.
+            planes: outward unit normals and offsets, shape [n, 4]; ``normal . x + offset`` [m] is
+                the height above one.
             span: of cells.
-            margin: negative: how far below all of them.
+            margin: what their heights must stay under [m].
+
+        Returns:
+            Shape as of the span.
         """
         middles = [middle[part] for middle, part in zip(self.middles, span, strict=True)]
         axis = int(np.argmax([len(each) for each in middles]))

@@ -253,7 +253,7 @@ def _within(planes: FloatArray, corners: FloatArray, step: float) -> FloatArray:
     middle = corners.mean(axis=0)
     axes = np.linalg.svd(corners - middle, full_matrices=False)[2]
     heights = (corners - middle) @ axes[2]
-    sides = planes + [0.0, 0.0, 0.0, REACH_M]
+    sides = planes + np.array([0.0, 0.0, 0.0, REACH_M])
     if np.ptp(heights) >= step:
         return np.asarray(sides)
     flat = ConvexHull(corners @ axes[:2].T).equations
