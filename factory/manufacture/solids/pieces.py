@@ -277,7 +277,8 @@ def _best_cut(matter: Matter, node: _Node) -> tuple[Span, ...]:
             if cost >= least:
                 break
         else:
-            best, least = halves, cost
+            best = halves
+            least = cost
     return best
 
 
