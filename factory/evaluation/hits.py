@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..articulation import Joint
-from ..geometry.areas import face_areas
+from ..geometry.triangles import face_areas
 from ..mesh import FloatArray
 from .bodies import Bodies, face_centres
 from .pairing import Pairing

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..articulation import Articulation, Joint, JointKind
-from ..geometry.areas import face_areas
+from ..geometry.triangles import face_areas
 from ..mesh import FloatArray
 from ..particulate.prediction import MotionClass
 from .bodies import Bodies, BoolArray, bodies_of, face_centres

@@ -21,9 +21,9 @@ from ..articulate.auto.trust import SIGNS, Trust
 from ..articulation import Articulation, Joint, JointKind
 from ..config import AutoConfig, BuildConfig, IntakeConfig, ParticulateConfig
 from ..errors import InputRejected
-from ..geometry.areas import face_areas
 from ..geometry.components import connected_components
 from ..geometry.posing import closed, turned
+from ..geometry.triangles import face_areas
 from ..mesh import FloatArray
 from ..runtime.store import write_whole
 from ..training.objects.catalog import CATEGORIES, make_object

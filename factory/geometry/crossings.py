@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..mesh import FloatArray, IntArray, Mesh
+from .triangles import ends_of
 
 BoolArray = npt.NDArray[np.bool_]
 
@@ -148,8 +149,9 @@ def crossings(mesh: Mesh, raster: Raster) -> Crossings:
 def _batches(flat: FloatArray, raster: Raster) -> Iterator[tuple[IntArray, IntArray, IntArray]]:
     """Triangles with the first pixel and the size of the boxes around them, a batch at a time."""
     limit = np.array([raster.columns, raster.rows])
-    low = np.clip(np.ceil(flat.min(axis=1)), 0, limit).astype(np.int64)
-    high = np.clip(np.floor(flat.max(axis=1)) + 1, 0, limit).astype(np.int64)
+    least, most = ends_of(flat)
+    low = np.clip(np.ceil(least), 0, limit).astype(np.int64)
+    high = np.clip(np.floor(most) + 1, 0, limit).astype(np.int64)
     size = np.maximum(high - low, 0)
     count = size.prod(axis=1)
     faces = np.flatnonzero(count)

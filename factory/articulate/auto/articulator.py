@@ -11,8 +11,8 @@ import numpy as np
 from ...articulation import Articulation, Joint, JointKind, Part, Weights
 from ...config import AutoConfig, BuildConfig, ParticulateConfig
 from ...errors import ConfigError
-from ...geometry.areas import face_areas
 from ...geometry.components import connected_components
+from ...geometry.triangles import face_areas
 from ...intake.intake import Intake
 from ...mesh import FloatArray, IntArray, Mesh
 from ...particulate.inference import Network

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...geometry.areas import face_areas
 from ...geometry.crossings import Side
 from ...geometry.elevations import elevation
+from ...geometry.triangles import face_areas
 from ...mesh import IntArray, Mesh
 from .proposal import Proposal, Proposer
 

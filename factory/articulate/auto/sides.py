@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...articulation import JointKind
-from ...geometry.areas import face_areas
 from ...geometry.crossings import BoolArray, Crossings, Raster, Side, crossings
 from ...geometry.elevations import PIXELS, Elevation, nearest
+from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, IntArray, Mesh
 from ..evidence import SeenMotion
 from ..seams.cutting import CutMesh, cut_around, inside, uncut

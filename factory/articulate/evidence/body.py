@@ -10,6 +10,7 @@ import numpy.typing as npt
 from scipy.spatial import cKDTree
 
 from ...geometry.components import connected_components
+from ...geometry.triangles import ends_of
 from ...mesh import FloatArray, IntArray, Mesh, read_only
 from .frames import distinct, level_frame, own_frame
 from .grid import Grid, grid_around
@@ -65,7 +66,7 @@ class Partition:
     @cached_property
     def ends(self) -> tuple[FloatArray, FloatArray]:
         """Box corners of every face [m], two of shape [face_count, 3]."""
-        return self.triangles.min(axis=1), self.triangles.max(axis=1)
+        return ends_of(self.triangles)
 
     @cached_property
     def part_diagonals(self) -> FloatArray:
@@ -251,9 +252,8 @@ def _near(
             break
         triangles = _quartered(triangles[large])
         owner = np.tile(owner[large], 4)
-        inside = (triangles.min(axis=1) <= high).all(axis=1) & (triangles.max(axis=1) >= low).all(
-            axis=1
-        )
+        below, above = ends_of(triangles)
+        inside = ((below <= high) & (above >= low)).all(axis=1)
         triangles = triangles[inside]
         owner = owner[inside]
     return np.concatenate(small), np.concatenate(owners)

@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ...geometry.triangles import ends_of
 from ...mesh import FloatArray, IntArray
 
 FRONT = 1
@@ -33,7 +34,7 @@ class Scene:
 
     @cached_property
     def _ends(self) -> tuple[FloatArray, FloatArray]:
-        return self.triangles.min(axis=1), self.triangles.max(axis=1)
+        return ends_of(self.triangles)
 
     @cached_property
     def _columns(self) -> tuple[FloatArray, FloatArray]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...geometry.crossings import BoolArray
+from ...geometry.triangles import ends_of
 from ...mesh import FloatArray, IntArray, Mesh
 
 #: Vertices nearer to a plane than this share of the diagonal lie on it.
@@ -68,7 +69,8 @@ def cut_around(cut: CutMesh, region: Region) -> CutMesh:
     for normal, offset in zip(region.normals, region.offsets, strict=True):
         height = cut.mesh.vertices @ normal - offset
         corners = height[cut.mesh.faces[near]]
-        passes = (corners.min(axis=1) < -tolerance) & (corners.max(axis=1) > tolerance)
+        low, high = ends_of(corners)
+        passes = (low < -tolerance) & (high > tolerance)
         if passes.any():
             cut = _split(cut, height, near[passes], tolerance)
             near = _near(cut.mesh, region, tolerance)

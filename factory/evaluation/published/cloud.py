@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind
-from ...geometry.areas import face_areas
+from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, IntArray, read_only
 from ..bodies import bodies_of
 

@@ -11,8 +11,8 @@ from manifold3d import Manifold
 
 from ...articulation import Articulation
 from ...asset import Hull
-from ...geometry.areas import face_areas
 from ...geometry.rows import distinct_rows
+from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, Mesh
 from ..poses import relative_poses
 from .convex import depth_below

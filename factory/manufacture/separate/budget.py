@@ -11,7 +11,7 @@ import numpy.typing as npt
 from ...articulation import Joint
 from ...asset import Hull
 from ...config import SeparateConfig
-from ...geometry.areas import face_areas
+from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, Mesh
 from ..decompose.convex import depth_below
 from ..decompose.solids import manifold_of_hull, union

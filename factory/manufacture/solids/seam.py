@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...geometry.crossings import BoolArray
+from ...geometry.triangles import ends_of
 from ...mesh import FloatArray, IntArray, Mesh
 from .box import Box
 
@@ -49,7 +50,7 @@ class CutSkin:
 
     def touching(self, box: Box) -> BoolArray:
         """Triangles whose bounds meet a box, shape [n]."""
-        low, high = _ends(self.corners)
+        low, high = ends_of(self.corners)
         return np.asarray(((low <= box.high) & (high >= box.low)).all(axis=1))
 
     def chosen(self, which: BoolArray | IntArray) -> CutSkin:
@@ -81,19 +82,11 @@ def cut(skin: CutSkin, normal: FloatArray, offset: float, which: BoolArray) -> C
     """
     height = skin.corners @ normal - offset
     height[np.abs(height) < ON_PLANE_M] = 0.0
-    low, high = _ends(height)
+    low, high = ends_of(height)
     crossing = which & (low < 0.0) & (high > 0.0)
     if not crossing.any():
         return skin
     return skin.chosen(~crossing).joined(_halved(skin.chosen(crossing), height[crossing]))
-
-
-def _ends(of_corners: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """The least and the greatest of each triangle's three values, given along the second axis."""
-    first, second, third = np.moveaxis(of_corners, 1, 0)
-    low = np.minimum(np.minimum(first, second), third)
-    high = np.maximum(np.maximum(first, second), third)
-    return low, high
 
 
 def _halved(skin: CutSkin, height: FloatArray) -> CutSkin:

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...articulation import Articulation
 from ...geometry.posing import face_parts
+from ...geometry.triangles import ends_of
 from ...mesh import FloatArray, IntArray
 from .clipping import clipped
 from .shape import BoolArray
@@ -43,7 +44,7 @@ class Surroundings:
     @cached_property
     def boxes(self) -> tuple[FloatArray, FloatArray]:
         """Lower and upper corners of each triangle's box [m], shapes [triangle_count, 3]."""
-        return self.triangles.min(axis=1), self.triangles.max(axis=1)
+        return ends_of(self.triangles)
 
     @cached_property
     def bounds(self) -> FloatArray:
@@ -113,7 +114,7 @@ class HandView:
 
     @cached_property
     def _boxes(self) -> tuple[FloatArray, FloatArray]:
-        return self.local.min(axis=1), self.local.max(axis=1)
+        return ends_of(self.local)
 
     def _met(self, low: FloatArray, high: FloatArray) -> BoolArray:
         """Triangles whose boxes meet a box."""
@@ -149,9 +150,10 @@ class HandView:
         along = self.within(low, high)[:, :, 0]
         if not len(along):
             return np.zeros((0, 2))
-        order = np.argsort(along.min(axis=1), kind="stable")
-        starts = along.min(axis=1)[order]
-        ends = np.maximum.accumulate(along.max(axis=1)[order])
+        least, most = ends_of(along)
+        order = np.argsort(least, kind="stable")
+        starts = least[order]
+        ends = np.maximum.accumulate(most[order])
         new = np.concatenate([[True], starts[1:] > ends[:-1] + gap])
         last = np.concatenate([new[1:], [True]])
         return np.stack([starts[new], ends[last]], axis=1)

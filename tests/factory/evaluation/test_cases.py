@@ -19,9 +19,9 @@ from asset_factory.factory.evaluation.cases import (
 from asset_factory.factory.evaluation.listing import COLUMNS, HALVES, half_of, read_list
 from asset_factory.factory.evaluation.merging import merged
 from asset_factory.factory.evaluation.physical import physical
-from asset_factory.factory.geometry.areas import face_areas
 from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.geometry.posing import face_parts
+from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.runtime.store import Store
 from asset_factory.factory.training.objects.sample_files import write_sample
 

@@ -5,8 +5,8 @@ from cupboards import cupboard, hinge
 
 from asset_factory.factory.evaluation.physical import physical
 from asset_factory.factory.evaluation.transfer import on_mesh, sources
-from asset_factory.factory.geometry.areas import face_areas
 from asset_factory.factory.geometry.posing import face_parts
+from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import Mesh
 
 

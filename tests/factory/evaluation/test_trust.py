@@ -17,7 +17,7 @@ from asset_factory.factory.evaluation.trust import (
     procedural,
     text_of,
 )
-from asset_factory.factory.geometry.areas import face_areas
+from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.training.objects import make_object
 
 FRIDGE = make_object("fridge", 0)

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from asset_factory.factory.articulate.auto.contacts import _touching, contacts_of, settled
-from asset_factory.factory.geometry.areas import face_areas
+from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import Mesh, concatenate
 
 FACES = 12

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from one_piece import fridge
 
 from asset_factory.factory.articulate.seams.cutting import Region, cut_around, inside, uncut
-from asset_factory.factory.geometry.areas import face_areas
+from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import Mesh
 
 

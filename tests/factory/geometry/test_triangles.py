@@ -1,0 +1,26 @@
+"""How large triangles are, and how far they reach."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+from asset_factory.factory.geometry.triangles import ends_of, face_areas
+from asset_factory.factory.mesh import Mesh
+
+SHAPES = st.tuples(st.integers(0, 5), st.just(3), st.integers(1, 3))
+
+
+@given(hnp.arrays(np.float64, SHAPES, elements=st.floats(-1e3, 1e3)))
+def test_ends_are_those_along_the_corners(corners: np.ndarray) -> None:
+    low, high = ends_of(corners)
+    assert (low == corners.min(axis=1)).all()
+    assert (high == corners.max(axis=1)).all()
+
+
+def test_half_a_square_has_half_its_area() -> None:
+    corners = np.array([[0.0, 0.0, 1.0], [2.0, 0.0, 1.0], [0.0, 2.0, 1.0]])
+    assert face_areas(Mesh.from_triangles(corners, [[0, 1, 2]])) == pytest.approx(2.0)
