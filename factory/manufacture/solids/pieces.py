@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from heapq import heappop, heappush
-from operator import attrgetter
+from operator import itemgetter
 
 import numpy as np
 import numpy.typing as npt
@@ -47,9 +47,17 @@ MOST_CORNERS = 64
 
 @dataclass(frozen=True)
 class _Node:
-    """Cells between planes, the hull of the matter in them, and what it fills wrongly [m3]."""
+    """Cells between planes.
+
+    Attributes:
+        span: the cells.
+        points: of the matter's surface in them [m], shape [n, 3].
+        hull: of the matter in them.
+        waste: what it fills wrongly [m3].
+    """
 
     span: Span
+    points: FloatArray
     hull: Hull
     waste: float
 
@@ -79,10 +87,11 @@ def convex_pieces(matter: Matter, most: int) -> tuple[Hull, ...]:
     waiting: list[tuple[float, int, _Node]] = []
     done: list[_Node] = []
     spans: list[Span] = _islands(matter.solid)
+    points = matter.points
     number = 0
     while True:
         for span in spans:
-            node = _node(matter, span)
+            node = _node(matter, span, points)
             if node is not None and node.waste > trifle:
                 number += 1
                 heappush(waiting, (-node.waste, number, node))
@@ -91,6 +100,7 @@ def convex_pieces(matter: Matter, most: int) -> tuple[Hull, ...]:
         if not waiting or len(waiting) + len(done) >= most:
             break
         node = heappop(waiting)[2]
+        points = node.points
         spans = list(_best_cut(matter, node))
         if not spans:
             done.append(node)
@@ -119,22 +129,24 @@ def _meet(a: Span, b: Span) -> bool:
     return all(p.start < q.stop and q.start < p.stop for p, q in zip(a, b, strict=True))
 
 
-def _node(matter: Matter, span: Span) -> _Node | None:
+def _node(matter: Matter, span: Span, points: FloatArray) -> _Node | None:
     trimmed = _trimmed(matter.solid, span)
     if trimmed is None:
         return None
     corners = _corners(matter, trimmed)
     box = _box(matter.lattice, trimmed)
-    surface = matter.points[box.holds(matter.points, 1e-9)]
+    surface = points[box.holds(points, 1e-9)]
     outermost = _extreme(np.concatenate([corners, surface]), DIRECTIONS)
     hull = hull_of(outermost)
     if hull is not None:
-        return _Node(trimmed, hull, _waste(matter, trimmed, hull))
-    return min(_foils(matter, trimmed, outermost), key=attrgetter("waste"), default=None)
+        return _Node(trimmed, surface, hull, _waste(matter, trimmed, hull))
+    foils = _foils(matter, trimmed, outermost)
+    hull, waste = min(foils, key=itemgetter(1), default=(None, 0.0))
+    return None if hull is None else _Node(trimmed, surface, hull, waste)
 
 
-def _foils(matter: Matter, span: Span, points: FloatArray) -> Iterator[_Node]:
-    """What is flat, given thickness to either side: a wall that is modelled as one sheet."""
+def _foils(matter: Matter, span: Span, points: FloatArray) -> Iterator[tuple[Hull, float]]:
+    """A sheet, made thick to either side, and what that fills wrongly [m3]; none if not flat."""
     if len(points) < 3:
         return
     _, spread, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
@@ -144,7 +156,7 @@ def _foils(matter: Matter, span: Span, points: FloatArray) -> Iterator[_Node]:
     for thickness in (-FOIL_M, FOIL_M):
         foil = hull_of(np.concatenate([points, points + thickness * axes[2]]))
         if foil is not None:
-            yield _Node(span, foil, _waste(matter, span, foil))
+            yield foil, _waste(matter, span, foil)
 
 
 def _trimmed(solid: BoolArray, span: Span) -> Span | None:
@@ -324,7 +336,7 @@ def _cost(matter: Matter, nearby: _Nearby, span: Span) -> float:
     except (QhullError, ValueError, IndexError):
         size = own
         # Slivers of a sheet, of which no foil is made, are lost.
-        waste = min((foil.waste for foil in _foils(matter, trimmed, outermost)), default=own)
+        waste = min((each for _, each in _foils(matter, trimmed, outermost)), default=own)
     else:
         size = float(hull.volume)
         waste = max(size - FULLER * own, 0.0) + _blocked(matter, nearby, trimmed, box, hull)
