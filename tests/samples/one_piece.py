@@ -147,6 +147,16 @@ def tall_drawers(edge=EDGE):
     return mesh_of(solid, edge)
 
 
+def bars_that_meet(edge=EDGE):
+    """Two panels above two, each with a long bar at the seam between the rows."""
+    solid = _box((0.0, 0.0, 0.0), (0.9, 0.4, 0.9))
+    for left, right in ((0.03, 0.445), (0.455, 0.87)):
+        for low, high, at in ((0.03, 0.445, 0.4), (0.455, 0.87, 0.5)):
+            solid = _engraved(solid, *frame(left, low, right, high))
+            solid += bar((left + 0.05, at - 0.01), (right - 0.05, at + 0.01))
+    return mesh_of(solid, edge)
+
+
 def filing_cabinet(edge=EDGE):
     """Five drawers above each other, a bar on each: handles, no controls."""
     solid = _box((0.0, 0.0, 0.0), (0.5, 0.6, 1.3))

@@ -283,4 +283,4 @@ def _close(found: list[Protrusion], row: list[int], axis: int, spacing: float) -
     """Controls lie side by side; drawers' knobs are a drawer apart."""
     places = np.sort([found[j].center[axis] for j in row])
     size = max(float(found[j].size.max()) for j in row)
-    return bool(np.median(np.diff(places)) <= spacing * size)
+    return bool(np.median(np.diff(places)) < spacing * size)

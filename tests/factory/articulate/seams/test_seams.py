@@ -151,6 +151,12 @@ def test_the_lid_of_a_bin_opens_upwards(quarters: int) -> None:
     assert lifted[2] > middle[2] + 0.05
 
 
+def test_long_bars_in_two_rows_are_pulls_and_no_knobs() -> None:
+    found = read(sample("bars_that_meet"))
+    assert len(found.joints) == 4
+    assert all(joint.kind is not TURNS for joint in found.joints)
+
+
 def test_a_panel_ends_at_its_seam_and_takes_its_handle_along() -> None:
     found = read(sample("drawers"))
     for part, (low, high) in enumerate(((0.06, 0.32), (0.34, 0.6), (0.62, 0.86)), start=1):
