@@ -11,7 +11,9 @@ from ..mesh import FloatArray
 MOST_QUARTERS = 2.0
 
 
-def relative_poses(articulation: Articulation, a: int, b: int, count: int) -> list[FloatArray]:
+def relative_poses(
+    articulation: Articulation, a: int, b: int, count: int, share: float = 1.0
+) -> list[FloatArray]:
     """Where part ``b`` is as seen from ``a``, [4, 4] each.
 
     As modelled, closed, and along each joint between them.
@@ -22,6 +24,7 @@ def relative_poses(articulation: Articulation, a: int, b: int, count: int) -> li
         b: of another.
         count: poses along each joint; along a hinge that turns further than a quarter turn, in
             each quarter.
+        share: of each joint's range, from its lower end, that they lie in.
     """
     lower = {joint.name: joint.lower for joint in articulation.movable_joints}
     values: list[dict[str, float]] = [{}, lower]
@@ -30,7 +33,7 @@ def relative_poses(articulation: Articulation, a: int, b: int, count: int) -> li
         steps = int(np.ceil((count - 1) * min(max(quarters, 1.0), MOST_QUARTERS)))
         values += [
             {**lower, joint.name: float(q)}
-            for q in np.linspace(joint.lower, joint.upper, steps + 1)[1:]
+            for q in np.linspace(joint.lower, joint.lower + share * joint.range, steps + 1)[1:]
         ]
     # Of these two alone: a keyboard has a hundred parts, each of which asks about all others.
     above_a, above_b = (_joints_above(articulation, part)[::-1] for part in (a, b))

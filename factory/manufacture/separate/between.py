@@ -17,6 +17,10 @@ from .hung import reach_m
 STEP_M = 0.004
 #: at most so many for each that was cut at; and again after what was missed is cut, so often.
 FINEST = 8
+#: Of as much of its range as a door takes to leave its frame, in shorter steps: its corner passes
+#: that of the frame.
+LEAVING = 0.1
+LEAVING_STEP_M = 0.0015
 MOST_LOOKS = 3
 #: Hulls may be as near as this between two poses: PyBullet feels what is nearer [m].
 LEAST_M = 0.002
@@ -42,7 +46,11 @@ def poses_between(
     turning = [joint for joint in joints_between(articulation, *parts) if joint.turns]
     way = max((joint.range * reach_m(mover, joint) for joint in turning), default=0.0)
     finer = min(int(way / STEP_M), FINEST * (count - 1)) + 1
-    return relative_poses(articulation, *parts, finer) if finer > count else []
+    if finer <= count:
+        return []
+    leaving = min(int(LEAVING * way / LEAVING_STEP_M), FINEST * (count - 1)) + 1
+    first = relative_poses(articulation, *parts, leaving, LEAVING)
+    return first + relative_poses(articulation, *parts, finer)
 
 
 def cut_between(
