@@ -132,3 +132,22 @@ def test_what_a_long_arm_passes_between_two_poses_is_cut_too():
     assert result.refused == {}
     hulls = [list(piece.hulls) for piece in result.pieces]
     assert max(hull_depth(*hulls, pose) for pose in relative_poses(tree, 0, 1, 900)) == 0.0
+
+
+@pytest.mark.parametrize("share", np.linspace(0.0, 0.8, 5))
+def test_what_leaves_its_frame_keeps_the_distance_that_engines_feel(share):
+    # Its round end passes a round post at 1.3 mm, in the first tenth of its way.
+    end = cylinder(0.002, 0.0, 0.1)
+    end.apply_translation([0.8, 0.0, 0.0])
+    post = cylinder(0.002, 0.0, 0.1)
+    post.apply_translation([0.8 + 0.004 + 0.0013, 0.0, 0.0])
+    angle = 0.1 + share * 0.005
+    post.apply_transform(trimesh.transformations.rotation_matrix(angle, UP))
+    arm = box((0.0, -0.002, 0.0), (0.8, 0.002, 0.1))
+    floor = box((-0.2, -0.2, -0.1), (0.9, 0.9, -0.05))
+    tree, result = cut([arm, end], replace(TURN, origin=np.zeros(3)), [floor, post])
+    assert result.refused == {}
+    hulls = [list(piece.hulls) for piece in result.pieces]
+    leaving = relative_poses(tree, 0, 1, 800, share=0.1)
+    nearest = -max(hull_depth(*hulls, pose, CONFIG.clearance_m) for pose in leaving)
+    assert nearest > 0.0018
