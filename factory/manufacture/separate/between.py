@@ -17,11 +17,10 @@ from .hung import reach_m
 STEP_M = 0.004
 #: at most so many for each that was cut at; and again after what was missed is cut, so often.
 FINEST = 8
-#: Of as much of its range as a door takes to leave its frame, in shorter steps: its corner passes
-#: that of the frame.
+MOST_LOOKS = 3
+#: In the first share of its range a door leaves its frame, corner past corner: steps are shorter.
 LEAVING = 0.1
 LEAVING_STEP_M = 0.0015
-MOST_LOOKS = 3
 #: Hulls may be as near as this between two poses: PyBullet feels what is nearer [m].
 LEAST_M = 0.002
 

@@ -244,6 +244,8 @@ def filled(lattice: Lattice, weights: Weights, span: Span, hull: Hull) -> float:
 
     What is thinner than cells may pass between their centres: it fills what it crosses.
     """
+    if not weights[span].any():
+        return 0.0
     planes = _within(hull.planes * [1.0, 1.0, 1.0, -1.0], hull.vertices, lattice.step)
     return _filled(lattice, weights, span, planes)
 
