@@ -22,6 +22,7 @@ from scipy.sparse.csgraph import breadth_first_order, connected_components
 from ..asset import Hull, Inertial
 from ..config import InertiaConfig
 from ..errors import InvalidAsset
+from ..geometry.rows import distinct_rows
 from ..mesh import FloatArray, IntArray, Mesh
 
 #: Lighter bodies make constraint solvers ill-conditioned beside furniture of many kilograms [kg].
@@ -142,7 +143,7 @@ def _mesh_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _M
 def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
     """Faces with an area, one of each set of corners: back-to-back copies are one sheet."""
     real = faces[_areas(vertices, faces) > 0.0]
-    first = np.unique(np.sort(real, axis=1), axis=0, return_index=True)[1]
+    first, _ = distinct_rows(np.sort(real, axis=1))
     return real[np.sort(first)]
 
 

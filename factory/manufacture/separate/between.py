@@ -44,10 +44,11 @@ def poses_between(
     """
     turning = [joint for joint in joints_between(articulation, *parts) if joint.turns]
     way = max((joint.range * reach_m(mover, joint) for joint in turning), default=0.0)
-    finer = min(int(way / STEP_M), FINEST * (count - 1)) + 1
+    most = FINEST * (count - 1)
+    finer = min(int(way / STEP_M), most) + 1
     if finer <= count:
         return []
-    leaving = min(int(LEAVING * way / LEAVING_STEP_M), FINEST * (count - 1)) + 1
+    leaving = min(int(LEAVING * way / LEAVING_STEP_M), most) + 1
     first = relative_poses(articulation, *parts, leaving, LEAVING)
     return first + relative_poses(articulation, *parts, finer)
 

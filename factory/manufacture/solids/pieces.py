@@ -68,7 +68,8 @@ class _Nearby:
 
     Attributes:
         points: of the surface in its box [m], shape [n, 3].
-        centers: of cells in it that must stay free [m], shape [m, 3].
+        centers: of a sample of cells in it that must stay free [m], shape [m, 3]; none where all
+            are looked at.
         sizes: the weighted volume of each [m3], shape [m].
     """
 
@@ -310,9 +311,12 @@ def _halves(span: Span, axis: int, plane: int) -> tuple[Span, Span]:
 
 def _nearby(matter: Matter, span: Span) -> _Nearby:
     box = _box(matter.lattice, span)
+    points = matter.sparse[box.holds(matter.sparse, 1e-9)]
+    if _cells_in(span) < EXACT_BELOW:
+        # All cells of either half are looked at.
+        return _Nearby(points, np.zeros((0, 3)), np.zeros(0))
     centers, sizes = matter.sampled
     inside = box.holds(centers)
-    points = matter.sparse[box.holds(matter.sparse, 1e-9)]
     return _Nearby(points, centers[inside], sizes[inside])
 
 

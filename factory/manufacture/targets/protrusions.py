@@ -9,6 +9,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ...articulation import Joint
+from ...geometry.rows import distinct_rows
 from ...mesh import FloatArray, IntArray
 from .shape import BoolArray, PartShape, place, velocity
 
@@ -60,9 +61,10 @@ def opening_direction(joint: Joint, shape: PartShape) -> FloatArray:
     ahead = normals @ forward > np.cos(np.radians(45.0))
     if not ahead.any():
         return np.asarray(forward)
-    keys, inverse = np.unique(np.round(normals[ahead] * 4.0), axis=0, return_inverse=True)
-    weight = np.bincount(inverse.reshape(-1), shape.areas[ahead], len(keys))
-    commonest = keys[weight.argmax()] / np.linalg.norm(keys[weight.argmax()])
+    keys = np.round(normals[ahead] * 4.0)
+    first, which = distinct_rows(keys)
+    commonest = keys[first[np.bincount(which, shape.areas[ahead]).argmax()]]
+    commonest = commonest / np.linalg.norm(commonest)
     alike = ahead & (normals @ commonest > LOOKS_OUT)
     if not alike.any():
         return np.asarray(commonest)

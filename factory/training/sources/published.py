@@ -18,6 +18,7 @@ import numpy as np
 from ...articulate.annotated import AnnotatedArticulator
 from ...articulation import Articulation
 from ...errors import InputRejected
+from ...geometry.rows import distinct_rows
 from ...intake.annotation import AnnotatedJoint, Annotation
 from ...intake.limits import require_at_most
 from ...intake.loading import load_visual
@@ -121,5 +122,5 @@ def _joints(bones: Arrays, axes: Arrays, ranges: Arrays) -> tuple[AnnotatedJoint
 
 def _without_repeats(faces: IntArray) -> IntArray:
     """The first of every set of faces on the same vertices: the release writes visuals twice."""
-    _, first = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
+    first, _ = distinct_rows(np.sort(faces, axis=1))
     return np.sort(first)

@@ -50,7 +50,8 @@ PLACES = {
     "half, tiny": (180.0, (0.05, 0.05, 0.05)),
     "three quarters, huge": (270.0, (30.0, 30.0, 30.0)),
     "a little askew": (-7.0, (1.0, 1.0, 1.0)),
-    "askew, mirrored": (40.0, (-1.0, 1.0, 1.0)),
+    "askew": (20.0, (1.0, 1.0, 1.0)),
+    "far askew, mirrored": (40.0, (-1.0, 1.0, 1.0)),
 }
 
 
