@@ -8,8 +8,7 @@ import numpy.typing as npt
 from ..asset import Hull
 from ..geometry.rows import distinct_rows
 from ..mesh import FloatArray, IntArray, Material, Mesh
-from ..runtime.numbers import DECIMALS
-from .text import DECIMALS_UNIT, number, vector
+from .text import DECIMALS_UNIT, number, vector, vectors
 
 #: MuJoCo refuses meshes of fewer vertices, even those that nothing collides with.
 FEWEST_VERTICES = 4
@@ -17,7 +16,7 @@ FEWEST_VERTICES = 4
 
 def hull_obj(hull: Hull, origin: FloatArray) -> str:
     """One convex piece as OBJ, in a link frame with its origin at ``origin`` [m], object frame."""
-    return _lines([*_vertices(hull.vertices - origin), *_faces(hull.faces, None, None)])
+    return _lines([*vectors("v", hull.vertices - origin), *_faces(hull.faces, None, None)])
 
 
 def visual_obj(mesh: Mesh, origin: FloatArray, library: str, material: str) -> str:
@@ -39,9 +38,9 @@ def visual_obj(mesh: Mesh, origin: FloatArray, library: str, material: str) -> s
     return _lines(
         [
             f"mtllib {library}",
-            *_vertices(vertices),
-            *(f"vt {vector(row, DECIMALS_UNIT)}" for row in uv),
-            *(f"vn {vector(row, DECIMALS_UNIT)}" for row in normals),
+            *vectors("v", vertices),
+            *vectors("vt", uv, DECIMALS_UNIT),
+            *vectors("vn", normals, DECIMALS_UNIT),
             f"usemtl {material}",
             *_faces(mesh.faces, uv_index, normal_index),
         ]
@@ -67,20 +66,16 @@ def _lines(lines: list[str]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _vertices(vertices: FloatArray) -> list[str]:
-    return [f"v {vector(row, DECIMALS)}" for row in vertices.tolist()]
-
-
 def _corner_table(
     corners: FloatArray | None, missing: FloatArray
-) -> tuple[list[list[float]], IntArray | None]:
+) -> tuple[FloatArray, IntArray | None]:
     """Distinct rounded corner values, sorted, and each corner's index, shape [face_count, 3]."""
     if corners is None or not np.isfinite(corners).any():
-        return [], None
+        return np.zeros((0, len(missing))), None
     complete = np.where(np.isfinite(corners).all(axis=-1, keepdims=True), corners, missing)
     flat = np.round(complete.reshape(-1, complete.shape[-1]), DECIMALS_UNIT) + 0.0
     first, index = distinct_rows(flat)
-    return flat[first].tolist(), index.reshape(-1, 3)
+    return np.asarray(flat[first]), index.reshape(-1, 3)
 
 
 def filled_normals(mesh: Mesh) -> FloatArray:

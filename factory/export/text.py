@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from xml.etree import ElementTree
 
+from ..mesh import FloatArray
 from ..runtime.numbers import DECIMALS, magnitude, rounded
 
 #: Texture coordinates and unit normals.
@@ -19,6 +20,14 @@ def number(value: float, decimals: int = DECIMALS) -> str:
 def vector(values: Iterable[float], decimals: int = DECIMALS) -> str:
     """Several :func:`number` with spaces between, as URDF and MJCF want them."""
     return " ".join(number(value, decimals) for value in values)
+
+
+def vectors(word: str, rows: FloatArray, decimals: int = DECIMALS) -> list[str]:
+    """Return a line for each row: a word and its :func:`number`, for tables of many rows."""
+    values = rows.ravel().tolist()
+    flat = [repr(round(value, decimals) + 0.0).removesuffix(".0") for value in values]
+    columns = [flat[start :: rows.shape[1]] for start in range(rows.shape[1])]
+    return [" ".join(line) for line in zip([word] * len(rows), *columns, strict=True)]
 
 
 def scientific(values: Iterable[float]) -> str:

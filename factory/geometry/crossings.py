@@ -14,8 +14,8 @@ from .triangles import ends_of
 
 BoolArray = npt.NDArray[np.bool_]
 
-#: Pairs of a triangle and a pixel looked at in one go; bounds memory.
-_PAIRS = 2_000_000
+#: Pairs of a triangle and a pixel looked at in one go: few enough to stay in a core's cache.
+_PAIRS = 50_000
 #: Rays miss the round numbers that vertices of modelled meshes lie on [pixels].
 _SHIFT = 1.37e-4
 
@@ -141,7 +141,7 @@ def crossings(mesh: Mesh, raster: Raster) -> Crossings:
     if not found:
         found = [(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros(0))]
     face, pixel, weights, depth = (np.concatenate(parts) for parts in zip(*found, strict=True))
-    order = np.lexsort((depth, pixel))
+    order = _nearest_first(pixel, depth)
     face = face[order]
     return Crossings(raster, pixel[order], depth[order], face, turns[face] > 0.0, weights[order])
 
@@ -172,25 +172,49 @@ def _crossed(
     batch: tuple[IntArray, IntArray, IntArray],
     raster: Raster,
 ) -> tuple[IntArray, IntArray, FloatArray, FloatArray]:
+    """Return face, pixel, weights and depth of each crossing of a batch."""
     faces, low, size = batch
     count = size.prod(axis=1)
     owner = np.repeat(np.arange(len(faces)), count)
     place = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
-    wide = size[owner, 0]
-    column = low[owner, 0] + place % wide
-    row = low[owner, 1] + place // wide
+    down, right = np.divmod(place, size[owner, 0])
+    column = low[owner, 0] + right
+    row = low[owner, 1] + down
+    x, y = np.ascontiguousarray(flat[faces].transpose(2, 1, 0))
+    area = turns[faces]
+    shares: list[FloatArray] = []
+    for k in range(3):
+        one, other = k - 2, k - 1
+        with np.errstate(divide="ignore", invalid="ignore"):
+            # Of each corner, twice the area that the pixel spans with the other two.
+            share = (
+                (x[one][owner] - column) * (y[other][owner] - row)
+                - (y[one][owner] - row) * (x[other][owner] - column)
+            ) / area[owner]
+        # Half of a box is outside each edge: what one edge excludes is not asked of the next.
+        inside = np.flatnonzero(share >= 0.0)
+        owner, column, row = owner[inside], column[inside], row[inside]
+        shares = [*(each[inside] for each in shares), share[inside]]
+    weights = np.stack(shares, axis=1)
     face = faces[owner]
-    x = [flat[faces, k, 0][owner] - column for k in range(3)]
-    y = [flat[faces, k, 1][owner] - row for k in range(3)]
-    area = turns[face]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        # Of each corner, twice the area that the pixel spans with the other two.
-        shares = [(x[k - 2] * y[k - 1] - y[k - 2] * x[k - 1]) / area for k in range(3)]
-    inside = (shares[0] >= 0.0) & (shares[1] >= 0.0) & (shares[2] >= 0.0)
-    weights = np.stack([share[inside] for share in shares], axis=1)
-    face = face[inside]
     depth = np.einsum("ij,ij->i", weights, depths[face])
-    return face, row[inside] * raster.columns + column[inside], weights, depth
+    return face, row * raster.columns + column, weights, depth
+
+
+def _nearest_first(pixel: IntArray, depth: FloatArray) -> IntArray:
+    """Return the order by pixel, then depth, then place: ``np.lexsort`` in a quarter of its time.
+
+    Numbers of 64 bits hold all three as long as pixels, depths and places are few enough.
+    """
+    by_depth = np.argsort(depth)
+    rank = np.empty(len(depth), dtype=np.int64)
+    rank[by_depth] = np.cumsum(np.diff(depth[by_depth], prepend=-np.inf) > 0.0)
+    bits = len(depth).bit_length()
+    if int(pixel.max(initial=0)).bit_length() + 2 * bits > 63:
+        return np.lexsort((depth, pixel))
+    key = (pixel << bits | rank) << bits | np.arange(len(depth))
+    key.sort()
+    return np.asarray(key & ((1 << bits) - 1))
 
 
 def _doubled_areas(triangles: FloatArray) -> FloatArray:

@@ -194,17 +194,15 @@ def _corners(matter: Matter, span: Span) -> FloatArray:
 
 
 def _ends(corners: BoolArray) -> BoolArray:
-    """The first and last corner of every row along the longest axis: all others lie between."""
+    """Return the first and last corner of each row along the longest axis; others lie between."""
     axis = int(np.argmax(corners.shape))
-    before = np.logical_or.accumulate(corners, axis=axis)
-    after = np.flip(np.logical_or.accumulate(np.flip(corners, axis), axis=axis), axis)
-    steps = [(1, 0) if axis == other else (0, 0) for other in range(3)]
-    started = np.pad(before, steps)[tuple(slice(0, size) for size in corners.shape)]
-    steps = [(0, 1) if axis == other else (0, 0) for other in range(3)]
-    ended = np.pad(after, steps)[
-        tuple(slice(1, None) if axis == other else slice(None) for other in range(3))
-    ]
-    return np.asarray(corners & ~(started & ended))
+    rows = np.ascontiguousarray(np.moveaxis(corners, axis, -1))
+    ends = np.zeros_like(rows)
+    for forward, marked in ((rows, ends), (rows[..., ::-1], ends[..., ::-1])):
+        first = forward.argmax(axis=-1, keepdims=True)
+        np.put_along_axis(marked, first, True, axis=-1)
+    # A row without corners has no first one.
+    return np.asarray(np.moveaxis(ends & rows, -1, axis))
 
 
 @lru_cache(maxsize=4)

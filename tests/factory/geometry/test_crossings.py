@@ -1,0 +1,41 @@
+"""Crossings come in one order, however they are found."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from asset_factory.factory.geometry import crossings as module
+from asset_factory.factory.geometry.crossings import Raster, Side, crossings
+from asset_factory.factory.mesh import Mesh
+
+#: Few values, so that pixels and depths are equal often.
+pairs = st.lists(st.tuples(st.integers(0, 5), st.sampled_from([-0.0, 0.0, 0.25, 0.5])))
+
+
+@given(pairs, st.sampled_from([1, 2**60]))
+def test_crossings_are_ordered_by_pixel_depth_and_place(
+    found: list[tuple[int, float]], scale: int
+) -> None:
+    pixel = np.array([pair[0] for pair in found], dtype=np.int64) * scale
+    depth = np.array([pair[1] for pair in found], dtype=np.float64)
+    order = module._nearest_first(pixel, depth)
+    assert order.tolist() == sorted(
+        range(len(found)), key=lambda place: (pixel[place], depth[place], place)
+    )
+
+
+def test_how_many_pairs_are_looked_at_in_one_go_changes_nothing(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    generator = np.random.default_rng(3)
+    mesh = Mesh.from_triangles(generator.random((60, 3)), np.arange(60).reshape(20, 3))
+    raster = Raster.around(mesh, Side.LEFT, 40)
+    whole = crossings(mesh, raster)
+    monkeypatch.setattr(module, "_PAIRS", 7)
+    parts = crossings(mesh, raster)
+    assert len(whole.pixel) > 1000
+    for name in ("pixel", "depth", "face", "inward", "weights"):
+        assert np.array_equal(getattr(whole, name), getattr(parts, name)), name
