@@ -71,6 +71,15 @@ class MotionConfig:
         drift_soft, drift_hard: share of its range by which contact alone may push a resting joint
             open.
         fall_soft: share of its range that a joint may open under its own weight unmentioned.
+        held_s: how long a joint that friction should hold is left alone, at three values of its
+            range [s].
+        hold_share: friction should hold a joint whose load, by the description's masses, is at
+            most this share of it. Friction of 1.01 times the load was measured to hold in PyBullet,
+            and to creep no further in MuJoCo than friction of twice the load.
+        creep_share, creep_m, creep_rad: a joint that is held and moves further than this share of
+            its range, and in any case further than this [m] or [rad], creeps. Someone who looks
+            away for the two seconds sees no difference below; MuJoCo's default friction creeps by
+            20 mm and, at an arm of 0.3 m, 0.05 rad, and its stiffest by 0.02 mm and 5e-5 rad.
         energy_soft_m, energy_hard_m: energy that nothing gave, as the height to which it would lift
             what moves [m]: speeds from nowhere of 1 m/s, faster than a hand opens a drawer, and of
             2 m/s, faster than it ever does. MuJoCo and PyBullet were measured to give them to
@@ -99,6 +108,11 @@ class MotionConfig:
     drift_soft: float = 0.02
     drift_hard: float = 0.1
     fall_soft: float = 0.05
+    held_s: float = 2.0
+    hold_share: float = 0.9
+    creep_share: float = 0.05
+    creep_m: float = 0.001
+    creep_rad: float = 0.01
     energy_soft_m: float = 0.05
     energy_hard_m: float = 0.2
     energy_floor_j: float = 0.01

@@ -37,6 +37,7 @@ HARD: Mapping[str, str] = {
     "pushed_at_rest": "a joint moves by itself, pushed by contact [share of its range]",
     "others_moved": "driving one joint moves another [share of its range]",
     "limit_overshoot": "a joint passes its limit [share of its range]",
+    "creeps": "left alone, a joint moves that its friction should hold [m or rad]",
     "energy_grows": "left alone, parts gain energy that nothing gave them [J]; soft up to 2 m/s",
     "not_finite": "a simulator produced NaN or infinity",
     "shape_dropped": "the simulator holds fewer collision shapes of a link than the file",
@@ -104,6 +105,11 @@ DEGREES: Mapping[str, tuple[str, str]] = {
     "others_moved": ("another joint pushed by 5 % of its range", "by half of it"),
     "limit_overshoot": ("2 % of the range beyond a limit", "20 %"),
     "pushed_at_rest": ("2 % of the range", "10 %"),
+    "creeps": (
+        "5 % of the range, 1 mm or 0.01 rad in 2 s, where no file of this format can tell the "
+        "engine to hold it",
+        "the same in any other engine and format",
+    ),
     "inertia_implausible": (
         "a radius of gyration over half the link's diagonal",
         "over all of it (`inertia_impossible`)",
