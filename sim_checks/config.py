@@ -166,9 +166,18 @@ class LintConfig:
         samples: points on each surface for these distances.
         density_low, density_high: mass over collision volume outside these is reported [kg/m3]: air
             is 1.2, lead 11000; a solid hull around a hollow thing weighs little.
-        density_hard: so many times below or above these rejects.
-        axis_slack: the axis of a slide may differ from length 1 by this; further off, engines move
-            it by different lengths, which rejects.
+        density_least, density_most: outside these rejects [kg/m3]; less than a twentieth of air,
+            more than osmium, the densest material. For ``density_most`` the volume is the larger of
+            the hulls' and of what the visible surfaces enclose, so that hulls cut back from the
+            visible shape condemn nothing.
+        sheet_m: visible surfaces are at least this thick [m] in that volume: thin metal.
+        center_soft, center_hard, center_m: a centre of mass further outside the box of its link
+            than the first share of the box's diagonal is reported; further than the second and than
+            ``center_m`` [m] it rejects. Mass lies within a body; a mesh that leaves out a motor or
+            a leg does not move its centre by a tenth of the whole.
+        axis_slack: an axis may differ from length 1 by this; further off, which rejects, engines
+            move a slide by different lengths, and a reader that takes it for a unit vector turns a
+            hinge by another angle.
         gyration_share: a radius of gyration above this share of the link's diagonal is reported; a
             uniform rod, the extreme, has 0.29. Above the whole diagonal it rejects: even two points
             in opposite corners have 0.5.
@@ -209,7 +218,12 @@ class LintConfig:
     samples: int = 500
     density_low: float = 5.0
     density_high: float = 12000.0
-    density_hard: float = 100.0
+    density_least: float = 0.05
+    density_most: float = 22600.0
+    sheet_m: float = 0.001
+    center_soft: float = 0.05
+    center_hard: float = 0.1
+    center_m: float = 0.01
     axis_slack: float = 0.01
     gyration_share: float = 0.5
     slide_share: float = 2.0
