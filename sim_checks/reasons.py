@@ -86,48 +86,79 @@ HARD: Mapping[str, str] = {
     "duplicate_name": "two links or joints of one name",
 }
 
-#: Codes that are soft up to a degree and hard beyond it: what is reported, and what rejects.
-DEGREES: Mapping[str, tuple[str, str]] = {
+#: Codes that warn from one degree on and are errors from another, which rejects; and why.
+DEGREES: Mapping[str, tuple[str, str, str]] = {
     "collision_gap": (
         "surfaces over 10 mm and 5 % of the link's diagonal apart",
         "under 90 % of the visible surface within 10 mm of collision geometry",
+        "a hand passes through what is seen, or stops before it",
     ),
     "density_implausible": (
         "under 5 or over 12,000 kg/m3 of hulls",
-        "under 0.05, or over 22,600 (osmium) of hulls and of what the visible surfaces enclose",
+        "under 0.05, or over 22,600 of hulls and of what the visible surfaces enclose",
+        "osmium has 22,600, lead 11,300, air 1.2; hulls around hollow things weigh little",
     ),
     "axis_not_unit": (
         "an axis whose length is over 0.001 off 1",
-        "over 0.01 off: loaders scale the motion by it or not",
+        "over 0.01 off",
+        "loaders scale motion by it or not",
     ),
     "center_outside": (
-        "over 5 % of the link's diagonal outside the box of its shapes",
-        "over 10 % and 10 mm",
+        "over 5 % of the diagonal outside the box of the link's shapes",
+        "over 10 %, and over 10 mm",
+        "mass lies within a body; small parts that a mesh leaves out move its centre little",
     ),
     "missing_inertia": (
-        "none stated of a link of the unmoved base, in a URDF",
-        "none stated of a link that moves: engines make up 1 kg, or water in its hulls",
+        "a URDF states none of a link that never moves",
+        "none of a link that moves",
+        "engines make up 1 kg, or fill its hulls with water",
     ),
-    "axis_remote": ("over one diagonal of its part away", "over two"),
-    "friction_excessive": ("over 30 N at the far edge", "over 100 N"),
-    "damping_excessive": ("over 30 N at the far edge in 3 s", "over 100 N"),
-    "energy_grows": ("speeds from nowhere of 1 m/s", "2 m/s"),
-    "others_moved": ("another joint pushed by 5 % of its range", "by half of it"),
-    "limit_overshoot": ("2 % of the range beyond a limit", "20 %"),
-    "pushed_at_rest": ("2 % of the range", "10 %"),
+    "axis_remote": (
+        "over one diagonal of its part away",
+        "over two",
+        "a hinge is fastened to something",
+    ),
+    "friction_excessive": (
+        "over 30 N at the far edge",
+        "over 100 N",
+        "a robot's arm pulls some 30 N, nobody opens against 100 N",
+    ),
+    "damping_excessive": ("over 30 N at the far edge to open it in 3 s", "over 100 N", "as above"),
+    "energy_grows": ("speeds from nowhere of 1 m/s", "2 m/s", "contacts act as springs"),
+    "others_moved": (
+        "another joint pushed by 5 % of its range",
+        "by half of it",
+        "a light touch is no obstacle, opening another is",
+    ),
+    "limit_overshoot": (
+        "2 % of the range beyond a limit",
+        "20 %",
+        "engines with soft limits pass theirs by a few percent",
+    ),
+    "pushed_at_rest": (
+        "2 % of the range",
+        "10 %",
+        "parts that overlap push each other open",
+    ),
     "creeps": (
-        "5 % of the range, 1 mm or 0.01 rad in 2 s, where no file of this format can tell the "
-        "engine to hold it",
-        "the same in any other engine and format",
+        "over 5 % of the range, 1 mm or 0.01 rad in 2 s, in MuJoCo from a URDF and in Newton",
+        "the same, in MuJoCo from an MJCF, in PyBullet and in SAPIEN",
+        "stated friction that outweighs the load must hold; no URDF can tell MuJoCo how stiffly",
     ),
     "inertia_implausible": (
         "a radius of gyration over half the link's diagonal",
         "over all of it (`inertia_impossible`)",
+        "a uniform rod has 0.29, two points in opposite corners 0.5",
     ),
-    "many_hull_vertices": ("over 64 corners of a hull", "over 4000"),
+    "many_hull_vertices": (
+        "over 64 corners of a hull",
+        "over 4000",
+        "PhysX on a GPU takes 64; each engine cooks thousands down to others",
+    ),
     "interior_filled": (
         "under half of the free space within the link's outline left free",
         "under half of a pocket that a hand gets into",
+        "what should go in finds it full",
     ),
 }
 
