@@ -142,7 +142,7 @@ DEGREES: Mapping[str, tuple[str, str, str]] = {
     ),
     "creeps": (
         "over 5 % of the range, 1 mm or 0.01 rad in 2 s, in MuJoCo from a URDF and in Newton",
-        "the same, in MuJoCo from an MJCF, in PyBullet and in SAPIEN",
+        "the same, in MuJoCo from an MJCF and in PyBullet; SAPIEN drops friction",
         "stated friction that outweighs the load must hold; no URDF can tell MuJoCo how stiffly",
     ),
     "inertia_implausible": (
@@ -189,6 +189,7 @@ SOFT: Mapping[str, str] = {
     "topples": "resting on the floor, fastened to nothing, it falls [mm]",
     "no_stable_footing": "it has no ground to stand on [mm]",
     "topples_when_pulled": "a hand's pull where a joint sticks or ends tips the whole object [N]",
+    "creeps": "the same in MuJoCo from a URDF, which cannot say how stiffly friction holds",
     "opens_by_itself": "a joint opens under its own weight [share of its range]",
     "mimic_ignored": "joints that the file couples move freely in this simulator",
     "link_added": "the simulator holds links that the file does not have",

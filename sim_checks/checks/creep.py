@@ -57,7 +57,7 @@ def check_creep(
             continue
         findings.extend(_findings(held, line, ranges[held.joint], simulator, config.motion, soft))
         row = {"at": held.values[held.joint], "moved": held.moved, "load": load}
-        rows.append({"joint": held.joint, **{k: round(v, DECIMALS) for k, v in row.items()}})
+        rows.append({"joint": held.joint, **{k: round(v, DECIMALS) + 0.0 for k, v in row.items()}})
     return CheckResult(tuple(_worst_of_each(findings)), {"hold": rows})
 
 
