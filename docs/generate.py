@@ -66,8 +66,8 @@ def reasons() -> str:
 
 def degrees() -> str:
     """Codes that reject from some degree on."""
-    rows = [(f"`{code}`", soft, hard) for code, (soft, hard) in DEGREES.items()]
-    return table(("code", "reported from", "rejects from"), rows)
+    rows = [(f"`{code}`", *degree) for code, degree in DEGREES.items()]
+    return table(("code", "warning at", "error at", "why"), rows)
 
 
 def articulators() -> str:

@@ -71,6 +71,15 @@ class MotionConfig:
         drift_soft, drift_hard: share of its range by which contact alone may push a resting joint
             open.
         fall_soft: share of its range that a joint may open under its own weight unmentioned.
+        held_s: how long a joint that friction should hold is left alone, at three values of its
+            range [s].
+        hold_share: friction should hold a joint whose load, by the description's masses, is at
+            most this share of it. Friction of 1.01 times the load was measured to hold in PyBullet,
+            and to creep no further in MuJoCo than friction of twice the load.
+        creep_share, creep_m, creep_rad: a joint that is held and moves further than this share of
+            its range, and in any case further than this [m] or [rad], creeps. Someone who looks
+            away for the two seconds sees no difference below; MuJoCo's default friction creeps by
+            20 mm and, at an arm of 0.3 m, 0.05 rad, and its stiffest by 0.02 mm and 5e-5 rad.
         energy_soft_m, energy_hard_m: energy that nothing gave, as the height to which it would lift
             what moves [m]: speeds from nowhere of 1 m/s, faster than a hand opens a drawer, and of
             2 m/s, faster than it ever does. MuJoCo and PyBullet were measured to give them to
@@ -99,6 +108,11 @@ class MotionConfig:
     drift_soft: float = 0.02
     drift_hard: float = 0.1
     fall_soft: float = 0.05
+    held_s: float = 2.0
+    hold_share: float = 0.9
+    creep_share: float = 0.05
+    creep_m: float = 0.001
+    creep_rad: float = 0.01
     energy_soft_m: float = 0.05
     energy_hard_m: float = 0.2
     energy_floor_j: float = 0.01
@@ -152,9 +166,18 @@ class LintConfig:
         samples: points on each surface for these distances.
         density_low, density_high: mass over collision volume outside these is reported [kg/m3]: air
             is 1.2, lead 11000; a solid hull around a hollow thing weighs little.
-        density_hard: so many times below or above these rejects.
-        axis_slack: the axis of a slide may differ from length 1 by this; further off, engines move
-            it by different lengths, which rejects.
+        density_least, density_most: outside these rejects [kg/m3]; less than a twentieth of air,
+            more than osmium, the densest material. For ``density_most`` the volume is the larger of
+            the hulls' and of what the visible surfaces enclose, so that hulls cut back from the
+            visible shape condemn nothing.
+        sheet_m: visible surfaces are at least this thick [m] in that volume: thin metal.
+        center_soft, center_hard, center_m: a centre of mass further outside the box of its link
+            than the first share of the box's diagonal is reported; further than the second and than
+            ``center_m`` [m] it rejects. Mass lies within a body; a mesh that leaves out a motor or
+            a leg does not move its centre by a tenth of the whole.
+        axis_slack: an axis may differ from length 1 by this; further off, which rejects, engines
+            move a slide by different lengths, and a reader that takes it for a unit vector turns a
+            hinge by another angle.
         gyration_share: a radius of gyration above this share of the link's diagonal is reported; a
             uniform rod, the extreme, has 0.29. Above the whole diagonal it rejects: even two points
             in opposite corners have 0.5.
@@ -195,7 +218,12 @@ class LintConfig:
     samples: int = 500
     density_low: float = 5.0
     density_high: float = 12000.0
-    density_hard: float = 100.0
+    density_least: float = 0.05
+    density_most: float = 22600.0
+    sheet_m: float = 0.001
+    center_soft: float = 0.05
+    center_hard: float = 0.1
+    center_m: float = 0.01
     axis_slack: float = 0.01
     gyration_share: float = 0.5
     slide_share: float = 2.0

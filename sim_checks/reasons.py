@@ -37,6 +37,7 @@ HARD: Mapping[str, str] = {
     "pushed_at_rest": "a joint moves by itself, pushed by contact [share of its range]",
     "others_moved": "driving one joint moves another [share of its range]",
     "limit_overshoot": "a joint passes its limit [share of its range]",
+    "creeps": "left alone, a joint moves that its friction should hold [m or rad]",
     "energy_grows": "left alone, parts gain energy that nothing gave them [J]; soft up to 2 m/s",
     "not_finite": "a simulator produced NaN or infinity",
     "shape_dropped": "the simulator holds fewer collision shapes of a link than the file",
@@ -74,44 +75,90 @@ HARD: Mapping[str, str] = {
     "limits_not_finite": "a limit that is no number",
     "missing_limits": "a joint that needs limits and has none",
     "zero_axis": "an axis of no length",
-    "axis_not_unit": "a slide's axis not of length 1, which engines move by other lengths",
+    "axis_not_unit": "an axis not of length 1, by which loaders scale the motion or not",
+    "center_outside": "a centre of mass a tenth of the link's diagonal outside its box [mm]",
+    "missing_inertia": "no inertia of a link that moves: each simulator makes up another",
     "collision_gap": "a tenth of a link's visible surface over 10 mm outside what can be touched",
-    "density_implausible": "a hundred times what any material has, or a hundredth [kg/m3]",
+    "density_implausible": "denser than osmium, or far lighter than air [kg/m3]",
     "unknown_joint_type": "a joint that no two engines move alike",
     "invalid_dynamics": "negative or infinite damping or friction",
     "not_a_tree": "links that do not hang below one root, each once",
     "duplicate_name": "two links or joints of one name",
 }
 
-#: Codes that are soft up to a degree and hard beyond it: what is reported, and what rejects.
-DEGREES: Mapping[str, tuple[str, str]] = {
+#: Codes that warn from one degree on and are errors from another, which rejects; and why.
+DEGREES: Mapping[str, tuple[str, str, str]] = {
     "collision_gap": (
         "surfaces over 10 mm and 5 % of the link's diagonal apart",
         "under 90 % of the visible surface within 10 mm of collision geometry",
+        "a hand passes through what is seen, or stops before it",
     ),
     "density_implausible": (
-        "under 5 or over 12,000 kg/m3",
-        "a hundred times less or more than that",
+        "under 5 or over 12,000 kg/m3 of hulls",
+        "under 0.05, or over 22,600 of hulls and of what the visible surfaces enclose",
+        "osmium has 22,600, lead 11,300, air 1.2; hulls around hollow things weigh little",
     ),
     "axis_not_unit": (
         "an axis whose length is over 0.001 off 1",
-        "a slide's axis over 0.01 off: engines move it by other lengths",
+        "over 0.01 off",
+        "loaders scale motion by it or not",
     ),
-    "axis_remote": ("over one diagonal of its part away", "over two"),
-    "friction_excessive": ("over 30 N at the far edge", "over 100 N"),
-    "damping_excessive": ("over 30 N at the far edge in 3 s", "over 100 N"),
-    "energy_grows": ("speeds from nowhere of 1 m/s", "2 m/s"),
-    "others_moved": ("another joint pushed by 5 % of its range", "by half of it"),
-    "limit_overshoot": ("2 % of the range beyond a limit", "20 %"),
-    "pushed_at_rest": ("2 % of the range", "10 %"),
+    "center_outside": (
+        "over 5 % of the diagonal outside the box of the link's shapes",
+        "over 10 %, and over 10 mm",
+        "mass lies within a body; small parts that a mesh leaves out move its centre little",
+    ),
+    "missing_inertia": (
+        "a URDF states none of a link that never moves",
+        "none of a link that moves",
+        "engines make up 1 kg, or fill its hulls with water",
+    ),
+    "axis_remote": (
+        "over one diagonal of its part away",
+        "over two",
+        "a hinge is fastened to something",
+    ),
+    "friction_excessive": (
+        "over 30 N at the far edge",
+        "over 100 N",
+        "a robot's arm pulls some 30 N, nobody opens against 100 N",
+    ),
+    "damping_excessive": ("over 30 N at the far edge to open it in 3 s", "over 100 N", "as above"),
+    "energy_grows": ("speeds from nowhere of 1 m/s", "2 m/s", "contacts act as springs"),
+    "others_moved": (
+        "another joint pushed by 5 % of its range",
+        "by half of it",
+        "a light touch is no obstacle, opening another is",
+    ),
+    "limit_overshoot": (
+        "2 % of the range beyond a limit",
+        "20 %",
+        "engines with soft limits pass theirs by a few percent",
+    ),
+    "pushed_at_rest": (
+        "2 % of the range",
+        "10 %",
+        "parts that overlap push each other open",
+    ),
+    "creeps": (
+        "over 5 % of the range, 1 mm or 0.01 rad in 2 s, in MuJoCo from a URDF and in Newton",
+        "the same, in MuJoCo from an MJCF and in PyBullet; SAPIEN drops friction",
+        "stated friction that outweighs the load must hold; no URDF can tell MuJoCo how stiffly",
+    ),
     "inertia_implausible": (
         "a radius of gyration over half the link's diagonal",
         "over all of it (`inertia_impossible`)",
+        "a uniform rod has 0.29, two points in opposite corners 0.5",
     ),
-    "many_hull_vertices": ("over 64 corners of a hull", "over 4000"),
+    "many_hull_vertices": (
+        "over 64 corners of a hull",
+        "over 4000",
+        "PhysX on a GPU takes 64; each engine cooks thousands down to others",
+    ),
     "interior_filled": (
         "under half of the free space within the link's outline left free",
         "under half of a pocket that a hand gets into",
+        "what should go in finds it full",
     ),
 }
 
@@ -142,6 +189,7 @@ SOFT: Mapping[str, str] = {
     "topples": "resting on the floor, fastened to nothing, it falls [mm]",
     "no_stable_footing": "it has no ground to stand on [mm]",
     "topples_when_pulled": "a hand's pull where a joint sticks or ends tips the whole object [N]",
+    "creeps": "the same in MuJoCo from a URDF, which cannot say how stiffly friction holds",
     "opens_by_itself": "a joint opens under its own weight [share of its range]",
     "mimic_ignored": "joints that the file couples move freely in this simulator",
     "link_added": "the simulator holds links that the file does not have",
@@ -156,8 +204,8 @@ SOFT: Mapping[str, str] = {
     "nonconvex_collision": "a collision mesh that is not convex: engines take its hull",
     "collision_gap": "visible and collision surface lie apart [mm]",
     "density_implausible": "mass over volume that no material has [kg/m3]",
-    "center_outside": "a centre of mass outside the link [m]",
-    "missing_inertia": "no inertia in the file, so that every simulator makes up another",
+    "center_outside": "a centre of mass outside the link's box [mm]",
+    "missing_inertia": "no inertia of a link that never moves",
     "inertia_invented": "a simulator made up an inertia that the file does not state",
     "zero_outside_limits": "0, where simulators start, is no value of the joint",
     "axis_not_unit": "an axis that is not of length 1, by which some loaders scale",

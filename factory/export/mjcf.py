@@ -3,6 +3,9 @@
 The root body has no joint, so it is welded to the world. MuJoCo collides a moving body with a
 *static* parent (PhysX and Bullet do not), so pairs that overlap on purpose need an
 ``<exclude>``.
+
+MuJoCo's joint friction is a soft constraint: what it should hold creeps in proportion to
+``1 - solimpfriction``. :data:`FRICTION_IMPEDANCE` makes that as little as MuJoCo allows.
 """
 
 from __future__ import annotations
@@ -18,6 +21,13 @@ from .text import DECIMALS_UNIT, number, scientific, vector, xml_text
 from .visuals import VisualPiece
 
 MESH_FOLDER = "meshes"
+#: Impedance of joint friction: ``dmin dmax width``, here the same at any violation, and the most
+#: that MuJoCo takes. Measured in 2 s at steps of 1/240 s, on a vertical slide and on a hinge with
+#: its centre of mass 0.3 m out, friction 1.2 times the load: MuJoCo's default of 0.9 lets them
+#: creep by 20.6 mm and 51 mrad, 0.99 by 1.96 mm and 4.8 mrad, 0.999 by 0.20 mm and 0.48 mrad,
+#: 0.9999 by 0.020 mm and 0.048 mrad, 0.99999 by no less. Neither mass, armature, step nor more
+#: friction changes this. Joints that are pushed move alike with 0.9 and 0.9999, to 0.01 %.
+FRICTION_IMPEDANCE = "0.9999 0.9999 0.001"
 
 #: What tells two appearances apart: linear RGBA, and the texture's file name below ``meshes``.
 Look = tuple[tuple[float, float, float, float], str | None]
@@ -51,6 +61,7 @@ def mjcf_text(layout: Layout) -> str:
 
 def _defaults() -> ElementTree.Element:
     default = Element("default")
+    SubElement(default, "joint", solimpfriction=FRICTION_IMPEDANCE)
     visual = SubElement(default, "default", {"class": "visual"})
     SubElement(visual, "geom", type="mesh", group="2", contype="0", conaffinity="0", mass="0")
     # A panel without thickness encloses no volume, and MuJoCo asks every mesh for one.

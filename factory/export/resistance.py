@@ -7,8 +7,10 @@ that was pushed comes to rest within about a second.
 ==========  =======================================================================================
 friction    revolute: ``clip(0.03 m g, 0.5 N, 3 N) * r`` [N m], r the reach of the moving part from
             the axis; prismatic: ``clip(0.03 m g, 1 N, 5 N)`` [N]. Never less than 1.2 times what
-            gravity pulls the closed joint open with, so that a closed oven door stays closed.
-damping     ``I / 0.5 s`` [N m s/rad] or ``m / 0.5 s`` [N s/m]: free motion halves every 0.35 s.
+            gravity pulls the closed joint open with, so that a closed oven door stays closed; but
+            never more than 20 N at the rim: what takes more to hold hangs on a spring or a latch.
+damping     ``I / 0.5 s`` [N m s/rad] or ``m / 0.5 s`` [N s/m]: free motion halves every 0.35 s;
+            opening in 3 s never takes more than 20 N at the rim.
 armature    ``0.01 I`` or ``0.01 m``, in MuJoCo only: steadies thin parts, changes motion by one
             percent.
 ==========  =======================================================================================
@@ -49,7 +51,10 @@ ARMATURE_SHARE = 0.01
 SHORTEST_TIME_S = 2.0 / 240.0
 #: Half of Bullet's greatest speed in a step of 1/240 s [rad/s2] or [m/s2].
 HARDEST_STOP = 0.5 * 100.0 * 240.0
-#: What a robot's arm can pull [N], and the time it may take [s].
+#: The most that is chosen here, for a light hand [N].
+CHOSEN_RIM_FORCE_N = 20.0
+#: The most that is kept of what was stated, what a robot's arm can pull [N], and the time that it
+#: may take [s].
 MOST_RIM_FORCE_N = 30.0
 OPENING_TIME_S = 3.0
 #: Stated friction of this many times what an arm can pull means something else: a lock, a mistake.
@@ -115,15 +120,24 @@ def _resistance(asset: Asset, joint: Joint, closed: FloatArray) -> Resistance:
         reach = 1.0
         friction = float(np.clip(weight, *SLIDE_FORCE_N))
     friction = max(friction, HOLD_CLOSED * _gravity_opens(asset, carried, joint, closed))
+    friction = min(friction, CHOSEN_RIM_FORCE_N * reach)
     most = MOST_RIM_FORCE_N * reach
     friction = friction if _beyond_reason(joint, most) else min(joint.friction or 0.0, most)
-    speed = (joint.upper - joint.lower) / OPENING_TIME_S
-    damping = inertia / REST_TIME_S if joint.damping is None else joint.damping
     return Resistance(
         inertia=inertia,
-        damping=min(damping, inertia / SHORTEST_TIME_S, most / speed if speed > 0.0 else damping),
+        damping=_damping(joint, inertia, reach),
         friction=min(friction, HARDEST_STOP * inertia),
     )
+
+
+def _damping(joint: Joint, inertia: float, reach: float) -> float:
+    """Return what was stated or chosen, as far as hands and engines bear it [N m s/rad, N s/m]."""
+    damping, pull = joint.damping, MOST_RIM_FORCE_N
+    if damping is None:
+        damping, pull = inertia / REST_TIME_S, CHOSEN_RIM_FORCE_N
+    speed = (joint.upper - joint.lower) / OPENING_TIME_S
+    most = pull * reach / speed if speed > 0.0 else damping
+    return min(damping, inertia / SHORTEST_TIME_S, most)
 
 
 def _beyond_reason(joint: Joint, most: float) -> bool:

@@ -1,4 +1,4 @@
-"""One engine's verdict on one file: a single killable child looks, two checks judge what it saw."""
+"""One engine's verdict on one file: a single killable child looks, checks judge what it saw."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from ..simulators.catalog import install_line, installed, simulator
 from ..simulators.observe import observe
 from ..simulators.simulator import Observation
 from .agreement import pose_samples
+from .creep import check_creep
 from .loading import check_loading
 from .motion import check_motion
 from .result import CheckResult
@@ -56,12 +57,14 @@ def judge_in_simulator(
     observation = outcome.value
     loading = check_loading(description, name, observation, config)
     motion = check_motion(description, name, observation, config)
+    soft = description.format in engine.soft_friction
+    creep = check_creep(description, name, observation, config, soft=soft)
     measurements: dict[str, Any] = {
         "loading": _writable(loading.measurements),
-        "motion": _writable(motion.measurements),
+        "motion": {**_writable(motion.measurements), **_writable(creep.measurements)},
         "blind_spots": list(engine.blind_spots),
     }
-    return CheckResult((*loading.findings, *motion.findings), measurements)
+    return CheckResult((*loading.findings, *motion.findings, *creep.findings), measurements)
 
 
 def _writable(data: Any) -> Any:

@@ -11,7 +11,7 @@ from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine, Link
 from ..geometry.kinematics import MOVING_KINDS, NotATree, build_tree
 from ..report import Finding, Severity
-from .lint_inertia import inertia_findings
+from .lint_inertia import inertia_findings, missing_inertia_findings
 from .lint_mimic import mimic_findings
 from .lint_ranges import range_findings
 from .lint_resistance import resistance_findings
@@ -38,10 +38,11 @@ def check_lint(description: Description, config: LintConfig) -> CheckResult:
     findings.extend(range_findings(description, config))
     findings.extend(resistance_findings(description, config))
     findings.extend(mimic_findings(description))
+    findings.extend(missing_inertia_findings(description))
     links: list[dict[str, Any]] = []
     downs = _downs(description)
     for link in description.links:
-        findings.extend(_body_findings(link, description))
+        findings.extend(_body_findings(link))
         findings.extend(inertia_findings(link, config))
         found, numbers = shape_findings(link, downs.get(link.name, DOWN), config)
         findings.extend(found)
@@ -109,15 +110,14 @@ def _joint_findings(
         message = f"joint {joint.name!r} has axis {joint.axis.tolist()}, which is no direction"
         yield Finding("zero_axis", Severity.HARD, message, joint=joint.name, parts=parts)
     elif abs(length - 1.0) > UNIT:
-        # A hinge turns alike in all of them; a slide moves by other lengths.
-        scaled = joint.kind == "prismatic" and abs(length - 1.0) > config.axis_slack
+        far = abs(length - 1.0) > config.axis_slack
         message = (
             f"joint {joint.name!r} has an axis of length {length:.4g}, want 1; "
-            "loaders scale it or not"
+            "loaders scale motion by it or not"
         )
         yield Finding(
             "axis_not_unit",
-            Severity.HARD if scaled else Severity.SOFT,
+            Severity.HARD if far else Severity.SOFT,
             message,
             joint=joint.name,
             parts=parts,
@@ -172,12 +172,9 @@ def _limit_findings(joint: JointLine) -> Iterator[Finding]:
         )
 
 
-def _body_findings(link: Link, description: Description) -> Iterator[Finding]:
+def _body_findings(link: Link) -> Iterator[Finding]:
     if link.visuals and not link.collisions:
         message = (
             f"link {link.name!r} is visible but has no collision geometry: hands pass through it"
         )
         yield Finding("no_collision", Severity.HARD, message, parts=(link.name,))
-    if link.inertia is None and (link.visuals or link.collisions) and description.format == "urdf":
-        message = f"link {link.name!r} has no inertia: every simulator invents another"
-        yield Finding("missing_inertia", Severity.SOFT, message, parts=(link.name,))

@@ -8,14 +8,41 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..config import LintConfig
-from ..description import ABSURD, FloatArray, Link, LinkInertia, sensible
+from ..description import ABSURD, Description, FloatArray, Link, LinkInertia, sensible
 from ..geometry.hull import FlatHull, convex_hull
+from ..geometry.kinematics import NotATree, build_tree
 from ..report import Finding, Severity
 
 #: Relative slack of the triangle inequality: files are written with few digits.
 TRIANGLE_SLACK = 1e-3
-#: How far outside its box a centre of mass may lie, as a share of the link's diagonal.
-CENTER_SLACK = 0.05
+
+
+def missing_inertia_findings(description: Description) -> Iterator[Finding]:
+    """Hard where what moves has no inertia, soft where what stands still has none; in a URDF.
+
+    MuJoCo's compiler makes up what an MJCF leaves out, by a rule of the format.
+    """
+    if description.format != "urdf":
+        return
+    try:
+        parts = build_tree(description).parts
+    except NotATree:
+        parts = (tuple(link.name for link in description.links),)
+    bare = {link.name for link in description.links if link.inertia is None}
+    seen = {link.name for link in description.links if link.collisions or link.visuals}
+    for i, part in enumerate(parts):
+        moves = i > 0
+        massless = moves and bare.issuperset(part)
+        for name in part:
+            if name not in bare or not (name in seen or (massless and name == part[0])):
+                continue
+            what = "moves and has" if moves else "has"
+            message = (
+                f"link {name!r} {what} no inertia: every simulator invents another; "
+                "state its mass, centre of mass and moments in an <inertial>"
+            )
+            severity = Severity.HARD if moves else Severity.SOFT
+            yield Finding("missing_inertia", severity, message, parts=(name,))
 
 
 def inertia_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
@@ -83,46 +110,66 @@ def _plausible(
     shapes = link.collisions or link.visuals
     if not shapes:
         return
-    parts = (link.name,)
     points = np.vstack([shape.vertices for shape in shapes])
+    diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
+    yield from _center(link, inertia.center, config)
+    yield from _gyration(link, math.sqrt(float(moments[2]) / inertia.mass), diagonal, config)
+    yield from _density(link, inertia.mass, config)
+
+
+def _center(link: Link, center: FloatArray, config: LintConfig) -> Iterator[Finding]:
+    """How far the centre of mass lies outside the box around all that the link shows or touches."""
+    points = np.vstack([shape.vertices for shape in (*link.collisions, *link.visuals)])
     low = points.min(axis=0)
     high = points.max(axis=0)
     diagonal = float(np.linalg.norm(high - low))
-    outside = float(np.maximum(low - inertia.center, inertia.center - high).max())
-    if outside > CENTER_SLACK * diagonal:
-        message = (
-            f"link {link.name!r}: centre of mass lies {1000 * outside:.1f} "
-            "mm outside the link's box"
-        )
-        yield Finding(
-            "center_outside",
-            Severity.SOFT,
-            message,
-            parts=parts,
-            value=round(1000 * outside, 4),
-            unit="mm",
-            limit=round(1000 * CENTER_SLACK * diagonal, 4),
-        )
-    yield from _gyration(link, math.sqrt(float(moments[2]) / inertia.mass), diagonal, config)
+    outside = float(np.linalg.norm(np.maximum(0.0, np.maximum(low - center, center - high))))
+    if outside <= config.center_soft * diagonal:
+        return
+    most = max(config.center_hard * diagonal, config.center_m)
+    hard = outside > most
+    limit = most if hard else config.center_soft * diagonal
+    message = (
+        f"link {link.name!r}: centre of mass lies {1000 * outside:.1f} mm outside the link's box, "
+        f"want at most {1000 * limit:.3g} mm"
+    )
+    yield Finding(
+        "center_outside",
+        Severity.HARD if hard else Severity.SOFT,
+        message,
+        parts=(link.name,),
+        value=round(1000 * outside, 4),
+        unit="mm",
+        limit=round(1000 * limit, 4),
+    )
+
+
+def _density(link: Link, mass: float, config: LintConfig) -> Iterator[Finding]:
+    """Mass over the volume of the hulls; too much is an error only where nothing else has room."""
     volume = _volume(link)
-    if volume > 0.0 and not config.density_low <= inertia.mass / volume <= config.density_high:
-        density = inertia.mass / volume
-        message = (
-            f"link {link.name!r}: {inertia.mass:.3g} kg in {1000 * volume:.3g} litres of hulls is "
-            f"{density:.3g} kg/m3, want {config.density_low:g} to {config.density_high:g}"
-        )
-        limit = config.density_low if density < config.density_low else config.density_high
-        times = max(limit / density, density / limit) if density > 0.0 else math.inf
-        severity = Severity.HARD if times > config.density_hard else Severity.SOFT
-        yield Finding(
-            "density_implausible",
-            severity,
-            message,
-            parts=parts,
-            value=float(f"{density:.4g}"),
-            unit="kg/m3",
-            limit=limit,
-        )
+    if not volume > 0.0 or config.density_low <= mass / volume <= config.density_high:
+        return
+    low = mass / volume < config.density_low
+    room = volume if low else max(volume, _visible_volume(link, config.sheet_m))
+    density = mass / room
+    hard = density < config.density_least or density > config.density_most
+    if low:
+        limit = config.density_least if hard else config.density_low
+    else:
+        limit = config.density_most if hard else config.density_high
+    message = (
+        f"link {link.name!r}: {mass:.3g} kg in {1000 * room:.3g} litres is {density:.3g} kg/m3, "
+        f"want at {'least' if low else 'most'} {limit:g}"
+    )
+    yield Finding(
+        "density_implausible",
+        Severity.HARD if hard else Severity.SOFT,
+        message,
+        parts=(link.name,),
+        value=float(f"{density:.4g}"),
+        unit="kg/m3",
+        limit=limit,
+    )
 
 
 def _gyration(
@@ -176,3 +223,17 @@ def _volume(link: Link) -> float:
         except FlatHull:
             continue
     return total
+
+
+def _visible_volume(link: Link, sheet: float) -> float:
+    """Volume that the visible surfaces enclose [m3], or that of sheets so thick, if that is more.
+
+    A surface counts with both of its sides; what lies in one another counts twice.
+    """
+    enclosed = area = 0.0
+    for shape in link.visuals:
+        corners = (shape.vertices - shape.vertices.mean(axis=0))[shape.faces]
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        enclosed += abs(float((corners[:, 0] * normals).sum())) / 6.0
+        area += float(np.linalg.norm(normals, axis=1).sum()) / 2.0
+    return max(enclosed, 0.5 * area * sheet)

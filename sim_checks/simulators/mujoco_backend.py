@@ -25,11 +25,13 @@ class MujocoSimulator:
     name = "mujoco"
     distribution = "mujoco"
     formats = ("urdf", "mjcf")
+    soft_friction = ("urdf",)
     blind_spots = (
         (
             "contacts and limits are soft: a part may sink by fractions of a "
             "millimetre before it is stopped"
         ),
+        "joint friction is soft: what it holds creeps, and a URDF cannot say how little it should",
         "pairs that an MJCF file exempts by <exclude>, "
         "contype or conaffinity pass through each other, and so do links "
         "fixed to one another",

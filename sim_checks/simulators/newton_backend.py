@@ -30,8 +30,10 @@ class NewtonSimulator:
     name = "newton"
     distribution = "newton"
     formats = ("urdf", "mjcf")
+    soft_friction = ("urdf", "mjcf")
     blind_spots = (
         "Newton never lets a link touch the one that it is jointed to, as its importers are set",
+        "joint friction is soft, whatever the file says of it: what it holds creeps",
         "contacts and limits are soft, and its conversion makes limits softer than MuJoCo's own",
         "it is stepped by MuJoCo in double precision, not by MuJoCo-Warp in single",
     )

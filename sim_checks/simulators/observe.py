@@ -16,6 +16,7 @@ import numpy as np
 from ..config import MotionConfig
 from .catalog import simulator
 from .drive import sweep
+from .hold import hold
 from .rest import fall, rest
 from .simulator import JointValues, Observation, PoseSample, World
 
@@ -55,9 +56,9 @@ def observe(
         alone = rest(world, config)
         falling = fall(world, config)
         motions = sweep(world, config)
-        return Observation(
-            replace(world.model, warnings=said), poses, alone, falling, motions, world.warnings()
-        )
+        holds = hold(world, motions, config)
+        model = replace(world.model, warnings=said)
+        return Observation(model, poses, alone, falling, motions, world.warnings(), holds)
     finally:
         world.close()
 

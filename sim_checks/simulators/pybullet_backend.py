@@ -36,6 +36,7 @@ class PybulletSimulator:
     name = "pybullet"
     distribution = "pybullet"
     formats = ("urdf",)
+    soft_friction = ()
     blind_spots = (
         (
             "Bullet keeps a margin of 1 mm around every mesh hull: "

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,7 +46,7 @@ def rest(world: World, config: MotionConfig) -> tuple[RestMotion, ...]:
     mass = carried_masses(world)
     pushed_by: dict[int, tuple[str, str] | None] = {}
     finite = True
-    for position, velocity in _alone(world, config.rest_s, config):
+    for position, velocity in left_alone(world, config.rest_s, config):
         finite = bool(np.isfinite(position).all() and np.isfinite(velocity).all())
         if not finite:
             break
@@ -84,7 +84,7 @@ def fall(world: World, config: MotionConfig) -> Fall:
     before = most = world.energy()
     slow = _slow(world, config)
     finite = True
-    for position, velocity in _alone(world, config.rest_s, config):
+    for position, velocity in left_alone(world, config.rest_s, config):
         finite = bool(np.isfinite(position).all() and np.isfinite(velocity).all())
         if not finite:
             break
@@ -111,7 +111,7 @@ def let_go(world: World, config: MotionConfig) -> Gain:
     kinetic = _Kinetic(world, config)
     mass = carried_masses(world)
     finite = True
-    for _, velocity in _alone(world, config.release_s, config):
+    for _, velocity in left_alone(world, config.release_s, config):
         finite = bool(np.isfinite(velocity).all())
         if not finite:
             break
@@ -147,10 +147,15 @@ class _Kinetic:
             self.gained = np.maximum(self.gained, np.minimum(own, together))
 
 
-def _alone(
-    world: World, seconds: float, config: MotionConfig
+def left_alone(
+    world: World,
+    seconds: float,
+    config: MotionConfig,
+    forces: Callable[[], FloatArray] | None = None,
 ) -> Iterator[tuple[FloatArray, FloatArray]]:
-    """Positions and velocities step by step without applied forces, until time is up or at rest.
+    """Positions and velocities step by step, until time is up or all are at rest.
+
+    Applied are ``forces`` where given, asked before every step, else none.
 
     Forces in these engines depend on where things are and how they move, and nothing is put to
     sleep. So what stands still for half a second, or for a good part of a shorter wait, goes on
@@ -166,7 +171,7 @@ def _alone(
     known = len(world.model.joints) == len(world.joints)
     speeds: list[float] = []
     for _ in range(round(seconds / world.time_step)):
-        world.step(nothing)
+        world.step(nothing if forces is None else forces())
         position = world.positions()
         velocity = world.velocities()
         yield position, velocity

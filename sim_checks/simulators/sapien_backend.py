@@ -31,6 +31,7 @@ class SapienSimulator:
     name = "sapien"
     distribution = "sapien"
     formats = ("urdf",)
+    soft_friction = ()
     blind_spots = (
         (
             "PhysX never lets parent and child of an articulation touch: "

@@ -259,6 +259,26 @@ class Fall:
 
 
 @dataclass(frozen=True)
+class HoldMotion:
+    """What a joint did when left alone part-way open, under gravity, where friction should hold it.
+
+    Attributes:
+        joint: its name.
+        values: where every joint was placed [rad] or [m].
+        moved: furthest from there [rad] or [m].
+        finite: False if a NaN or infinity appeared.
+        pressed_by: the two links that pressed hardest on each other at the end, one of them moved
+            by the joint.
+    """
+
+    joint: str
+    values: JointValues
+    moved: float
+    finite: bool = True
+    pressed_by: tuple[str, str] | None = None
+
+
+@dataclass(frozen=True)
 class PoseSample:
     """Where the simulator puts each link for given joint values.
 
@@ -281,6 +301,7 @@ class Observation:
     fall: Fall = Fall()
     motions: tuple[JointMotion, ...] = ()
     warnings: tuple[str, ...] = ()
+    holds: tuple[HoldMotion, ...] = ()
 
 
 class World(Protocol):
@@ -362,6 +383,10 @@ class Simulator(Protocol):
     @property
     def formats(self) -> tuple[str, ...]:
         """Description formats it loads: ``urdf``, ``mjcf``."""
+
+    @property
+    def soft_friction(self) -> tuple[str, ...]:
+        """Formats in which no file can tell it how stiffly joint friction holds."""
 
     @property
     def blind_spots(self) -> tuple[str, ...]:

@@ -94,8 +94,40 @@ def test_damping_is_inertia_over_half_a_second_by_the_parallel_axis_theorem() ->
 
 def test_a_door_that_gravity_would_open_is_held_closed() -> None:
     hinge = Joint("j", JointKind.REVOLUTE, 0, 1, [1, 0, 0], [0.0, 0.0, 2.0], 0, 1.5)
-    (resistance,) = joint_resistances(one_joint(hinge, child_center=(0.0, -1.0, 2.0)))
-    assert resistance.friction == pytest.approx(1.2 * 2.0 * GRAVITY * 1.0)
+    (resistance,) = joint_resistances(one_joint(hinge, child_center=(0.0, -0.5, 2.0)))
+    assert resistance.friction == pytest.approx(1.2 * 2.0 * GRAVITY * 0.5)
+
+
+def weighing(asset: Asset, mass: float) -> Asset:
+    """The asset with its last part so heavy [kg]."""
+    body = asset.bodies[-1]
+    ratio = mass / body.inertial.mass
+    heavy = replace(body.inertial, mass=mass, tensor=ratio * body.inertial.tensor)
+    return replace(asset, bodies=(*asset.bodies[:-1], replace(body, inertial=heavy)))
+
+
+@pytest.mark.parametrize("mass", [0.1, 2.0, 9.6, 80.0])
+@pytest.mark.parametrize("kind", [JointKind.PRISMATIC, JointKind.REVOLUTE])
+def test_what_is_chosen_here_is_never_more_than_a_light_hand_pulls(
+    mass: float, kind: JointKind
+) -> None:
+    """9.6 kg that slide down would be held by 113 N, which the validator refuses."""
+    axis = [0, 0, -1] if kind is JointKind.PRISMATIC else [1, 0, 0]
+    joint = Joint("j", kind, 0, 1, axis, [0.0, 0.0, 2.0], 0.0, 1.5)
+    asset = weighing(one_joint(joint, child_center=(0.0, -1.0, 2.0)), mass)
+    (resistance,) = joint_resistances(asset)
+    lever = 1.0 if kind is JointKind.PRISMATIC else np.hypot(1.01, 0.3)
+    assert resistance.friction / lever <= 20.0 + 1e-9
+    assert resistance.damping * 1.5 / 3.0 / lever <= 20.0 + 1e-9
+    load = mass * GRAVITY
+    assert resistance.friction > load or load > 20.0 * lever
+
+
+@pytest.mark.parametrize(("stated", "written"), [(0.0, 0.0), (25.0, 25.0), (100.0, 30.0)])
+def test_what_is_stated_is_not_held_against_a_light_hand(stated: float, written: float) -> None:
+    slide = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, 2], 0, 0.3, friction=stated)
+    (resistance,) = joint_resistances(weighing(one_joint(slide), 9.6))
+    assert resistance.friction == written
 
 
 def test_gravity_that_closes_a_joint_adds_no_friction() -> None:

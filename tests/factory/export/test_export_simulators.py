@@ -224,6 +224,20 @@ def test_mujoco_sees_each_parts_own_texture_and_only_hulls_collide(tmp_path: Pat
     assert set(model.geom_group[~collides]) == {2}
 
 
+def test_mujoco_holds_what_friction_should_hold(tmp_path: Path) -> None:
+    mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
+    down = Joint("press", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, -1], 0.0, 0.02)
+    asset = boxes_asset([box([0, 0, 0], [1, 1, 1]), box([0, 0, -1], [0.1, 0.1, 0.02])], (down,))
+    model = mujoco.MjModel.from_xml_path(str(exported(asset, tmp_path).mjcf))
+    model.opt.timestep = 1.0 / 240.0
+    data = mujoco.MjData(model)
+    data.joint("press").qpos = 0.01
+    for _ in range(480):
+        mujoco.mj_step(model, data)
+    # With MuJoCo's own solimpfriction it is at its limit by then.
+    assert data.joint("press").qpos[0] - 0.01 == pytest.approx(2e-5, rel=0.1)
+
+
 def test_mujoco_takes_flat_visuals_lone_triangles_and_carriers(tmp_path: Path) -> None:
     mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
     triangle = Mesh.from_triangles([[0, 0, 1], [1, 0, 1], [0, 1, 1]], [[0, 1, 2]])

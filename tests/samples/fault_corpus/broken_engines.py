@@ -10,16 +10,14 @@ import trimesh
 
 from .broken_lint import HULL, SLIDE
 from .exhibits import ENGINES, Exhibit, edited, mjcf, restated, urdf
-from .good_things import cabinet, fridge, kiosk, nested, oven
+from .good_things import button, cabinet, fridge, kiosk, nested, oven
 from .things import with_body
 
 URDF = urdf(kiosk())
 MJCF = mjcf(kiosk())
 HINGE = ".//joint[@name='hinge']"
-DOOR_INERTIAL = (
-    '<link name="door"><inertial>',
-    '</inertial><collision><geometry><mesh filename="door',
-)
+PRESS = ".//joint[@name='press']"
+SOFT_BUTTON = restated(mjcf(button()), PRESS, frictionloss="1", damping="0.04")
 
 
 def broken_loading() -> Iterator[Exhibit]:
@@ -37,13 +35,8 @@ def broken_loading() -> Iterator[Exhibit]:
     )
     rubbing = edited(URDF, ("<limit ", '<dynamics damping="0.5" friction="0.5"/><limit '))
     yield Exhibit("joint_with_friction.urdf", rubbing, "friction_ignored", "soft", ("sapien",))
-    start, end = DOOR_INERTIAL
-    bare = edited(
-        URDF,
-        (start, start.replace("<inertial", "<!--inertial")),
-        (end, end.replace("</inertial>", "</inertial-->")),
-    )
-    yield Exhibit("door_without_inertia.urdf", bare, "inertia_invented", "soft", ENGINES)
+    bare = edited(URDF, ("<inertial>", "<!--"), ("</inertial>", "-->"))
+    yield Exhibit("base_without_inertia.urdf", bare, "inertia_invented", "soft", ("sapien",))
     yield Exhibit(
         "not_every_engine_s_format.mjcf", MJCF, "format_not_loaded", "soft", ("sapien", "pybullet")
     )
@@ -64,6 +57,20 @@ def broken_dynamics() -> Iterator[Exhibit]:
     )
     yield Exhibit("tray_on_a_door.urdf", urdf(nested()), "others_moved", "soft", ENGINES)
     yield Exhibit("door_that_falls_open.urdf", urdf(oven()), "opens_by_itself", "soft", ENGINES)
+
+
+def creeping() -> Iterator[Exhibit]:
+    """A button that its friction should hold, five times its weight."""
+    rubbing = ("<limit ", '<dynamics friction="1" damping="0.04"/><limit ')
+    yield Exhibit("button_that_creeps.mjcf", SOFT_BUTTON, "creeps", "hard", ("mujoco",))
+    stated = edited(urdf(button()), rubbing)
+    yield Exhibit("button_of_a_urdf.urdf", stated, "creeps", "soft", ("mujoco",))
+
+
+def holding() -> Iterator[Exhibit]:
+    """The same button, its friction as stiff as MuJoCo lets it be."""
+    stiff = restated(SOFT_BUTTON, PRESS, solimpfriction="0.9999 0.9999 0.001")
+    yield Exhibit("button_that_holds.mjcf", stiff, None, "hard", ())
 
 
 def unsteady() -> Iterator[Exhibit]:

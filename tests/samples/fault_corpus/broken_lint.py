@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -18,6 +19,11 @@ DOOR_MASS = ".//link[@name='door']/inertial/mass"
 DOOR_TENSOR = ".//link[@name='door']/inertial/inertia"
 SLIDE = ".//joint[@name='slide']"
 HINGE = ".//joint[@name='hinge']"
+HINGE_AXIS = f"{HINGE}/axis"
+DOOR_CENTER = ".//link[@name='door']/inertial/origin"
+DOOR_BODY = ".//body[@name='door']/inertial"
+#: 15 % of the door's diagonal before it.
+OUTSIDE = "0.3 0.105 0"
 HULL = "door_hull_0.obj"
 MESH = f'<mesh filename="{HULL}"/>'
 #: What engines make of some of these, in their own codes.
@@ -65,6 +71,7 @@ def broken_joints() -> Iterator[Exhibit]:
             edited(URDF, ('type="prismatic"', 'type="planar"')),
         ),
         ("box_inside_out.urdf", "invalid_size", edited(URDF, (MESH, '<box size="-1 1 1"/>'))),
+        ("hinge_axis_of_length_2.urdf", "axis_not_unit", restated(URDF, HINGE_AXIS, xyz="0 0 -2")),
         ("axis_zero.urdf", "zero_axis", restated(URDF, f"{SLIDE}/axis", xyz="0 0 0")),
         ("no_limits.urdf", "missing_limits", _without_limits),
         (
@@ -127,33 +134,35 @@ def broken_bodies() -> Iterator[Exhibit]:
             "density_implausible",
             urdf(with_body(kiosk(), "door", mass=1e-6)),
         ),
+        ("center_elsewhere.urdf", "center_outside", restated(URDF, DOOR_CENTER, xyz="0 1.4 0")),
+        ("center_105_mm_out.urdf", "center_outside", restated(URDF, DOOR_CENTER, xyz=OUTSIDE)),
+        ("center_105_mm_out.mjcf", "center_outside", restated(MJCF, DOOR_BODY, pos=OUTSIDE)),
+        ("denser_than_osmium.urdf", "density_implausible", urdf(_weighing(100.0))),
+        ("denser_than_osmium.mjcf", "density_implausible", mjcf(_weighing(100.0))),
+        ("door_without_inertia.urdf", "missing_inertia", _bare("door")),
     ):
         yield Exhibit(name, build, code, engines=HELD.get(name, {}))
     wide = dict.fromkeys(("ixx", "iyy", "izz"), "0.8")
     for name, code, build in (
-        (
-            "no_inertia.urdf",
-            "missing_inertia",
-            edited(URDF, ("<inertial>", "<!--"), ("</inertial>", "-->")),
-        ),
-        (
-            "heavier_than_lead.urdf",
-            "density_implausible",
-            urdf(with_body(kiosk(), "door", mass=2500.0)),
-        ),
-        (
-            "lighter_than_air.urdf",
-            "density_implausible",
-            urdf(with_body(kiosk(), "door", mass=0.001)),
-        ),
+        ("heavier_than_lead.urdf", "density_implausible", urdf(_weighing(80.0))),
+        ("lighter_than_air.urdf", "density_implausible", urdf(_weighing(0.001))),
         ("inertia_of_a_gate.urdf", "inertia_implausible", restated(URDF, DOOR_TENSOR, **wide)),
-        (
-            "center_elsewhere.urdf",
-            "center_outside",
-            restated(URDF, ".//link[@name='door']/inertial/origin", xyz="0 2 0"),
-        ),
+        ("center_40_mm_out.urdf", "center_outside", restated(URDF, DOOR_CENTER, xyz="0.3 0.04 0")),
+        ("no_inertia_of_the_base.urdf", "missing_inertia", _bare("carcass")),
     ):
         yield Exhibit(name, build, code, "soft")
+
+
+def sound_neighbours() -> Iterator[Exhibit]:
+    """What is close to the faults above and none."""
+    for name, build in (
+        ("steel_door.urdf", urdf(_weighing(33.0))),
+        ("steel_door.mjcf", mjcf(_weighing(33.0))),
+        ("center_at_the_edge.urdf", restated(URDF, DOOR_CENTER, xyz="0.3 0.01 0")),
+        ("axis_that_mujoco_normalises.mjcf", restated(MJCF, HINGE, axis="0 0 -2")),
+        ("inertia_that_mujoco_computes.mjcf", _computed),
+    ):
+        yield Exhibit(name, build, None, "hard", ())
 
 
 def broken_shapes() -> Iterator[Exhibit]:
@@ -231,6 +240,34 @@ def _without_limits(folder: Path) -> Path:
     path = URDF(folder)
     head, _, rest = path.read_text().partition("<limit ")
     path.write_text(head + rest.partition("/>")[2])
+    return path
+
+
+def _weighing(mass: float) -> Thing:
+    """The kiosk with a door of 4.3 litres that weighs so much [kg]."""
+    return with_body(kiosk(), "door", mass=mass)
+
+
+def _bare(link: str) -> Builder:
+    """The kiosk with no inertial in that link."""
+
+    def write(folder: Path) -> Path:
+        path = URDF(folder)
+        document = ET.parse(path)
+        element = document.find(f".//link[@name='{link}']")
+        element.remove(element.find("inertial"))
+        document.write(path)
+        return path
+
+    return write
+
+
+def _computed(folder: Path) -> Path:
+    path = MJCF(folder)
+    document = ET.parse(path)
+    body = document.find(".//body[@name='door']")
+    body.remove(body.find("inertial"))
+    document.write(path)
     return path
 
 

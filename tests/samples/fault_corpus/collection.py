@@ -20,7 +20,7 @@ def good(categories: tuple[str, ...] = QUICK) -> tuple[Exhibit, ...]:
         for category in categories
         for suffix in ("urdf", "mjcf")
     ]
-    return (*things, *objects)
+    return (*things, *broken_lint.sound_neighbours(), *broken_engines.holding(), *objects)
 
 
 def broken() -> tuple[Exhibit, ...]:
@@ -37,5 +37,6 @@ def broken() -> tuple[Exhibit, ...]:
         *broken_motion.meeting(),
         *broken_engines.broken_loading(),
         *broken_engines.broken_dynamics(),
+        *broken_engines.creeping(),
         *broken_engines.unsteady(),
     )

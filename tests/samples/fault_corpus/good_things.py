@@ -170,4 +170,17 @@ def turned() -> Thing:
     return replace(thing, name="turned", bodies=bodies)
 
 
-GOOD = (cabinet, kiosk, fridge, oven, laptop, nested, turned)
+def button() -> Thing:
+    """A button in a ceiling panel that travels straight down by 5 mm and back: its weight opens it.
+
+    It hangs below its panel, so that nothing but friction holds it.
+    """
+    bodies = (
+        Body("panel", (box((0.0, 0.0, 0.5), (0.2, 0.2, 0.02)),), at(0, 0, 0), 1.0),
+        Body("button", (box((0.0, 0.0, 0.47), (0.03, 0.03, 0.01)),), at(0.0, 0.0, 0.48), 0.02),
+    )
+    moves = (Move("press", "prismatic", "panel", "button", (0.0, 0.0, -1.0), 0.0, 0.005),)
+    return Thing("button", bodies, moves)
+
+
+GOOD = (cabinet, kiosk, fridge, oven, laptop, nested, turned, button)

@@ -1,0 +1,110 @@
+"""Does friction hold the joints that it should hold, or do they creep?
+
+What should be held is decided by the description alone: its masses, centres of mass, axes and
+friction. What its weight should move is free to move.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from ..config import CheckConfig, MotionConfig
+from ..description import Description, JointLine
+from ..geometry.kinematics import NotATree, build_tree
+from ..geometry.statics import gravity_load
+from ..report import Finding, Severity
+from ..simulators.simulator import HoldMotion, Observation
+from .result import CheckResult
+
+#: Numbers in a report keep this many decimals: engines differ in the last bits from machine to
+#: machine.
+DECIMALS = 6
+
+
+def check_creep(
+    description: Description,
+    simulator: str,
+    observation: Observation,
+    config: CheckConfig,
+    *,
+    soft: bool,
+) -> CheckResult:
+    """Judge what joints did that were left alone part-way open.
+
+    Args:
+        description: what the file says.
+        simulator: whose word ``observation`` is.
+        observation: from :func:`~asset_factory.sim_checks.simulators.observe.observe`.
+        config: thresholds in ``config.motion``.
+        soft: whether no file of this format can tell the engine how stiffly friction holds; then
+            creep is a warning.
+    """
+    try:
+        tree = build_tree(description)
+    except NotATree:
+        return CheckResult()
+    lines = {line.name: line for line in description.joints}
+    ranges = {motion.joint: motion.range for motion in observation.motions}
+    findings: list[Finding] = []
+    rows: list[dict[str, Any]] = []
+    for held in observation.holds:
+        line = lines.get(held.joint)
+        load = None if line is None else gravity_load(description, tree, line, held.values)
+        if line is None or load is None:
+            continue
+        if abs(load) > config.motion.hold_share * line.friction:
+            continue
+        findings.extend(_findings(held, line, ranges[held.joint], simulator, config.motion, soft))
+        row = {"at": held.values[held.joint], "moved": held.moved, "load": load}
+        rows.append({"joint": held.joint, **{k: round(v, DECIMALS) + 0.0 for k, v in row.items()}})
+    return CheckResult(tuple(_worst_of_each(findings)), {"hold": rows})
+
+
+def _findings(
+    held: HoldMotion,
+    line: JointLine,
+    length: float,
+    simulator: str,
+    config: MotionConfig,
+    soft: bool,
+) -> Iterator[Finding]:
+    parts = (line.parent, line.child)
+    at = f"{round(held.values[line.name], DECIMALS) + 0.0:.4g}"
+    if not held.finite:
+        message = (
+            f"{simulator}: joint {line.name!r} went to infinity or NaN while left alone at {at}"
+        )
+        yield Finding("not_finite", Severity.HARD, message, simulator, line.name, parts)
+        return
+    unit, most = ("m", config.creep_m) if line.kind == "prismatic" else ("rad", config.creep_rad)
+    allowed = min(most, config.creep_share * length)
+    if held.moved > allowed:
+        message = (
+            f"{simulator}: joint {line.name!r}, left alone at {at}, crept by {held.moved:.3g} "
+            f"{unit} in {config.held_s:g} s though its friction of {line.friction:.3g} holds its "
+            f"weight; at most {allowed:.3g} {unit} is allowed{_remedy(held, simulator, soft)}"
+        )
+        severity = Severity.SOFT if soft else Severity.HARD
+        moved = round(held.moved, DECIMALS)
+        limit = round(allowed, DECIMALS)
+        yield Finding("creeps", severity, message, simulator, line.name, parts, moved, unit, limit)
+
+
+def _remedy(held: HoldMotion, simulator: str, soft: bool) -> str:
+    if held.pressed_by is not None:
+        one, two = held.pressed_by
+        return f"; {one!r} presses on {two!r}"
+    if soft:
+        return f"; {simulator}'s joint friction is soft, and this format cannot tell it to be stiff"
+    return "; solimpfriction near 1 makes MuJoCo's stiff" if simulator == "mujoco" else ""
+
+
+def _worst_of_each(findings: list[Finding]) -> Iterator[Finding]:
+    """One finding of each code and joint, the largest."""
+    worst: dict[tuple[str, str | None], Finding] = {}
+    for finding in findings:
+        known = worst.setdefault((finding.code, finding.joint), finding)
+        if (finding.value or 0.0) > (known.value or 0.0):
+            worst[finding.code, finding.joint] = finding
+    yield from worst.values()
