@@ -208,6 +208,8 @@ class SeparateConfig:
             part. A hinge that is off by a twentieth of its part needs more.
         planed_volume, planed_area: largest shares of a solid part's collision volume, and of any
             part's visible surface, that planing may take.
+        gap_m, most_untouched: largest share of a part's visible surface that may lie further than
+            this [m] outside what all cuts together leave; more rejects.
     """
 
     clearance_m: float = 0.0025
@@ -223,6 +225,8 @@ class SeparateConfig:
     planed_share: float = 0.035
     planed_volume: float = 0.05
     planed_area: float = 0.05
+    gap_m: float = 0.01
+    most_untouched: float = 0.1
 
 
 @dataclass(frozen=True)

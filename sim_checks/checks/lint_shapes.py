@@ -13,6 +13,7 @@ from scipy.spatial import cKDTree
 from ..config import LintConfig
 from ..description import DescribedShape, FloatArray, Link
 from ..geometry.hull import CollisionHull, FlatHull, convex_hull, farthest_along
+from ..geometry.outside import distance_outside
 from ..report import Finding, Severity
 from .lint_interior import interior_findings
 
@@ -208,7 +209,7 @@ def _cover_findings(
     low = visible.min(axis=0)
     high = visible.max(axis=0)
     diagonal = float(np.linalg.norm(high - low))
-    bare = _outside(visible[::DENSER], hulls)
+    bare = distance_outside(visible[::DENSER], hulls)
     spacing = float(np.median(np.asarray(cKDTree(visible).query(visible, k=2)[0])[:, 1]))
     empty = np.maximum(0.0, np.asarray(cKDTree(visible).query(touchable)[0]) - spacing)
     uncovered, overhang = (float(np.quantile(values, QUANTILE)) for values in (bare, empty))
@@ -285,15 +286,6 @@ def _shift(low: FloatArray, high: FloatArray, hulls: list[CollisionHull]) -> flo
     above = points.max(axis=0) - high
     moved = np.where(below * above > 0.0, np.minimum(np.abs(below), np.abs(above)), 0.0)
     return float(np.linalg.norm(moved))
-
-
-def _outside(points: FloatArray, hulls: list[CollisionHull]) -> FloatArray:
-    """Lower bound of points' distance to the nearest hull [m]: farthest face plane, 0 inside."""
-    distance = np.full(len(points), np.inf)
-    for hull in hulls:
-        distance = np.minimum(distance, (points @ hull.normals.T - hull.offsets).max(axis=1))
-    beyond: FloatArray = np.maximum(0.0, distance)
-    return beyond
 
 
 def _sampled(

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
@@ -58,7 +56,10 @@ def thickness(vertices: FloatArray, planes: FloatArray) -> float:
 
 
 def depth_below(hull: Hull, points: FloatArray) -> FloatArray:
-    """How far each point lies below the hull's surface [m], shape [n]; negative outside."""
+    """How far each point lies below the hull's surface [m], shape [n].
+
+    Negative outside: there the hull is at least as far, see :mod:`.outside`.
+    """
     planes = hull.planes
     depth = np.full(len(points), np.inf)
     for start in range(0, len(planes), 256):
@@ -79,14 +80,6 @@ def surface_points(vertices: FloatArray, faces: IntArray) -> FloatArray:
 def concavity(vertices: FloatArray, faces: IntArray, hull: Hull) -> float:
     """Deepest dent of a surface: largest depth of it below its convex hull [m]."""
     return float(depth_below(hull, surface_points(vertices, faces)).max())
-
-
-def uncovered(hulls: Sequence[Hull], points: FloatArray) -> float:
-    """How far the worst of ``points`` lies outside all hulls [m], at least; zero if none does."""
-    depth = np.full(len(points), -np.inf)
-    for hull in hulls:
-        np.maximum(depth, depth_below(hull, points), out=depth)
-    return float(max(0.0, -depth.min(initial=np.inf))) if len(points) else 0.0
 
 
 def aspect(hull: Hull) -> float:

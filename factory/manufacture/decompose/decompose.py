@@ -23,7 +23,7 @@ from .room import Room, Rooms
 #: Its version is raised when the same part would get other hulls.
 DECOMPOSE = Stage(
     "decompose",
-    version=6,
+    version=7,
     settings=("decompose",),
     libraries=("coacd", "vhacdx", "manifold3d", "scipy"),
 )

@@ -11,10 +11,11 @@ from ...asset import Hull
 from ...config import DecomposeConfig
 from ...mesh import FloatArray, IntArray
 from .caps import capped
-from .convex import concavity, depth_below, hull_of, limit_vertices, surface_points, uncovered
+from .convex import concavity, depth_below, hull_of, limit_vertices, surface_points
 from .cut import opened
 from .merge import merge
 from .methods import FAITHFUL, SolidPieces, slot_of, split_solid
+from .outside import uncovered
 from .refine import refined
 from .room import NOWHERE, Room
 from .sheets import slabs

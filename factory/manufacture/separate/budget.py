@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -13,15 +13,13 @@ from ...asset import Hull
 from ...config import SeparateConfig
 from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, Mesh
-from ..decompose.convex import depth_below
+from ..decompose.outside import outside
 from ..decompose.solids import manifold_of_hull, union
 
 #: Points spread over a part's visible surface, by area; its corners are looked at besides.
 SPREAD = 1500
 #: Most corners that are looked at.
 MOST_CORNERS = 3000
-#: So many hulls are remembered with how far points of a surface lie outside them.
-MOST_KNOWN = 500
 #: Points that are bared by less are not looked at [m].
 SHAVED_M = 1e-4
 
@@ -34,13 +32,11 @@ class SeenSurface:
         points: [m], shape [n, 3]; the first ``spread`` by area, then corners.
         spread: how many stand for equal areas each.
         diagonal: of the part [m].
-        known: what was measured before, by the hull's identity: most of them no cut touches.
     """
 
     points: FloatArray
     spread: int
     diagonal: float
-    known: dict[int, tuple[Hull, FloatArray]] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(cls, mesh: Mesh) -> SeenSurface:
@@ -57,19 +53,8 @@ class SeenSurface:
         return cls(np.concatenate([spread, corners]), SPREAD, mesh.diagonal)
 
     def outside(self, hulls: Sequence[Hull]) -> FloatArray:
-        """How far each point lies outside all of some hulls [m], at least, shape [n]."""
-        nearest = np.full(len(self.points), np.inf)
-        for hull in hulls:
-            np.minimum(nearest, self._outside_one(hull), out=nearest)
-        return np.asarray(np.maximum(nearest, 0.0))
-
-    def _outside_one(self, hull: Hull) -> FloatArray:
-        # With the hull, so that no other one gets its identity.
-        if id(hull) not in self.known:
-            if len(self.known) >= MOST_KNOWN:
-                self.known.clear()
-            self.known[id(hull)] = hull, -depth_below(hull, self.points)
-        return self.known[id(hull)][1]
+        """How far each point lies outside all of some hulls [m], shape [n]."""
+        return outside(hulls, self.points)
 
 
 @dataclass(frozen=True)
@@ -96,6 +81,8 @@ class Loss:
         open_share: the same without what lay hidden in the part that holds it.
         area: share of its visible surface that is neither hidden nor covered any more.
         bare_area: share of it that is not covered any more, hidden or not.
+        untouched: share of it that lies outside what is left by more than may be, hidden or not,
+            after this cut and all before it; 0 where this one adds nothing to it.
         bared_m: deepest that its visible surface lies bare where nothing excuses it [m].
         planed_m: the same beside a hinge, or in a part that no joint holds it in [m].
     """
@@ -104,6 +91,7 @@ class Loss:
     open_share: float
     area: float
     bare_area: float
+    untouched: float
     bared_m: float
     planed_m: float
 
@@ -130,21 +118,22 @@ def loss(
         config: what is near, and what is told.
     """
     if not after:
-        return Loss(1.0, 1.0, 1.0, 1.0, np.inf, np.inf)
+        return Loss(1.0, 1.0, 1.0, 1.0, 1.0, np.inf, np.inf)
     whole = sum(hull.volume for hull in before)
     share = 1.0 - sum(hull.volume for hull in after) / whole
     open_share = share
     if excuse.held and share > config.planed_volume:
         open_share -= (_within(before, excuse.other) - _within(after, excuse.other)) / whole
-    bare = surface.outside(after) - surface.outside(before)
+    outside_before, outside_after = surface.outside(before), surface.outside(after)
+    bare = outside_after - outside_before
+    bare_before, bare_after = (
+        float((far[: surface.spread] > config.gap_m).mean())
+        for far in (outside_before, outside_after)
+    )
     looked = np.flatnonzero(bare > SHAVED_M)
     bare = bare[looked]
     points = surface.points[looked]
-
-    inside = np.full(len(points), -np.inf)
-    for hull in excuse.other:
-        np.maximum(inside, depth_below(hull, points), out=inside)
-    within = inside > -config.clearance_m
+    within = outside(excuse.other, points) < config.clearance_m
     hidden = within & excuse.held
     planed = ~hidden & (within | _beside(points, excuse.hinges, config.hinge_m))
     free = ~hidden & ~planed
@@ -155,6 +144,7 @@ def loss(
         max(0.0, open_share),
         float(lost.sum()) / surface.spread,
         float(bared.sum()) / surface.spread,
+        bare_after if bare_after > bare_before else 0.0,
         float(bare[free].max(initial=0.0)),
         float(bare[planed].max(initial=0.0)),
     )
@@ -216,6 +206,18 @@ def overdone(
             return (
                 f"cutting them apart would bare {each.area:.0%} of the surface of {name!r}; "
                 f"at most {config.planed_area:.0%} may be"
+            )
+    return None
+
+
+def too_bare(names: Sequence[str], losses: Sequence[Loss], config: SeparateConfig) -> str | None:
+    """Why a part would be left with too little of its surface covered, by all cuts together."""
+    for name, each in zip(names, losses, strict=True):
+        if each.untouched > config.most_untouched:
+            return (
+                f"cutting them apart would leave {each.untouched:.0%} of the surface of {name!r} "
+                f"more than {config.gap_m * 1000:g} mm outside its collision geometry; "
+                f"at most {config.most_untouched:.0%} may be"
             )
     return None
 

@@ -18,7 +18,7 @@ from ..hinges import is_crooked
 from ..poses import held_by, jointed, joints_between, relative_poses
 from .along import carved_apart_along, cut_apart_along, hull_depth
 from .between import Cut, Sides, cut_between, poses_between
-from .budget import CutLimits, Excuse, Loss, SeenSurface, loss, overdone
+from .budget import CutLimits, Excuse, Loss, SeenSurface, loss, overdone, too_bare
 from .clip import SHEET_M
 from .hung import HUB_SHARE, ROUND_SHARE, at_an_edge, planed_limit, seat_roundness, well_hung
 from .outcome import Pair, Planed, Separation, SeparationRefusal
@@ -236,6 +236,9 @@ class _Bench:
             self.articulation, a, b
         ):
             after, losses = self._socketed(a, b, poses, (after, losses))
+        reason = too_bare(pair, losses, self.config)
+        if reason is not None:
+            return reason
         self.hulls[a], self.hulls[b] = after
         planed = tuple(
             Planed(name, each.deepest_m, each.share, each.area)

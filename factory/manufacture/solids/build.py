@@ -30,7 +30,7 @@ from .work import Workpiece, host_of
 #: Its version is raised when the same skin would get other solids.
 SOLIDS = Stage(
     "solids",
-    version=8,
+    version=9,
     settings=("solids",),
     libraries=("numpy", "scipy", "manifold3d", "pillow"),
 )

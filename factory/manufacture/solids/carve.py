@@ -11,7 +11,7 @@ from ...config import SolidsConfig
 from ...geometry.crossings import BoolArray
 from ...geometry.rows import distinct_rows
 from ...mesh import FloatArray
-from ..decompose.convex import depth_below
+from ..decompose.outside import outside
 from .box import Box
 from .cavity import hollow
 from .drawer import drawer_box
@@ -159,8 +159,7 @@ def _behind_slab(
     """
     if not len(points):
         return ()
-    far = np.max([depth_below(hull, points) for hull in hulls], axis=0) < -FAR_M if hulls else None
-    bare = points if far is None else points[far]
+    bare = points[outside(hulls, points) > FAR_M]
     if len(bare) < BARE_SHARE * whole:
         return ()
     solid = marked(work.lattice, bare) & (work.blocked(part) == 0)

@@ -8,7 +8,8 @@ import numpy as np
 
 from ...asset import Hull
 from ...mesh import FloatArray
-from ..decompose.convex import depth_below, hull_of, limit_vertices
+from ..decompose.convex import hull_of, limit_vertices
+from ..decompose.outside import outside
 from .box import Box
 from .matter import Matter
 from .pieces import MOST_CORNERS, filled
@@ -29,9 +30,9 @@ def reaching(matter: Matter, hulls: Sequence[Hull]) -> tuple[Hull, ...]:
     if not hulls:
         return ()
     points = matter.sparse
-    depths = np.array([depth_below(hull, points) for hull in hulls])
-    nearest = depths.argmax(axis=0)
-    far = depths.max(axis=0) < -FAR_M
+    distances = np.array([outside([hull], points) for hull in hulls])
+    nearest = distances.argmin(axis=0)
+    far = distances.min(axis=0) > FAR_M
     return tuple(
         _stretched(matter, hull, points[far & (nearest == number)])
         for number, hull in enumerate(hulls)
@@ -41,11 +42,11 @@ def reaching(matter: Matter, hulls: Sequence[Hull]) -> tuple[Hull, ...]:
 def _stretched(matter: Matter, hull: Hull, points: FloatArray) -> Hull:
     filled = _filled(matter, hull)
     for _ in range(MOST_POINTS):
-        depth = depth_below(hull, points)
-        points = points[depth < -FAR_M]
+        distance = outside([hull], points)
+        points = points[distance > FAR_M]
         if not len(points):
             break
-        farthest = int(depth[depth < -FAR_M].argmin())
+        farthest = int(distance[distance > FAR_M].argmax())
         wider = hull_of(np.concatenate([hull.vertices, points[farthest : farthest + 1]]))
         points = np.delete(points, farthest, axis=0)
         if wider is None:

@@ -12,7 +12,7 @@ from ...geometry.colors import linear_of
 from ...geometry.crossings import BoolArray
 from ...geometry.rows import distinct_rows
 from ...mesh import FloatArray, IntArray, Material, Mesh
-from ..decompose.convex import depth_below
+from ..decompose.outside import outside
 from .box import Box
 from .panel import FlatPanel
 from .seam import CutSkin
@@ -89,8 +89,7 @@ def _backed(work: Workpiece, panel: FlatPanel, triangles: FloatArray) -> FloatAr
     if not len(triangles):
         return triangles
     points = np.einsum("kc,ncd->nkd", SPREAD, triangles).reshape(-1, 3) @ panel.side.frame
-    depths = [depth_below(hull, points) for hull in work.hulls.get(0, ())]
-    on = np.max(depths, axis=0, initial=-np.inf) > -BACKED_M
+    on = outside(work.hulls.get(0, ()), points) < BACKED_M
     return np.asarray(triangles[on.reshape(len(triangles), -1).mean(axis=1) >= 0.5])
 
 

@@ -4,16 +4,27 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import trimesh
 from manifold3d import Manifold
 
+from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import SeparateConfig
-from asset_factory.factory.manufacture.separate.budget import CutLimits, Loss, overdone
-from asset_factory.factory.manufacture.separate.clip import SHEET_M
+from asset_factory.factory.manufacture.separate.budget import (
+    CutLimits,
+    Excuse,
+    Loss,
+    SeenSurface,
+    loss,
+    overdone,
+    too_bare,
+)
+from asset_factory.factory.manufacture.separate.clip import SHEET_M, clipped
 from asset_factory.factory.manufacture.separate.overlap import thickness_m
+from asset_factory.factory.mesh import Mesh
 
 CONFIG = SeparateConfig()
 LIMITS = CutLimits(free_m=0.006, planed_m=0.025, share=0.5)
-NOTHING = Loss(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+NOTHING = Loss(*[0.0] * 7)
 
 
 def judged(lost, solid):
@@ -44,6 +55,42 @@ def test_most_of_the_slabs_over_an_open_surface_may_go_where_nothing_is_bared():
 
 def test_a_part_may_not_be_bared_over_more_than_its_share():
     assert "bare 6%" in judged(replace(NOTHING, area=0.06), solid=False)
+
+
+def plate():
+    """A plate of 600 x 200 x 2 mm, and how it is seen."""
+    made = trimesh.creation.box((0.6, 0.2, 0.002))
+    mesh = Mesh.from_triangles(made.vertices, made.faces)
+    return Hull(mesh.vertices, mesh.faces), SeenSurface.of(mesh)
+
+
+def lost_by(surface, before, after):
+    return loss(surface, [before], [after], Excuse((), False, ()), CONFIG)
+
+
+def test_a_plate_cut_to_a_knife_s_edge_is_bared_as_far_as_it_was_cut():
+    whole, surface = plate()
+    # From the upper edge of one end down to the middle of the lower face.
+    normal = np.array([0.002, 0.0, 0.3]) / np.hypot(0.002, 0.3)
+    wedge = clipped(whole, normal, float(normal @ [0.0, 0.0, -0.001]))
+    lost = lost_by(surface, whole, wedge)
+    assert lost.bared_m == pytest.approx(0.3, abs=1e-4)
+    assert lost.untouched == pytest.approx(0.29 / 0.6, abs=0.03)
+    assert "outside its collision geometry" in too_bare(("flap",), [lost], CONFIG)
+
+
+def test_cuts_that_take_a_little_each_may_not_bare_much_together():
+    left, surface = plate()
+    told = []
+    for normal, end in (((1, 0), 0.268), ((-1, 0), 0.268), ((0, 1), 0.086), ((0, -1), 0.086)):
+        cut = clipped(left, np.array([*normal, 0.0]), end)
+        lost = lost_by(surface, left, cut)
+        assert lost.area < CONFIG.planed_area
+        told.append(too_bare(("flap",), [lost], CONFIG) is not None)
+        left = cut
+    assert told == [False, False, False, True]
+    # What was bare before is no fault of a cut that bares nothing.
+    assert too_bare(("flap",), [lost_by(surface, left, left)], CONFIG) is None
 
 
 def test_a_thin_board_counts_as_a_sheet_and_a_thick_one_does_not():

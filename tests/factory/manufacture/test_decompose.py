@@ -19,9 +19,9 @@ from asset_factory.factory.manufacture.decompose import ladder
 from asset_factory.factory.manufacture.decompose.convex import (
     depth_below,
     surface_points,
-    uncovered,
 )
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls, decompose
+from asset_factory.factory.manufacture.decompose.outside import uncovered
 from asset_factory.factory.manufacture.decompose.solids import manifold_of, manifold_of_hull, union
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.runtime.store import Store

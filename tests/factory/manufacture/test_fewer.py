@@ -5,9 +5,9 @@ import trimesh
 
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import BuildConfig
-from asset_factory.factory.manufacture.decompose.convex import uncovered
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls
 from asset_factory.factory.manufacture.decompose.fewer import fewer
+from asset_factory.factory.manufacture.decompose.outside import uncovered
 from asset_factory.factory.runtime.store import Store
 
 CONFIG = BuildConfig()

@@ -15,10 +15,10 @@ from asset_factory.factory.manufacture.decompose.convex import (
     depth_below,
     hull_of,
     limit_vertices,
-    uncovered,
 )
 from asset_factory.factory.manufacture.decompose.cut import as_one, cut_along_faces
 from asset_factory.factory.manufacture.decompose.merge import merge
+from asset_factory.factory.manufacture.decompose.outside import uncovered
 from asset_factory.factory.manufacture.decompose.pockets import fills_little
 from asset_factory.factory.manufacture.decompose.sheets import slabs
 from asset_factory.factory.manufacture.decompose.solids import OpenSurface, manifold_of_hull

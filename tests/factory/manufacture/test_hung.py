@@ -19,7 +19,7 @@ from asset_factory.factory.mesh import Mesh, concatenate
 
 CONFIG = SeparateConfig()
 PAIR = ("body", "lever")
-RADIUS, ARM = 0.05, 0.3
+RADIUS, ARM = 0.05, 0.32
 UP = np.array([0.0, 0.0, 1.0])
 ALONG = np.array([1.0, 0.0, 0.0])
 

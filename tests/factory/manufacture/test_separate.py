@@ -10,9 +10,11 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind, P
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import SeparateConfig
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls
+from asset_factory.factory.manufacture.decompose.outside import outside
 from asset_factory.factory.manufacture.poses import relative_poses
 from asset_factory.factory.manufacture.separate import separate
 from asset_factory.factory.manufacture.separate.along import hull_depth
+from asset_factory.factory.manufacture.separate.budget import SeenSurface
 from asset_factory.factory.manufacture.separate.clip import (
     clipped,
     cut_apart,
@@ -175,6 +177,35 @@ def test_overlap_without_a_joint_between_is_left_alone():
     )
     result = separate(tree, pieces, [("mover", "third")], CONFIG, 64)
     assert "overlap by 8.00 mm at rest and no joint" in result.refused[("mover", "third")].reason
+
+
+def turned_box(size, center, axis, angle, about):
+    vertices, faces = box(size, center)
+    turn = trimesh.transformations.rotation_matrix(angle, axis, about)
+    return trimesh.transform_points(vertices, turn), faces
+
+
+def test_sheets_that_cross_at_a_slight_angle_are_not_cut_to_knife_s_edges():
+    # Two flaps of a carton, hinged at sides that meet in a corner; one plane takes all of either.
+    angle = np.radians(0.5)
+    shapes = [
+        box((0.4, 0.3, 0.1), (0, 0, -0.06)),
+        turned_box((0.4, 0.15, 0.001), (0, -0.075, 0), [1, 0, 0], angle, [0, -0.15, 0]),
+        turned_box((0.15, 0.3, 0.001), (-0.125, 0, 0), [0, -1, 0], angle, [-0.2, 0, 0]),
+    ]
+    meshes = [Mesh.from_triangles(*shape) for shape in shapes]
+    names = ("carton", "front", "side")
+    parts = tuple(Part(name, np.arange(12 * i, 12 * i + 12)) for i, name in enumerate(names))
+    joints = (
+        Joint("front", JointKind.REVOLUTE, 0, 1, [1, 0, 0], [0, -0.15, 0], 0.0, 1.5),
+        Joint("side", JointKind.REVOLUTE, 0, 2, [0, -1, 0], [-0.2, 0, 0], 0.0, 1.5),
+    )
+    tree = Articulation(concatenate(meshes), parts, joints, "test")
+    pieces = pieces_of(*(Hull(*shape) for shape in shapes))
+    result = separate(tree, pieces, [("front", "side")], CONFIG, 64)
+    for mesh, piece in zip(meshes, result.pieces, strict=True):
+        bare = outside(piece.hulls, SeenSurface.of(mesh).points[:1500])
+        assert float((bare > 0.01).mean()) < 0.1
 
 
 def test_a_cut_that_would_take_too_much_is_refused():

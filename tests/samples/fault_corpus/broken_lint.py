@@ -172,6 +172,7 @@ def broken_shapes() -> Iterator[Exhibit]:
     middle = (door.min(axis=0) + door.max(axis=0)) / 2.0
     flat = door * [1.0, 0.0, 1.0] + [0.0, -0.013, 0.0]
     short = box((0.0, -0.013, 0.45), (0.6, 0.018, 0.29))
+    sheet = box((0.0, -0.013, 0.5), (0.6, 0.006, 0.396))
     for name, code, build in (
         (
             "no_collision.urdf",
@@ -205,6 +206,11 @@ def broken_shapes() -> Iterator[Exhibit]:
             "collision_gap",
             urdf(with_body(thing, "door", pieces=(0.3 * door + 0.7 * middle,), looks=(door,))),
         ),
+        (
+            "collision_knife_edge.urdf",
+            "collision_gap",
+            urdf(with_body(thing, "door", pieces=(_wedge(sheet, 0.5),), looks=(sheet,))),
+        ),
         ("filled_drawer.urdf", "interior_filled", urdf(_filled_drawer())),
         ("filled_drawer.mjcf", "interior_filled", mjcf(_filled_drawer())),
     ):
@@ -234,6 +240,16 @@ def broken_shapes() -> Iterator[Exhibit]:
         ),
     ):
         yield Exhibit(name, build, code, "soft")
+
+
+def _wedge(corners: FloatArray, share: float) -> FloatArray:
+    """A panel that gets thinner along x, to nothing at this share of its width, [8, 3]."""
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    end = corners[:, 0] > low[0]
+    wedge = corners.copy()
+    wedge[end, 0] = low[0] + share * (high[0] - low[0])
+    wedge[end, 1] = (low[1] + high[1]) / 2.0
+    return wedge
 
 
 def _without_limits(folder: Path) -> Path:

@@ -154,6 +154,32 @@ def test_each_fault_has_its_own_code(broken: Break, code: str, severity: Severit
     assert found(broken(cabinet())).get(code) is severity
 
 
+def wedge(start: float, end: float) -> DescribedShape:
+    """A panel of 600 x 6 x 400 mm, thinner from one x to another [m], an edge there."""
+    shape = box_shape((0.0, 0.0, 0.0), (0.6, 0.006, 0.4))
+    far = shape.vertices[:, 0] > 0.0
+    vertices = shape.vertices * np.where(far, 0.0, 1.0)[:, None] ** [0.0, 1.0, 0.0]
+    vertices[:, 0] = np.where(far, end, start)
+    return replace(shape, vertices=vertices)
+
+
+@pytest.mark.parametrize(
+    ("wedges", "covered"),
+    [([(-0.3, 0.0)], 0.5167), ([(-0.3, 0.0), (0.3, 0.0)], 1.0), ([(-0.3, 0.3)], 1.0)],
+    ids=["half of it", "two that meet", "all of it"],
+)
+def test_what_lies_beyond_a_knife_s_edge_is_not_covered(
+    wedges: list[tuple[float, float]], covered: float
+) -> None:
+    panel = body("panel", [((0.0, 0.0, 0.0), (0.6, 0.006, 0.4))])
+    panel = replace(panel, collisions=tuple(wedge(*ends) for ends in wedges))
+    result = check_lint(described([panel], []), LintConfig())
+    told = result.measurements["links"][0]["covered"]
+    assert told == pytest.approx(covered, abs=0.05)
+    codes = {finding.code for finding in result.findings if finding.severity is HARD}
+    assert codes == ({"collision_gap"} if covered < 0.9 else set())
+
+
 def test_the_ratio_of_hull_to_mesh_volume_is_told() -> None:
     result = check_lint(drawer_collisions(hollow)(cabinet()), LintConfig())
     finding = next(item for item in result.findings if item.code == "nonconvex_collision")
