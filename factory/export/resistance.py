@@ -132,9 +132,8 @@ def _resistance(asset: Asset, joint: Joint, closed: FloatArray) -> Resistance:
 
 def _damping(joint: Joint, inertia: float, reach: float) -> float:
     """Return what was stated or chosen, as far as hands and engines bear it [N m s/rad, N s/m]."""
-    damping, pull = joint.damping, MOST_RIM_FORCE_N
-    if damping is None:
-        damping, pull = inertia / REST_TIME_S, CHOSEN_RIM_FORCE_N
+    damping = inertia / REST_TIME_S if joint.damping is None else joint.damping
+    pull = CHOSEN_RIM_FORCE_N if joint.damping is None else MOST_RIM_FORCE_N
     speed = (joint.upper - joint.lower) / OPENING_TIME_S
     most = pull * reach / speed if speed > 0.0 else damping
     return min(damping, inertia / SHORTEST_TIME_S, most)
