@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import combinations
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from ..config import PenetrationConfig
 from ..description import FloatArray, JointLine
 from ..geometry.coupled_path import AnyPath, CoupledPath
-from ..geometry.depth import contact_region
+from ..geometry.depth import HullOverlap, contact_region
 from ..geometry.path import Path
 from ..geometry.solids import SolidGroup, SolidPair
 from ..geometry.sweep import Candidate, Sweep, Tolerance, Worst
@@ -42,6 +43,11 @@ class Rest:
     upper: Mapping[str, float]
     standings: tuple[SolidPair, ...]
     diagonal: float
+
+    @cached_property
+    def overlaps(self) -> Mapping[PartPair, HullOverlap]:
+        """How the solids of ``standings`` stand, by their indices."""
+        return {(pair.first, pair.second): pair.overlap for pair in self.standings}
 
 
 def clear_until(course: JointCourse, failing: PairSweep) -> float:
@@ -197,7 +203,6 @@ class _Encounter:
         pairs = self.course.pairs
         rest = self.course.rest
         only = self.course.only
-        known = {(pair.first, pair.second): pair.overlap for pair in rest.standings}
         at_rest = self.course.values == rest.lower
         groups: Candidates = {}
         for row, column in np.argwhere(self.sweep.near(self.course.config.clearance_m)).tolist():
@@ -205,7 +210,7 @@ class _Encounter:
             stander = self.standing[column]
             if only is not None and pairs.parts(mover, stander) not in only:
                 continue
-            overlap = known.get((min(mover, stander), max(mover, stander)))
+            overlap = rest.overlaps.get((min(mover, stander), max(mover, stander)))
             depth = 0.0 if overlap is None else max(0.0, overlap.depth)
             # Directions known at rest hold for this path only if it starts there.
             usable = overlap is not None and at_rest

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
+import numpy.typing as npt
 
 from ..config import PenetrationConfig
 from ..description import FloatArray, JointLine
@@ -55,20 +56,34 @@ def open_neighbours(pairs: Pairs, rest: Rest, config: PenetrationConfig) -> tupl
 def _near(solids: Solids, rest: Rest) -> Iterator[tuple[JointLine, JointLine]]:
     """Ordered pairs of joints: the first's sweep comes near the open place of the second."""
     joints = [joint for joint in solids.tree.free if joint.name in rest.lower]
-    swept = _swept(solids, rest, joints)
-    for other in joints:
-        solids.place({**rest.lower, other.name: rest.upper[other.name]})
+    independent = _independent(solids, joints)
+    swept = _swept(solids, rest, [joints[i] for i in np.flatnonzero(independent.any(axis=1))])
+    around = np.full((len(joints), 2, 3), np.nan)
+    for index, joint in enumerate(joints):
+        if joint.name in swept:
+            around[index] = _around(swept[joint.name])
+    for index, other in enumerate(joints):
         below = _below(solids, other)
-        if not below:
+        if not below or not independent[:, index].any():
             continue
-        boxes = np.array([solids.items[index].collider.bounds for index in below])
-        for joint in joints:
-            if (
-                joint.name in swept
-                and _independent(solids, joint, other)
-                and _meet(swept[joint.name], boxes)
-            ):
+        solids.place({**rest.lower, other.name: rest.upper[other.name]})
+        boxes = np.array([solids.items[solid].collider.bounds for solid in below])
+        # What is around all of it is compared first: most pairs of joints are far apart.
+        low, high = _around(boxes)
+        close = ((around[:, 0] < high) & (low < around[:, 1])).all(axis=1) & independent[:, index]
+        for joint in (joints[i] for i in np.flatnonzero(close)):
+            if _meet(swept[joint.name], boxes):
                 yield joint, other
+
+
+def _independent(solids: Solids, joints: list[JointLine]) -> npt.NDArray[np.bool_]:
+    """Which joints carry nothing that another moves, itself or by a follower; symmetric."""
+    moves = np.zeros((len(joints), len(solids.tree.parts)), dtype=np.float32)
+    for row, joint in enumerate(joints):
+        moves[row, sorted(_parts(solids, joint))] = 1.0
+    apart: npt.NDArray[np.bool_] = moves @ moves.T == 0.0
+    np.fill_diagonal(apart, val=False)
+    return apart
 
 
 def _swept(solids: Solids, rest: Rest, joints: list[JointLine]) -> Mapping[str, FloatArray]:
@@ -91,6 +106,11 @@ def _swept(solids: Solids, rest: Rest, joints: list[JointLine]) -> Mapping[str, 
     return boxes
 
 
+def _around(boxes: FloatArray) -> FloatArray:
+    """Lowest and highest corner of boxes [m], shape [box_count, 2, 3] -> [2, 3]."""
+    return np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
+
+
 def _meet(swept: FloatArray, boxes: FloatArray) -> bool:
     low = swept[:, None, 0]
     high = swept[:, None, 1]
@@ -103,8 +123,3 @@ def _below(solids: Solids, joint: JointLine) -> list[int]:
 
 def _parts(solids: Solids, joint: JointLine) -> frozenset[int]:
     return frozenset(part for group in solids.moved(joint) for part in group.parts)
-
-
-def _independent(solids: Solids, one: JointLine, other: JointLine) -> bool:
-    """Neither carries the other or anything that follows it."""
-    return one is not other and not _parts(solids, one) & _parts(solids, other)

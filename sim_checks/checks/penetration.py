@@ -80,16 +80,16 @@ def _knuckles(
     """Every pair of solids that is some hinge's knuckle at rest."""
     tree = pairs.solids.tree
     part_of = tree.part_of()
+    overlapping: dict[PartPair, list[SolidPair]] = {}
+    for pair in rest.standings:
+        if pair.overlap.depth > TOUCH:
+            overlapping.setdefault(pairs.parts(pair.first, pair.second), []).append(pair)
     found: set[PartPair] = set()
     for joint in tree.moving:
         if joint.kind == "prismatic" or not (joint.name in rest.lower or joint.name in tree.mimics):
             continue
-        joined = tuple(sorted((part_of[joint.parent], part_of[joint.child])))
-        overlaps = [
-            pair
-            for pair in rest.standings
-            if pair.overlap.depth > TOUCH and pairs.parts(pair.first, pair.second) == joined
-        ]
+        first, second = sorted((part_of[joint.parent], part_of[joint.child]))
+        overlaps = overlapping.get((first, second), [])
         path = pairs.solids.path(joint, poses, 0.0)
         found |= knuckles(pairs.solids, overlaps, path, part_of[joint.child], config)
     return frozenset(found)

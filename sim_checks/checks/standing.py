@@ -20,7 +20,7 @@ from scipy.spatial import ConvexHull, QhullError
 from ..config import StandingConfig
 from ..description import DescribedShape, Description, FloatArray, JointLine, Link
 from ..geometry.hull import FlatHull, convex_hull
-from ..geometry.kinematics import NotATree, Tree, build_tree, free_ranges, unit_axis
+from ..geometry.kinematics import NotATree, Poser, Tree, build_tree, free_ranges, unit_axis
 from ..report import Finding, Severity
 from .result import CheckResult
 
@@ -62,26 +62,32 @@ class _RestingBody:
         }
         self._centers = {name: (item.mass, item.center) for name, item in inertias.items()}
         self.mass = sum(mass for mass, _ in self._centers.values())
+        self._poser = Poser(tree)
+        self._posed: dict[str, FloatArray] = {}
+        ends = np.cumsum([0, *map(len, self.points.values())])
+        self._rows = {name: slice(ends[i], ends[i + 1]) for i, name in enumerate(self.points)}
+        self._cloud = np.zeros((ends[-1], 3))
+        self._moments = {name: np.zeros(3) for name in self._centers}
+        self._footing: tuple[FloatArray, FloatArray | None] | None = None
         ranges = free_ranges(tree)
         self.ranges = ranges
         self.closed = {name: limits[0] for name, limits in ranges.items()}
         self.opened = {name: limits[1] for name, limits in ranges.items()}
-        points = self._placed(tree.link_poses(self.closed))
+        points = self._placed(self.closed)
         self.floor = float(points[:, 2].min())
         spread = float(np.linalg.norm(np.ptp(points[:, :2], axis=0)))
         self._near = self.floor + max(config.contact_m, config.contact_share * spread)
 
     def sunk(self, values: Mapping[str, float]) -> float:
         """How far the lowest point is below the floor [m]."""
-        return max(0.0, self.floor - float(self._placed(self.tree.link_poses(values))[:, 2].min()))
+        return max(0.0, self.floor - float(self._placed(values)[:, 2].min()))
 
     def stance(self, values: Mapping[str, float]) -> Stance:
         """Margin and tilt here."""
-        poses = self.tree.link_poses(values)
-        edges = self._support(poses)
+        edges = self._support(values)
         if edges is None:
             return Stance(None, None)
-        center = self._center(poses)
+        center = self._center()
         margin = float((edges[:, 2] - edges[:, :2] @ center[:2]).min())
         return Stance(margin, math.atan2(margin, max(float(center[2]) - self.floor, 1e-6)))
 
@@ -90,56 +96,58 @@ class _RestingBody:
 
         ``None`` where no such pull tips it, or it does not stand on its own.
         """
-        poses = self.tree.link_poses(values)
-        edges = self._support(poses)
-        pull = self._pull(joint, poses)
+        edges = self._support(values)
+        pull = self._pull(joint)
         if edges is None or pull is None:
             return None
         point, way = pull
-        center = self._center(poses)
+        center = self._center()
         held = GRAVITY * self.mass * (edges[:, 2] - edges[:, :2] @ center[:2])
         lever = (point[2] - self.floor) * (edges[:, :2] @ way[:2])
         lever += way[2] * (edges[:, 2] - edges[:, :2] @ point[:2])
         tips = lever > 1e-9
         return max(0.0, float((held[tips] / lever[tips]).min())) if tips.any() else None
 
-    def _placed(self, poses: Mapping[str, FloatArray]) -> FloatArray:
-        """All corners in the root's frame [m], shape [point_count, 3]."""
-        return np.vstack(
-            [
-                points @ poses[name][:3, :3].T + poses[name][:3, 3]
-                for name, points in self.points.items()
-            ]
-        )
+    def _placed(self, values: Mapping[str, float]) -> FloatArray:
+        """Pose all; return the corners in the root's frame [m], shape [point_count, 3].
 
-    def _center(self, poses: Mapping[str, FloatArray]) -> FloatArray:
-        """Centre of mass in the root's frame [m], shape [3]."""
-        moments = [
-            m * (poses[name][:3, :3] @ at + poses[name][:3, 3])
-            for name, (m, at) in self._centers.items()
-        ]
-        total: FloatArray = np.sum(moments, axis=0) / self.mass
+        Only what moved since the last pose is moved.
+        """
+        before = self._posed
+        self._posed = self._poser.link_poses(values)
+        for name, pose in self._posed.items():
+            if pose is before.get(name):
+                continue
+            if name in self.points:
+                corners = self.points[name] @ pose[:3, :3].T + pose[:3, 3]
+                self._cloud[self._rows[name]] = corners
+            if name in self._centers:
+                mass, at = self._centers[name]
+                self._moments[name] = mass * (pose[:3, :3] @ at + pose[:3, 3])
+        return self._cloud
+
+    def _center(self) -> FloatArray:
+        """Centre of mass as posed, in the root's frame [m], shape [3]."""
+        total: FloatArray = np.sum(list(self._moments.values()), axis=0) / self.mass
         return total
 
-    def _support(self, poses: Mapping[str, FloatArray]) -> FloatArray | None:
+    def _support(self, values: Mapping[str, float]) -> FloatArray | None:
         """The support's edges as lines (nx, ny, d), ``n @ x <= d`` inside, [edge_count, 3]."""
-        points = self._placed(poses)
-        return _edges(points[points[:, 2] <= self._near, :2], self._config.footing_m)
+        points = self._placed(values)
+        feet = points[points[:, 2] <= self._near, :2]
+        # Most joints move nothing that touches the floor.
+        if self._footing is None or not np.array_equal(feet, self._footing[0]):
+            self._footing = feet, _edges(feet, self._config.footing_m)
+        return self._footing[1]
 
-    def _pull(
-        self, joint: JointLine, poses: Mapping[str, FloatArray]
-    ) -> tuple[FloatArray, FloatArray] | None:
+    def _pull(self, joint: JointLine) -> tuple[FloatArray, FloatArray] | None:
         """Where a hand pulls [m], and the unit direction of that point as the joint opens."""
         below = self.tree.below(joint)
-        clouds = [
-            self.points[name] @ poses[name][:3, :3].T + poses[name][:3, 3]
-            for name in self.points
-            if name in below
-        ]
+        clouds = [self._cloud[rows] for name, rows in self._rows.items() if name in below]
         if not clouds:
             return None
         points = np.vstack(clouds)
-        frame = poses[joint.child]
+        frame = self._posed[joint.child]
         axis = frame[:3, :3] @ unit_axis(joint)
         if joint.kind == "prismatic":
             return _farthest(points, points @ axis), axis

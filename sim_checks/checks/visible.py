@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from ..config import PenetrationConfig
-from ..description import Description, FloatArray
+from ..description import Description, FloatArray, Link
 from ..geometry.depth import contact_region
 from ..geometry.gaps import visible_gap
-from ..geometry.kinematics import Tree
 from ..geometry.loose import strayed
 from ..geometry.surfaces import SurfaceMeeting, VisibleSurface, patches
 from .joint_sweep import Rest
@@ -39,7 +39,9 @@ class Visible:
     def surfaces(self) -> tuple[VisibleSurface | None, ...]:
         """Every part's visible surface in its first link's frame; ``None`` if it shows nothing."""
         tree = self.pairs.solids.tree
-        return tuple(_surface(self.description, tree, part) for part in tree.parts)
+        links = {link.name: link for link in self.description.links}
+        at_zero = tree.link_poses({})
+        return tuple(_surface([links[name] for name in part], at_zero) for part in tree.parts)
 
     def gap(self, contact: Contact) -> float | None:
         """How two visible surfaces stand around a contact [m]; ``None`` if one shows nothing."""
@@ -58,8 +60,13 @@ class Visible:
         here, there = patches(one, other, poses, meeting)
         if here is None or there is None:
             return False
-        at_rest = self._frames(contact, self.pairs.solids.tree.link_poses(self.rest.lower))
+        at_rest = self._frames(contact, self._resting)
         return strayed((here, there), meeting, at_rest, allowed)
+
+    @cached_property
+    def _resting(self) -> dict[str, FloatArray]:
+        """Link poses at rest."""
+        return self.pairs.solids.tree.link_poses(self.rest.lower)
 
     def _met(self, contact: Contact) -> tuple[SurfaceMeeting, FloatArray]:
         """Where a contact's hulls meet or come nearest, and the frames of the two parts there."""
@@ -81,15 +88,13 @@ class Visible:
         return np.array([poses[parts[part][0]] for part in contact.parts])
 
 
-def _surface(description: Description, tree: Tree, part: tuple[str, ...]) -> VisibleSurface | None:
-    at_zero = tree.link_poses({})
+def _surface(links: Sequence[Link], at_zero: Mapping[str, FloatArray]) -> VisibleSurface | None:
+    """One part's surface in its first link's frame."""
     vertices = []
     faces = []
     count = 0
-    for link in description.links:
-        if link.name not in part:
-            continue
-        in_part = np.linalg.inv(at_zero[part[0]]) @ at_zero[link.name]
+    for link in links:
+        in_part = np.linalg.inv(at_zero[links[0].name]) @ at_zero[link.name]
         for shape in link.visuals:
             vertices.append(shape.vertices @ in_part[:3, :3].T + in_part[:3, 3])
             faces.append(shape.faces + count)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -44,7 +45,15 @@ class Tree:
 
     def followers(self, joint: JointLine) -> tuple[JointLine, ...]:
         """The joints that follow ``joint``, directly or through others; file order."""
-        return tuple(other for other in self.moving if joint.name in self._leaders(other.name))
+        return self._followers.get(joint.name, ())
+
+    @cached_property
+    def _followers(self) -> Mapping[str, tuple[JointLine, ...]]:
+        found: dict[str, tuple[JointLine, ...]] = {}
+        for other in self.moving:
+            for leader in self._leaders(other.name):
+                found[leader] = (*found.get(leader, ()), other)
+        return found
 
     def value_of(self, name: str, values: Mapping[str, float]) -> float:
         """Where a joint is [rad] or [m].
@@ -76,11 +85,7 @@ class Tree:
                 leaders and the others are at 0; a follower's own value, where given, counts
                 instead.
         """
-        poses: dict[str, FloatArray] = {self.root: np.eye(4)}
-        for joint in self.order:
-            motion = joint_motion(joint, self.value_of(joint.name, values))
-            poses[joint.child] = poses[joint.parent] @ joint.origin @ motion
-        return poses
+        return Poser(self).link_poses(values)
 
     def below(self, joint: JointLine) -> frozenset[str]:
         """Names of the links that move with ``joint``."""
@@ -93,6 +98,35 @@ class Tree:
     def part_of(self) -> dict[str, int]:
         """Link name -> index into ``parts``."""
         return {link: index for index, part in enumerate(self.parts) for link in part}
+
+
+class Poser:
+    """A tree posed again and again: only links that a changed joint moves are posed anew.
+
+    The poses of all others are the same arrays as before.
+    """
+
+    def __init__(self, tree: Tree) -> None:
+        self._tree = tree
+        self._poses: dict[str, FloatArray] = {tree.root: np.eye(4)}
+        self._motions: dict[str, tuple[float, FloatArray]] = {}
+
+    def link_poses(self, values: Mapping[str, float]) -> dict[str, FloatArray]:
+        """Return what :meth:`Tree.link_poses` says of the same values, to the last digit."""
+        poses = dict(self._poses)
+        moved: set[str] = set()
+        for joint in self._tree.order:
+            value = self._tree.value_of(joint.name, values)
+            before = self._motions.get(joint.child)
+            if before is None or before[0] != value:
+                before = value, joint_motion(joint, value)
+                self._motions[joint.child] = before
+            elif joint.parent not in moved:
+                continue
+            poses[joint.child] = poses[joint.parent] @ joint.origin @ before[1]
+            moved.add(joint.child)
+        self._poses = poses
+        return dict(poses)
 
 
 def build_tree(description: Description) -> Tree:
@@ -152,8 +186,11 @@ def _parts(
     head = {root: root}
     for joint in order:
         head[joint.child] = joint.child if joint.kind in MOVING_KINDS else head[joint.parent]
-    heads = [root, *(name for name in names if name != root and head[name] == name)]
-    return tuple(tuple(name for name in names if head[name] == first) for first in heads)
+    parts: dict[str, list[str]] = {root: []}
+    parts.update({name: [] for name in names if head[name] == name})
+    for name in names:
+        parts[head[name]].append(name)
+    return tuple(tuple(part) for part in parts.values())
 
 
 def joint_motion(joint: JointLine, value: float) -> FloatArray:

@@ -66,11 +66,14 @@ class Path:
 
     def travel(self, points: FloatArray) -> float:
         """How far the fastest of the points goes [m]."""
+        return self.length * float(self.limits(points)[0].max(initial=0.0))
+
+    def limits(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Each point's speed [m per unit] and acceleration [m per unit squared]."""
         if not self.turning:
-            return self.length
-        return self.length * float(
-            np.linalg.norm(self.orbit(points).radial, axis=1).max(initial=0.0)
-        )
+            return np.ones(len(points)), np.zeros(len(points))
+        radius = np.linalg.norm(self.orbit(points).radial, axis=1)
+        return radius, radius
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from .collision import Collider
 from .coupled_path import AnyPath, CoupledPath
 from .depth import HullOverlap
 from .hull import FlatHull, convex_hull
-from .kinematics import Tree, unit_axis
+from .kinematics import Poser, Tree, unit_axis
 from .path import Path
 
 
@@ -77,19 +77,17 @@ class Solids:
                 except FlatHull:
                     continue
                 self.items.append(LinkSolid(link.name, shape.name, part, in_part, Collider(hull)))
-        self._values: Mapping[str, float] | None = None
-        self._poses: dict[str, FloatArray] = {}
-        self._chains = _chains(tree, part_of)
+        self._poser = Poser(tree)
+        self._steps = _steps(tree, part_of)
+        self._groups: dict[str, tuple[SolidGroup, ...]] = {}
         self.parts = np.array([item.part for item in self.items], dtype=np.int64)
 
     def place(self, values: Mapping[str, float]) -> dict[str, FloatArray]:
         """Pose every solid for the joint values; returns the link poses."""
-        if values != self._values:
-            self._values = dict(values)
-            self._poses = self.tree.link_poses(values)
+        poses = self._poser.link_poses(values)
         for item in self.items:
-            item.collider.place(self._poses[item.link])
-        return self._poses
+            item.collider.place(poses[item.link])
+        return poses
 
     def bounds(self) -> FloatArray:
         """Boxes around the solids as placed [m], shape [solid_count, 2, 3]."""
@@ -130,25 +128,29 @@ class Solids:
 
         Those that stand come first.
         """
+        if joint.name not in self._groups:
+            self._groups[joint.name] = self._grouped(joint)
+        return self._groups[joint.name]
+
+    def _grouped(self, joint: JointLine) -> tuple[SolidGroup, ...]:
         names = {
             other.name
             for other in (joint, *self.tree.followers(joint))
             if self._rate(joint, other) != 0.0
         }
+        ways: list[tuple[JointLine, ...]] = [() for _ in self.tree.parts]
+        for part, parent, above in self._steps:
+            ways[part] = (*ways[parent], above) if above.name in names else ways[parent]
         by_way: dict[tuple[str, ...], list[int]] = {}
-        for part, chain in enumerate(self._chains):
-            by_way.setdefault(
-                tuple(other.name for other in chain if other.name in names), []
-            ).append(part)
+        for part, way in enumerate(ways):
+            by_way.setdefault(tuple(other.name for other in way), []).append(part)
         groups = []
-        for way, parts in sorted(by_way.items(), key=lambda entry: (len(entry[0]) > 0, entry[1])):
-            ways = tuple(
-                (other, self._rate(joint, other))
-                for other in self._chains[parts[0]]
-                if other.name in way
-            )
-            solids = tuple(np.flatnonzero(np.isin(self.parts, parts)).tolist())
-            groups.append(SolidGroup(solids, tuple(parts), ways))
+        for _, parts in sorted(by_way.items(), key=lambda entry: (len(entry[0]) > 0, entry[1])):
+            member = np.zeros(len(self.tree.parts), dtype=bool)
+            member[parts] = True
+            rates = tuple((other, self._rate(joint, other)) for other in ways[parts[0]])
+            solids = tuple(np.flatnonzero(member[self.parts]).tolist())
+            groups.append(SolidGroup(solids, tuple(parts), rates))
         return tuple(groups)
 
     def moved(self, joint: JointLine) -> tuple[SolidGroup, ...]:
@@ -191,8 +193,17 @@ class Solids:
 
     def between(self, first: int, second: int) -> frozenset[str]:
         """Names of the free joints that move two parts against one another."""
-        here, there = ({joint.name for joint in self._chains[part]} for part in (first, second))
+        here, there = (self._above(part) for part in (first, second))
         return frozenset(self._leader(name) for name in here ^ there)
+
+    def _above(self, part: int) -> set[str]:
+        """Names of the moving joints above a part."""
+        found = set()
+        for below, parent, joint in reversed(self._steps):
+            if below == part:
+                found.add(joint.name)
+                part = parent
+        return found
 
     def _rate(self, joint: JointLine, other: JointLine) -> float:
         start, end = (self.tree.value_of(other.name, {joint.name: value}) for value in (0.0, 1.0))
@@ -204,11 +215,11 @@ class Solids:
         return name
 
 
-def _chains(tree: Tree, part_of: Mapping[str, int]) -> list[tuple[JointLine, ...]]:
-    """For each part the moving joints above it, from the root on."""
-    chains: list[tuple[JointLine, ...]] = [() for _ in tree.parts]
+def _steps(tree: Tree, part_of: Mapping[str, int]) -> tuple[tuple[int, int, JointLine], ...]:
+    """Every part but the root's, the part that it hangs on and the joint between; parents first."""
     moving = {joint.name for joint in tree.moving}
-    for joint in tree.order:
-        if joint.name in moving:
-            chains[part_of[joint.child]] = (*chains[part_of[joint.parent]], joint)
-    return chains
+    return tuple(
+        (part_of[joint.child], part_of[joint.parent], joint)
+        for joint in tree.order
+        if joint.name in moving
+    )

@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+import numpy.typing as npt
 
 from ..description import FloatArray
 from .collision import Collider
@@ -21,6 +22,12 @@ from .coupled_path import AnyPath, CoupledOrbit
 from .depth import HullOverlap
 from .path import Orbit
 
+#: Intervals of the path in which what is far from everything is told.
+COARSE_STEPS = 8
+#: Far above what rounding does to a box, far below any gap that counts [m].
+ROUNDING = 1e-9
+#: Which end of a box each of its corners has along each axis, shape [8, 3].
+CORNERS = np.indices((2, 2, 2)).reshape(3, 8).T
 #: How far beyond the limit a worst may lie that is taken for one within it [m].
 LIMIT_CERTAINTY = 1e-7
 #: A search that takes this many times the looks to be certain of its side runs along the limit
@@ -122,19 +129,35 @@ class Sweep:
         self._moving_orbits: dict[int, Orbit | CoupledOrbit] = {}
         self._standing_orbits: dict[int, Orbit | CoupledOrbit] = {}
 
-    def near(self, floor: float) -> np.ndarray:
+    def near(self, floor: float) -> npt.NDArray[np.bool_]:
         """Which moving hulls may come within ``floor`` [m] of standing ones; [moving, standing]."""
-        ends = np.array([self._swept(i) for i in range(len(self.moving))]).reshape(
-            -1, len(self.places) - 1, 2, 3
-        )
-        low = ends[:, :, 0].min(axis=1)
-        high = ends[:, :, 1].max(axis=1)
         still = np.array([collider.bounds for collider in self.standing]).reshape(-1, 2, 3)
-        close = np.ones((len(low), len(still)), dtype=bool)
-        for axis in range(3):
-            close &= low[:, None, axis] - still[None, :, 1, axis] < floor
-            close &= still[None, :, 0, axis] - high[:, None, axis] < floor
+        close = _within(self._reached(), still, floor + ROUNDING)
+        for index in np.flatnonzero(close.any(axis=1)).tolist():
+            boxes = self._swept(index)
+            around = np.array([[boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)]])
+            close[index] = _within(around, still, floor)[0]
         return close
+
+    def _reached(self) -> FloatArray:
+        """Boxes around all that the moving hulls' own swept boxes hold [m], [moving, 2, 3].
+
+        Wider than these, but found for all hulls at once: most are far from everything.
+        """
+        boxes = np.array([collider.bounds for collider in self.moving]).reshape(-1, 2, 3)
+        corners = boxes[:, CORNERS, np.arange(3)].reshape(-1, 3)
+        at = np.linspace(0.0, self.path.length, COARSE_STEPS + 1)
+        poses = self.path.poses(at)
+        points = corners @ poses[:, :3, :3].transpose(0, 2, 1) + poses[:, None, :3, 3]
+        points = points.reshape(len(at), len(boxes), len(CORNERS), 3)
+        # Between two places a point leaves the straight line by an eighth of its acceleration times
+        # the square of the step; the finer boxes add as much for theirs.
+        steps = at[1] ** 2 + self.places[1] ** 2
+        _, acceleration = self.path.limits(corners)
+        margin = steps / 8.0 * acceleration.reshape(len(boxes), len(CORNERS), 1).max(axis=1)
+        return np.stack(
+            [points.min(axis=(0, 2)) - margin, points.max(axis=(0, 2)) + margin], axis=1
+        )
 
     def worst(self, candidates: Sequence[Candidate], tolerance: Tolerance) -> Worst | None:
         """The worst excess over rest of the candidates; ``None`` if all stay beyond the floor."""
@@ -252,3 +275,12 @@ class Sweep:
         if index not in self._standing_orbits:
             self._standing_orbits[index] = self._backwards.orbit(self.standing[index].hull.vertices)
         return self._standing_orbits[index]
+
+
+def _within(boxes: FloatArray, others: FloatArray, floor: float) -> npt.NDArray[np.bool_]:
+    """Which boxes come within ``floor`` [m] of others; [box_count, 2, 3] -> [boxes, others]."""
+    close = np.ones((len(boxes), len(others)), dtype=bool)
+    for axis in range(3):
+        close &= boxes[:, None, 0, axis] - others[None, :, 1, axis] < floor
+        close &= others[None, :, 0, axis] - boxes[:, None, 1, axis] < floor
+    return close

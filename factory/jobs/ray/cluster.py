@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import os
+import secrets
 import shutil
 import signal
 import socket
 import tempfile
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from functools import cache
 from importlib.util import find_spec
 from typing import Any
 
@@ -28,6 +30,9 @@ SETTINGS = {
     "RAY_ENABLE_UV_RUN_RUNTIME_ENV": "0",
     "RAY_worker_niceness": "0",
 }
+#: How Ray is told that a cluster is of this machine alone, and listens on its loopback address. It
+#: reads this when it is imported.
+LOOPBACK = {"RAY_ENABLE_WINDOWS_OR_OSX_CLUSTER": "0"}
 
 
 class ClusterLost(AssetFactoryError):
@@ -49,12 +54,12 @@ def connected(address: str, processors: int | None) -> Iterator[Any]:
     if find_spec("ray") is None:
         raise ConfigError("Ray is not installed; `pip install 'asset-factory[ray]'` brings it")
     os.environ.update({name: value for name, value in SETTINGS.items() if name not in os.environ})
-    import ray
-
+    own = address == LOCAL
+    with _environment(LOOPBACK if own else {}):
+        import ray
     if ray.is_initialized():
         yield ray
         return
-    own = address == LOCAL
     # Ray's sockets lie in here, and their paths may not be long.
     folder = tempfile.mkdtemp(prefix="ray-", dir="/tmp") if own else None
     settings: dict[str, Any] = {"log_to_driver": False, "logging_level": "error"}
@@ -68,7 +73,7 @@ def connected(address: str, processors: int | None) -> Iterator[Any]:
     _require_somebody(address)
     try:
         try:
-            with _own_signals(), _temporary_files_in(folder):
+            with _own_signals(), _environment({} if folder is None else _private(folder)):
                 ray.init(address=address, **settings)
         except (ConnectionError, ValueError, RuntimeError) as error:
             raise ConfigError(f"no Ray cluster at {address!r}: {error}") from error
@@ -88,19 +93,38 @@ def _own_signals() -> Iterator[None]:
         signal.signal(signal.SIGTERM, before)
 
 
+def _private(folder: str) -> dict[str, str]:
+    """The environment that a cluster of one's own is started in.
+
+    Its processes keep temporary files in ``folder``: killed in the end, they remove none. They
+    listen on the loopback address only, and to nobody but who knows a token that is written into no
+    file; Ray's own would be readable by everybody. A token that the user gives stays.
+    """
+    settings = {**LOOPBACK, "TMPDIR": folder}
+    if not any(name.startswith("RAY_AUTH_TOKEN") for name in os.environ):
+        settings["RAY_AUTH_TOKEN"] = _token()
+    return settings
+
+
+@cache
+def _token() -> str:
+    """This process's token: Ray keeps the first that it is told."""
+    return secrets.token_hex(32)
+
+
 @contextmanager
-def _temporary_files_in(folder: str | None) -> Iterator[None]:
-    """Processes started here keep temporary files there: killed in the end, they remove none."""
-    before = os.environ.get("TMPDIR")
-    if folder is not None:
-        os.environ["TMPDIR"] = folder
+def _environment(values: Mapping[str, str]) -> Iterator[None]:
+    """Environment variables of processes that are started here, and of what is imported."""
+    before = {name: os.environ.get(name) for name in values}
+    os.environ.update(values)
     try:
         yield
     finally:
-        if before is not None:
-            os.environ["TMPDIR"] = before
-        else:
-            os.environ.pop("TMPDIR", None)
+        for name, value in before.items():
+            if value is None:
+                os.environ.pop(name, None)
+            else:
+                os.environ[name] = value
 
 
 def _require_somebody(address: str) -> None:

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from asset_factory.sim_checks.geometry.kinematics import (
     NotATree,
+    Poser,
     build_tree,
     rotation_about,
     sweep_range,
@@ -38,6 +39,32 @@ def test_a_planar_arm_reaches_where_trigonometry_says(a: float, b: float, d: flo
     expected = [np.cos(a) + (1 + d) * np.cos(a + b), np.sin(a) + (1 + d) * np.sin(a + b), 0.0]
     assert tip[:3, 3] == pytest.approx(expected, abs=1e-12)
     assert tip[:3, :3] == pytest.approx(rotation_about(np.array([0, 0, 1.0]), a + b), abs=1e-12)
+
+
+@given(
+    st.lists(
+        st.dictionaries(st.sampled_from(["shoulder", "elbow", "wrist"]), st.floats(-3, 3)),
+        min_size=2,
+        max_size=5,
+    )
+)
+def test_posing_again_gives_the_digits_of_posing_for_the_first_time(
+    samples: list[dict[str, float]],
+) -> None:
+    tree = arm()
+    poser = Poser(tree)
+    for values in samples:
+        again = poser.link_poses(values)
+        first = tree.link_poses(values)
+        assert all(np.array_equal(again[name], first[name]) for name in first)
+
+
+def test_links_that_no_changed_joint_moves_keep_their_pose() -> None:
+    poser = Poser(arm())
+    before = poser.link_poses({"shoulder": 0.3})
+    after = poser.link_poses({"shoulder": 0.3, "elbow": 0.5})
+    assert after["upper"] is before["upper"]
+    assert after["fore"] is not before["fore"]
 
 
 def test_what_hangs_below_a_joint_moves_with_it() -> None:

@@ -148,3 +148,39 @@ def test_no_sampled_pose_is_worse_than_the_bound_and_the_worst_is_real(
     assert found.bound <= found.excess + max(2e-5, 0.02 * abs(found.excess)) + 1e-12
     real = overlap(moving.moved(path.pose(found.at)), standing).depth
     assert found.depth == pytest.approx(real, abs=1e-9) if real > 0.0 else found.depth <= 0.0
+
+
+@given(
+    turning=st.booleans(),
+    length=st.floats(0.05, 6.0),
+    where=st.lists(st.tuples(*[st.floats(-1.0, 1.0)] * 3), min_size=2, max_size=6),
+    floor=st.floats(0.0, 0.05),
+)
+@settings(max_examples=60, deadline=None)
+def test_no_hull_that_comes_near_is_left_out(
+    turning: bool, length: float, where: list[tuple[float, float, float]], floor: float
+) -> None:
+    path = Path(turning, np.array([0.1, -0.2, 0.0]), Z, length)
+    moving = [Collider(box_hull(at, (0.3, 0.1, 0.2))) for at in where[::2]]
+    standing = [Collider(box_hull(at, (0.1, 0.4, 0.2))) for at in where[1::2]]
+    sweep = Sweep(path, moving, standing, 16)
+    near = sweep.near(floor)
+    for row in range(len(moving)):
+        for at in np.linspace(0.0, length, 37):
+            low, high = sweep.place(row, float(at)).bounds
+            for column, other in enumerate(standing):
+                apart = np.maximum(low - other.bounds[1], other.bounds[0] - high).max()
+                assert near[row, column] or apart >= floor
+
+
+def test_a_hull_far_from_everything_is_told_without_a_fine_look(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    far = Collider(box_hull((5.0, 0.0, 0.0), (0.1, 0.1, 0.1)))
+    close = Collider(box_hull((0.5, 0.0, 0.0), (0.1, 0.1, 0.1)))
+    sweep = Sweep(SLIDE, [far, close], [Collider(box_hull((1.0, 0.0, 0.0), (0.1, 0.1, 0.1)))], 16)
+    looked: list[int] = []
+    swept = Sweep._swept
+    monkeypatch.setattr(Sweep, "_swept", lambda self, i: looked.append(i) or swept(self, i))
+    assert sweep.near(0.005).tolist() == [[False], [True]]
+    assert looked == [1]
