@@ -27,13 +27,17 @@ def weight_files(config: ParticulateConfig) -> tuple[str, ...]:
 
 
 def load_network(config: ParticulateConfig) -> Particulate:
-    """The networks with their weights, ready to answer; imports torch.
+    """The networks with their weights, ready to answer; imports torch, which then has one thread.
 
     Raises:
         ConfigError: no such checkpoint, or not one of this network.
     """
+    import torch
+
     from .model import Particulate, load_field, load_model
 
+    # Sums in another order would have other bits, and workers are as many as processors.
+    torch.set_num_threads(1)
     checkpoint, *features = weight_files(config)
     model = load_model(checkpoint, precision=config.precision, device=config.device)
     field = (

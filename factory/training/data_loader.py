@@ -10,6 +10,8 @@ from threading import Thread
 from types import TracebackType
 from typing import Any
 
+from asset_factory.sim_checks.processes.threads import one_thread
+
 from ..errors import ConfigError
 from .batches import Batch, collate, join
 from .dataset import Dataset, Pool
@@ -105,7 +107,8 @@ class _Worker:
         self._pipe, writing = context.Pipe(duplex=False)
         arguments = (self._config, self._pools, step, self._numbers, writing)
         self._process = context.Process(target=_work, args=arguments, daemon=True)
-        self._process.start()
+        with one_thread():
+            self._process.start()
         # With the worker's end open in no other process, its death ends what is read here, even
         # within a batch.
         writing.close()

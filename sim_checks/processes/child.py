@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from .place import keep_place, leave_places
+from .threads import use_one_thread
 
 PR_SET_PDEATHSIG = 1
 LOG_NAME = "output.log"
@@ -49,8 +50,8 @@ def serve(connection: Connection, folder: str) -> None:
     # What native code dies of is told with the lines of Python that led there.
     faulthandler.enable(all_threads=False)
     os.environ["TMPDIR"] = tempfile.tempdir = folder
-    # OpenMP pools in many children would fight for the same few cores.
-    os.environ["OMP_NUM_THREADS"] = "1"
+    # For what is not loaded yet, should the fork server be one that somebody else started.
+    use_one_thread()
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     with suppress(EOFError, OSError):
         while True:

@@ -23,6 +23,7 @@ from typing import Any, Generic, TypeVar
 from .child import LOG_NAME, Answer, serve
 from .place import place_in
 from .scratch import scratch
+from .threads import one_thread
 
 T = TypeVar("T")
 
@@ -275,7 +276,9 @@ class _Process:
             target=serve, args=(theirs, self._folder)
         )
         try:
-            self._process.start()
+            # The fork server, which starts with the first child, is where libraries are loaded.
+            with one_thread():
+                self._process.start()
         except BaseException:
             self._connection.close()
             shutil.rmtree(self._folder, ignore_errors=True)

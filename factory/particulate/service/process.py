@@ -119,8 +119,4 @@ def load_answering(config: ParticulateConfig, at_once: int) -> Answering:
         ConfigError: it cannot be loaded.
     """
     digests = tuple(digest_file(fetch(file)) for file in weight_files(config))
-    import torch
-
-    # As in every other child: sums in another order would have other bits.
-    torch.set_num_threads(1)
     return Answering(load_network(config), identity_of(config, digests), at_once)

@@ -49,6 +49,19 @@ def not_at_home():
     raise AssertionError("the network at home was asked")
 
 
+def test_a_loaded_network_multiplies_with_one_thread(tmp_path):
+    torch = pytest.importorskip("torch")
+    before = torch.get_num_threads()
+    torch.set_num_threads(2)
+    try:
+        load_network(
+            ParticulateConfig(checkpoint=str(write_checkpoint(tmp_path / "tiny.safetensors")))
+        )
+        assert torch.get_num_threads() == 1
+    finally:
+        torch.set_num_threads(before)
+
+
 @pytest.fixture
 def serving(tmp_path):
     """A network served by threads of this process: ``serving(network)`` gives the address."""
