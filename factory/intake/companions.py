@@ -6,14 +6,17 @@ import os
 import re
 from collections.abc import Iterator
 from contextlib import suppress
+from itertools import islice
 from pathlib import Path
 from urllib.parse import unquote
 
+from asset_factory.sim_checks.read.regular import open_regular
 from asset_factory.sim_checks.read.usd.layers import SUFFIXES as USD_SUFFIXES
 from asset_factory.sim_checks.read.usd.layers import is_usd
 
-from .discover import REFERENCE
+from .files import lies_below
 from .formats.catalog import FORMATS
+from .references import MOST_BYTES, REFERENCE
 from .sidecar import sidecar_paths
 
 #: What readers open beside a mesh.
@@ -38,13 +41,18 @@ _LONGEST = 250
 _MOST_WORDS = 8
 #: Of USD layers, which say in no readable way what they name.
 _MOST_LAYERS = 4096
+#: Names, folders they may lie in, and text [bytes] that are looked at for one input: whatever a
+#: file says, so many places at most are asked for.
+_MOST_NAMES = 20_000
+_MOST_FOLDERS = 32
+_MOST_TEXT = 16 * MOST_BYTES
 
 
 def companions(source: Path, known: frozenset[str] = frozenset()) -> frozenset[str]:
     """Files in or below an input's folder that it may be made of, itself included.
 
-    Some may be too many, and some missing that are called strangely: what an input was made of
-    only its reader knows, see :class:`.reads.Reads`.
+    Some may be too many, and some missing that are called strangely, or named beyond the first
+    64 MiB of a file: what an input was made of only its reader knows, see :class:`.reads.Reads`.
 
     Args:
         source: the input.
@@ -60,14 +68,20 @@ def companions(source: Path, known: frozenset[str] = frozenset()) -> frozenset[s
     found = dict.fromkeys(map(Path, map(os.path.normpath, waiting)))
     folders = {root}
     names: set[str] = set()
+    real = root.resolve()
+    left = _MOST_TEXT
     while waiting:
         path = waiting.pop()
-        if path.suffix.lower() in _LEAVES | USD_SUFFIXES:
+        # The input itself may be a link to anywhere.
+        here = path == source or lies_below(path, real)
+        if path.suffix.lower() in _LEAVES | USD_SUFFIXES or not here:
             continue
-        with suppress(OSError):
-            data = path.read_bytes()
+        with suppress(OSError), open_regular(path) as file:
+            data = file.read(min(MOST_BYTES, left))
+            left -= len(data)
             more = {path.parent, *_folders(data, root)} - folders
-            said = set(_names(data)) - names
+            more = set(islice(sorted(more), max(0, _MOST_FOLDERS - len(folders))))
+            said = set(islice(_names(data), max(0, _MOST_NAMES - len(names)))) - names
             # What was said before may lie in a folder that is new.
             places = [*_places(said, folders | more, root), *_places(names, more, root)]
             folders |= more
@@ -87,9 +101,9 @@ def _layers(root: Path) -> Iterator[Path]:
 
 def _folders(data: bytes, root: Path) -> Iterator[Path]:
     """Folders in which an MJCF says that its files lie."""
-    for found in REFERENCE.finditer(data.decode("utf-8", "replace") if b"dir" in data else ""):
-        if found[1].endswith("dir"):
-            yield Path(os.path.normpath(root / found[2]))
+    for found in REFERENCE.finditer(data if b"dir" in data else b""):
+        if found[1].endswith(b"dir"):
+            yield Path(os.path.normpath(root / found[2].decode("utf-8", "replace")))
 
 
 def _names(data: bytes) -> Iterator[str]:

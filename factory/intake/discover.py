@@ -3,27 +3,23 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 from xml.parsers import expat
 
+from asset_factory.sim_checks.read.regular import open_regular
 from asset_factory.sim_checks.read.usd.layers import is_usd
 
 from ..errors import ConfigError
 from ..runtime.layout import ASSETS, DATABASE, REJECTED, WITHDRAWN
+from .files import lies_below
 from .formats.catalog import is_mesh
+from .references import References
 
 _HEAD_BYTES = 2**20
 #: What a registry's folder holds: assets are no inputs, though they look like some.
 REGISTERED = (ASSETS, REJECTED, WITHDRAWN)
-#: In place of a stem: every file.
-ALL = "*"
-#: What names a file in a URDF or MJCF, or a folder of them.
-REFERENCE = re.compile(r"""\b(filename|file|meshdir|assetdir)\s*=\s*["']([^"']*)["']""")
-#: Documents included in one another are followed so far.
-DEEPEST = 3
 #: What the USD layer to begin with is called, if not like its folder.
 MAIN_LAYERS = ("instance", "model", "asset")
 
@@ -77,20 +73,29 @@ def _followed(link: Path, real: Path) -> bool:
 
 def _inputs_below(folder: Path) -> Iterator[Path]:
     real = folder.resolve()
-    taken: set[tuple[Path, str]] = set()
+    references = References(folder)
+    owned: set[Path] = set()
     for current, subfolders, names in os.walk(folder):
+        here = Path(current)
+        there = frozenset(subfolders)
         made = REGISTERED if DATABASE in names else ()
         subfolders[:] = sorted(
             name for name in subfolders if not name.startswith(".") and name not in made
         )
-        here = Path(current)
         candidates = [here / name for name in sorted(names) if not name.startswith(".")]
-        candidates = [c for c in candidates if c.is_file() and c.resolve().is_relative_to(real)]
+        candidates = [c for c in candidates if c.is_file() and lies_below(c, real)]
         descriptions = [c for c in candidates if is_description(c)]
+        named: set[str] = set()
+        stems = {c.stem for c in candidates}
         for description in descriptions:
-            taken |= _taken(description)
+            for reference in references.of(description):
+                stem, inner = _taken(reference, there)
+                # Names are kept of what is there: a hostile file may name anything.
+                named |= {stem} & stems
+                owned |= {here / inner} if inner else set()
         stages = [c for c in candidates if _is_main_layer(c)]
-        meshes = [c for c in candidates if is_mesh(c) and not _belongs(c, taken)]
+        below = not owned.isdisjoint((here, *here.parents))
+        meshes = [c for c in candidates if is_mesh(c) and not (below or c.stem in named)]
         yield from sorted([*descriptions, *stages[:1], *meshes])
 
 
@@ -100,38 +105,14 @@ def _is_main_layer(path: Path) -> bool:
     return is_usd(path) and usual
 
 
-def _taken(description: Path) -> set[tuple[Path, str]]:
-    """Folder and stem of what a description refers to; all of a subfolder that it takes from."""
-    folder = description.parent
-    taken = set()
-    for reference in _references(description):
-        words = [word for word in reference.replace("\\", "/").split("/") if word not in ("", ".")]
-        if not words:
-            continue
-        name = Path(words[-1]).stem
-        taken.add((folder, name))
-        # A package's name comes before the folders that are there.
-        inner = next((word for word in words[:-1] if (folder / word).is_dir()), None)
-        if inner is not None:
-            taken.add((folder / inner, ALL))
-    return taken
-
-
-def _belongs(mesh: Path, taken: set[tuple[Path, str]]) -> bool:
-    if (mesh.parent, mesh.stem) in taken:
-        return True
-    return any((folder, ALL) in taken for folder in mesh.parents)
-
-
-def _references(description: Path, depth: int = 0) -> Iterator[str]:
-    """File names in a description and what it includes, and folders that an MJCF looks into."""
-    with suppress(OSError, ValueError):
-        text = description.read_bytes().decode("utf-8", "replace")
-        for found in REFERENCE.finditer(text):
-            attribute, value = found.groups()
-            yield f"{value}/x" if attribute.endswith("dir") else value
-            if value.lower().endswith(".xml") and depth < DEEPEST:
-                yield from _references(description.parent / value, depth + 1)
+def _taken(reference: str, subfolders: frozenset[str]) -> tuple[str, str]:
+    """Return the stem of the file that a reference means, and the subfolder it takes it from."""
+    words = [word for word in reference.replace("\\", "/").split("/") if word not in ("", ".")]
+    if not words:
+        return "", ""
+    # A package's name comes before the folders that are there.
+    inner = next((word for word in words[:-1] if word in subfolders or word == ".."), "")
+    return os.path.splitext(words[-1])[0], "" if inner == ".." else inner
 
 
 def _root_tag(path: Path) -> str | None:
@@ -140,6 +121,6 @@ def _root_tag(path: Path) -> str | None:
     parser = expat.ParserCreate(namespace_separator=" ")
     parser.StartElementHandler = lambda tag, _: tags.append(tag)
     # What is broken further down is told by whoever reads it.
-    with suppress(expat.ExpatError, OSError, ValueError, LookupError), path.open("rb") as file:
+    with suppress(expat.ExpatError, OSError, ValueError, LookupError), open_regular(path) as file:
         parser.Parse(file.read(_HEAD_BYTES), False)
     return tags[0] if tags else None

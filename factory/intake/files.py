@@ -7,6 +7,8 @@ import re
 from contextlib import suppress
 from pathlib import Path
 
+from asset_factory.sim_checks.read.regular import open_regular
+
 from ..config import IntakeConfig
 from ..errors import InputRejected
 from ..runtime.store import digest_bytes
@@ -64,10 +66,11 @@ class InputFiles:
             raise FileNotFoundError(path.name)
         if not path.is_file():
             raise unreadable(path.name, "is not a regular file")
-        require_at_most(
-            path.name, self._bytes + path.stat().st_size, self.limits.max_bytes, "bytes"
-        )
-        data = path.read_bytes()
+        with open_regular(path) as file:
+            size = os.fstat(file.fileno()).st_size
+            require_at_most(path.name, self._bytes + size, self.limits.max_bytes, "bytes")
+            # Not what is written to it meanwhile: it may grow without end.
+            data = file.read(size)
         if data.startswith(_LFS_POINTER):
             raise unreadable(
                 path.name, "is a Git LFS pointer, not the file itself; run git lfs pull"

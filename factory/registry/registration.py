@@ -68,7 +68,9 @@ def register_failure(
     origin = Source(source, config)
     origin.reads = reads
     stage = crash_stage(registry, origin.id, outcome)
-    code = "build_timeout" if outcome.failure is Failure.TIMEOUT else ALWAYS if stage else ONCE
+    # What reads an input may hang too, in a process of its own.
+    hung = outcome.failure is Failure.TIMEOUT or isinstance(outcome.error, TimeoutError)
+    code = "build_timeout" if hung else ALWAYS if stage else ONCE
     finding = Finding(code, Severity.HARD, f"building {source.name}: {sentence(outcome, stage)}")
 
     bad_luck = outcome.failure is Failure.CRASHED and not stage

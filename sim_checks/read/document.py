@@ -11,6 +11,7 @@ from defusedxml.common import DTDForbidden
 from defusedxml.ElementTree import XMLParser, fromstring
 
 from ..description import DescriptionError
+from .regular import read_regular
 
 MAX_DOCUMENT_BYTES = 64 * 2**20
 #: Elements and attributes of one document: each takes a hundred times the memory that it takes in
@@ -33,7 +34,7 @@ def parse_document(path: Path) -> ET.Element:
                 "too_large",
                 f"{path.name}: {size} bytes of XML, at most {MAX_DOCUMENT_BYTES} are read",
             )
-        data = path.read_bytes()
+        data = read_regular(path, MAX_DOCUMENT_BYTES)
     except OSError as error:
         raise DescriptionError(
             "missing_file", f"{path.name}: cannot be opened ({error.strerror})"

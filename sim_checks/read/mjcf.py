@@ -21,7 +21,9 @@ from ..description import (
     LinkInertia,
     Mimic,
 )
+from .compiling import memory_bounded
 from .document import parse_document
+from .multiplied import MOST, refuse_multiplied
 from .primitives import box, capsule, cylinder, ellipsoid
 from .references import refuse_outside_mjcf
 
@@ -38,9 +40,6 @@ MESH = 7
 FREE = 0
 BALL = 1
 SLIDE = 2
-#: A line of text can make a million.
-MAX_BODIES = 10_000
-MAX_GEOMS = 20_000
 #: mjtEq
 EQUALITY_JOINT = 2
 
@@ -60,12 +59,16 @@ def read_mjcf(path: Path) -> Description:
 
     document = parse_document(path)
     refuse_outside_mjcf(path, document)
+    refuse_multiplied(path, document)
     # Its own way is a log file in whatever folder the program was started from.
     mujoco.set_mju_user_warning(_say)
     # It remembers meshes by their file's name and the second they were written in.
     mujoco.mj_clearCache(mujoco.mj_getCache())
     try:
-        model = mujoco.MjModel.from_xml_path(str(path.resolve()))
+        with memory_bounded():
+            model = mujoco.MjModel.from_xml_path(str(path.resolve()))
+    except MemoryError as error:
+        raise DescriptionError("too_large", f"{path.name}: {error}") from error
     except (ValueError, RuntimeError, mujoco.FatalError) as error:
         raise DescriptionError("unreadable", f"{path.name}: {error}") from error
     _refuse_many(path.name, model)
@@ -83,8 +86,8 @@ def read_mjcf(path: Path) -> Description:
 
 def _refuse_many(name: str, model: MjModel) -> None:
     for what, count, most in (
-        ("bodies", model.nbody, MAX_BODIES),
-        ("geoms", model.ngeom, MAX_GEOMS),
+        ("bodies", model.nbody, MOST["bodies"]),
+        ("geoms", model.ngeom, MOST["geoms"]),
     ):
         if count > most:
             raise DescriptionError(

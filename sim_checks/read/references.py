@@ -14,6 +14,8 @@ from pathlib import Path
 
 from ..description import DescriptionError
 from .document import inside, locate, parse_document
+from .meshes import MAX_MESH_BYTES
+from .regular import read_regular
 
 #: Documents that may be nested in one another.
 MOST_NESTED = 16
@@ -24,8 +26,14 @@ DOCUMENTS = ("include", "model")
 
 
 @dataclass(frozen=True)
-class _Model:
-    """A MuJoCo model: a main file and what it includes, which share one set of folders."""
+class MujocoModel:
+    """A main file and what it includes, which share one set of folders.
+
+    Attributes:
+        folder: nothing outside is opened, a resolved path.
+        base: the main file's own.
+        documents: path and root element, the main file first.
+    """
 
     folder: Path
     base: Path
@@ -51,6 +59,11 @@ class _Model:
         bases = [self.base, document.parent]
         return [base / folder / name for name in names for folder in folders for base in bases]
 
+    def inner(self, element: ET.Element, document: Path) -> list[Path]:
+        """Return the documents that an element of :data:`DOCUMENTS` may mean, of those there."""
+        places = self.places(element, "file", document) if element.get("file") else []
+        return _found([place for place in places if inside(place, self.folder)])
+
 
 def _plain(reference: str) -> str:
     return reference.rpartition("://")[2].replace("\\", "/")
@@ -73,11 +86,35 @@ def refuse_outside_mjcf(path: Path, document: ET.Element) -> None:
     _refuse_model(path.resolve(), document, path.parent.resolve(), (), iter(range(MOST_DOCUMENTS)))
 
 
+def read_model(
+    path: Path,
+    document: ET.Element,
+    folder: Path,
+    above: Sequence[Path] = (),
+    left: Iterator[int] | None = None,
+) -> MujocoModel:
+    """Read what a model's main file includes.
+
+    Args:
+        path: of the main file, resolved.
+        document: its root element.
+        folder: nothing outside is opened, a resolved path.
+        above: documents that this model is nested in.
+        left: one item for each document that may still be read.
+
+    Raises:
+        DescriptionError: as :func:`refuse_outside_mjcf`.
+    """
+    left = iter(range(MOST_DOCUMENTS)) if left is None else left
+    documents = tuple(_with_included(path, document, folder, path.parent, above, left))
+    return MujocoModel(folder, path.parent, documents)
+
+
 def _refuse_model(
     path: Path, document: ET.Element, folder: Path, above: Sequence[Path], left: Iterator[int]
 ) -> None:
-    documents = tuple(_with_included(path, document, folder, path.parent, above, left))
-    model = _Model(folder, path.parent, documents)
+    model = read_model(path, document, folder, above, left)
+    documents = model.documents
     for at, root in documents:
         for element in root.iter():
             for key in element.attrib:
@@ -85,7 +122,7 @@ def _refuse_model(
                     _refuse_places(element.get(key, ""), model.places(element, key, at), folder)
     for at, root in documents:
         for element in root.iter("model"):
-            for inner in _found(model.places(element, "file", at)) if element.get("file") else ():
+            for inner in model.inner(element, at):
                 _refuse_model(
                     inner, parse_document(inner), folder, _nested(inner, (*above, path)), left
                 )
@@ -107,7 +144,7 @@ def _with_included(
         )
         raise DescriptionError("nested_too_deep", message)
     yield path, document
-    model = _Model(folder, base, ())
+    model = MujocoModel(folder, base, ())
     for element in document.iter("include"):
         places = model.places(element, "file", path)
         _refuse_places(element.get("file", ""), places, folder)
@@ -195,7 +232,12 @@ def refuse_outside_mesh(path: Path, folder: Path) -> None:
     pattern = _NAMED.get(path.suffix.lower())
     if pattern is None:
         return
-    for match in pattern.finditer(path.read_bytes()):
+    try:
+        data = read_regular(path, MAX_MESH_BYTES)
+    except OSError as error:
+        message = f"{path.name}: cannot be read: {error.strerror}"
+        raise DescriptionError("unreadable_mesh", message) from error
+    for match in pattern.finditer(data):
         words = match.group(1).decode("utf-8", "replace").strip().replace("\\", "/")
         # Options may stand before a picture's name, and a name may hold spaces.
         for name in dict.fromkeys((words, words.split()[-1] if words else "")):

@@ -11,7 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
+from asset_factory.sim_checks.description import DescriptionError
+from asset_factory.sim_checks.processes.isolation import Failure, Limits, run_isolated
+from asset_factory.sim_checks.read.multiplied import refuse_multiplied
 
 from ...config import IntakeConfig
 from ...errors import InputRejected
@@ -26,7 +28,8 @@ from .imported import Imported
 from .mjcf_files import referenced_files
 from .mjcf_model import MESH, CompiledGeom, CompiledJoint, CompiledModel, compile_model
 
-COMPILER_LIMITS = Limits(wall_s=120.0, cpu_s=60.0, memory_bytes=8 * 1024**3)
+#: Time only ends what hangs, and is no verdict; the compiler has a limit of memory of its own.
+COMPILER_LIMITS = Limits(wall_s=120.0, memory_bytes=8 * 1024**3)
 KINDS = {"hinge": "revolute", "slide": "prismatic"}
 #: Geoms of these groups are shown by MuJoCo's viewer unless asked otherwise.
 SHOWN_GROUPS = range(3)
@@ -46,10 +49,16 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Imported:
     Raises:
         InputRejected: ``unsupported_joint``, ``missing_file``, ``external_reference``,
             ``unreadable``, ``too_large``.
+        TimeoutError: nobody can say: the compiler hung, or somebody killed it.
     """
     files = referenced_files(root, path, config.max_bytes)
     size = sum(file.stat().st_size for file in files)
     require_at_most("all files together", size, config.max_bytes, "bytes")
+    try:
+        refuse_multiplied(path, root)
+    except DescriptionError as error:
+        code = error.code if error.code == "too_large" else "unreadable"
+        raise InputRejected(code, error.message) from error
     # Before they are compiled: whoever changes them after this is found out by the digest.
     digests = tuple(digest_read(file) for file in (path, *files))
     model = _compiled(path)
@@ -71,6 +80,10 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Imported:
 
 def _compiled(path: Path) -> CompiledModel:
     outcome = run_isolated(compile_model, str(path), limits=COMPILER_LIMITS)
+    if outcome.failure is Failure.TIMEOUT or outcome.killed:
+        raise TimeoutError(f"{path.name}: MuJoCo did not end compiling it: {outcome.detail}")
+    if isinstance(outcome.error, MemoryError):
+        raise InputRejected("too_large", f"{path.name}: {outcome.error}")
     if outcome.failure is not None or outcome.value is None:
         said = " ".join(outcome.detail.replace(str(path.parent), "").split())
         raise InputRejected("unreadable", f"{path.name}: MuJoCo cannot compile it: {said}")

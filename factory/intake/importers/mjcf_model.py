@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from asset_factory.sim_checks.read.compiling import memory_bounded
+
 from ...mesh import FloatArray, IntArray
 
 if TYPE_CHECKING:
@@ -111,13 +113,15 @@ def compile_model(path: str) -> CompiledModel:
 
     Raises:
         ValueError: what MuJoCo's compiler says is wrong.
+        MemoryError: it takes too much.
     """
     import mujoco
 
     # Its own way is a log file in whatever folder the program was started from.
     mujoco.set_mju_user_warning(_say)
-    model = _compiled(path)
-    data = mujoco.MjData(model)
+    with memory_bounded():
+        model = _compiled(path)
+        data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     return CompiledModel(
         body_names=tuple(model.body(i).name for i in range(model.nbody)),

@@ -10,6 +10,8 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
+from asset_factory.sim_checks.read.regular import read_regular
+
 from ...errors import InputRejected
 from ...mesh import FloatArray
 from ...runtime.store import digest_bytes
@@ -48,7 +50,7 @@ def read_xml(path: Path, max_bytes: int) -> Element:
                 unit="bytes",
                 limit=max_bytes,
             )
-        text = path.read_bytes()
+        text = read_regular(path, max_bytes)
         note_read(path, digest_bytes(text))
     except FileNotFoundError as error:
         raise InputRejected("missing_file", f"{path.name}: is not there") from error

@@ -188,11 +188,11 @@ def test_many_large_textures_together_are_too_large(tmp_path: Path) -> None:
 
 
 def test_out_of_memory_is_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def no_memory(self: Path) -> bytes:
+    def no_memory(path: Path) -> None:
         raise MemoryError
 
     path = write_stl(tmp_path)
-    monkeypatch.setattr(Path, "read_bytes", no_memory)
+    monkeypatch.setattr("asset_factory.factory.intake.files.open_regular", no_memory)
     assert _rejected(path).code == "too_large"
 
 

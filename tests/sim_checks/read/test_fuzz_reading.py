@@ -6,6 +6,7 @@ import pytest
 
 from asset_factory.sim_checks.description import DescriptionError
 from asset_factory.sim_checks.read import document, mjcf, references, urdf
+from asset_factory.sim_checks.read.multiplied import MOST
 from asset_factory.sim_checks.read.read import read_here
 
 #: Far more than the work takes, far less than what it took.
@@ -78,10 +79,12 @@ def test_more_triangles_than_any_object_has_are_too_large(monkeypatch, tmp_path)
     assert len(read_here(tmp_path / "a.urdf").links[0].visuals) == 3
 
 
-@pytest.mark.parametrize("limit", ["MAX_BODIES", "MAX_GEOMS"])
-def test_what_one_line_makes_a_million_of_is_too_large(limit, monkeypatch, tmp_path):
+@pytest.mark.parametrize("what", ["bodies", "geoms"])
+def test_what_one_line_makes_a_million_of_is_too_large(what, monkeypatch, tmp_path):
     pytest.importorskip("mujoco")
-    monkeypatch.setattr(mjcf, limit, 50)
+    monkeypatch.setitem(MOST, what, 50)
+    # Counted once it is compiled, whatever was counted before.
+    monkeypatch.setattr(mjcf, "refuse_multiplied", lambda *_: None)
     many = '<replicate count="60" offset="3 0 0"><body><geom size="1"/></body></replicate>'
     error = refusal(tmp_path, f"<mujoco><worldbody>{many}</worldbody></mujoco>", "a.xml")
     assert error.code == "too_large"

@@ -1,0 +1,149 @@
+"""A short MJCF that becomes a million bodies is refused by counting or by memory, never by time."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import pytest
+
+from asset_factory.factory.config import IntakeConfig
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.intake.load import load
+from asset_factory.sim_checks.description import DescriptionError
+from asset_factory.sim_checks.processes.isolation import Failure, Outcome
+from asset_factory.sim_checks.read import multiplied
+from asset_factory.sim_checks.read.compiling import memory_bounded
+from asset_factory.sim_checks.read.document import parse_document
+from asset_factory.sim_checks.read.multiplied import refuse_multiplied
+from asset_factory.sim_checks.read.read import read_description
+
+GEOM = '<geom size="0.1"/>'
+BODY = f"<body>{GEOM}</body>"
+
+
+def replicated(count: int, inside: str) -> str:
+    return f'<replicate count="{count}">{inside}</replicate>'
+
+
+def written(folder: Path, world: str, before: str = "", **documents: str) -> Path:
+    for name, text in documents.items():
+        (folder / f"{name}.xml").write_text(text)
+    path = folder / "scene.xml"
+    path.write_text(f"<mujoco>{before}<worldbody>{world}</worldbody></mujoco>")
+    return path
+
+
+def attaching(folder: Path, depth: int, times: int) -> Path:
+    """Models that each attach the one before so many times."""
+    inner = f"<worldbody><body name='b'>{GEOM}</body></worldbody>"
+    (folder / "m0.xml").write_text(f"<mujoco>{inner}</mujoco>")
+    for level in range(1, depth + 1):
+        attach = "".join(
+            f"<frame><attach model='m' body='b' prefix='{k}_'/></frame>" for k in range(times)
+        )
+        text = f"<asset><model name='m' file='m{level - 1}.xml'/></asset>"
+        text += f"<worldbody><body name='b'>{attach}</body></worldbody>"
+        (folder / f"m{level}.xml").write_text(f"<mujoco>{text}</mujoco>")
+    return folder / f"m{depth}.xml"
+
+
+HOSTILE = {
+    "replicate": lambda folder: written(folder, replicated(10**9, GEOM)),
+    "nested": lambda folder: written(folder, replicated(1000, replicated(1000, BODY))),
+    "empty": lambda folder: written(folder, replicated(10**9, "")),
+    "sites": lambda folder: written(folder, replicated(300_000, '<site size="1"/>')),
+    "digits": lambda folder: written(folder, replicated(int("9" * 4000), GEOM)),
+    "flexcomp": lambda folder: written(
+        folder, '<flexcomp name="f" type="grid" count="2000 2000 20" spacing="1 1 1" dim="2"/>'
+    ),
+    "included": lambda folder: written(
+        folder,
+        replicated(1000, '<include file="inner.xml"/>'),
+        inner=f"<mujocoinclude>{BODY * 30}</mujocoinclude>",
+    ),
+    "attached": lambda folder: attaching(folder, 8, 8),
+    "attached elsewhere": lambda folder: written(
+        folder,
+        replicated(30_000, '<attach model="inner" prefix="x"/>'),
+        '<include file="assets.xml"/>',
+        assets="<mujocoinclude><asset><model file='inner.xml'/></asset></mujocoinclude>",
+        inner=f"<mujoco><worldbody>{BODY}</worldbody></mujoco>",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_what_multiplies_without_bounds_is_refused_by_counting(tmp_path, name, monkeypatch):
+    path = HOSTILE[name](tmp_path)
+    started = time.process_time()
+    with pytest.raises(DescriptionError) as refused:
+        refuse_multiplied(path, parse_document(path))
+    assert refused.value.code == "too_large"
+    assert time.process_time() - started < 2.0
+    # Intake says so before anything is compiled.
+    monkeypatch.setattr("asset_factory.factory.intake.importers.mjcf.run_isolated", None)
+    with pytest.raises(InputRejected) as rejected:
+        load(path, IntakeConfig())
+    assert rejected.value.code == "too_large"
+
+
+@pytest.mark.parametrize(
+    ("world", "bodies"),
+    [
+        (BODY * 3, 4),
+        (replicated(3, BODY + replicated(4, BODY)), 16),
+        (f"<frame>{replicated(5, f'<frame>{BODY}</frame>')}</frame>", 6),
+        ('<include file="inner.xml"/>' + BODY, 4),
+        ('<flexcomp name="f" type="grid" count="4 5 1" spacing="1 1 1" dim="2"/>', 21),
+    ],
+)
+def test_as_many_are_counted_as_mujoco_makes(tmp_path, world, bodies, monkeypatch):
+    mujoco = pytest.importorskip("mujoco")
+    path = written(tmp_path, world, inner=f"<mujocoinclude>{BODY * 2}</mujocoinclude>")
+    assert mujoco.MjModel.from_xml_path(str(path)).nbody == bodies
+    # The world is not written in the file.
+    monkeypatch.setitem(multiplied.MOST, "bodies", bodies - 1)
+    refuse_multiplied(path, parse_document(path))
+    monkeypatch.setitem(multiplied.MOST, "bodies", bodies - 2)
+    with pytest.raises(DescriptionError, match=f"{bodies - 1} bodies"):
+        refuse_multiplied(path, parse_document(path))
+
+
+def test_models_attached_a_few_times_are_read(tmp_path):
+    path = attaching(tmp_path, 2, 3)
+    refuse_multiplied(path, parse_document(path))
+    assert len(read_description(path).links) == 14
+
+
+#: What no counting sees: the compiler asks for gigabytes.
+GREEDY = '<asset><texture name="t" type="2d" builtin="flat" width="40000" height="40000"/></asset>'
+
+
+def test_what_takes_gigabytes_to_compile_is_too_large(tmp_path):
+    path = written(tmp_path, BODY, GREEDY)
+    with pytest.raises(DescriptionError) as refused:
+        read_description(path)
+    with pytest.raises(InputRejected) as rejected:
+        load(path, IntakeConfig())
+    assert (refused.value.code, rejected.value.code) == ("too_large", "too_large")
+    assert "2 GiB" in refused.value.message
+
+
+def test_memory_is_bounded_and_unbounded_again():
+    with pytest.raises(MemoryError, match=r"0\.25 GiB"), memory_bounded(2**28):
+        bytearray(2**29)
+    assert len(bytearray(2**29)) == 2**29
+    with pytest.raises(ValueError, match="no name"), memory_bounded():
+        raise ValueError("no name")
+
+
+def test_a_compiler_that_hangs_gives_no_verdict(tmp_path, monkeypatch):
+    hung = Outcome(None, Failure.TIMEOUT, "no answer within 120 s", "", 120.0)
+    path = written(tmp_path, BODY)
+    for module in ("sim_checks.read.read", "factory.intake.importers.mjcf"):
+        monkeypatch.setattr(f"asset_factory.{module}.run_isolated", lambda *_, **__: hung)
+    with pytest.raises(TimeoutError):
+        read_description(path)
+    with pytest.raises(TimeoutError):
+        load(path, IntakeConfig())
