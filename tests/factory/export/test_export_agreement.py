@@ -1,9 +1,10 @@
-"""URDF and MJCF say what the asset is, as a program reads them that knows nothing of it."""
+"""URDF, MJCF and SDF say what the asset is, to whoever reads them and knows nothing of it."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -51,7 +52,7 @@ def test_every_link_has_the_mass_the_center_and_the_whole_tensor(said: Descripti
         center = body.inertial.center - asset.articulation.link_frame(part)
         assert inertia.mass == pytest.approx(body.inertial.mass)
         assert inertia.center == pytest.approx(center)
-        assert inertia.tensor == pytest.approx(body.inertial.tensor, abs=1e-8)
+        assert inertia.tensor == pytest.approx(body.inertial.tensor, abs=1e-7)
 
 
 def test_every_link_s_hulls_lie_where_the_asset_has_them(said: Description) -> None:
@@ -78,3 +79,24 @@ def test_every_joint_has_its_axis_both_limits_and_what_resists_it(said: Descript
         assert resistance.friction > 0.0
         assert line.friction == pytest.approx(resistance.friction)
         assert line.damping == pytest.approx(resistance.damping)
+
+
+def test_sdf_has_the_same_joints_and_tensors(tmp_path: Path) -> None:
+    asset = lopsided_asset()
+    export_bundle(asset, PROVENANCE, tmp_path, formats=("sdf",))
+    model = ElementTree.parse(tmp_path / "asset.sdf").getroot().find("model")
+    resistances = joint_resistances(asset)
+    for joint, resistance in zip(asset.articulation.joints, resistances, strict=True):
+        axis = model.find(f"joint[@name='{joint.name}']/axis")
+        said = {each.tag: each.text for each in axis.iter()}
+        assert [float(number) for number in said["xyz"].split()] == pytest.approx(joint.axis)
+        limits = (float(said["lower"]), float(said["upper"]))
+        assert limits == pytest.approx((joint.lower, joint.upper))
+        assert float(said["friction"]) == pytest.approx(resistance.friction)
+        assert float(said["damping"]) == pytest.approx(resistance.damping)
+    for part, body in enumerate(asset.bodies):
+        tensor = body.inertial.tensor
+        for row, column in ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)):
+            name = f"i{'xyz'[row]}{'xyz'[column]}"
+            cell = model.find(f"link[@name='part_{part}']/inertial/inertia/{name}")
+            assert float(cell.text) == pytest.approx(tensor[row, column], abs=1e-7)
