@@ -1,9 +1,8 @@
 """Make small wrong changes to copies of the tree, and demand that tests notice each of them.
 
-The changes are listed in ``tests/mutants.toml``, one ``[[mutant]]`` each: ``file``; ``before``, a
-text that occurs once in it; ``after``, which takes its place; ``tests``, files or node ids of which
-one must fail; ``says``, what would go wrong for a user. Exit code 1 if a change goes unnoticed, or
-can no longer be made.
+``tests/mutants.toml`` lists them, one ``[[mutant]]`` each: ``file``; ``before``, a text that occurs
+once in it; ``after``, which takes its place; ``tests``, files or node ids of which one must fail;
+``says``, what would go wrong for a user. Exit code 1 if a change goes unnoticed, or cannot be made.
 """
 
 from __future__ import annotations
@@ -27,14 +26,14 @@ ROOT = Path(__file__).resolve().parents[1]
 LIST = ROOT / "tests" / "mutants.toml"
 #: What no test reads; the rest is copied.
 LEFT_OUT = (".git", ".venv", "__pycache__", ".*_cache", ".hypothesis", "node_modules", "out")
-#: A test that a change fails in such a way has met a program that does not run, not one that errs.
+#: How a test fails that met a program which does not run, rather than one that errs.
 BROKEN = re.compile(r"^FAILED .* - (Import|ModuleNotFound|Name|Syntax|UnboundLocal)Error", re.M)
 MOST_S = 900.0
 
 
 @dataclass(frozen=True)
 class Mutant:
-    """One small wrong change, and the tests of which one must fail by it."""
+    """One small wrong change, and the tests of which one must fail by it; see above."""
 
     file: str
     before: str
@@ -43,15 +42,13 @@ class Mutant:
     says: str
 
     def apply(self, tree: Path) -> None:
-        """Make the change in a tree. Raises ValueError where it cannot be made, or is none."""
+        """Make the change in a tree. Raises ValueError or SyntaxError where it cannot be made."""
         text = (tree / self.file).read_text(encoding="utf-8")
         count = text.count(self.before)
         if count != 1:
             raise ValueError(f"its text before occurs {count} times, want once: {self.before!r}")
         changed = text.replace(self.before, self.after)
         compile(changed, self.file, "exec")
-        if changed == text:
-            raise ValueError("its text after is the text before")
         (tree / self.file).write_text(changed, encoding="utf-8")
 
 
@@ -67,63 +64,64 @@ def judge(mutant: Mutant, tree: Path) -> str:
     original = shutil.copy2(source, tree / "unchanged")
     try:
         mutant.apply(tree)
-        code, output = run_tests(mutant.tests, tree)
+        # What is compiled of a changed file must not be left for the next one.
+        code, output = run_tests(mutant.tests, tree, PYTHONDONTWRITEBYTECODE="1")
     except (ValueError, SyntaxError) as error:
         return f"cannot be made: {error}"
     except subprocess.TimeoutExpired:
         return f"its tests did not end within {MOST_S:g} s"
     finally:
-        # With its time, so that what was compiled before still counts.
+        # With its old time, so that what was compiled of it still counts.
         os.replace(original, source)
     if code == 0:
         return f"SURVIVES {', '.join(mutant.tests)}"
     if code != 1 or "\nFAILED " not in output or BROKEN.search(output):
-        return f"no test judged it: pytest ended with code {code}:\n{output[-2000:]}"
+        return f"no test judged it, pytest ended with code {code}:\n{output[-2000:]}"
     return ""
 
 
-def run_tests(tests: Sequence[str], tree: Path) -> tuple[int, str]:
+def run_tests(tests: Sequence[str], tree: Path, **environment: str) -> tuple[int, str]:
     """Run tests on the code of a tree until one fails: pytest's exit code, and what it said."""
     command = [sys.executable, "-m", "pytest", "-x", "-rf", "-p", "no:cacheprovider", *tests]
-    # A changed file must never leave compiled code behind that the next one is taken for.
-    own = {"PYTHONPATH": str(tree / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
-    done = subprocess.run(
-        command, cwd=tree, env={**os.environ, **own}, capture_output=True, text=True, timeout=MOST_S
+    own = {**os.environ, **environment, "PYTHONPATH": str(tree / "src")}
+    done = subprocess.run(  # noqa: S603 - our own tests
+        command, cwd=tree, env=own, capture_output=True, text=True, timeout=MOST_S, check=False
     )
     return done.returncode, done.stdout + done.stderr
 
 
 def main() -> int:
     """Try every change of the list; returns the exit code."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("only", nargs="?", default="", help="a word of the file, or of what it says")
+    parser = argparse.ArgumentParser(description="Demand that tests notice small wrong changes.")
+    parser.add_argument("only", nargs="?", default="", help="part of a file's path, or of a reason")
     parser.add_argument("-j", type=int, default=2, help="how many at once")
     options = parser.parse_args()
-    mutants = [each for each in read_mutants(LIST) if options.only in f"{each.file} {each.says}"]
+    mutants = [each for each in read_mutants(LIST) if options.only in f"{each.file}: {each.says}"]
+    trees: SimpleQueue[Path] = SimpleQueue()
+
+    def killed(mutant: Mutant) -> bool:
+        tree = trees.get()
+        started = time.monotonic()
+        fault = judge(mutant, tree)
+        took = time.monotonic() - started
+        trees.put(tree)
+        print(f"{took:6.1f} s  {fault or 'killed'}  {mutant.file}: {mutant.says}", flush=True)
+        return not fault
+
     with tempfile.TemporaryDirectory(prefix="mutants-") as folder:
-        trees: SimpleQueue[Path] = SimpleQueue()
-        for number in range(options.j):
-            tree = Path(folder) / str(number)
-            shutil.copytree(ROOT, tree, symlinks=True, ignore=shutil.ignore_patterns(*LEFT_OUT))
-            trees.put(tree)
-        code, output = run_tests(sorted({test for each in mutants for test in each.tests}), tree)
+        first = Path(folder) / "0"
+        shutil.copytree(ROOT, first, symlinks=True, ignore=shutil.ignore_patterns(*LEFT_OUT))
+        code, output = run_tests(sorted({test for each in mutants for test in each.tests}), first)
         if code != 0:
             print(f"the tests fail without any change:\n{output}")
             return 1
-
-        def tried(mutant: Mutant) -> bool:
-            tree = trees.get()
-            started = time.monotonic()
-            fault = judge(mutant, tree)
-            trees.put(tree)
-            took = time.monotonic() - started
-            print(f"{took:6.1f} s  {mutant.file}: {fault or 'killed'}; {mutant.says}", flush=True)
-            return not fault
-
+        trees.put(first)
+        for number in range(1, options.j):
+            trees.put(shutil.copytree(first, Path(folder) / str(number), symlinks=True))
         with ThreadPoolExecutor(options.j) as pool:
-            killed = sum(pool.map(tried, mutants))
-    print(f"{killed} of {len(mutants)} killed")
-    return 0 if killed == len(mutants) else 1
+            count = sum(pool.map(killed, mutants))
+    print(f"{count} of {len(mutants)} killed")
+    return 0 if count == len(mutants) else 1
 
 
 if __name__ == "__main__":

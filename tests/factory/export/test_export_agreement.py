@@ -69,9 +69,7 @@ def test_every_link_s_hulls_lie_where_the_asset_has_them(said: Description) -> N
 def test_every_joint_has_its_axis_both_limits_and_what_resists_it(said: Description) -> None:
     asset = lopsided_asset()
     lines = {line.name: line for line in said.joints}
-    for joint, resistance in zip(
-        asset.articulation.joints, joint_resistances(asset), strict=True
-    ):
+    for joint, resistance in zip(asset.articulation.joints, joint_resistances(asset), strict=True):
         line = lines[joint.name]
         assert line.kind == joint.kind
         assert line.axis == pytest.approx(joint.axis)
