@@ -187,3 +187,11 @@ def test_a_joint_that_is_never_free_gets_no_end():
     started = Plan(separate=frozenset({("base", "door")}))
     plan = next_plan(given, started, CONFIG, Spare(), asset)
     assert plan is None or "hinge" not in plan.upper
+
+
+def test_a_way_is_looked_at_up_to_its_very_end():
+    # The door stands 5 mm before the block, and is pushed 6 mm towards it.
+    asset = cabinet(axis=(0.0, 1.0, 0.0), upper=0.006, kind=JointKind.PRISMATIC)
+    hulls = [body.hulls for body in asset.bodies]
+    deepest = swept_m(asset.articulation, hulls, asset.articulation.joints[0])
+    assert deepest == pytest.approx(0.001)
