@@ -4,7 +4,7 @@ BIN    := $(VENV)/bin
 PIP    := $(BIN)/python -m pip --disable-pip-version-check
 LINKED := pyproject.toml constraints.txt
 
-.PHONY: demo test test-full cluster-test readers real check format bench soak faults site site-test docs clean
+.PHONY: demo test test-full cluster-test mutants readers real check format bench soak faults site site-test docs clean
 WEB := factory/report/site/web
 
 demo: $(VENV)/.ready                ## the main job on the example meshes
@@ -20,6 +20,9 @@ cluster-test: $(VENV)/.ready-dev    ## several hosts, as network namespaces; S3,
 	$(BIN)/python -m pytest -m 'not full' --durations=10 tests/factory/jobs/ray/test_hosts.py \
 		tests/factory/jobs/nightly/test_units.py tests/factory/registry/test_registry_sync.py \
 		tests/factory/intake/test_mirror.py
+
+mutants: $(VENV)/.ready-dev         ## fifty small wrong changes, one by one: a test notices each
+	$(BIN)/python .ci/mutants.py -j 2
 
 # Plugins of what is installed here for a moment are none of ours.
 readers: $(VENV)/.ready-dev         ## every export format in Drake, Pinocchio, yourdfpy and Newton

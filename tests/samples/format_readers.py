@@ -228,7 +228,12 @@ def animated_glb(folder: Path) -> Read:
     for node in document["nodes"][1:]:
         if "joint" in node["extras"]:
             joints[node["name"]] = node["extras"]["joint"]
-    moves = {each["name"].removeprefix("open "): each for each in document.get("animations", [])}
+    # By the node that it moves; the one that opens everything moves several.
+    moves = {
+        each["channels"][0]["target"]["node"]: each
+        for each in document.get("animations", [])
+        if len(each["channels"]) == 1
+    }
 
     def frames(values: dict[str, float]) -> Frames:
         found: Frames = {}
@@ -240,8 +245,8 @@ def animated_glb(folder: Path) -> Read:
                 *node.get("translation", (0, 0, 0)), *node.get("rotation", (0, 0, 0, 1))
             )
             joint = node.get("extras", {}).get("joint")
-            if joint is not None and joint["type"] != "fixed":
-                local = _animated(document, binary, moves[joint["name"]], joint, values, local)
+            if joint is not None and index in moves:
+                local = _animated(document, binary, moves[index], joint, values, local)
             found[node["name"]] = above @ local
             for child in node.get("children", []):
                 visit(child, above @ local)

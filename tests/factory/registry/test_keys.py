@@ -1,17 +1,23 @@
-"""Every setting is in the key of each stage that declares it, and of no other."""
+"""Every setting, library and source is in the key of each stage that it can change."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, replace
 from functools import cache
+from importlib.metadata import version
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from asset_factory.factory.config import GATE, BuildConfig
+from asset_factory.factory.registry import keys as registry_keys
 from asset_factory.factory.registry.keys import STAGES, build_key, failure_key
+from asset_factory.factory.runtime import keys as runtime_keys
+from asset_factory.factory.runtime.keys import Stage, code_digest
 from asset_factory.sim_checks.config import LIMIT
+from asset_factory.sim_checks.simulators import catalog
 
 #: Sections and single settings by the stages whose keys they are in; nothing else is in any.
 EXPECTED = {
@@ -32,6 +38,20 @@ EXPECTED = {
     # Export is not kept: it is made anew each time.
     "formats": set(),
     "hulls": set(),
+}
+#: Distributions by the stages whose results another version of them can change.
+LIBRARIES = {
+    "numpy": {"load", "articulate", "solids", "finish", "inspect"},
+    "scipy": {"load", "articulate", "solids", "decompose", "finish", "inspect"},
+    "trimesh": {"load", "articulate", "finish", "inspect"},
+    "manifold3d": {"load", "solids", "decompose", "finish"},
+    "python-fcl": {"inspect"},
+    "coacd": {"decompose"},
+    "vhacdx": {"decompose"},
+    "torch": {"articulate"},
+    "sapien": {"validate"},
+    "mujoco": {"load", "validate"},
+    "pybullet": {"validate"},
 }
 
 
@@ -118,3 +138,43 @@ def test_a_section_that_a_stage_declares_and_that_is_not_there_is_an_error() -> 
 def test_a_newer_version_of_a_stage_changes_its_key(stage) -> None:
     config = BuildConfig()
     assert replace(stage, version=stage.version + 1).key(config) != stage.key(config)
+
+
+@pytest.mark.parametrize("library", LIBRARIES)
+def test_another_version_of_a_library_changes_the_keys_of_what_it_makes(
+    library: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    config = replace(BuildConfig(), simulators=("sapien", "mujoco", "pybullet"))
+
+    def keys() -> dict[str, str]:
+        runtime_keys.installed_version.cache_clear()
+        registry_keys._pipeline_key.cache_clear()
+        found = {stage.name: stage.key(config, "an input") for stage in STAGES}
+        return {**found, "build": build_key("an input", config)}
+
+    def another_of_it(name: str) -> str:
+        return "another" if name == library else version(name)
+
+    before = keys()
+    with monkeypatch.context() as patch:
+        for module in (runtime_keys, catalog):
+            patch.setattr(module, "version", another_of_it)
+        after = keys()
+    assert keys() == before
+    told = {name for name in before if after[name] != before[name]}
+    assert told == {"build", *LIBRARIES[library]}
+
+
+def test_any_source_below_a_package_changes_the_keys_of_what_it_judges(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    inner = tmp_path / "judging_package" / "checks"
+    inner.mkdir(parents=True)
+    (inner.parent / "__init__.py").touch()
+    (inner / "depth.py").write_text("LIMIT = 1")
+    monkeypatch.syspath_prepend(tmp_path)
+    stage = Stage("inspect", 1, code=("judging_package",))
+    before = stage.key(BuildConfig())
+    (inner / "depth.py").write_text("LIMIT = 2")
+    code_digest.cache_clear()
+    assert stage.key(BuildConfig()) != before

@@ -136,3 +136,29 @@ def test_nothing_is_ever_half_there(tmp_path, case):
 @pytest.mark.parametrize("case", CASES)
 def test_nothing_is_ever_half_there_at_any_line(tmp_path, case):
     die_everywhere(tmp_path, case, stride=1)
+
+
+def test_what_is_published_is_on_the_disk_before_its_name_and_then_its_name(tmp_path, monkeypatch):
+    registry = Registry(tmp_path / "out", create=True)
+    done = []
+    sync = os.fsync
+    rename = os.rename
+
+    def noted_sync(descriptor):
+        sync(descriptor)
+        done.append(("synced", Path(os.readlink(f"/proc/self/fd/{descriptor}"))))
+
+    def noted_rename(source, target):
+        rename(source, target)
+        done.append(("renamed", Path(target)))
+
+    monkeypatch.setattr("os.fsync", noted_sync)
+    monkeypatch.setattr("os.rename", noted_rename)
+    folder = publish(registry)
+    monkeypatch.undo()
+    named = done.index(("renamed", folder))
+    before = [path for what, path in done[:named] if what == "synced"]
+    assert ("synced", registry.assets) in done[named:]
+    for path in (folder, *folder.rglob("*")):
+        end = ("bundle", *path.relative_to(folder).parts)
+        assert any(each.parts[-len(end) :] == end for each in before), path

@@ -1,6 +1,7 @@
 """The cache returns what was kept, and nothing for anything else."""
 
 import json
+import os
 
 import numpy as np
 import pytest
@@ -65,6 +66,26 @@ def test_what_cannot_be_written_leaves_nothing(tmp_path, monkeypatch):
         write_json(tmp_path / "a", float("nan"))
     assert [path.name for path in tmp_path.iterdir()] == ["a"]
     assert (tmp_path / "a").read_bytes() == b"old"
+
+
+def test_what_is_to_last_is_on_the_disk_before_and_after_it_gets_its_name(tmp_path, monkeypatch):
+    done = []
+    sync = os.fsync
+    put = os.replace
+
+    def noted_sync(descriptor):
+        sync(descriptor)
+        done.append(("synced", os.readlink(f"/proc/self/fd/{descriptor}")))
+
+    def noted_replace(source, target):
+        put(source, target)
+        done.append(("named", source))
+
+    monkeypatch.setattr("os.fsync", noted_sync)
+    monkeypatch.setattr("os.replace", noted_replace)
+    write_whole(tmp_path / "a", b"noted", lasting=True)
+    temporary = done[0][1]
+    assert done == [("synced", temporary), ("named", temporary), ("synced", str(tmp_path))]
 
 
 def test_a_file_is_readable_for_others(tmp_path):

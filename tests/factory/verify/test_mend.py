@@ -166,12 +166,16 @@ def test_a_closed_end_that_lies_in_something_is_pulled_in():
     assert -0.1 < begins <= 0.0
 
 
-def test_no_joint_ends_before_the_pose_as_modelled():
-    asset = cabinet(axis=(0.0, 0.0, -1.0), lower=-0.5)
-    measured = replace(joint(upper=1.5, clear_until=-0.3), lower=-0.5)
+@pytest.mark.parametrize("clear_until", [-0.3, -0.05])
+@pytest.mark.parametrize("measured_alone", [True, False])
+def test_no_joint_ends_before_the_pose_as_modelled(clear_until, measured_alone):
+    # Half of its range is free, so it would be long enough; but all of that lies below 0.
+    asset = cabinet(axis=(0.0, 0.0, -1.0), lower=-1.5, upper=0.4)
+    measured = replace(joint(upper=0.4, clear_until=clear_until), lower=-1.5)
+    assert (clear_until + 1.5) / 1.9 > CONFIG.least_range_share
     given = verdict(hard("sweep_penetration", name="hinge"), joints=[measured])
     started = Plan(separate=frozenset({("base", "door")}))
-    plan = next_plan(given, started, CONFIG, Spare(), asset)
+    plan = next_plan(given, started, CONFIG, Spare(), None if measured_alone else asset)
     assert plan is None or "hinge" not in plan.upper
 
 
@@ -183,3 +187,11 @@ def test_a_joint_that_is_never_free_gets_no_end():
     started = Plan(separate=frozenset({("base", "door")}))
     plan = next_plan(given, started, CONFIG, Spare(), asset)
     assert plan is None or "hinge" not in plan.upper
+
+
+def test_a_way_is_looked_at_up_to_its_very_end():
+    # The door stands 5 mm before the block, and is pushed 6 mm towards it.
+    asset = cabinet(axis=(0.0, 1.0, 0.0), upper=0.006, kind=JointKind.PRISMATIC)
+    hulls = [body.hulls for body in asset.bodies]
+    deepest = swept_m(asset.articulation, hulls, asset.articulation.joints[0])
+    assert deepest == pytest.approx(0.001)

@@ -8,8 +8,12 @@ import pytest
 from export_samples import PROVENANCE, box, boxes_asset, cabinet
 
 from asset_factory.factory.articulation import Joint, JointKind
+from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.export.bundle import export_bundle
+from asset_factory.factory.runtime.stages import Stages
+from asset_factory.factory.runtime.store import Store
 from asset_factory.factory.verify.validate import inspect, validate
+from asset_factory.sim_checks import Finding, Report, Severity
 from asset_factory.sim_checks.judge import Examination, Judge
 
 
@@ -49,3 +53,35 @@ def test_simulators_that_judged_different_files_of_one_asset_can_disagree(tmp_pa
     assert found.verdicts == {"sapien": "pass", "mujoco": "jammed"}
     assert "overlap by 5.00 mm" in found.reason
     assert "PhysX never collides" in found.reason
+
+
+class Hurried:
+    """A judge that runs out of time whenever it is asked for the first time."""
+
+    def __init__(self) -> None:
+        self.examined = self.checked = 0
+
+    def examine(self, path: Path) -> Examination:
+        self.examined += 1
+        late = Finding("check_timeout", Severity.HARD, "no answer in 120 s")
+        return Examination(None, (late,) if self.examined == 1 else ())
+
+    def check(self, path: Path, simulators: tuple[str, ...], examined: Examination) -> Report:
+        self.checked += 1
+        late = Finding("simulator_timeout", Severity.HARD, "no answer in 120 s", "sapien")
+        first = simulators and self.checked == 1
+        return Report(path.name, simulators, (*examined.findings, *((late,) if first else ())))
+
+
+def test_what_ran_out_of_time_is_asked_again_and_what_was_said_is_not(tmp_path: Path) -> None:
+    bundle = export_bundle(cabinet(), PROVENANCE, tmp_path / "bundle")
+    simulators = ("sapien",)
+    stages = Stages(BuildConfig(simulators=simulators), Store(tmp_path / "cache"))
+    hurried = Hurried()
+    inspected = [inspect(bundle, hurried, stages=stages) for _ in range(3)]
+    assert [verdict.status for verdict in inspected] == ["unjudged", "passed", "passed"]
+    assert hurried.examined == 2
+    hurried.checked = 0
+    asked = (bundle, simulators, hurried, (), inspected[-1], stages)
+    assert [validate(*asked).status for _ in range(3)] == ["unjudged", "passed", "passed"]
+    assert hurried.checked == 2

@@ -50,6 +50,18 @@ def test_each_lie_about_a_link_is_named(
 
 
 @pytest.mark.parametrize(
+    ("held", "codes"), [(3, []), (2, ["shape_dropped"]), (1, ["shape_dropped"])]
+)
+def test_one_shape_of_many_that_is_dropped_is_named_too(
+    description: Description, held: int, codes: list[str]
+) -> None:
+    links = tuple(replace(link, collisions=3 * link.collisions) for link in description.links)
+    threefold = replace(description, links=links)
+    observation = with_link(faithful(threefold), "drawer", shapes=held)
+    assert found(threefold, observation) == codes
+
+
+@pytest.mark.parametrize(
     ("changes", "code"),
     [
         ({"kind": "revolute"}, "joint_kind"),

@@ -154,6 +154,35 @@ def test_what_stands_behind_what_makes_way_makes_way_too() -> None:
     assert found["j0"] == (True, ("j1", "j2"))
 
 
+class Latched(Barred):
+    """Its last block stays open: once at 25 cm, a latch holds it at 20."""
+
+    caught = False
+
+    def place(self, positions: FloatArray) -> None:
+        super().place(positions)
+        self.caught = False
+
+    def step(self, forces: FloatArray) -> None:
+        super().step(forces)
+        self.caught = self.caught or self._q[-1] > 0.25
+        if self.caught and self._q[-1] < 0.2:
+            self._q[-1] = 0.2
+            self._v[-1] = 0.0
+
+
+def test_a_joint_that_does_not_come_back_is_refused_and_makes_no_way_for_another() -> None:
+    world = Latched({0: {1}, 1: set()})
+    barred, latched = sweep(world, CONFIG)
+    assert (latched.reached, latched.returned) == pytest.approx((1.0, 2.0 / 3.0), abs=1e-3)
+    assert latched.stuck_at == pytest.approx(0.2)
+    assert (barred.reached, barred.needs_open) == (pytest.approx(0.05 / 0.3, abs=1e-3), ())
+    observation = Observation(world.model, motions=(barred, latched))
+    findings = check_motion(nothing(), "engine", observation, CheckConfig()).findings
+    found = {finding.joint: (finding.code, str(finding.severity)) for finding in findings}
+    assert found == {"j0": ("jammed", "hard"), "j1": ("not_returned", "hard")}
+
+
 @pytest.mark.parametrize(("lid_waits_for", "opens"), [(set(), True), ({0}, False)])
 def test_a_flap_opens_with_its_lid_alone_where_the_unfolded_side_would_stop_it(
     lid_waits_for: set[int], opens: bool

@@ -144,6 +144,12 @@ def test_a_pair_that_the_file_excludes_is_measured_and_reported_softly() -> None
     assert codes(result) == ["excluded_penetration"]
 
 
+def test_an_excluded_pair_excuses_no_other_pair_of_its_links() -> None:
+    excluded = frozenset({frozenset({"carcass", "door"}), frozenset({"drawer", "door"})})
+    description = replace(cabinet("wide"), excluded=excluded)
+    assert "rest_penetration" in [finding.code for finding in hard(check(description))]
+
+
 def test_links_joined_rigidly_are_one_body() -> None:
     base = body("base", [((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))])
     plinth = body("plinth", [((0.0, 0.0, -0.4), (1.0, 1.0, 1.0))])

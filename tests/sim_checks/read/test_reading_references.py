@@ -185,6 +185,24 @@ def test_what_a_mesh_file_names_is_looked_at_too(folder: Path) -> None:
         assert code_of(folder, text, "asset.urdf") == code
 
 
+@pytest.mark.parametrize("element", ["init_from", "c:init_from", "ref"])
+def test_the_pictures_of_a_collada_file_are_looked_at_too(folder: Path, element: str) -> None:
+    pytest.importorskip("collada", reason="pycollada is not installed")
+    text = BOX_URDF.format('<mesh filename="box.dae"/>', "", "")
+    plain = trimesh.exchange.dae.export_collada(trimesh.creation.box()).decode()
+    for picture, code in (
+        ("../pixel.png", "outside_folder"),
+        ("meshes/../../pixel.png", "outside_folder"),
+        (f"file://{folder.parent}/pixel.png", "outside_folder"),
+        ("pixel.png", None),
+        ("meshes/pixel.png", None),
+    ):
+        image = f"<image id='i' xmlns:c='c'><{element}>{picture}</{element}></image>"
+        images = f"<library_images>{image}</library_images></COLLADA>"
+        (folder / "box.dae").write_text(plain.replace("</COLLADA>", images))
+        assert code_of(folder, text, "asset.urdf") == code
+
+
 def test_a_reader_of_meshes_opens_no_file_beside_it(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

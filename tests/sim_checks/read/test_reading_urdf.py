@@ -33,7 +33,7 @@ def test_everything_written_is_read(tmp_path: Path) -> None:
     content = """
       <link name="base"><inertial>
         <origin xyz="1 0 0" rpy="0 0 1.5707963267948966"/><mass value="2"/>
-        <inertia ixx="1" iyy="2" izz="2.5" ixy="0" ixz="0" iyz="0"/></inertial>
+        <inertia ixx="1" iyy="2" izz="2.5" ixy="0.1" ixz="0.2" iyz="0.3"/></inertial>
         <visual name="handle_0"><geometry><sphere radius="0.5"/></geometry></visual></link>
       <link name="door"><collision><origin xyz="0 0 1"/><geometry>
         <mesh filename="part.obj" scale="0.1 0.1 0.1"/></geometry></collision></link>
@@ -45,7 +45,9 @@ def test_everything_written_is_read(tmp_path: Path) -> None:
     base, door = description.links
     assert base.inertia is not None
     assert base.inertia.center == pytest.approx([1, 0, 0])
-    assert np.diag(base.inertia.tensor) == pytest.approx([2, 1, 2.5])
+    # A quarter turn about z: x is y, and y is minus x.
+    turned = np.array([[2.0, -0.1, -0.3], [-0.1, 1.0, 0.2], [-0.3, 0.2, 2.5]])
+    assert base.inertia.tensor == pytest.approx(turned)
     assert (base.visuals[0].name, base.visuals[0].kind) == ("handle_0", "sphere")
     shape = door.collisions[0]
     assert (shape.kind, shape.file) == ("mesh", "part.obj")
