@@ -10,14 +10,14 @@ from asset_factory.sim_checks.judge import Judge
 from .articulate.standing import standing_readings
 from .articulation import Articulation
 from .config import BuildConfig
-from .errors import InputRejected
+from .errors import InputRejected, Unjudged
 from .export.bundle import with_manifest_of
 from .export.model import write_input, write_model
 from .intake.intake import Intake
 from .intake.source import Source
 from .manufacture.stage import with_targets
 from .registry import Registry
-from .registry.product import Made, Product, finished, refused
+from .registry.product import Made, Product, finished, refused, stopped
 from .registry.registration import register
 from .registry.result import Result
 from .runtime.layout import CACHE
@@ -47,7 +47,8 @@ def make_asset(
         place: where the input lies for whoever registers it, if that is elsewhere.
 
     Returns:
-        What is to be registered. A bad input is a rejected product, never an exception.
+        What is to be registered. A bad input is a rejected product, and one that a clock stopped
+        an unjudged one, never an exception.
     """
     stages = Stages(config, Store(cache) if cache else None)
     origin = Source(source, config, place)
@@ -68,9 +69,11 @@ def make_asset(
             write_model(asset, bundle.folder, draft.before)
         made = Made(asset, bundle, verdict, draft.plan)
         return finished(origin, intake, made, stages)
-    except InputRejected as rejection:
+    except (InputRejected, Unjudged) as ended:
         shown = None if intake is None else write_input(intake.mesh, staging / "input")
-        return refused(origin, rejection, stages, shown)
+        if isinstance(ended, Unjudged):
+            return stopped(origin, ended, stages, shown)
+        return refused(origin, ended, stages, shown)
 
 
 def _drafts(
@@ -80,12 +83,12 @@ def _drafts(
     judge: Judge,
     stages: Stages,
 ) -> Iterator[ReadingDraft]:
-    """Each reading as an asset, repaired and judged without simulators, while there is time."""
+    """Each reading as an asset, repaired and judged without simulators, up to so much work."""
     limits = stages.config.readings
     refused_first: InputRejected | None = None
-    made = 0
+    done = 0
     for number, articulation in enumerate(likeliest_first[: limits.most]):
-        if number and stages.clock.busy > limits.within_s:
+        if done > limits.most_work:
             break
         try:
             rounds = Rounds(articulation, intake, staging / str(number), judge, stages)
@@ -93,9 +96,9 @@ def _drafts(
         except InputRejected as rejection:
             refused_first = refused_first or rejection
             continue
-        made += 1
+        done += draft.work
         yield draft
-    if refused_first is not None and not made:
+    if refused_first is not None and not done:
         raise refused_first
 
 

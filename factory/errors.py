@@ -4,6 +4,7 @@
 
     AssetFactoryError
     ├── InputRejected         this mesh cannot become an asset: data, not a bug; has a reason code
+    ├── Unjudged              a clock or somebody stopped a step: no verdict, to be tried again
     ├── InvalidArticulation   somebody tried to construct a kinematic tree that is not one
     ├── InvalidAsset          hulls or inertias that no simulator should be given
     ├── ConfigError           a preset, flag or sidecar says something that cannot be
@@ -18,6 +19,8 @@ A bad asset is data and ends in a report; every other exception is a broken prog
 from __future__ import annotations
 
 from enum import IntEnum
+
+from asset_factory.sim_checks import Finding
 
 
 class Exit(IntEnum):
@@ -83,6 +86,21 @@ def _rebuild_rejection(
     code: str, message: str, value: float | None, unit: str | None, limit: float | None, digest: str
 ) -> InputRejected:
     return InputRejected(code, message, value=value, unit=unit, limit=limit, digest=digest)
+
+
+class Unjudged(AssetFactoryError):
+    """A step that hung, or that somebody ended. Ends as unjudged; the next job tries again.
+
+    Attributes:
+        finding: what was stopped, and by what limit.
+    """
+
+    def __init__(self, finding: Finding) -> None:
+        super().__init__(finding.message)
+        self.finding = finding
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Unjudged, (self.finding,)
 
 
 class InvalidArticulation(AssetFactoryError, ValueError):

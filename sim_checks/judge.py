@@ -18,7 +18,7 @@ from .description import Description, DescriptionError
 from .processes.isolation import Failure, Outcome, WarmChild
 from .read.usd.as_urdf import write_as_urdf
 from .read.usd.layers import is_usd
-from .report import KILLED, Finding, Report, Severity
+from .report import KILLED, OUT_OF_TIME, Finding, Report, Severity
 
 #: Raised when the same files and settings would give another report.
 VERSION = 1
@@ -233,6 +233,8 @@ def _unasked(description: Description, simulators: Sequence[str]) -> list[Findin
 
 
 def _failure(outcome: Outcome[Any], path: Path) -> Finding:
-    code = "check_timeout" if outcome.failure is Failure.TIMEOUT else "check_crashed"
     message = f"the static checks gave no verdict on {path.name}: {outcome.detail}"
-    return Finding(code, Severity.HARD, message, cause=KILLED if outcome.killed else None)
+    if outcome.failure is Failure.TIMEOUT:
+        return Finding("check_timeout", Severity.HARD, message, cause=OUT_OF_TIME)
+    cause = KILLED if outcome.killed else None
+    return Finding("check_crashed", Severity.HARD, message, cause=cause)

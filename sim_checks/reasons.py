@@ -170,6 +170,8 @@ UNJUDGED: Mapping[str, str] = {
     "not_simulated": "no simulator asked for reads the format",
     "check_crashed": "the process of the static checks died",
     "check_timeout": "the static checks gave no answer in time",
+    "decomposition_timeout": "convex decomposition gave no answer in time",
+    "decomposition_killed": "somebody, or the kernel, ended the process of convex decomposition",
     "build_crashed": "the process that built the asset died, or met a fault of the program",
     "crashed": "as before, twice in one stage; waits for another version of anything, or settings",
     "build_timeout": "the asset was not built in time",

@@ -33,9 +33,10 @@ class Status(StrEnum):
 UNJUDGED_CODES = frozenset(UNJUDGED)
 
 
-#: Cause of a finding of no verdict: somebody made an end of the process, which says nothing of the
-#: asset.
+#: Causes of a finding of no verdict that say nothing of the asset: somebody made an end of the
+#: process, or it had no answer by the time limit of what hangs.
 KILLED = "killed"
+OUT_OF_TIME = "out_of_time"
 
 
 @dataclass(frozen=True)
@@ -70,6 +71,11 @@ class Finding:
         object.__setattr__(self, "severity", Severity(self.severity))
         object.__setattr__(self, "parts", tuple(self.parts))
         object.__setattr__(self, "joints", tuple(self.joints))
+
+    @property
+    def stopped(self) -> bool:
+        """Whether another try may say something else: a clock or somebody ended this one."""
+        return self.cause in (KILLED, OUT_OF_TIME)
 
 
 @dataclass(frozen=True)

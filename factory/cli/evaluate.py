@@ -25,9 +25,9 @@ HALVES = ("develop", "report", "both")
 class Evaluate:
     """Compare what articulators say with what is true, on objects that come with their joints.
 
-    A method that gives no answer for a case, or takes too long, is counted and scored as if it had
-    said that nothing
-    moves. Exit codes: 0 all cases are scored; 3 some case could not be made; 2 wrong usage.
+    A method that gives no answer for a case is counted and scored as if it had said that nothing
+    moves; what hangs is counted and not scored. Exit codes: 0 all cases are scored; 3 some case
+    could not be made or hung; 2 wrong usage.
 
     Example: factory evaluate --set procedural --method auto geometric --output evaluation/
     """
@@ -81,7 +81,7 @@ class Evaluate:
     workers: int = 1
     """Cases at once."""
     timeout: float = 300.0
-    """Longest that one answer may take [s]."""
+    """After which an answer hangs: it is stopped and not scored [s]."""
     cache: Path | None = None
     """Folder that keeps objects once read."""
 

@@ -9,7 +9,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from queue import SimpleQueue
 
-from asset_factory.sim_checks.processes.isolation import Limits, Outcome, WarmChild, preload
+from asset_factory.sim_checks.processes.isolation import (
+    Failure,
+    Limits,
+    Outcome,
+    WarmChild,
+    preload,
+)
 
 from ..articulate.rigid import RigidArticulator
 from ..articulation import Articulation
@@ -59,7 +65,7 @@ class Row:
     Attributes:
         trial: what was asked.
         score: of the answer, or of the naive one where there was none; ``None`` if the case could
-            not be made.
+            not be made, or a clock or somebody stopped the method.
         failure: why there was no answer; empty if there was.
     """
 
@@ -132,6 +138,8 @@ def _with_child(free: SimpleQueue[WarmChild], trial: Trial, limits: Limits) -> R
             return Row(trial, outcome.value)
         if isinstance(outcome.error, ConfigError):
             raise outcome.error
+        if outcome.failure is Failure.TIMEOUT or outcome.killed:
+            return Row(trial, None, _reason(outcome))
         instead = child.call(score_naively, trial, limits=limits)
         return Row(trial, instead.value, _reason(outcome))
     finally:

@@ -316,7 +316,7 @@ def load_model(
         shape = read_shape(stored.shapes, max_parts)
     network = _filled(PartArticulationTransformer, shape, load_tensors(stored), device)
     upright = stored.metadata.get("axes") == "upright"
-    return Model(shape, product_dtype(precision, device), device, network, upright)
+    return Model(shape, product_dtype(precision), device, network, upright)
 
 
 def load_field(
@@ -343,7 +343,7 @@ def load_field(
     with naming(stored.file):
         shape = read_partfield_shape(stored.shapes, heads=heads)
     encoder = _filled(PartFieldEncoder, shape, load_tensors(stored, leave=UNUSED), device)
-    return FeatureField(shape, product_dtype(precision, device), device, encoder)
+    return FeatureField(shape, product_dtype(precision), device, encoder)
 
 
 def _filled(kind: Any, shape: Any, tensors: dict[str, Any], device: str) -> Any:

@@ -7,10 +7,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from asset_factory.sim_checks import Finding, Report, Severity, Status
-from asset_factory.sim_checks.report import KILLED
 
 from ..asset import Asset
-from ..errors import InputRejected
+from ..errors import InputRejected, Unjudged
 from ..export.bundle import Bundle
 from ..intake.intake import Intake
 from ..intake.naming import safe_name, well_formed
@@ -119,6 +118,14 @@ def refused(
     return _product(origin, entry, told, shown, stages)
 
 
+def stopped(
+    origin: Source, unjudged: Unjudged, stages: Stages, shown: Path | None = None
+) -> Product:
+    """The product of an input that got no verdict, as some step hung; ``shown`` is kept of it."""
+    entry, told = without_asset(origin, unjudged.finding, Status.UNJUDGED)
+    return _product(origin, entry, told, shown, stages)
+
+
 def without_asset(origin: Source, finding: Finding, status: Status) -> tuple[Entry, BuildReport]:
     """The row and the report of an input of which there is nothing else to say."""
     finding = replace(finding, message=well_formed(finding.message))
@@ -138,13 +145,11 @@ def without_asset(origin: Source, finding: Finding, status: Status) -> tuple[Ent
 
 
 def _key(origin: Source, status: Status, reason: Finding | None) -> str:
-    """Key of a result not to be redone: a verdict or too tight limits, but not a kill."""
+    """Key of a result not to be redone: a verdict or a crash, but not what a clock stopped."""
     built = source_key(origin)
     if status is not Status.UNJUDGED:
         return built
-    return (
-        "" if reason is not None and reason.cause == KILLED else failure_key(built, origin.config)
-    )
+    return "" if reason is not None and reason.stopped else failure_key(built, origin.config)
 
 
 def _product(

@@ -8,6 +8,7 @@ from time import perf_counter
 
 from asset_factory.sim_checks import Finding, Severity, Status
 from asset_factory.sim_checks.processes.isolation import Failure, Outcome
+from asset_factory.sim_checks.report import OUT_OF_TIME
 
 from ..config import BuildConfig
 from ..intake.reads import Reads
@@ -58,10 +59,10 @@ def register_failure(
     Args:
         registry: to list it in.
         source: the input.
-        reads: the files that it is made of, if they are known; what ran out of time is then not
-            tried again until one of them, the settings or a library changes, or somebody asks for
-            it, and so is what died twice in one stage. A process that died once may have been bad
-            luck: the next job tries again.
+        reads: the files that it is made of, if they are known; what died twice in one stage is then
+            not tried again until one of them, the settings or a library changes, or somebody asks
+            for it. What ran out of time, or died once, may have been bad luck: the next job tries
+            again.
         config: of every stage.
         outcome: what came of its process.
     """
@@ -69,10 +70,10 @@ def register_failure(
     origin.reads = reads
     stage = crash_stage(registry, origin.id, outcome)
     # What reads an input may hang too, in a process of its own.
-    hung = outcome.failure is Failure.TIMEOUT or isinstance(outcome.error, TimeoutError)
-    code = "build_timeout" if hung else ALWAYS if stage else ONCE
-    finding = Finding(code, Severity.HARD, f"building {source.name}: {sentence(outcome, stage)}")
-
+    late = outcome.failure is Failure.TIMEOUT or isinstance(outcome.error, TimeoutError)
+    code = "build_timeout" if late else ALWAYS if stage else ONCE
+    message = f"building {source.name}: {sentence(outcome, stage)}"
+    finding = Finding(code, Severity.HARD, message, cause=OUT_OF_TIME if late else None)
     bad_luck = outcome.failure is Failure.CRASHED and not stage
     origin.keyed = not (bad_luck or isinstance(outcome.error, OSError))
     entry, told = without_asset(origin, finding, Status.UNJUDGED)

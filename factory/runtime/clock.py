@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from time import perf_counter, process_time
+from time import perf_counter
 from typing import TypeVar
 
 from asset_factory.sim_checks.processes.place import at
@@ -21,7 +21,6 @@ class Stopwatch:
 
     def __init__(self) -> None:
         self._started = perf_counter()
-        self._begun = process_time()
         self._within = 0.0
         self.stages: dict[str, float] = {}
 
@@ -29,11 +28,6 @@ class Stopwatch:
     def seconds(self) -> float:
         """Since construction [s]."""
         return perf_counter() - self._started
-
-    @property
-    def busy(self) -> float:
-        """Processor time of this process since construction [s]: alike on a busy machine."""
-        return process_time() - self._begun
 
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:

@@ -13,6 +13,9 @@ from ..export.bundle import Bundle
 from ..manufacture.plan import Plan
 from .validate import Verdict
 
+#: So many faces take as long as a hull, in the rounds of 27 objects of 400 to 65,000 faces.
+FACES_PER_HULL = 400
+
 _VERBS = {"revolute": "turns", "continuous": "turns", "prismatic": "slides"}
 
 
@@ -27,6 +30,7 @@ class ReadingDraft:
         findings: the factory's own.
         inspected: what the judge says of it without simulators.
         before: what it was before repairs, if there were any.
+        work: that it took, with all that was made of this reading before it; see :func:`work_of`.
     """
 
     reading: Articulation
@@ -36,6 +40,7 @@ class ReadingDraft:
     findings: tuple[Finding, ...]
     inspected: Verdict
     before: Asset | None = None
+    work: int = 0
 
     @property
     def passes(self) -> bool:
@@ -46,6 +51,16 @@ class ReadingDraft:
     def whole(self) -> bool:
         """Whether it passes with every joint of its reading."""
         return self.passes and not self.plan.frozen and not self.plan.given_up
+
+
+def work_of(asset: Asset) -> int:
+    """What it takes to make and inspect an asset once: hulls, and faces, that are moved.
+
+    Counted from what it is, so that it is alike on every machine and with every cache. Each took
+    3 to 23 ms of processor time.
+    """
+    moved = asset.hull_count + len(asset.articulation.mesh.faces) // FACES_PER_HULL
+    return max(1, len(asset.articulation.movable_joints)) * moved
 
 
 def best_of(drafts: Iterable[ReadingDraft]) -> tuple[ReadingDraft, tuple[Finding, ...]]:

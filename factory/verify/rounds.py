@@ -10,13 +10,13 @@ from asset_factory.sim_checks import Finding
 from asset_factory.sim_checks.judge import Judge
 
 from ..articulation import Articulation
-from ..errors import InputRejected
+from ..errors import InputRejected, Unjudged
 from ..export.bundle import export_bundle
 from ..intake.intake import Intake
 from ..manufacture.plan import Plan, Spare, dispensable_joints, first_plan
 from ..manufacture.stage import manufacture
 from ..runtime.stages import Stages
-from .drafts import ReadingDraft
+from .drafts import ReadingDraft, work_of
 from .repair import next_plan
 from .validate import Verdict, inspect, validate
 
@@ -47,6 +47,7 @@ class Rounds:
 
         Raises:
             InputRejected: nothing can be made of it.
+            Unjudged: a clock or somebody stopped a step.
         """
         draft = self._repaired(self._made(first_plan(self.reading, self._spare), "0"), "")
         return self._lighter(draft) if draft.passes else draft
@@ -68,7 +69,7 @@ class Rounds:
                 break
             name = f"simulated-{attempt}-"
             try:
-                again = self._repaired(self._made(plan, f"{name}0"), name)
+                again = self._repaired(self._made(plan, f"{name}0", draft.work), name)
             except InputRejected:
                 break
             if not again.passes:
@@ -81,7 +82,8 @@ class Rounds:
     def _spare(self) -> Spare:
         return dispensable_joints(self.reading, self.stages.config.repair.small_share)
 
-    def _made(self, plan: Plan, folder: str) -> ReadingDraft:
+    def _made(self, plan: Plan, folder: str, done: int = 0) -> ReadingDraft:
+        """Make and inspect what a plan says; ``done`` is the work on this reading so far."""
         asset, findings = manufacture(self.reading, plan, self.intake, self.stages)
         with self.stages.clock.stage("export"):
             bundle = export_bundle(
@@ -91,8 +93,9 @@ class Rounds:
                 tuple(sorted(plan.exclude)),
                 self.stages.config.formats,
             )
-        inspected = inspect(bundle, self.judge, findings, self.stages)
-        return ReadingDraft(self.reading, asset, bundle, plan, findings, inspected)
+        inspected = _said(inspect(bundle, self.judge, findings, self.stages))
+        work = done + work_of(asset)
+        return ReadingDraft(self.reading, asset, bundle, plan, findings, inspected, work=work)
 
     def _repaired(self, first: ReadingDraft, name: str) -> ReadingDraft:
         draft = first
@@ -100,7 +103,7 @@ class Rounds:
             plan = self._next(draft.inspected, draft)
             if plan is None:
                 break
-            draft = self._made(plan, f"{name}{attempt + 1}")
+            draft = self._made(plan, f"{name}{attempt + 1}", draft.work)
         return draft if draft is first else replace(draft, before=first.asset)
 
     def _lighter(self, draft: ReadingDraft) -> ReadingDraft:
@@ -112,7 +115,8 @@ class Rounds:
         for attempt in range(LIGHTER):
             if excess <= 0 or aim <= 0:
                 break
-            made = self._made(replace(draft.plan, fewer=aim), f"fewer-{attempt}")
+            plan = replace(draft.plan, fewer=aim)
+            made = self._made(plan, f"fewer-{attempt}", draft.work)
             if not made.passes:
                 break
             if made.asset.hull_count < lightest.asset.hull_count:
@@ -123,13 +127,26 @@ class Rounds:
         return lightest
 
     def _next(self, verdict: Verdict, draft: ReadingDraft) -> Plan | None:
-        """What to do differently, if anything could help and there is time."""
+        """What to do differently, if anything could help that is worth the work."""
         config = self.stages.config.repair
-        if self.stages.clock.busy > config.within_s:
+        if draft.work > config.most_work:
             return None
         return next_plan(verdict, draft.plan, config, self._spare, draft.asset)
 
     def _validated(self, draft: ReadingDraft, others: tuple[Finding, ...]) -> Verdict:
         told = (*draft.findings, *others)
         simulators = self.stages.config.simulators
-        return validate(draft.bundle, simulators, self.judge, told, draft.inspected, self.stages)
+        return _said(
+            validate(draft.bundle, simulators, self.judge, told, draft.inspected, self.stages)
+        )
+
+
+def _said(verdict: Verdict) -> Verdict:
+    """The same verdict. Raises Unjudged: a clock or somebody stopped one who was to judge.
+
+    What that one would have said is not known, so nothing is repaired or chosen by the rest.
+    """
+    for finding in verdict.report.hard:
+        if finding.stopped:
+            raise Unjudged(finding)
+    return verdict

@@ -10,7 +10,7 @@ from typing import Any
 from ..config import CheckConfig
 from ..description import Description
 from ..processes.isolation import Failure, Outcome, WarmChild, run_isolated
-from ..report import KILLED, Finding, Severity
+from ..report import KILLED, OUT_OF_TIME, Finding, Severity
 from ..simulators.catalog import install_line, installed, simulator
 from ..simulators.observe import observe
 from ..simulators.simulator import Observation
@@ -79,7 +79,9 @@ def _writable(data: Any) -> Any:
 def _failure(outcome: Outcome[Observation], name: str, path: Path) -> Finding:
     if outcome.failure is Failure.TIMEOUT:
         message = f"{name} gave no verdict on {path.name}: {outcome.detail}"
-        return Finding("simulator_timeout", Severity.HARD, message, simulator=name)
+        return Finding(
+            "simulator_timeout", Severity.HARD, message, simulator=name, cause=OUT_OF_TIME
+        )
     if isinstance(outcome.error, ValueError):
         words = " | ".join(str(outcome.error).replace(str(path.parent), "").split("\n"))
         return Finding(

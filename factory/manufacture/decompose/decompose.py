@@ -77,6 +77,7 @@ def decompose(
     Raises:
         InputRejected: ``too_many_hulls``, or ``decomposition_failed`` where no body can be made of
             a part.
+        Unjudged: an engine hung, or somebody ended it.
     """
     rooms = rooms or Rooms(articulation)
     results = []
@@ -113,16 +114,15 @@ class _Work:
 
 def _cached(work: _Work, config: DecomposeConfig, store: Store | None) -> PartHulls:
     if store is None:
-        return _decompose_part(work, config)[0]
+        return _decompose_part(work, config)
     build = BuildConfig(decompose=config)
     how = ("hollow",) if work.hollow else ()
     key = DECOMPOSE.key(build, work.mesh.vertices, work.mesh.faces, work.room.points, *how)
     kept = store.load(key)
     if kept is not None:
         return unpacked(kept)
-    result, repeatable = _decompose_part(work, config)
-    if repeatable:
-        store.save(key, packed(result))
+    result = _decompose_part(work, config)
+    store.save(key, packed(result))
     return result
 
 
@@ -132,7 +132,7 @@ def error_for(mesh: Mesh, config: DecomposeConfig) -> float:
     return min(max(config.error_m, config.error_share * mesh.diagonal), most)
 
 
-def _decompose_part(work: _Work, config: DecomposeConfig) -> tuple[PartHulls, bool]:
+def _decompose_part(work: _Work, config: DecomposeConfig) -> PartHulls:
     name = work.name
     mesh = work.mesh
     degraded: list[str] = []
@@ -148,7 +148,7 @@ def _decompose_part(work: _Work, config: DecomposeConfig) -> tuple[PartHulls, bo
             )
         count = len(pieces.hulls)
         if count <= config.max_hulls:
-            return _finished(pieces, degraded), pieces.repeatable
+            return _finished(pieces, degraded)
         if attempt < COARSER_ROUNDS:
             degraded.append(
                 f"{count} hulls at an error of {1000 * error_m:g} mm, "

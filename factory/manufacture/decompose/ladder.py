@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 
 from manifold3d import Manifold
 
-from asset_factory.sim_checks.processes.isolation import Limits, Outcome, run_isolated
+from asset_factory.sim_checks import Finding, Severity
+from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcome, run_isolated
+from asset_factory.sim_checks.report import KILLED, OUT_OF_TIME
 
 from ...asset import Hull
 from ...config import DecomposeConfig
+from ...errors import Unjudged
 from .child import Search, Triangles, coacd_pieces, vhacd_pieces
 from .convex import hull_of
 from .simplify import simplified
@@ -31,13 +35,13 @@ class Rung:
         method: ``coacd``, ``vhacd`` or ``hull``.
         degraded: a sentence for each attempt before this one that failed, and for what was given
             up.
-        repeatable: False when a clock decided, so that another run might end elsewhere.
+        searched: pieces that engines made of it, all attempts together: what their time goes by.
     """
 
     hulls: tuple[Hull, ...]
     method: str
     degraded: tuple[str, ...] = ()
-    repeatable: bool = True
+    searched: int = 0
 
 
 @dataclass(frozen=True)
@@ -46,6 +50,7 @@ class _Attempt:
     method: str
     run: Callable[[], Outcome[list[Triangles]]]
     outside_m: float
+    too_much: str = ""
 
 
 def climb_down(solid: Manifold, error_m: float, config: DecomposeConfig) -> Rung | None:
@@ -63,25 +68,25 @@ def climb_down(solid: Manifold, error_m: float, config: DecomposeConfig) -> Rung
         ImportError: an engine is not installed.
         RuntimeError: child processes cannot be started at all, say because the main module runs on
             import.
+        Unjudged: an engine hung, or somebody ended it; a clock makes no hulls coarser.
     """
     degraded: list[str] = []
-    repeatable = True
+    searched = 0
     for attempt in _attempts(solid, error_m, config):
-        outcome = attempt.run()
-        if isinstance(outcome.error, ImportError) or outcome.exited:
-            # Not the mesh's doing: the engine is not installed, or the program cannot start
-            # children.
-            outcome.unwrap()
+        if attempt.too_much:
+            degraded.append(f"{attempt.name}: {attempt.too_much}")
+            continue
+        outcome = _believed(attempt)
         if outcome.failure is not None:
-            repeatable = False
             degraded.append(f"{attempt.name}: {outcome.failure}, {outcome.detail}")
             continue
+        searched += len(outcome.value or [])
         hulls = [
             hull for vertices, _ in outcome.value or [] if (hull := hull_of(vertices)) is not None
         ]
         fault = complaint(solid, hulls, attempt.outside_m)
         if fault is None:
-            return Rung(tuple(hulls), attempt.method, tuple(degraded), repeatable)
+            return Rung(tuple(hulls), attempt.method, tuple(degraded), searched)
         degraded.append(f"{attempt.name}: {fault}")
     whole = hull_of(triangles_of(solid)[0])
     if whole is None:
@@ -90,12 +95,32 @@ def climb_down(solid: Manifold, error_m: float, config: DecomposeConfig) -> Rung
         (whole,),
         "hull",
         (*degraded, "one convex hull stands for a solid that is not convex"),
-        repeatable,
+        searched,
     )
 
 
+def _believed(attempt: _Attempt) -> Outcome[list[Triangles]]:
+    """What comes of an attempt on every machine: an answer, a crash that repeats, no memory.
+
+    Raises:
+        ImportError, RuntimeError, Unjudged: as :func:`climb_down`.
+    """
+    outcome = attempt.run()
+    if outcome.failure is Failure.CRASHED and not (outcome.killed or outcome.exited):
+        # Native code that dies of the same triangles twice dies of them.
+        outcome = attempt.run()
+    if isinstance(outcome.error, ImportError) or outcome.exited:
+        # Not the mesh's doing: the engine is not installed, or the program cannot start children.
+        outcome.unwrap()
+    message = f"{attempt.name}: {outcome.detail}"
+    if outcome.failure is Failure.TIMEOUT:
+        raise Unjudged(Finding("decomposition_timeout", Severity.HARD, message, cause=OUT_OF_TIME))
+    if outcome.killed:
+        raise Unjudged(Finding("decomposition_killed", Severity.HARD, message, cause=KILLED))
+    return outcome
+
+
 def _attempts(solid: Manifold, error_m: float, config: DecomposeConfig) -> Iterator[_Attempt]:
-    limits = Limits(wall_s=config.wall_s, cpu_s=config.cpu_s, memory_bytes=config.memory_bytes)
     search = Search(
         error_m=error_m,
         resolution=config.resolution,
@@ -104,24 +129,48 @@ def _attempts(solid: Manifold, error_m: float, config: DecomposeConfig) -> Itera
         depth=config.search_depth,
         seed=config.seed,
     )
-    fine = triangles_of(simplified(solid, config.max_faces, 0.1 * error_m))
-    yield _Attempt(
-        "CoACD", "coacd", lambda: run_isolated(coacd_pieces, fine, search, limits=limits), error_m
-    )
-    coarse = triangles_of(simplified(solid, config.max_faces // 4, 0.5 * error_m))
+    fine = simplified(solid, config.max_faces, 0.1 * error_m)
+    yield _by_coacd("CoACD", solid, fine, config, search)
+    coarse = simplified(solid, config.max_faces // 4, 0.5 * error_m)
     doubled = replace(search, error_m=2.0 * error_m)
-    yield _Attempt(
-        "CoACD on a coarser mesh with twice the error",
-        "coacd",
-        lambda: run_isolated(coacd_pieces, coarse, doubled, limits=limits),
-        2.0 * error_m,
-    )
-    yield _Attempt(
-        "V-HACD",
-        "vhacd",
-        lambda: run_isolated(vhacd_pieces, fine, min(config.max_hulls, 64), limits=limits),
-        VOXEL_FACTOR * error_m,
-    )
+    name = "CoACD on a coarser mesh with twice the error"
+    yield _by_coacd(name, solid, coarse, config, doubled)
+    most = min(config.max_hulls, 64)
+    run = partial(run_isolated, vhacd_pieces, triangles_of(fine), most, limits=_limits(config))
+    yield _Attempt("V-HACD", "vhacd", run, VOXEL_FACTOR * error_m)
+
+
+def _by_coacd(
+    name: str, solid: Manifold, light: Manifold, config: DecomposeConfig, search: Search
+) -> _Attempt:
+    """CoACD on a lighter solid, if it has few faces within half the error.
+
+    What has more has many dents deeper than the error, and each becomes several pieces: a blob that
+    kept 4,468 faces took over a minute to become 515; one of 1,936 took 26 s, a torus of 1,906 5 s
+    (a processor of 2 GHz or so).
+
+    Args:
+        name: of the attempt.
+        solid: a closed manifold [m].
+        light: the same, simplified further where it stays closed.
+        config: limits, and the most faces.
+        search: CoACD's settings.
+    """
+    within = solid.simplify(0.5 * search.error_m)
+    given = light if light.num_tri() <= config.max_faces else within
+    faces = max(within.num_tri(), given.num_tri())
+    too_much = ""
+    if faces > config.max_faces or not given.num_tri():
+        too_much = (
+            f"simplified by {500 * search.error_m:.3g} mm it has {faces} faces, "
+            f"want at most {config.max_faces}"
+        )
+    run = partial(run_isolated, coacd_pieces, triangles_of(given), search, limits=_limits(config))
+    return _Attempt(name, "coacd", run, search.error_m, too_much)
+
+
+def _limits(config: DecomposeConfig) -> Limits:
+    return Limits(wall_s=config.wall_s, memory_bytes=config.memory_bytes)
 
 
 def complaint(solid: Manifold, hulls: list[Hull], outside_m: float) -> str | None:

@@ -33,14 +33,14 @@ class SolidPieces:
         method: one of ``FAITHFUL``.
         exact: the hulls are the solid, no more and no less.
         degraded: a sentence for everything given up on the way.
-        repeatable: False when a clock decided, so that another run might end elsewhere.
+        searched: pieces that CoACD and V-HACD made of it.
     """
 
     hulls: tuple[Hull, ...]
     method: str
     exact: bool = False
     degraded: tuple[str, ...] = ()
-    repeatable: bool = True
+    searched: int = 0
 
 
 Method = Callable[[Manifold, float, DecomposeConfig], SolidPieces | None]
@@ -78,7 +78,7 @@ def by_search(solid: Manifold, error_m: float, config: DecomposeConfig) -> Solid
     if rung is None:
         return SolidPieces((), "exact", exact=True)
     hulls = tuple(merge(list(rung.hulls), error_m, slot_of(config)))
-    return SolidPieces(hulls, rung.method, degraded=rung.degraded, repeatable=rung.repeatable)
+    return SolidPieces(hulls, rung.method, degraded=rung.degraded, searched=rung.searched)
 
 
 #: Every method, in the order in which they are tried; the last always has an answer.

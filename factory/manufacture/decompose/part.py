@@ -38,17 +38,12 @@ PROUD_SHARE = 0.2
 
 @dataclass(frozen=True)
 class PartPieces:
-    """Hulls of one part; fields as in ``PartHulls``.
-
-    Attributes:
-        repeatable: False when a clock decided, so that another run might end elsewhere.
-    """
+    """Hulls of one part; fields as in ``PartHulls``."""
 
     hulls: tuple[Hull, ...]
     method: str
     degraded: tuple[str, ...]
     exact: bool
-    repeatable: bool
 
 
 @dataclass
@@ -59,7 +54,6 @@ class _Heap:
     method: str = "exact"
     degraded: list[str] = field(default_factory=list)
     exact: bool = True
-    repeatable: bool = True
 
     def add(self, split: SolidPieces) -> None:
         """The pieces of one more solid, or of open surfaces."""
@@ -67,7 +61,6 @@ class _Heap:
         self.method = max(self.method, split.method, key=FAITHFUL.index)
         self.exact = self.exact and split.exact
         self.degraded += split.degraded
-        self.repeatable = self.repeatable and split.repeatable
 
 
 def split_part(
@@ -126,7 +119,7 @@ def split_part(
         limit_vertices(hull, config.max_vertices) for hull in _not_inside_others(heap.hulls)
     )
     exact = heap.exact and all(len(hull.vertices) <= config.max_vertices for hull in heap.hulls)
-    return PartPieces(hulls, heap.method, tuple(heap.degraded), exact, heap.repeatable)
+    return PartPieces(hulls, heap.method, tuple(heap.degraded), exact)
 
 
 def _closed(sheet: OpenSurface, room: Room) -> Manifold | None:
@@ -155,7 +148,7 @@ def _single(
         return None
     if union(list(gated.solids)).volume() < config.near_convex * hull.volume:
         return None
-    return PartPieces((limit_vertices(hull, config.max_vertices),), "single", (), False, True)
+    return PartPieces((limit_vertices(hull, config.max_vertices),), "single", (), False)
 
 
 def _outermost(solids: list[Manifold]) -> list[Manifold]:

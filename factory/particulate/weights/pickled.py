@@ -31,8 +31,8 @@ from .stored import Checkpoint, Tensor
 
 #: For all that the child does, importing torch and writing the tensors included [s].
 _WALL_S = 300.0
-#: Processor time for the description [s].
-_READING_S = 4
+#: Processor time after which reading the description hangs: an error, of which nothing is kept [s].
+_READING_S = 20
 #: Memory for the description, beyond what torch and the mapped file take [bytes].
 _READING_BYTES = 2**30
 _MAX_DESCRIPTION = 8_000_000

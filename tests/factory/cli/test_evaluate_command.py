@@ -8,6 +8,7 @@ from boxy_urdf import write_cabinets
 
 from asset_factory.factory.cli.commands import run
 from asset_factory.factory.config import ParticulateConfig
+from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.evaluation import trial as trials
 from asset_factory.factory.evaluation.cases import cases, folder_requests, procedural_requests
 from asset_factory.factory.evaluation.listing import read_list
@@ -188,11 +189,21 @@ def one_trial(repeat=0):
     return trials.Trial(request, Method("naive", ParticulateConfig()), repeat)
 
 
-def test_a_method_that_hangs_is_cut_off_and_scored_as_naive(monkeypatch):
+def test_a_method_that_hangs_is_cut_off_and_not_scored(monkeypatch):
     monkeypatch.setattr(trials, "score_trial", hangs)
     row = next(trials.run_trials([one_trial()], 1, Limits(wall_s=8.0)))
     assert row.failure == "timeout: no answer within 8 s"
-    assert row.score is not None
+    assert row.score is None
+
+
+def refuses(trial):
+    raise InputRejected("no_movable_joint", "nothing on it moves")
+
+
+def test_a_method_without_an_answer_is_scored_as_if_nothing_moved(monkeypatch):
+    monkeypatch.setattr(trials, "score_trial", refuses)
+    row = next(trials.run_trials([one_trial()], 1, Limits(wall_s=120.0)))
+    assert row.failure.startswith("no_movable_joint")
     assert row.score.values["articulated_iou"] == 0.0
 
 

@@ -14,7 +14,7 @@ from manifold3d import Manifold
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.config import DecomposeConfig
-from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.errors import InputRejected, Unjudged
 from asset_factory.factory.manufacture.decompose import ladder
 from asset_factory.factory.manufacture.decompose.convex import (
     depth_below,
@@ -25,9 +25,9 @@ from asset_factory.factory.manufacture.decompose.outside import uncovered
 from asset_factory.factory.manufacture.decompose.solids import manifold_of, manifold_of_hull, union
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.runtime.store import Store
-from asset_factory.sim_checks.processes.isolation import Limits, Outcome, run_isolated
+from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcome, run_isolated
 
-CONFIG = DecomposeConfig(resolution=300, iterations=20, nodes=5, cpu_s=30, wall_s=60)
+CONFIG = DecomposeConfig(resolution=300, iterations=20, nodes=5)
 
 
 def one_part(vertices: np.ndarray, faces: np.ndarray) -> Articulation:
@@ -117,7 +117,7 @@ def test_coacd_covers_a_curved_solid_keeps_its_hole_and_repeats_itself() -> None
     first, again = (ladder.climb_down(torus_solid(), 0.01, CONFIG) for _ in range(2))
     assert first is not None
     assert again is not None
-    assert (first.method, first.degraded, first.repeatable) == ("coacd", (), True)
+    assert (first.method, first.degraded) == ("coacd", ())
     assert uncovered(first.hulls, surface_points(*torus())) < 0.002
     assert max(depth_below(hull, np.zeros((1, 3))).max() for hull in first.hulls) < -0.03
     assert [h.vertices.tobytes() for h in first.hulls] == [
@@ -240,28 +240,61 @@ def test_too_many_hulls_reject_with_the_numbers() -> None:
 def test_a_crashing_engine_costs_a_rung_and_leaves_a_sentence(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    asked = []
+
     def broken(function: object, *args: object, limits: Limits) -> Outcome[object]:
+        asked.append(function)
         if function is ladder.coacd_pieces:
-            return Outcome(None, "crashed", "killed by SIGSEGV", "", 0.1)
+            return Outcome(None, Failure.CRASHED, "killed by SIGSEGV", "", 0.1)
         return Outcome([], None, "", "", 0.1)
 
     monkeypatch.setattr(ladder, "run_isolated", broken)
     rung = ladder.climb_down(torus_solid(), 0.01, CONFIG)
     assert rung is not None
-    assert (rung.method, len(rung.hulls), rung.repeatable) == ("hull", 1, False)
+    assert (rung.method, len(rung.hulls)) == ("hull", 1)
+    # A crash is believed when it comes again.
+    assert asked == [ladder.coacd_pieces] * 4 + [ladder.vhacd_pieces]
     assert "SIGSEGV" in rung.degraded[0]
     assert len(rung.degraded) == 4
 
 
-def test_what_a_clock_decided_is_not_kept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    late = Outcome[object](None, "timeout", "no answer within 60 s", "", 60.0)
-    monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: late)
+@pytest.mark.parametrize(
+    ("outcome", "code"),
+    [
+        (Outcome[object](None, Failure.TIMEOUT, "no answer within 60 s", "", 60.0), "timeout"),
+        (
+            Outcome[object](None, Failure.CRASHED, "killed by SIGKILL", "", 0.1, killed=True),
+            "killed",
+        ),
+    ],
+)
+def test_what_a_clock_or_somebody_stopped_is_unjudged_and_not_kept(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, outcome: Outcome[object], code: str
+) -> None:
+    monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: outcome)
     monkeypatch.setattr(
         "asset_factory.factory.manufacture.decompose.methods.cut_along_faces", lambda *_: None
     )
-    result = decompose(one_part(*torus()), CONFIG, Store(tmp_path))[0]
-    assert (result.method, result.exact) == ("hull", False)
+    with pytest.raises(Unjudged) as caught:
+        decompose(one_part(*torus()), CONFIG, Store(tmp_path))
+    assert caught.value.finding.code == f"decomposition_{code}"
+    assert caught.value.finding.stopped
+    assert outcome.detail in str(caught.value)
     assert not list(tmp_path.rglob("*.npz"))
+
+
+def test_without_memory_the_next_method_is_tried_and_that_is_kept(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    full = Outcome[object](None, Failure.RAISED, "ran out of memory", "", 0.1, error=MemoryError())
+    monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: full)
+    monkeypatch.setattr(
+        "asset_factory.factory.manufacture.decompose.methods.cut_along_faces", lambda *_: None
+    )
+    first, kept = (decompose(one_part(*torus()), CONFIG, Store(tmp_path))[0] for _ in range(2))
+    assert (first.method, first.degraded) == (kept.method, kept.degraded)
+    assert "ran out of memory" in first.degraded[0]
+    assert list(tmp_path.rglob("*.npz"))
 
 
 def test_a_program_that_cannot_start_children_is_not_taken_for_a_bad_mesh(

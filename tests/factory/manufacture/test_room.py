@@ -16,7 +16,7 @@ from asset_factory.factory.manufacture.decompose.decompose import (
 )
 from asset_factory.factory.mesh import Mesh
 
-CONFIG = DecomposeConfig(resolution=300, iterations=20, nodes=5, cpu_s=30, wall_s=60)
+CONFIG = DecomposeConfig(resolution=300, iterations=20, nodes=5)
 
 
 def box(size, at) -> trimesh.Trimesh:

@@ -17,7 +17,7 @@ from asset_factory.factory.particulate.network.layers import Attention, Sinusoid
 from asset_factory.factory.particulate.network.shape import AxisForm
 from asset_factory.factory.particulate.network.streaming import QueryPass, drive, embed_chunks
 from asset_factory.factory.particulate.network.transformer import pair_logits
-from asset_factory.factory.particulate.precision import Precision, fastest_precision, product_dtype
+from asset_factory.factory.particulate.precision import product_dtype
 from asset_factory.factory.particulate.sampling import Cloud
 
 CLOSE = {"rtol": 1e-4, "atol": 1e-4}
@@ -270,10 +270,11 @@ def test_what_is_no_cloud_is_refused(points):
         PointCloud(points, points)
 
 
-def test_precision_is_measured_once():
-    assert fastest_precision() in (Precision.FLOAT32, Precision.BFLOAT16)
-    assert product_dtype("auto") is getattr(torch, fastest_precision().value)
+def test_precision_is_what_is_asked_for_on_every_machine():
+    assert product_dtype("bfloat16") is torch.bfloat16
     assert product_dtype("float32") is torch.float32
+    with pytest.raises(ValueError, match="auto"):
+        product_dtype("auto")
 
 
 def test_an_upright_axis_is_turned_round_where_its_limits_say_that_it_opens_backwards(tmp_path):

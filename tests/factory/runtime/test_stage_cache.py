@@ -91,7 +91,7 @@ CHANGES = {
         replace(BASE, decompose=replace(BASE.decompose, error_m=0.004)),
         (),
     ),
-    "decompose, limits": (replace(BASE, decompose=replace(BASE.decompose, cpu_s=1.0)), ()),
+    "decompose, limits": (replace(BASE, decompose=replace(BASE.decompose, wall_s=1.0)), ()),
     "articulator": (replace(BASE, articulator="annotated"), ("articulate",)),
     "intake": (
         replace(BASE, intake=replace(BASE.intake, height=1.0)),

@@ -19,9 +19,10 @@ from asset_factory.factory.manufacture.plan import Plan
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.report_file import read_report
 from asset_factory.factory.verify import rounds
-from asset_factory.factory.verify.drafts import ReadingDraft, best_of
+from asset_factory.factory.verify.drafts import FACES_PER_HULL, ReadingDraft, best_of, work_of
 from asset_factory.factory.verify.validate import Verdict
 from asset_factory.sim_checks import Finding, Report, Severity
+from asset_factory.sim_checks.report import OUT_OF_TIME
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "meshes"
 DEEP = Finding("sweep_penetration", Severity.HARD, "5 mm deep", value=5.0, unit="mm", limit=2.0)
@@ -83,7 +84,7 @@ def _reading_as(monkeypatch: pytest.MonkeyPatch, *changes: object) -> None:
     monkeypatch.setattr(standing, "readings", readings)
 
 
-CONFIG = BuildConfig(simulators=(), readings=ReadingsConfig(within_s=1e6))
+CONFIG = BuildConfig(simulators=())
 
 
 def test_a_reading_that_is_blocked_loses_to_one_that_opens(tmp_path: Path, monkeypatch) -> None:
@@ -96,10 +97,55 @@ def test_a_reading_that_is_blocked_loses_to_one_that_opens(tmp_path: Path, monke
     assert "is rejected" in told
 
 
-def test_without_time_only_the_likeliest_is_made(tmp_path: Path, monkeypatch) -> None:
+def test_beyond_the_most_work_only_the_likeliest_is_made(tmp_path: Path, monkeypatch) -> None:
     _reading_as(monkeypatch, _blocked, lambda right: right)
-    hurried = replace(CONFIG, readings=ReadingsConfig(within_s=0.0))
+    hurried = replace(CONFIG, readings=ReadingsConfig(most_work=0))
     assert build_asset(EXAMPLES / "laptop.glb", tmp_path, hurried).entry.status == "rejected"
+
+
+def test_a_reading_whose_check_hung_gives_its_place_to_no_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _reading_as(monkeypatch, lambda right: right, lambda right: right)
+    honest = rounds.inspect
+    late = Finding("check_timeout", Severity.HARD, "no answer", cause=OUT_OF_TIME)
+    asked = []
+
+    def inspect(bundle, *more):
+        asked.append(bundle)
+        verdict = honest(bundle, *more)
+        first = len(asked) == 1
+        return Verdict(Report("asset.urdf", findings=(late,))) if first else verdict
+
+    monkeypatch.setattr(rounds, "inspect", inspect)
+    result = build_asset(EXAMPLES / "laptop.glb", tmp_path, CONFIG)
+    assert (result.entry.status, result.entry.reason) == ("unjudged", "check_timeout")
+    assert result.entry.key == ""
+    assert len(asked) == 1
+    assert not Registry(tmp_path).known_keys([""])
+    assert build_asset(EXAMPLES / "laptop.glb", tmp_path, CONFIG).entry.status == "passed"
+
+
+def test_a_simulator_that_hung_neither_rejects_nor_repairs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    honest = rounds.validate
+    late = Finding("simulator_timeout", Severity.HARD, "no answer", "bullet", cause=OUT_OF_TIME)
+    jammed = Finding("jammed", Severity.HARD, "sapien: stuck", "sapien")
+
+    def validate(*asked):
+        verdict = honest(*asked)
+        return replace(verdict, report=replace(verdict.report, findings=(jammed, late)))
+
+    monkeypatch.setattr(rounds, "validate", validate)
+    entry = build_asset(EXAMPLES / "laptop.glb", tmp_path, CONFIG).entry
+    assert (entry.status, entry.reason) == ("unjudged", "simulator_timeout")
+
+
+def test_work_is_counted_from_what_is_made() -> None:
+    hulls = ASSET.hull_count
+    joints = len(ASSET.articulation.movable_joints)
+    assert work_of(ASSET) == joints * (hulls + len(ASSET.articulation.mesh.faces) // FACES_PER_HULL)
 
 
 def test_a_reading_that_cannot_be_made_is_passed_over(tmp_path: Path, monkeypatch) -> None:

@@ -10,7 +10,7 @@ import pytest
 from asset_factory.factory.articulate import standing
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.build import build_asset
-from asset_factory.factory.config import BuildConfig, RepairConfig
+from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.report_file import read_report
 from asset_factory.factory.registry.result import Result
@@ -19,7 +19,7 @@ from asset_factory.factory.verify.validate import Verdict
 from asset_factory.sim_checks import Finding, Severity
 
 CABINET = Path(__file__).resolve().parents[3] / "examples" / "meshes" / "cabinet.glb"
-CONFIG = BuildConfig(simulators=(), repair=RepairConfig(within_s=1e6))
+CONFIG = BuildConfig(simulators=())
 
 
 @pytest.fixture
