@@ -28,6 +28,7 @@ from .flags import (
     reading_config,
     simulators_named,
     with_repairs,
+    workers_fitting,
 )
 from .report import report_after
 
@@ -62,7 +63,7 @@ class Build:
     formats: str = "urdf,mjcf"
     """What assets are written in, separated by commas: urdf and mjcf always, sdf, usd, glb."""
     workers: int | None = None
-    """Inputs built at once; all processors by default."""
+    """Inputs built at once; as many as there are processors and memory for by default."""
     limit: int | None = None
     """Build at most so many; those known from before are not counted."""
     max_hours: float | None = None
@@ -196,26 +197,26 @@ def idle_retries(command: Build) -> Iterator[str]:
 
 def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
     """The job that the flags ask for. Raises ConfigError: a bad flag, and what would be right."""
-    from asset_factory.sim_checks.processes.isolation import processors
-
     from ..jobs import Budget, Executor, LocalExecutor
     from ..jobs.job import Job
+    from ..jobs.memory import BUILD_BYTES
 
     config = build_config(command)
-    if command.workers is not None and command.workers < 1:
-        raise ConfigError(f"--workers: is {command.workers}, want at least 1")
     if command.executor not in EXECUTORS:
         raise ConfigError(
             f"--executor: no executor {command.executor!r}; there are {', '.join(EXECUTORS)}"
         )
+    workers = command.workers
+    if command.executor != "ray" or command.ray_address == "local":
+        workers = workers_fitting(workers, BUILD_BYTES)
     executor: Executor
     if command.executor == "ray":
         from ..jobs.ray.builds import ray_executor
 
         place = {"address": command.ray_address, "exchange": command.ray_exchange}
-        executor = ray_executor(config, workers=command.workers, **place)
+        executor = ray_executor(config, workers=workers, **place)
     else:
-        executor = LocalExecutor(command.workers or processors(), config.retries)
+        executor = LocalExecutor(workers or 1, config.retries)
     max_s = None if command.max_hours is None else 3600.0 * command.max_hours
     budget = Budget(command.limit, max_s, command.retry_rejected, command.repair)
     return Job(

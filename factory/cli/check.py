@@ -3,21 +3,28 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+import sys
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from queue import SimpleQueue
+from typing import TYPE_CHECKING, Any
 
 from tyro.conf import Positional
 
-from asset_factory.sim_checks import Status
+from asset_factory.sim_checks import Report, Status
 from asset_factory.sim_checks.read.usd.layers import is_usd
 
 from ..errors import ConfigError, Exit
 from ..presets import load_config
 from ..runtime.store import write_json
 from . import console
-from .flags import DEFAULT_SIMULATORS, simulators_named
+from .flags import DEFAULT_SIMULATORS, simulators_named, workers_fitting
+
+if TYPE_CHECKING:
+    from asset_factory.sim_checks.config import CheckConfig
 
 
 @dataclass(frozen=True)
@@ -36,6 +43,8 @@ class Check:
     """Simulators that judge, separated by commas; 'all' is sapien,mujoco,pybullet."""
     json: Path | None = None
     """Where to write the report; a list of reports for several files or a folder. '-' prints it."""
+    workers: int | None = None
+    """Files judged at once; as many as there are processors and memory for by default."""
     config: str = "default"
     """A preset (default, fast, lenient, strict) or a TOML file of differences from the defaults."""
     strict: bool = False
@@ -44,20 +53,22 @@ class Check:
 
 def run(command: Check) -> int:
     """Judge every file; returns the exit code."""
-    from asset_factory.sim_checks.judge import Judge
-    from asset_factory.sim_checks.processes.isolation import processors
+    from ..jobs.memory import CHECK_BYTES
 
     simulators = simulators_named(command.sim)
     config = load_config(command.config).checks
+    workers = workers_fitting(command.workers, CHECK_BYTES)
     files = _described(command.files)
     reports = []
     printed = command.json is None or str(command.json) != "-"
-    with Judge(config, processors()) as judge:
-        for path, name in files:
-            report = judge.check(path, simulators)
-            reports.append(replace(report, description=name or report.description))
+    with _judged(files, simulators, config, workers) as judged:
+        for report in judged:
+            reports.append(report)
             if printed:
-                console.print_report(reports[-1])
+                console.print_report(report)
+            # Where reports go elsewhere than to the terminal, that says how far it is.
+            if sys.stderr.isatty() and not (printed and sys.stdout.isatty()):
+                print(f"{len(reports)} of {len(files)} files judged", file=sys.stderr)
     data: Any = [report.to_dict() for report in reports]
     data = data if len(data) > 1 or any(path.is_dir() for path in command.files) else data[0]
     if not printed:
@@ -68,6 +79,46 @@ def run(command: Check) -> int:
     if Status.UNJUDGED in statuses:
         return Exit.UNJUDGED
     return Exit.REJECTED if command.strict and Status.REJECTED in statuses else Exit.OK
+
+
+@contextmanager
+def _judged(
+    files: Sequence[tuple[Path, str | None]],
+    simulators: Sequence[str],
+    config: CheckConfig,
+    workers: int,
+) -> Iterator[Iterator[Report]]:
+    """Reports in the order of the files, each once it and all before it are there.
+
+    A judge serves one file at a time; what it asks are child processes of its own, so that threads
+    are enough here. Simulators share what processors the files leave.
+    """
+    from asset_factory.sim_checks.judge import Judge
+    from asset_factory.sim_checks.processes.isolation import processors
+
+    most = min(workers, len(files))
+    judges: SimpleQueue[Judge] = SimpleQueue()
+    with ExitStack() as stack:
+        for _ in range(most):
+            judges.put(stack.enter_context(Judge(config, max(1, processors() // most))))
+        pool = ThreadPoolExecutor(most, thread_name_prefix="check")
+        # Someone who interrupts does not wait for files that are under way.
+        stack.callback(pool.shutdown, wait=False, cancel_futures=True)
+
+        def check(path: Path, name: str | None) -> Report:
+            judge = judges.get()
+            try:
+                report = judge.check(path, simulators)
+            finally:
+                judges.put(judge)
+            return replace(report, description=name or report.description)
+
+        def in_order() -> Iterator[Report]:
+            futures = [pool.submit(check, path, name) for path, name in files]
+            for future in futures:
+                yield future.result()
+
+        yield in_order()
 
 
 def _described(paths: Sequence[Path]) -> list[tuple[Path, str | None]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Annotated, Any, Protocol
@@ -131,6 +132,26 @@ def formats_asked(names: str) -> tuple[str, ...]:
 
     asked = tuple(name.strip() for name in names.split(",") if name.strip())
     return tuple(each.name for each in formats_named(asked))
+
+
+def workers_fitting(asked: int | None, each: int) -> int:
+    """As many workers as ``--workers`` asks for, or fewer where memory is short, which it says.
+
+    Args:
+        asked: ``None``: as many as there are processors.
+        each: what one may need [bytes].
+
+    Raises:
+        ConfigError: fewer than one is asked for.
+    """
+    from ..jobs.memory import workers_for
+
+    if asked is not None and asked < 1:
+        raise ConfigError(f"--workers: is {asked}, want at least 1")
+    workers, sentence = workers_for(asked, each)
+    if sentence is not None:
+        print(f"factory: {sentence}", file=sys.stderr)
+    return workers
 
 
 class Effort(Protocol):

@@ -38,7 +38,7 @@ class Nightly:
     repairs: str | None = None
     """What may be repaired: none, geometry (collision geometry only), or all (joints too)."""
     workers: int | None = None
-    """Inputs built at once; 0: as many as there are processors."""
+    """Inputs built at once; 0: as many as there are processors and memory for."""
     executor: str | None = None
     """Where workers run: local or ray."""
     ray_address: str | None = None

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-
-from asset_factory.sim_checks.processes.isolation import processors
 
 from ... import jobs
 from ...intake.discover import find_inputs
@@ -18,6 +17,7 @@ from ...registry.verify import Problem, verify
 from ...report.nightly.formats import counted
 from .. import Executor, LocalExecutor
 from ..job import Job
+from ..memory import BUILD_BYTES, workers_for
 from .progress import followed
 from .settings import LOCAL, NightConfig
 
@@ -44,7 +44,7 @@ class Work:
             "articulator": config.build.articulator,
             "preset": Path(config.preset).name,
             "executor": config.executor,
-            "workers": str(config.workers or "all processors"),
+            "workers": str(config.workers or "as many as fit"),
             "licenses": ", ".join(config.licenses.allowed) or "any",
         }
 
@@ -68,7 +68,10 @@ class Work:
         """Where workers run."""
         config = self._config
         if config.executor == LOCAL:
-            return LocalExecutor(config.workers or processors(), config.build.retries)
+            workers, sentence = workers_for(config.workers or None, BUILD_BYTES)
+            if sentence is not None:
+                print(f"factory: {sentence}", file=sys.stderr)
+            return LocalExecutor(workers, config.build.retries)
         from ..ray.builds import ray_executor
 
         return ray_executor(

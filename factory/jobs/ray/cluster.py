@@ -11,7 +11,6 @@ import tempfile
 import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from functools import cache
 from importlib.util import find_spec
 from typing import Any
 
@@ -100,16 +99,10 @@ def _private(folder: str) -> dict[str, str]:
     listen on the loopback address only, and to nobody but who knows a token that is written into no
     file; Ray's own would be readable by everybody. A token that the user gives stays.
     """
-    settings = {**LOOPBACK, "TMPDIR": folder}
-    if not any(name.startswith("RAY_AUTH_TOKEN") for name in os.environ):
-        settings["RAY_AUTH_TOKEN"] = _token()
-    return settings
-
-
-@cache
-def _token() -> str:
-    """This process's token: Ray keeps the first that it is told."""
-    return secrets.token_hex(32)
+    if "RAY_AUTH_TOKEN_PATH" not in os.environ:
+        # Kept, as Ray keeps the first token that a process tells it.
+        os.environ.setdefault("RAY_AUTH_TOKEN", secrets.token_hex(32))
+    return {**LOOPBACK, "TMPDIR": folder}
 
 
 @contextmanager

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import json
 import re
+import threading
 from pathlib import Path
 
 import pytest
 
+from asset_factory.factory.cli import console
 from asset_factory.factory.cli.commands import run
+from asset_factory.sim_checks import Report
 from asset_factory.sim_checks.judge import Judge
 
 BODY = (
@@ -63,20 +66,23 @@ def test_one_file_gives_one_report_and_no_other_output(
     )
 
 
-def test_reports_are_printed_as_they_come(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    files = [write(tmp_path / name / "asset.urdf", 0.004) for name in ("one", "two")]
-    printed_before = []
+def test_reports_are_printed_as_they_come(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    files = [write(tmp_path / f"{name}.urdf", 0.004) for name in ("one", "two")]
+    printed = threading.Event()
     check = Judge.check
+    print_report = console.print_report
 
     def watched(judge: Judge, path: Path, *rest: object) -> object:
-        printed_before.append(capsys.readouterr().out.count("passed"))
+        assert path.stem == "one" or printed.wait(60.0)
         return check(judge, path, *rest)
 
+    def noted(report: Report) -> None:
+        print_report(report)
+        printed.set()
+
     monkeypatch.setattr(Judge, "check", watched)
-    assert run(["check", *map(str, files), "--sim", ""]) == 0
-    assert printed_before == [0, 1]
+    monkeypatch.setattr(console, "print_report", noted)
+    assert run(["check", *map(str, files), "--sim", "", "--workers", "1"]) == 0
 
 
 def test_every_simulator_at_once_and_who_disagrees(
@@ -103,3 +109,37 @@ def test_missing_files_and_empty_folders_are_wrong_usage(
     assert f"no URDF, MJCF or USD file in {tmp_path}" in capsys.readouterr().err
     assert run(["check"]) == 2
     assert "no URDF, MJCF or USD file given" in capsys.readouterr().err
+
+
+def test_many_files_are_judged_at_once_and_told_in_the_order_given(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    names = ["one", "two", "three"]
+    files = [write(tmp_path / f"{name}.urdf", 0.004) for name in names]
+    both = threading.Barrier(2)
+    second_done = threading.Event()
+    judges: set[int] = set()
+    check = Judge.check
+
+    def watched(judge: Judge, path: Path, *rest: object) -> object:
+        judges.add(id(judge))
+        if path.stem != "three":
+            both.wait(60.0)
+        if path.stem == "one":
+            assert second_done.wait(60.0)
+        report = check(judge, path, *rest)
+        if path.stem == "two":
+            second_done.set()
+        return report
+
+    monkeypatch.setattr(Judge, "check", watched)
+    assert run(["check", *map(str, files), "--sim", "", "--workers", "2"]) == 0
+    lines = [line for line in capsys.readouterr().out.splitlines() if not line.startswith(" ")]
+    assert [line.split(" (")[0] for line in lines] == [f"passed {name}.urdf" for name in names]
+    assert len(judges) == 2
+
+
+def test_workers_have_to_be_some(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = write(tmp_path / "asset.urdf", 0.004)
+    assert run(["check", str(path), "--sim", "", "--workers", "0"]) == 2
+    assert "--workers: is 0, want at least 1" in capsys.readouterr().err

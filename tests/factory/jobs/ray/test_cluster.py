@@ -30,7 +30,6 @@ with connected(LOCAL, 1) as ray:
         if connection.status == psutil.CONN_LISTEN
     }
     print(json.dumps({"told": told, "addresses": sorted(addresses)}))
-print(json.dumps({"left": [name for name in os.environ if name.startswith("RAY_AUTH_TOKEN")]}))
 """
 
 
@@ -43,7 +42,5 @@ def test_a_cluster_of_ones_own_listens_to_this_machine_and_this_job_only(
     done = subprocess.run(
         [sys.executable, "-c", SCRIPT], capture_output=True, text=True, timeout=120, check=True
     )
-    during, after = map(json.loads, done.stdout.splitlines())
-    assert during == {"told": ["token", 64], "addresses": ["127.0.0.1"]}
-    assert after == {"left": []}
+    assert json.loads(done.stdout) == {"told": ["token", 64], "addresses": ["127.0.0.1"]}
     assert not (tmp_path / ".ray").exists()

@@ -1,0 +1,97 @@
+"""As many workers as this machine has processors and free memory for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+
+from asset_factory.sim_checks.processes.isolation import processors
+
+#: What a build takes over all its processes [bytes]: the worker, its validator's children and an
+#: engine in each; furniture was measured to take 1.1 GiB.
+BUILD_BYTES = 1_200 * 2**20
+#: What validating one file takes over its children [bytes]: static checks and three engines.
+CHECK_BYTES = 2 * 2**30
+#: A limit of a cgroup from here on is none [bytes].
+NO_LIMIT = 2**60
+GROUPS = Path("/sys/fs/cgroup")
+PROC = Path("/proc")
+
+
+def workers_for(asked: int | None, each: int) -> tuple[int, str | None]:
+    """Return how many workers to start, and a sentence where they are fewer than was asked for.
+
+    Args:
+        asked: by whoever started the command; ``None``: as many as there are processors.
+        each: what one worker may need [bytes].
+    """
+    wanted = asked or processors()
+    free = free_memory()
+    room = wanted if free is None else max(1, free // each)
+    if room >= wanted:
+        return wanted, None
+    sentence = (
+        f"{room} of {wanted} workers start: {_gib(free or 0)} of memory are free, "
+        f"and one may need {_gib(each)}"
+    )
+    return room, sentence
+
+
+def free_memory(proc: Path = PROC, groups: Path = GROUPS) -> int | None:
+    """Return what processes may still take, by the machine and by this process's cgroups [bytes].
+
+    ``None`` where nothing says.
+    """
+    return min((*_of_machine(proc), *_of_groups(proc, groups)), default=None)
+
+
+def _of_machine(proc: Path) -> Iterator[int]:
+    with suppress(OSError, ValueError, IndexError):
+        for line in (proc / "meminfo").read_text().splitlines():
+            if line.startswith("MemAvailable:"):
+                yield 1024 * int(line.split()[1])
+
+
+def _of_groups(proc: Path, groups: Path) -> Iterator[int]:
+    """What each group above this process leaves: a group's limit holds for all below it."""
+    lines: list[str] = []
+    with suppress(OSError):
+        lines = (proc / "self" / "cgroup").read_text().splitlines()
+    for line in lines:
+        _, controllers, path = line.split(":", 2)
+        if controllers == "":
+            root, names = groups, ("memory.max", "memory.current", "inactive_file")
+        elif "memory" in controllers.split(","):
+            root = groups / "memory"
+            names = ("memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file")
+        else:
+            continue
+        # Within a container the path may be of the outside: then the mounted root is the group.
+        at = root / path.lstrip("/")
+        for group in (at, *at.parents):
+            yield from _left(group, *names)
+            if group == root:
+                break
+
+
+def _left(group: Path, limit: str, used: str, unused: str) -> Iterator[int]:
+    with suppress(OSError, ValueError):
+        most = int((group / limit).read_text())
+        if most < NO_LIMIT:
+            taken = int((group / used).read_text())
+            # Files that were read are counted, and given up when memory runs short.
+            yield max(0, most - taken + _named(group / "memory.stat", unused))
+
+
+def _named(file: Path, name: str) -> int:
+    with suppress(OSError, ValueError):
+        for line in file.read_text().splitlines():
+            words = line.split()
+            if words[0] == name:
+                return int(words[1])
+    return 0
+
+
+def _gib(number: int) -> str:
+    return f"{number / 2**30:.1f} GiB"
