@@ -113,6 +113,19 @@ def test_two_parts_that_only_meet_when_both_are_open_are_reported_softly() -> No
     assert hard(result) == []
 
 
+def test_two_parts_that_only_meet_when_both_are_half_open_are_reported_too() -> None:
+    base = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1))])
+    left = body("left", [((-1.0, 0.0, 0.0), (0.8, 0.8, 0.2))])
+    front = body("front", [((0.0, -1.0, 0.0), (0.8, 0.8, 0.2))])
+    joints = [
+        joint("a", "prismatic", "base", "left", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 2.0)),
+        joint("b", "prismatic", "base", "front", (0, 0, 0), (0.0, 1.0, 0.0), (0.0, 2.0)),
+    ]
+    (finding,) = check(described([base, left, front], joints)).findings
+    assert finding.code == "combination_penetration"
+    assert set(finding.parts) == {"left", "front"}
+
+
 def knuckled(length: float, reach: float = 0.006) -> Description:
     """A door on an axle that sits in its frame for ``length`` of the hinge's 0.6 m."""
     frame = body(
