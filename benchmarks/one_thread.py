@@ -18,10 +18,9 @@ import tempfile
 import time
 from pathlib import Path
 
-from asset_factory.sim_checks.processes.threads import VARIABLES
-
 from asset_factory.factory.runtime.layout import ASSETS
 from asset_factory.sim_checks.processes.isolation import processors
+from asset_factory.sim_checks.processes.threads import VARIABLES
 
 INPUTS = Path(__file__).resolve().parents[1] / "examples" / "generated"
 COMMAND = (sys.executable, "-m", "asset_factory.factory.cli", "build", "--sim", "all")

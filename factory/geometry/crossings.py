@@ -184,7 +184,8 @@ def _crossed(
     area = turns[faces]
     shares: list[FloatArray] = []
     for k in range(3):
-        one, other = k - 2, k - 1
+        one = k - 2
+        other = k - 1
         with np.errstate(divide="ignore", invalid="ignore"):
             # Of each corner, twice the area that the pixel spans with the other two.
             share = (
@@ -193,7 +194,9 @@ def _crossed(
             ) / area[owner]
         # Half of a box is outside each edge: what one edge excludes is not asked of the next.
         inside = np.flatnonzero(share >= 0.0)
-        owner, column, row = owner[inside], column[inside], row[inside]
+        owner = owner[inside]
+        column = column[inside]
+        row = row[inside]
         shares = [*(each[inside] for each in shares), share[inside]]
     weights = np.stack(shares, axis=1)
     face = faces[owner]

@@ -124,7 +124,8 @@ def loss(
     open_share = share
     if excuse.held and share > config.planed_volume:
         open_share -= (_within(before, excuse.other) - _within(after, excuse.other)) / whole
-    outside_before, outside_after = surface.outside(before), surface.outside(after)
+    outside_before = surface.outside(before)
+    outside_after = surface.outside(after)
     bare = outside_after - outside_before
     bare_before, bare_after = (
         float((far[: surface.spread] > config.gap_m).mean())
