@@ -26,6 +26,19 @@ WORDS = {
     "morning": "nightly report",
     "licence": "license",
 }
+#: What tells the time or the processor time, and where that may be asked: to stop what hangs, to
+#: hold a job to its hours, to tell people. Nothing that decides about an asset is among them.
+CLOCKS = re.compile(r"(process_time|perf_counter|monotonic|thread_time|time)(_ns)?")
+CLOCKS_IN = (
+    "factory/jobs/",
+    "factory/particulate/service/",
+    "factory/particulate/weights/pickled.py",
+    "factory/registry/registration.py",
+    "factory/runtime/clock.py",
+    "factory/runtime/store.py",
+    "factory/training/",
+    "sim_checks/processes/",
+)
 BANNED = re.compile(rf"\b({'|'.join(WORDS)})s?\b", re.IGNORECASE)
 #: An old spelling that a flag still takes.
 KEPT = '"--licence"'
@@ -44,6 +57,7 @@ def main() -> int:
                 classes[node.name].append(f"{name}:{node.lineno}")
         broken += _words(name, text)
         broken += _pairs(name, tree)
+        broken += [] if name.startswith(CLOCKS_IN) else _clocks(name, tree)
         if text.count("\n") > MOST_LINES:
             broken.append(f"{name}: {text.count(chr(10))} lines, at most {MOST_LINES}")
     for found, places in classes.items():
@@ -64,6 +78,22 @@ def _words(name: str, text: str) -> Iterator[str]:
     for number, line in enumerate(text.replace(KEPT, "").splitlines(), start=1):
         for word in BANNED.findall(line):
             yield f"{name}:{number}: says {word!r}, want {WORDS[word.lower()]!r}"
+
+
+def _clocks(name: str, tree: ast.AST) -> Iterator[str]:
+    """Uses of the module ``time`` that ask for a time."""
+    for node in ast.walk(tree):
+        found = []
+        if isinstance(node, ast.ImportFrom) and node.module == "time":
+            found = [alias.name for alias in node.names]
+        elif isinstance(node, ast.Attribute) and ast.unparse(node.value) == "time":
+            found = [node.attr]
+        for clock in found:
+            if CLOCKS.fullmatch(clock):
+                yield (
+                    f"{name}:{node.lineno}: asks time.{clock}, which decides nothing here: count "
+                    "work instead, or let a child's limits stop what hangs"
+                )
 
 
 def _pairs(name: str, tree: ast.AST) -> Iterator[str]:

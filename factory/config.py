@@ -113,8 +113,8 @@ class DecomposeConfig:
         near_convex: a part of several pieces that fills this share of its hull, with no deeper
             dent, is one hull.
         shell_m: thickness given to surfaces that enclose nothing, towards their inside [m].
-        max_faces: most triangles that CoACD is given; what keeps more when it is simplified by half
-            the error goes to V-HACD, whose work is bounded by its voxels.
+        max_faces: simplify to this many triangles before CoACD; what is too intricate for that goes
+            to V-HACD, whose work is bounded by its voxels.
         max_hulls: a part that needs more is tried with two and four times the error, then rejected.
         max_vertices: corners of one hull; simulators on the GPU take at most 64.
         resolution: CoACD's surface samples for its measure of concavity.

@@ -18,10 +18,14 @@ from asset_factory.factory.errors import InputRejected, Unjudged
 from asset_factory.factory.manufacture.decompose import ladder
 from asset_factory.factory.manufacture.decompose.convex import (
     depth_below,
+    hull_of,
     surface_points,
 )
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls, decompose
+from asset_factory.factory.manufacture.decompose.methods import SolidPieces
 from asset_factory.factory.manufacture.decompose.outside import uncovered
+from asset_factory.factory.manufacture.decompose.refine import MOST_SEARCHED, refined
+from asset_factory.factory.manufacture.decompose.room import NOWHERE
 from asset_factory.factory.manufacture.decompose.solids import manifold_of, manifold_of_hull, union
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.runtime.store import Store
@@ -281,6 +285,73 @@ def test_what_a_clock_or_somebody_stopped_is_unjudged_and_not_kept(
     assert caught.value.finding.stopped
     assert outcome.detail in str(caught.value)
     assert not list(tmp_path.rglob("*.npz"))
+
+
+def blob(segments: int, at: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    """A ball with dents deeper than any error, too many to become a few convex pieces."""
+    ball = trimesh.creation.uv_sphere(radius=1.0, count=[segments, segments])
+    rng = np.random.default_rng(0)
+    height = np.zeros(len(ball.vertices))
+    for _ in range(12):
+        direction = rng.normal(size=3)
+        along = ball.vertices @ (direction / np.linalg.norm(direction))
+        height += np.sin(along * rng.uniform(5.0, 25.0) + rng.uniform(0.0, 6.0))
+    vertices = np.array(ball.vertices) * (0.3 + 0.0087 * height)[:, None]
+    return vertices + np.array([0.0, 0.0, at]), np.array(ball.faces)
+
+
+def test_coacd_is_asked_of_what_is_simple_within_the_error_only(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked = []
+
+    def counted(function: object, solid: object, *_: object, limits: Limits) -> Outcome[object]:
+        asked.append((function, len(solid[1])))
+        assert limits.cpu_s is None
+        return Outcome([], None, "", "", 0.1)
+
+    monkeypatch.setattr(ladder, "run_isolated", counted)
+    intricate = manifold_of(*blob(70))
+    assert intricate is not None
+    rung = ladder.climb_down(intricate, 0.01, DecomposeConfig())
+    assert rung is not None
+    assert [function for function, _ in asked] == [ladder.vhacd_pieces]
+    assert "faces, want at most 1300" in rung.degraded[0]
+    asked.clear()
+    # The same with many more faces that say nothing more.
+    smooth = torus_solid().refine(8)
+    assert smooth.num_tri() > 30_000
+    ladder.climb_down(smooth, 0.01, DecomposeConfig())
+    assert [function for function, _ in asked] == [ladder.coacd_pieces] * 2 + [ladder.vhacd_pieces]
+    assert all(faces <= 2000 for _, faces in asked)
+
+
+def test_pieces_are_split_again_up_to_a_count() -> None:
+    solid = torus_solid()
+    whole = hull_of(torus()[0])
+    assert whole is not None
+    few, many = (
+        refined(solid, SolidPieces((whole,), "coacd", searched=searched), 0.01, CONFIG, NOWHERE)
+        for searched in (0, MOST_SEARCHED)
+    )
+    assert len(few.hulls) > 1
+    assert many.hulls == (whole,)
+
+
+@pytest.mark.full
+def test_a_hundred_thousand_faces_in_two_blobs_become_hulls(tmp_path: Path) -> None:
+    """It takes 43 s of processor time, V-HACD's included, and took minutes of CoACD."""
+    pieces = [blob(112), blob(112, at=0.8)]
+    vertices = np.concatenate([piece[0] for piece in pieces])
+    count = len(pieces[0][0])
+    mesh = Mesh.from_triangles(vertices, np.concatenate([pieces[0][1], pieces[1][1] + count]))
+    half = len(pieces[0][1])
+    parts = (Part("base", np.arange(half)), Part("lid", np.arange(half, len(mesh.faces))))
+    joint = Joint("slide", JointKind.PRISMATIC, 0, 1, np.array([0, 0, 1.0]), np.zeros(3), 0.0, 0.1)
+    articulation = Articulation(mesh, parts, (joint,), "annotated")
+    assert len(mesh.faces) > 98_000
+    for result in decompose(articulation, DecomposeConfig()):
+        assert (result.method, len(result.hulls) <= 64) == ("vhacd", True)
 
 
 def test_without_memory_the_next_method_is_tried_and_that_is_kept(

@@ -1,0 +1,70 @@
+"""Neither a cache, nor threads, nor a busy machine change a verdict, or a byte of an asset."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from asset_factory.factory.build import build_asset
+from asset_factory.factory.config import BuildConfig, ReadingsConfig, RepairConfig
+from asset_factory.factory.registry import Registry
+from asset_factory.factory.runtime.layout import CACHE
+from asset_factory.factory.runtime.store import folder_digests
+from asset_factory.sim_checks.processes.threads import VARIABLES
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "meshes"
+CONFIG = BuildConfig(simulators=("mujoco",))
+#: The cabinet counts 275 and more a round, and passes after three.
+SHRUNKEN = replace(CONFIG, repair=RepairConfig(most_work=300), readings=ReadingsConfig(most_work=0))
+
+
+def registered(output: Path) -> tuple[str, str, dict[str, str]]:
+    """Status, reason and the digest of every file of the one entry."""
+    registry = Registry(output)
+    (entry,) = registry.entries()
+    return entry.status, entry.reason, folder_digests(registry.folder(entry))
+
+
+def test_a_warm_cache_changes_nothing_however_small_the_budgets(tmp_path: Path) -> None:
+    for name, config in (("full", CONFIG), ("shrunken", SHRUNKEN)):
+        build_asset(EXAMPLES / "cabinet.glb", tmp_path / name, config)
+    # From its own cache, and from one of somebody who went further.
+    for cold, cache, config in (
+        ("full", "full", CONFIG),
+        ("shrunken", "shrunken", SHRUNKEN),
+        ("shrunken", "full", SHRUNKEN),
+    ):
+        warm = tmp_path / f"{cold} from {cache}"
+        shutil.copytree(tmp_path / cache / CACHE, warm / CACHE)
+        result = build_asset(EXAMPLES / "cabinet.glb", warm, config)
+        assert {"decompose", "finish", "inspect"} & set(result.reused)
+        assert registered(warm) == registered(tmp_path / cold)
+    assert registered(tmp_path / "full")[0] == "passed"
+    assert registered(tmp_path / "shrunken")[0] == "rejected"
+
+
+def built_with(threads: int, output: Path) -> tuple[str, str, dict[str, str]]:
+    command = [sys.executable, "-m", "asset_factory.factory.cli", "build", "--sim", "mujoco"]
+    asked = ["--input", EXAMPLES / "laptop.glb", "--output", output, "--quiet", "--no-report"]
+    environment = {**os.environ, **dict.fromkeys(VARIABLES, str(threads))}
+    subprocess.run([*command, *asked], env=environment, check=True, timeout=600)
+    return registered(output)
+
+
+def test_neither_threads_nor_a_busy_machine_change_anything(tmp_path: Path) -> None:
+    alone = built_with(1, tmp_path / "alone")
+    busy = [
+        subprocess.Popen([sys.executable, "-c", "while True: pass"])
+        for _ in os.sched_getaffinity(0)
+    ]
+    try:
+        assert built_with(16, tmp_path / "busy") == alone
+    finally:
+        for process in busy:
+            process.kill()
+            process.wait()
+    assert alone[0] == "passed"
