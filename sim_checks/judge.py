@@ -18,6 +18,7 @@ from .description import Description, DescriptionError
 from .processes.isolation import Failure, Outcome, WarmChild
 from .read.usd.as_urdf import write_as_urdf
 from .read.usd.layers import is_usd
+from .read.usd.refusing import ask_of
 from .report import KILLED, OUT_OF_TIME, Finding, Report, Severity
 
 #: Raised when the same files and settings would give another report.
@@ -145,16 +146,16 @@ class Judge:
         """Judge the URDF that says what a USD asset says: no engine here reads USD."""
         with TemporaryDirectory() as folder:
             limits = self._config.child.limits
-            outcome = self._child("static").call(write_as_urdf, path, Path(folder), limits=limits)
-            if outcome.value is None:
-                error = outcome.error
-                finding = (
-                    Finding(error.code, Severity.HARD, error.message)
-                    if isinstance(error, DescriptionError)
-                    else _failure(outcome, path)
-                )
+            child = self._child("static")
+            try:
+                urdf = ask_of(child, path.name, write_as_urdf, path, Path(folder), limits=limits)
+            except DescriptionError as error:
+                finding = Finding(error.code, Severity.HARD, error.message)
                 return Report(path.name, (), (finding,), {}, ())
-            report = self.check(outcome.value, simulators)
+            except (TimeoutError, ChildProcessError) as error:
+                code = "check_timeout" if isinstance(error, TimeoutError) else "check_crashed"
+                return Report(path.name, (), (Finding(code, Severity.HARD, str(error)),), {}, ())
+            report = self.check(urdf, simulators)
         words = f"{path.name} was judged as the URDF that says the same: no engine here reads USD"
         told = Finding("read_as_urdf", Severity.SOFT, words)
         return replace(report, description=path.name, findings=(told, *report.findings))

@@ -27,6 +27,7 @@ sys.path.insert(0, str(ROOT / "tests" / "samples"))
 from fuzz_cases import Case, real_seeds, seeds  # noqa: E402 - the attacks live with the tests
 from fuzz_hostile import MESH_PAGES  # noqa: E402
 from fuzz_hostile_texts import TEXT_PAGES  # noqa: E402
+from fuzz_hostile_usd import USD_PAGES  # noqa: E402
 from fuzz_hostile_weights import WEIGHT_PAGES  # noqa: E402
 from fuzz_mutations import mutated  # noqa: E402
 from fuzz_trial import Trial, shrunk, try_case  # noqa: E402
@@ -36,11 +37,12 @@ from asset_factory.sim_checks.processes.isolation import Limits, WarmChild  # no
 BATCH = 40
 LIMITS = Limits(wall_s=1800.0, cpu_s=240.0, memory_bytes=4 * 2**30)
 ALONE = Limits(wall_s=150.0, cpu_s=40.0, memory_bytes=4 * 2**30)
-#: MuJoCo compiles every MJCF in a child of its own: fifty times slower than the others.
-SLOW = ("mjcf", "mjcf_check")
+#: MJCF and USD are read in a child for every file: fifty times slower than the others.
+SLOW = ("mjcf", "usd")
 BY_HAND = "by hand: "
 PAGES = {
-    f"{BY_HAND}{name}": page for name, page in {**MESH_PAGES, **TEXT_PAGES, **WEIGHT_PAGES}.items()
+    f"{BY_HAND}{name}": page
+    for name, page in {**MESH_PAGES, **TEXT_PAGES, **USD_PAGES, **WEIGHT_PAGES}.items()
 }
 
 
@@ -84,9 +86,10 @@ def _tried(
 def _plan(count: int, data: str, only: str) -> Iterator[tuple[str, list[int]]]:
     words = only.split(",")
     kinds = [kind for kind in _seeds(data) if any(kind.startswith(word) for word in words)]
-    fast = [kind for kind in kinds if kind not in SLOW]
-    share = count // (len(fast) or 1)
-    sizes = {kind: max(1, share // (10 if kind in SLOW else 1)) for kind in kinds}
+    fast = [kind for kind in kinds if not kind.startswith(SLOW)]
+    share = count // (len(fast) or len(kinds) or 1)
+    slow = share // (10 if fast else 1)
+    sizes = {kind: max(1, share if kind in fast else slow) for kind in kinds}
     sizes |= {
         page: sum(1 for _ in cases())
         for page, cases in PAGES.items()

@@ -21,9 +21,9 @@ from ..description import (
     LinkInertia,
     Mimic,
 )
-from .compiling import memory_bounded
 from .document import parse_document
 from .multiplied import MOST, refuse_multiplied
+from .native import COMPILER_BYTES, memory_bounded
 from .primitives import box, capsule, cylinder, ellipsoid
 from .references import refuse_outside_mjcf
 
@@ -65,7 +65,7 @@ def read_mjcf(path: Path) -> Description:
     # It remembers meshes by their file's name and the second they were written in.
     mujoco.mj_clearCache(mujoco.mj_getCache())
     try:
-        with memory_bounded():
+        with memory_bounded(COMPILER_BYTES):
             model = mujoco.MjModel.from_xml_path(str(path.resolve()))
     except MemoryError as error:
         raise DescriptionError("too_large", f"{path.name}: {error}") from error

@@ -33,7 +33,7 @@ def refuse_multiplied(path: Path, document: ET.Element) -> None:
         DescriptionError: ``too_large``, or what is wrong with an inner document.
     """
     model = read_model(path.resolve(), document, path.parent.resolve())
-    counts = _Counting(model, {}).all
+    counts = _ElementCount(model, {}).all
     for what, most in MOST.items():
         if counts[what] > most:
             raise DescriptionError(
@@ -42,7 +42,7 @@ def refuse_multiplied(path: Path, document: ET.Element) -> None:
             )
 
 
-class _Counting:
+class _ElementCount:
     """Counts what a model becomes, each document once however often it is named.
 
     Args:
@@ -110,7 +110,7 @@ class _Counting:
         if file not in self._attached:
             self._attached[file] = Counter()
             model = read_model(file, parse_document(file), self._model.folder)
-            self._attached[file] = _Counting(model, self._attached).all
+            self._attached[file] = _ElementCount(model, self._attached).all
         return self._attached[file]
 
 

@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from ..description import ABSURD, Description, DescriptionError, sensible
-from ..processes.isolation import Failure, Limits, run_isolated
+from ..processes.isolation import Limits, run_isolated
 from .document import parse_document
 from .mjcf import read_mjcf
+from .native import require_word
 from .urdf import read_urdf
 
 #: Time only ends what hangs, and is no verdict; the compiler has a limit of memory of its own.
@@ -25,15 +26,14 @@ def read_description(path: Path) -> Description:
 
     Raises:
         DescriptionError: with a stable code, whatever is wrong with the file.
-        TimeoutError: nobody can say: the compiler hung, or somebody killed it.
+        TimeoutError, ChildProcessError: nobody can say; see :func:`.native.require_word`.
     """
     if format_of(path) == "urdf":
         return read_here(path)
     outcome = run_isolated(read_here, path, limits=COMPILE_LIMITS)
     if isinstance(outcome.error, DescriptionError):
         raise outcome.error
-    if outcome.failure is Failure.TIMEOUT or outcome.killed:
-        raise TimeoutError(f"{path.name}: MuJoCo did not end compiling it: {outcome.detail}")
+    require_word(outcome, path.name)
     if outcome.failure is not None or outcome.value is None:
         raise DescriptionError(
             "unreadable", f"{path.name}: MuJoCo could not compile it: {outcome.detail}"

@@ -18,7 +18,7 @@ def dying(source: Path, **rest: object) -> None:
     with clock.stage("load"):
         if "hangs" in source.name:
             # As where a compiler in a process of its own gave no answer.
-            raise TimeoutError(f"{source.name}: MuJoCo did not end compiling it")
+            raise TimeoutError(f"{source.name}: what reads it gave no answer")
     stage = f"stage_{os.getpid()}" if "wanders" in source.name else "decompose"
     with clock.stage(stage), clock.stage("hulls"):
         pass

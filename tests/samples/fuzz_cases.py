@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import io
 import json
 import struct
@@ -13,6 +14,7 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+import usda
 from mesh_cube import WRITERS, cube, gltf_parts, pack_glb, png, write_obj, write_stl
 
 #: Stands in a file for the folder outside, which nobody may look into.
@@ -216,6 +218,22 @@ def torch_file(description: bytes | None = None, **members: bytes) -> bytes:
 
 
 @cache
+def usd_files() -> dict[str, bytes]:
+    """A cabinet with a door in each form of USD, by suffix; none where USD is not installed."""
+    if importlib.util.find_spec("pxr") is None:
+        return {}
+    from pxr import Sdf, UsdUtils
+
+    with tempfile.TemporaryDirectory() as folder:
+        text = usda.write(Path(folder), usda.stage(usda.CABINET), "cabinet.usda")
+        binary = Path(folder) / "cabinet.usdc"
+        package = Path(folder) / "cabinet.usdz"
+        Sdf.Layer.FindOrOpen(str(text)).Export(str(binary))
+        UsdUtils.CreateNewUsdzPackage(str(binary), str(package))
+        return {path.suffix[1:]: path.read_bytes() for path in (text, binary, package)}
+
+
+@cache
 def seeds() -> dict[str, Case]:
     """Sound inputs by kind; reading each ends well."""
     found = {}
@@ -243,6 +261,11 @@ def seeds() -> dict[str, Case]:
         found[f"{kind}_check"] = Case(
             f"{kind}_check", f"{kind}_check", "check", entry, files, target=entry
         )
+    for kind, data in usd_files().items():
+        for verb in ("load", "check"):
+            name = kind if verb == "load" else f"{kind}_check"
+            entry = f"cabinet.{kind}"
+            found[name] = Case(name, name, verb, entry, {entry: data}, target=entry)
     for kind, name, data in (
         ("safetensors", "w.safetensors", safetensors()),
         ("pt", "w.pt", torch_file()),

@@ -277,4 +277,6 @@ _STRUCTURED: dict[str, Callable[[bytes, Random], bytes]] = {
     "pt": _archive(mutate_bytes),
     "png": mutate_bytes,
     "stl": mutate_bytes,
+    "usdc": mutate_bytes,
+    "usdz": _archive(mutate_bytes),
 }

@@ -24,8 +24,9 @@ from asset_factory.sim_checks.processes.isolation import preload
 #: Longest that a reading may take [s], and how much memory it may add [bytes].
 MOST_SECONDS = 20.0
 MOST_BYTES = 2 * 2**30
-#: Of MuJoCo's compiler, which is killed after a minute of processor time.
-MOST_SECONDS_COMPILED = 130.0
+#: Of what starts a process for each file, which takes seconds on a busy machine.
+MOST_SECONDS_COMPILED = 60.0
+_COMPILED = ("mjcf", "usd")
 _SOURCES = Path(__file__).resolve().parents[2]
 _READABLE = tuple(
     f"{Path(folder).resolve()}{os.sep}"
@@ -180,7 +181,7 @@ def _grounds() -> tuple[Path, Path, _Alarm]:
     os.chdir(base / "cwd")
     # What compiles MJCF and reads checkpoints starts its children from here; it is up before
     # anybody watches.
-    preload(("asset_factory.factory.intake.importers.mjcf_model", "mujoco", "torch"))
+    preload(("asset_factory.factory.intake.importers.mjcf_model", "mujoco", "pxr.Usd", "torch"))
     forkserver.ensure_running()
     return base, outside, _Alarm(outside)
 
@@ -215,7 +216,8 @@ def try_case(case: Case) -> Trial:
         )
         for path in Path.cwd().iterdir():
             path.unlink()
-    if seconds > (MOST_SECONDS_COMPILED if "mjcf" in case.kind else MOST_SECONDS):
+    compiled = case.kind.startswith(_COMPILED)
+    if seconds > (MOST_SECONDS_COMPILED if compiled else MOST_SECONDS):
         broke.append(f"took {seconds:.0f} s")
     if grown > MOST_BYTES:
         broke.append(f"took {grown / 2**30:.1f} GiB of memory")
@@ -271,11 +273,22 @@ def _load(path: Path, folder: Path) -> tuple[str, str]:
 
 
 def _check(path: Path, folder: Path) -> tuple[str, str]:
-    """As ``factory check`` does, MJCF in a child that may die."""
+    """As ``factory check`` does, MJCF and USD in a child that may die."""
     from asset_factory.sim_checks.description import DescriptionError
+    from asset_factory.sim_checks.processes.isolation import WarmChild
     from asset_factory.sim_checks.read.read import read_description
+    from asset_factory.sim_checks.read.usd.as_urdf import write_as_urdf
+    from asset_factory.sim_checks.read.usd.layers import is_usd
+    from asset_factory.sim_checks.read.usd.refusing import ask_of
 
-    return _judged(lambda: read_description(path).format, DescriptionError)
+    def read() -> str:
+        if not is_usd(path):
+            return read_description(path).format
+        with tempfile.TemporaryDirectory() as made, WarmChild() as child:
+            urdf = ask_of(child, path.name, write_as_urdf, path, Path(made))
+            return read_description(urdf).format
+
+    return _judged(read, DescriptionError)
 
 
 def _weights(path: Path, folder: Path) -> tuple[str, str]:

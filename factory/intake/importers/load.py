@@ -46,7 +46,7 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
         InputRejected: ``unreadable``, ``unsupported``, ``missing_file``, ``external_reference``,
             ``too_large``, ``empty``, ``zero_size``, ``absurd_size``, ``not_a_tree``,
             ``unsupported_joint``, ``bad_sidecar``, ``license_disallowed``.
-        TimeoutError: what reads it hung or was killed, which is no verdict.
+        TimeoutError, ChildProcessError: what reads it hung or was killed, which is no verdict.
         ConfigError: ``config.up`` or ``config.height`` cannot be.
     """
     if config.height is not None and not 0.0 < config.height < float("inf"):
@@ -103,7 +103,7 @@ def _imported(path: Path, config: IntakeConfig) -> Imported:
                 return import_urdf(root, path, config)
             if root.tag == "mujoco":
                 return import_mjcf(root, path, config)
-    except (InputRejected, TimeoutError):
+    except (InputRejected, TimeoutError, ChildProcessError):
         raise
     except MemoryError as error:
         raise InputRejected("too_large", f"{path.name}: does not fit into memory") from error

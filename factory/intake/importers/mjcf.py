@@ -12,8 +12,9 @@ from pathlib import Path
 import numpy as np
 
 from asset_factory.sim_checks.description import DescriptionError
-from asset_factory.sim_checks.processes.isolation import Failure, Limits, run_isolated
+from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 from asset_factory.sim_checks.read.multiplied import refuse_multiplied
+from asset_factory.sim_checks.read.native import require_word
 
 from ...config import IntakeConfig
 from ...errors import InputRejected
@@ -49,7 +50,7 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Imported:
     Raises:
         InputRejected: ``unsupported_joint``, ``missing_file``, ``external_reference``,
             ``unreadable``, ``too_large``.
-        TimeoutError: nobody can say: the compiler hung, or somebody killed it.
+        TimeoutError, ChildProcessError: the compiler hung or was killed, which is no verdict.
     """
     files = referenced_files(root, path, config.max_bytes)
     size = sum(file.stat().st_size for file in files)
@@ -80,8 +81,7 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Imported:
 
 def _compiled(path: Path) -> CompiledModel:
     outcome = run_isolated(compile_model, str(path), limits=COMPILER_LIMITS)
-    if outcome.failure is Failure.TIMEOUT or outcome.killed:
-        raise TimeoutError(f"{path.name}: MuJoCo did not end compiling it: {outcome.detail}")
+    require_word(outcome, path.name)
     if isinstance(outcome.error, MemoryError):
         raise InputRejected("too_large", f"{path.name}: {outcome.error}")
     if outcome.failure is not None or outcome.value is None:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asset_factory.sim_checks.read.compiling import memory_bounded
+from asset_factory.sim_checks.read.native import COMPILER_BYTES, memory_bounded
 
 from ...mesh import FloatArray, IntArray
 
@@ -119,7 +119,7 @@ def compile_model(path: str) -> CompiledModel:
 
     # Its own way is a log file in whatever folder the program was started from.
     mujoco.set_mju_user_warning(_say)
-    with memory_bounded():
+    with memory_bounded(COMPILER_BYTES):
         model = _compiled(path)
         data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)

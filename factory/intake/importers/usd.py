@@ -10,6 +10,9 @@ from pathlib import Path
 
 import numpy as np
 
+from asset_factory.sim_checks.processes.isolation import WarmChild
+from asset_factory.sim_checks.read.usd.refusing import LIMITS, ask_of
+
 from ...config import IntakeConfig
 from ...errors import InputRejected
 from ...mesh import FloatArray, IntArray, Mesh, concatenate
@@ -24,8 +27,8 @@ from ..orientation import rotation_to_z_up
 from ..reads import digest_read
 from ..sidecar import read_sidecar
 from ..sizes import guess_category, normalised
-from .usd_layers import require_own_layers
-from .usd_stage import read_stage
+from .usd_layers import rejecting, require_own_layers
+from .usd_stage import UsdStage, read_stage
 from .usd_tree import annotation_of
 
 
@@ -40,6 +43,7 @@ def load_usd(path: Path, config: IntakeConfig) -> Intake:
         InputRejected: ``unsupported``: the library that reads USD is not installed;
             ``external_reference``, ``missing_file``, ``too_large``, ``unreadable``, ``empty``,
             ``not_a_tree``, ``unsupported_joint``, ``bad_sidecar``, ``license_disallowed``.
+        TimeoutError, ChildProcessError: what reads it hung or was killed, which is no verdict.
     """
     if importlib.util.find_spec("pxr") is None:
         raise InputRejected(
@@ -47,11 +51,15 @@ def load_usd(path: Path, config: IntakeConfig) -> Intake:
         )
     files = InputFiles(path.parent, config)
     sidecar = read_sidecar(path, files)
-    layers = require_own_layers(path, path.parent, config.max_bytes)
-    digests = [digest_read(layer) for layer in layers]
-    digest = digest_bytes("\n".join([*digests, *files.digests]).encode())
-    require_allowed(path.name, sidecar.license, config.allowed_licenses, digest)
-    mesh, annotation, transform = read_annotated(path, config.max_faces)
+    with WarmChild() as child, rejecting(path):
+        layers = ask_of(
+            child, path.name, require_own_layers, path, path.parent, config.max_bytes, limits=LIMITS
+        )
+        digests = [digest_read(layer) for layer in layers]
+        digest = digest_bytes("\n".join([*digests, *files.digests]).encode())
+        require_allowed(path.name, sidecar.license, config.allowed_licenses, digest)
+        stage = ask_of(child, path.name, read_stage, path, config.max_faces, limits=LIMITS)
+    mesh, annotation, transform = _annotated(stage, path.name, config.max_faces)
     require_sensible_size(path.name, mesh.bounds)
     return _intake(path, mesh, annotation, transform, digest, sidecar.license)
 
@@ -71,14 +79,17 @@ def read_annotated(path: Path, max_faces: int) -> tuple[Mesh, Annotation, FloatA
         InputRejected: ``unreadable``, ``empty``, ``too_large``, ``not_a_tree``,
             ``unsupported_joint``.
     """
-    stage = read_stage(path, max_faces)
+    return _annotated(read_stage(path, max_faces), path.name, max_faces)
+
+
+def _annotated(stage: UsdStage, name: str, max_faces: int) -> tuple[Mesh, Annotation, FloatArray]:
     if not stage.pieces:
-        raise InputRejected("empty", f"{path.name}: holds no surface that is shown")
+        raise InputRejected("empty", f"{name}: holds no surface that is shown")
     whole = concatenate([mesh for _, mesh in stage.pieces])
-    require_at_most(path.name, len(whole.faces), max_faces, "faces")
+    require_at_most(name, len(whole.faces), max_faces, "faces")
     transform = np.eye(4)
     transform[:3, :3] = stage.metres * rotation_to_z_up(stage.up)
-    return whole.transformed(transform), annotation_of(stage, path.name), transform
+    return whole.transformed(transform), annotation_of(stage, name), transform
 
 
 def _intake(

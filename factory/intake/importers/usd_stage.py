@@ -6,11 +6,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from asset_factory.sim_checks.read.usd.prims import is_joint_in_use, is_rigid_body, is_shown
+from asset_factory.sim_checks.read.native import READER_BYTES, memory_bounded
+from asset_factory.sim_checks.read.usd.prims import (
+    is_joint_in_use,
+    is_rigid_body,
+    is_shown,
+    list_prims,
+)
 
 from ...mesh import Mesh
 from ..limits import require_at_most, unreadable
 from .usd_joints import BodyFrames, UsdJoint, joint_of
+from .usd_layers import rejecting
 from .usd_meshes import mesh_of
 
 STATIC = ""
@@ -38,25 +45,28 @@ class UsdStage:
 
 
 def read_stage(path: Path, max_faces: int) -> UsdStage:
-    """Compose a stage and read it; see :func:`require_own_layers` for what to ask before.
+    """Compose a stage and read it, in a killable child; see :func:`require_own_layers` before.
 
     Args:
         path: of the root layer.
         max_faces: most triangles.
 
     Raises:
-        InputRejected: ``unreadable``, ``too_large``, ``unsupported_joint``.
+        InputRejected: ``unreadable``, ``too_large``, ``unsupported_joint``, whatever its library
+            raises.
     """
-    from pxr import Tf, Usd, UsdGeom, UsdPhysics
+    with rejecting(path), memory_bounded(READER_BYTES):
+        return _composed(path, max_faces)
 
-    try:
-        stage = Usd.Stage.Open(str(path.resolve()))
-    except Tf.ErrorException as error:
-        raise unreadable(path.name, str(error).replace(str(path.resolve().parent), "")) from error
+
+def _composed(path: Path, max_faces: int) -> UsdStage:
+    from pxr import Usd, UsdGeom, UsdPhysics
+
+    stage = Usd.Stage.Open(str(path.resolve()))
     metres = float(UsdGeom.GetStageMetersPerUnit(stage))
     if not 0.0 < metres < float("inf"):
         raise unreadable(path.name, f"metersPerUnit is {metres}, want a positive number")
-    prims = list(Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()))
+    prims = list_prims(stage, path.name)
     joints = [prim for prim in prims if is_joint_in_use(prim)]
     bodies = _Bodies(prims, joints)
     frames = BodyFrames(stage, UsdGeom.XformCache(), bodies.of)

@@ -10,9 +10,11 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ...description import DescriptionError, FloatArray, LinkInertia
+from ..native import READER_BYTES, memory_bounded
 from .bodies import WORLD, PhysicsBody
 from .joints import PhysicsJoint
 from .layers import require_inside
+from .refusing import refusing
 from .shapes import PhysicsSurface
 from .stage import PhysicsStage, read_stage
 
@@ -31,6 +33,8 @@ def write_as_urdf(path: Path, folder: Path) -> Path:
         path: of the root layer; everything that it is composed of lies in or below its folder.
         folder: an empty one.
 
+    Call it in a killable child, with :func:`.refusing.ask_of`.
+
     Returns:
         The URDF.
 
@@ -41,12 +45,13 @@ def write_as_urdf(path: Path, folder: Path) -> Path:
         raise DescriptionError(
             "unknown_format", f"{path.name}: reading USD needs usd-core: pip install usd-core"
         )
-    require_inside(path)
-    stage = read_stage(path)
-    if not any(body.visuals or body.collisions for body in stage.bodies.values()):
-        raise DescriptionError("no_links", f"{path.name}: holds no surface")
-    file = folder / NAME
-    file.write_bytes(_Urdf(stage, folder).document(path.stem))
+    with refusing(path.name, path.resolve().parent), memory_bounded(READER_BYTES):
+        require_inside(path)
+        stage = read_stage(path)
+        if not any(body.visuals or body.collisions for body in stage.bodies.values()):
+            raise DescriptionError("no_links", f"{path.name}: holds no surface")
+        file = folder / NAME
+        file.write_bytes(_Urdf(stage, folder).document(path.stem))
     return file
 
 

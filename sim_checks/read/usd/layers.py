@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from ...description import DescriptionError
+from .multiplied import refuse_multiplied
+from .refusing import refusing
 
 SUFFIXES = frozenset({".usd", ".usda", ".usdc", ".usdz"})
 MOST_LAYERS = 4096
@@ -34,31 +36,30 @@ def layer_files(main: Path, folder: Path) -> Iterator[Path]:
     Raises:
         DescriptionError: ``outside_folder``, ``missing_file``, ``unreadable``, ``unknown_format``
             (other files; value clips and computed references, whose files cannot be known
-            beforehand).
+            beforehand), ``too_large`` once it would be composed.
     """
-    from pxr import Sdf, Tf
+    from pxr import Sdf
 
     root = folder.resolve()
     waiting = [str(main.resolve())]
-    seen = set()
+    layers: dict[str, Any] = {}
+    named: dict[tuple[str, str], str] = {}
     while waiting:
         identifier = waiting.pop()
-        if identifier in seen:
+        if identifier in layers:
             continue
-        seen.add(identifier)
         yield _own_file(identifier, root)
-        name = Path(identifier).name
-        try:
+        with refusing(Path(identifier).name, root):
             layer = Sdf.Layer.FindOrOpen(identifier)
-        except Tf.ErrorException as error:
-            words = " ".join(str(error).replace(str(root), "").split())
-            raise DescriptionError("unreadable", f"{name}: {words[:240]}") from error
-        if layer is None:
-            raise DescriptionError("unreadable", f"{name}: is no USD layer")
-        _refuse_clips(layer)
-        for reference in layer.GetCompositionAssetDependencies():
-            if reference:
-                waiting.append(_identifier(reference, layer))
+            if layer is None:
+                raise DescriptionError("unreadable", f"{Path(identifier).name}: is no USD layer")
+            layers[identifier] = layer
+            _refuse_clips(layer)
+            for reference in filter(None, layer.GetCompositionAssetDependencies()):
+                named[identifier, reference] = _identifier(reference, layer)
+                waiting.append(named[identifier, reference])
+    with refusing(main.name, root):
+        refuse_multiplied(main.name, str(main.resolve()), layers, named)
 
 
 def require_inside(path: Path) -> None:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import islice
 from typing import Any
 
 import numpy as np
+
+from ...description import DescriptionError
+from .multiplied import MOST_PRIMS
 
 #: Directions that joints' axes are named by.
 AXES = {
@@ -12,6 +16,25 @@ AXES = {
     "Y": np.array([0.0, 1.0, 0.0]),
     "Z": np.array([0.0, 0.0, 1.0]),
 }
+
+
+def list_prims(stage: Any, name: str) -> list[Any]:
+    """Return all prims of a composed stage, those of instances among them.
+
+    Args:
+        stage: a ``Usd.Stage``.
+        name: of its file, which opens the sentence.
+
+    Raises:
+        DescriptionError: ``too_large``.
+    """
+    from pxr import Usd
+
+    every = Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies())
+    prims = list(islice(every, MOST_PRIMS + 1))
+    if len(prims) > MOST_PRIMS:
+        raise DescriptionError("too_large", f"{name}: over {MOST_PRIMS:,} prims once composed")
+    return prims
 
 
 def is_on(attribute: Any) -> bool:

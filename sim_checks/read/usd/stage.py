@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from ...description import DescriptionError, FloatArray, LinkInertia
+from ..urdf import MAX_TRIANGLES
 from .bodies import WORLD, PhysicsBody, rotation_of
 from .joints import PhysicsJoint, read_joint
-from .prims import is_joint_in_use, is_on, is_rigid_body, is_shown
+from .prims import is_joint_in_use, is_on, is_rigid_body, is_shown, list_prims
 from .shapes import read_surface
 
 
@@ -29,17 +30,14 @@ class PhysicsStage:
 
 
 def read_stage(path: Path) -> PhysicsStage:
-    """Compose a stage and read its physics.
+    """Compose a stage and read its physics; call it within :func:`.refusing.refusing`.
 
     Raises:
-        DescriptionError: ``unreadable``.
+        DescriptionError: ``invalid_number``, ``not_finite``, ``too_large``.
     """
-    from pxr import Tf, Usd, UsdGeom, UsdPhysics
+    from pxr import Usd, UsdGeom, UsdPhysics
 
-    try:
-        stage = Usd.Stage.Open(str(path.resolve()))
-    except Tf.ErrorException as error:
-        raise DescriptionError("unreadable", f"{path.name}: USD cannot compose it") from error
+    stage = Usd.Stage.Open(str(path.resolve()))
     metres = float(UsdGeom.GetStageMetersPerUnit(stage))
     kilograms = float(UsdPhysics.GetStageKilogramsPerUnit(stage))
     if not (0.0 < metres < np.inf and 0.0 < kilograms < np.inf):
@@ -54,16 +52,20 @@ def read_stage(path: Path) -> PhysicsStage:
     def pose_of(prim: Any) -> FloatArray:
         return np.asarray(world @ np.array(cache.GetLocalToWorldTransform(prim)).T)
 
-    prims = list(Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()))
+    prims = list_prims(stage, path.name)
     bodies = {WORLD: PhysicsBody(WORLD, np.eye(4), np.full(3, metres))}
     for prim in prims:
         if is_rigid_body(prim):
             pose, scale = _rigid(pose_of(prim))
             name = str(prim.GetPath())
             bodies[name] = PhysicsBody(name, pose, scale, _inertia(prim, scale, kilograms))
+    triangles = 0
     for prim in prims:
         if prim.IsA(UsdGeom.Gprim):
-            _add_surface(prim, bodies[_body_of(prim, bodies)], pose_of(prim))
+            triangles += _add_surface(prim, bodies[_body_of(prim, bodies)], pose_of(prim))
+            if triangles > MAX_TRIANGLES:
+                words = f"{path.name}: over {MAX_TRIANGLES:,} triangles, at most so many are read"
+                raise DescriptionError("too_large", words)
     joints = tuple(read_joint(prim, bodies) for prim in prims if is_joint_in_use(prim))
     return PhysicsStage(bodies, joints)
 
@@ -76,22 +78,22 @@ def _body_of(prim: Any, bodies: dict[str, PhysicsBody]) -> str:
     return str(path)
 
 
-def _add_surface(prim: Any, body: PhysicsBody, pose: FloatArray) -> None:
+def _add_surface(prim: Any, body: PhysicsBody, pose: FloatArray) -> int:
+    """Add what is seen or touched of a prim to its body; how many triangles that are."""
     from pxr import UsdPhysics
 
     seen = is_shown(prim)
     touched = prim.HasAPI(UsdPhysics.CollisionAPI) and is_on(
         UsdPhysics.CollisionAPI(prim).GetCollisionEnabledAttr()
     )
-    if not (seen or touched):
-        return
-    surface = read_surface(prim, np.linalg.inv(body.pose) @ pose)
+    surface = read_surface(prim, np.linalg.inv(body.pose) @ pose) if seen or touched else None
     if surface is None:
-        return
+        return 0
     if seen:
         body.visuals.append(surface)
     if touched:
         body.collisions.append(surface)
+    return len(surface.faces)
 
 
 def _rigid(pose: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -11,6 +11,7 @@ import pytest
 from fuzz_cases import Case, seeds
 from fuzz_hostile import MESH_PAGES
 from fuzz_hostile_texts import TEXT_PAGES
+from fuzz_hostile_usd import USD_PAGES
 from fuzz_hostile_weights import WEIGHT_PAGES
 from fuzz_mutations import mutated
 from fuzz_trial import Trial, try_case
@@ -18,8 +19,9 @@ from fuzz_trial import Trial, try_case
 from asset_factory.sim_checks.processes.isolation import Limits, WarmChild
 
 LIMITS = Limits(wall_s=120.0, memory_bytes=4 * 2**30)
-#: MuJoCo's compiler needs a child for each file: the benchmark has time for that.
-QUICK = tuple(kind for kind in seeds() if "mjcf" not in kind)
+#: MuJoCo's compiler and USD need a child for each file: the benchmark has time for that.
+QUICK = tuple(kind for kind in seeds() if not kind.startswith(("mjcf", "usd")))
+USD = tuple(kind for kind in seeds() if kind.startswith("usd"))
 #: Page of attacks -> every how many of its cases.
 ATTACKS = {
     "references": 7,
@@ -29,13 +31,15 @@ ATTACKS = {
     "sidecars": 5,
     "entities": 11,
     "predictions": 11,
+    "usd_by_hand": 23,
 }
 
 
 def sample(number: int) -> list[Case]:
     """Ten of each kind, and some attacks by hand."""
-    pages = {**MESH_PAGES, **TEXT_PAGES, **WEIGHT_PAGES}
+    pages = {**MESH_PAGES, **TEXT_PAGES, **USD_PAGES, **WEIGHT_PAGES}
     damaged = [mutated(seeds()[kind], k) for kind in QUICK for k in range(11)]
+    damaged += [mutated(seeds()[kind], k) for kind in USD for k in range(3)]
     attacks = [
         case for page, every in ATTACKS.items() for case in islice(pages[page](), 0, None, every)
     ]

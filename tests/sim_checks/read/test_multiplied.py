@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -13,9 +14,9 @@ from asset_factory.factory.intake.load import load
 from asset_factory.sim_checks.description import DescriptionError
 from asset_factory.sim_checks.processes.isolation import Failure, Outcome
 from asset_factory.sim_checks.read import multiplied
-from asset_factory.sim_checks.read.compiling import memory_bounded
 from asset_factory.sim_checks.read.document import parse_document
 from asset_factory.sim_checks.read.multiplied import refuse_multiplied
+from asset_factory.sim_checks.read.native import COMPILER_BYTES, memory_bounded
 from asset_factory.sim_checks.read.read import read_description
 
 GEOM = '<geom size="0.1"/>'
@@ -134,16 +135,31 @@ def test_memory_is_bounded_and_unbounded_again():
     with pytest.raises(MemoryError, match=r"0\.25 GiB"), memory_bounded(2**28):
         bytearray(2**29)
     assert len(bytearray(2**29)) == 2**29
-    with pytest.raises(ValueError, match="no name"), memory_bounded():
+    with pytest.raises(ValueError, match="no name"), memory_bounded(COMPILER_BYTES):
         raise ValueError("no name")
 
 
-def test_a_compiler_that_hangs_gives_no_verdict(tmp_path, monkeypatch):
-    hung = Outcome(None, Failure.TIMEOUT, "no answer within 120 s", "", 120.0)
+HUNG = Outcome(None, Failure.TIMEOUT, "no answer within 120 s", "", 120.0)
+CRASHED = replace(HUNG, failure=Failure.CRASHED)
+
+
+@pytest.mark.parametrize(
+    ("outcome", "raised", "code"),
+    [
+        (HUNG, TimeoutError, ""),
+        (replace(CRASHED, killed=True), ChildProcessError, ""),
+        (replace(CRASHED, exited=True, deaths=("",)), ChildProcessError, ""),
+        (replace(CRASHED, deaths=("",)), None, "unreadable"),
+    ],
+)
+def test_a_compiler_that_hangs_or_is_killed_gives_no_verdict(
+    tmp_path, monkeypatch, outcome, raised, code
+):
     path = written(tmp_path, BODY)
     for module in ("sim_checks.read.read", "factory.intake.importers.mjcf"):
-        monkeypatch.setattr(f"asset_factory.{module}.run_isolated", lambda *_, **__: hung)
-    with pytest.raises(TimeoutError):
+        monkeypatch.setattr(f"asset_factory.{module}.run_isolated", lambda *_, **__: outcome)
+    with pytest.raises(raised or DescriptionError) as refused:
         read_description(path)
-    with pytest.raises(TimeoutError):
+    with pytest.raises(raised or InputRejected) as rejected:
         load(path, IntakeConfig())
+    assert all(getattr(each.value, "code", "") == code for each in (refused, rejected))

@@ -1,4 +1,4 @@
-"""How much memory MuJoCo's compiler may take: a small file can ask for any amount."""
+"""Native readers of files from strangers: what they may take, and what their deaths say."""
 
 from __future__ import annotations
 
@@ -6,15 +6,20 @@ import resource
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
-#: Beyond what the process holds before [bytes]. Files of real objects take 0.1 GiB.
+from ..processes.isolation import Failure, Outcome
+
+#: Of MuJoCo's compiler, beyond what the process holds before [bytes]; real objects take 0.1 GiB.
 COMPILER_BYTES = 2 * 2**30
+#: Of USD's library, which maps its files as well, and of what is made of them.
+READER_BYTES = 3 * 2**30
 #: What MuJoCo says where it gets no memory; the second, of whatever its own code throws.
 _WORDS = ("Could not allocate memory", "Caught an unknown exception")
 
 
 @contextmanager
-def memory_bounded(most: int = COMPILER_BYTES) -> Iterator[None]:
+def memory_bounded(most: int) -> Iterator[None]:
     """Within this, the process may take so much more address space; only in a killable child.
 
     Raises:
@@ -33,3 +38,23 @@ def memory_bounded(most: int = COMPILER_BYTES) -> Iterator[None]:
         raise
     finally:
         resource.setrlimit(resource.RLIMIT_AS, usual)
+
+
+def require_word(outcome: Outcome[Any], name: str) -> None:
+    """Tell an outcome that says something of a file from one that does not.
+
+    What a reader answers or raises is its word, and so is a fault that it dies of.
+
+    Args:
+        outcome: of a reader's process.
+        name: of the file, which opens the sentence.
+
+    Raises:
+        TimeoutError: it hung.
+        ChildProcessError: somebody killed it, or it did not start.
+    """
+    said = f"{name}: what reads it gave no answer: {outcome.detail}"
+    if outcome.failure is Failure.TIMEOUT:
+        raise TimeoutError(said)
+    if outcome.failure is Failure.CRASHED and (outcome.exited or not outcome.deaths):
+        raise ChildProcessError(said)
