@@ -293,6 +293,28 @@ class ChildConfig:
 
 
 @dataclass(frozen=True)
+class WorkConfig:
+    """How much work one file may take; beyond it there is no verdict (``too_large_to_judge``).
+
+    Counted, so that every machine comes to the same end. The largest real object tried, a keyboard
+    of 116 keys, takes a tenth of ``looks`` and two thirds of ``driven_links``.
+
+    Attributes:
+        hulls: collision shapes of all links together: boxes around all of them are compared.
+        moved_links: links that joints move, counted once for each joint: a keyboard's keys once
+            each, a chain of 300 links 45,000 times.
+        looks: exact looks at two hulls, at rest and along all joints.
+        driven_links: joints that a simulator drives times links of the model, all of which it moves
+            in every step.
+    """
+
+    hulls: int = 4000
+    moved_links: int = 50_000
+    looks: int = 100_000
+    driven_links: int = 20_000
+
+
+@dataclass(frozen=True)
 class CheckConfig:
     """All of the judge's settings."""
 
@@ -301,4 +323,5 @@ class CheckConfig:
     penetration: PenetrationConfig = field(default_factory=PenetrationConfig)
     loading: LoadingConfig = field(default_factory=LoadingConfig)
     motion: MotionConfig = field(default_factory=MotionConfig)
+    work: WorkConfig = field(default_factory=WorkConfig)
     child: ChildConfig = field(default_factory=ChildConfig, metadata={LIMIT: True})

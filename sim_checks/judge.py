@@ -197,10 +197,14 @@ def examine_here(path: Path, config: CheckConfig, *, native: bool = True) -> Exa
         DescriptionError: if it cannot be read.
     """
     from .checks.catalog import CHECKS
+    from .checks.extent import oversized
     from .geometry.kinematics import NotATree
     from .read.read import read_here
 
     description = read_here(path)
+    too_large = oversized(description, config.work)
+    if too_large is not None:
+        return Examination(None, (too_large,))
     results = {}
     for check in CHECKS:
         if check.native and not native:

@@ -168,6 +168,7 @@ UNJUDGED: Mapping[str, str] = {
     "simulator_timeout": "a simulator gave no answer in time",
     "simulator_missing": "a simulator is not installed",
     "not_simulated": "no simulator asked for reads the format",
+    "too_large_to_judge": "more shapes, motions or contacts than are looked at; says which",
     "check_crashed": "the process of the static checks died",
     "check_timeout": "the static checks gave no answer in time",
     "decomposition_timeout": "convex decomposition gave no answer in time",

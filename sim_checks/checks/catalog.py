@@ -36,7 +36,7 @@ CHECKS = (
     StaticCheck("standing", lambda file, config: check_standing(file, config.standing)),
     StaticCheck(
         "penetration",
-        lambda file, config: check_penetration(file, config.penetration),
+        lambda file, config: check_penetration(file, config.penetration, config.work.looks),
         needs_tree=True,
     ),
 )

@@ -16,6 +16,7 @@ from ..simulators.observe import observe
 from ..simulators.simulator import Observation
 from .agreement import pose_samples
 from .creep import check_creep
+from .extent import undriven
 from .loading import check_loading
 from .motion import check_motion
 from .result import CheckResult
@@ -47,6 +48,9 @@ def judge_in_simulator(
             "it did not judge this file"
         )
         return _only(Finding("format_not_loaded", Severity.SOFT, message, simulator=name))
+    too_large = undriven(description, name, config.work)
+    if too_large is not None:
+        return _only(too_large)
     samples = pose_samples(description)
     ask = run_isolated if child is None else child.call
     outcome = ask(

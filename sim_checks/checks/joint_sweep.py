@@ -159,9 +159,8 @@ class JointCourse:
         )
         step = self.config.step_fraction * self.rest.diagonal
         steps = int(np.clip(np.ceil(reach / step) if step > 0.0 else 1, MIN_STEPS, MAX_STEPS))
-        sweep = Sweep(
-            path, colliders, [solids.items[index].collider for index in standing.solids], steps
-        )
+        still = [solids.items[index].collider for index in standing.solids]
+        sweep = Sweep(path, colliders, still, steps, solids.looks)
         frame = solids.way(standing, poses, self._length) if standing.ways else None
         return _Encounter(self, sweep, moving.solids, standing.solids, frame)
 

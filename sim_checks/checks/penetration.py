@@ -12,12 +12,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from ..config import PenetrationConfig
+from ..config import PenetrationConfig, WorkConfig
 from ..description import Description, FloatArray
 from ..geometry.kinematics import build_tree, free_ranges
+from ..geometry.looks import Looks, TooManyLooks
 from ..geometry.solids import SolidPair, Solids
 from .combinations import combination_values
 from .diagnosis import Diagnosis
+from .extent import beyond
 from .hinge import knuckles
 from .joint_sweep import Rest
 from .neighbours import open_neighbours
@@ -34,23 +36,34 @@ TOUCH = 1e-6
 Ranges = Mapping[str, tuple[float, float]]
 
 
-def check_penetration(description: Description, config: PenetrationConfig) -> CheckResult:
+def check_penetration(
+    description: Description, config: PenetrationConfig, most_looks: int = WorkConfig.looks
+) -> CheckResult:
     """Measure every pair of parts at rest, along each joint's range and at combinations.
 
     Args:
         description: as read.
         config: what is allowed, and how finely to look.
+        most_looks: exact looks at two hulls, beyond which there is no verdict.
 
     Returns:
         ``rest_penetration``, ``sweep_penetration`` (hard); ``hinge_overlap``,
         ``excluded_penetration``, ``joint_dependency``, ``combination_penetration`` (soft); and
-        every number taken.
+        every number taken. Or ``too_large_to_judge`` alone.
 
     Raises:
         NotATree: for a file whose links do not form a tree.
     """
+    try:
+        return _measured(description, config, Looks(most_looks))
+    except TooManyLooks:
+        words = "exact looks do not tell how deep its parts penetrate each other"
+        return CheckResult((beyond(words, most_looks + 1, most_looks),))
+
+
+def _measured(description: Description, config: PenetrationConfig, looks: Looks) -> CheckResult:
     tree = build_tree(description)
-    solids = Solids(description, tree)
+    solids = Solids(description, tree, looks)
     ranges = free_ranges(tree)
     lower = {name: limits[0] for name, limits in ranges.items()}
     upper = {name: limits[1] for name, limits in ranges.items()}

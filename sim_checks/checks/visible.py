@@ -18,6 +18,9 @@ from .joint_sweep import Rest
 from .pairs import Pairs
 from .penetration_study import Contact
 
+#: A look at two visible surfaces takes as long as so many at two hulls.
+SURFACE_LOOKS = 20
+
 
 @dataclass(frozen=True)
 class Visible:
@@ -48,6 +51,7 @@ class Visible:
         one, other = (self.surfaces[part] for part in contact.parts)
         if one is None or other is None:
             return None
+        self.pairs.solids.looks.take(SURFACE_LOOKS)
         meeting, poses = self._met(contact)
         return visible_gap(one, other, poses, meeting)
 

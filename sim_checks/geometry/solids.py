@@ -13,6 +13,7 @@ from .coupled_path import AnyPath, CoupledPath
 from .depth import HullOverlap
 from .hull import FlatHull, convex_hull
 from .kinematics import Poser, Tree, unit_axis
+from .looks import Looks
 from .path import Path
 
 
@@ -61,10 +62,16 @@ class SolidPair:
 
 
 class Solids:
-    """All hulls of a description, without shapes of no volume: they are a finding of their own."""
+    """All hulls of a description, without shapes of no volume: they are a finding of their own.
 
-    def __init__(self, description: Description, tree: Tree) -> None:
+    Attributes:
+        tree: the joints.
+        looks: exact looks at two hulls, that those who ask count, too.
+    """
+
+    def __init__(self, description: Description, tree: Tree, looks: Looks | None = None) -> None:
         self.tree = tree
+        self.looks = looks or Looks()
         part_of = tree.part_of()
         at_zero = tree.link_poses({})
         self.items: list[LinkSolid] = []
@@ -103,7 +110,11 @@ class Solids:
         )
 
     def standings(self, floor: float) -> Iterator[SolidPair]:
-        """Every pair of solids of different parts closer than ``floor`` [m], in a fixed order."""
+        """Every pair of solids of different parts closer than ``floor`` [m], in a fixed order.
+
+        Raises:
+            TooManyLooks: the file has taken more than it may.
+        """
         boxes = self.bounds()
         if len(boxes) == 0:
             return
@@ -112,6 +123,7 @@ class Solids:
             reaches = low[:, None] - high[None, :] < floor
             close &= reaches & reaches.T
         for first, second in np.argwhere(close).tolist():
+            self.looks.take()
             overlap = self.items[first].collider.stand(self.items[second].collider)
             if overlap.depth > -floor:
                 yield SolidPair(first, second, overlap)

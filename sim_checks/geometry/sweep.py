@@ -20,6 +20,7 @@ from ..description import FloatArray
 from .collision import Collider
 from .coupled_path import AnyPath, CoupledOrbit
 from .depth import HullOverlap
+from .looks import Looks
 from .path import Orbit
 
 #: Intervals of the path in which what is far from everything is told.
@@ -113,10 +114,16 @@ class Sweep:
         moving: placed where they are at the path's start.
         standing: placed where they are then.
         steps: how many intervals to begin with.
+        budget: of the looks that the whole file may take.
     """
 
     def __init__(
-        self, path: AnyPath, moving: Sequence[Collider], standing: Sequence[Collider], steps: int
+        self,
+        path: AnyPath,
+        moving: Sequence[Collider],
+        standing: Sequence[Collider],
+        steps: int,
+        budget: Looks | None = None,
     ) -> None:
         self.path = path
         self.moving = moving
@@ -124,6 +131,7 @@ class Sweep:
         self._backwards = path.inverse()
         self.places = np.linspace(0.0, path.length, steps + 1)
         self.looks = 0
+        self._budget = budget or Looks()
         self._start_poses = [collider.pose for collider in moving]
         self._boxes: dict[int, FloatArray] = {}
         self._moving_orbits: dict[int, Orbit | CoupledOrbit] = {}
@@ -160,7 +168,11 @@ class Sweep:
         )
 
     def worst(self, candidates: Sequence[Candidate], tolerance: Tolerance) -> Worst | None:
-        """The worst excess over rest of the candidates; ``None`` if all stay beyond the floor."""
+        """The worst excess over rest of the candidates; ``None`` if all stay beyond the floor.
+
+        Raises:
+            TooManyLooks: the file has taken more than it may.
+        """
         tracks = [
             track
             for item in candidates
@@ -220,6 +232,7 @@ class Sweep:
 
     def _look(self, track: _Track) -> Worst:
         """Measure exactly in the middle of the worst interval, split it, and lower every bound."""
+        self._budget.take()
         index = int(np.argmax(track.bounds))
         middle = 0.5 * (track.starts[index] + track.ends[index])
         mover = self.place(track.candidate.moving, middle)

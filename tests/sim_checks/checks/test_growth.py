@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
-from box_world import body, described, joint
+from many_joints import chain, keyboard
 
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.checks.standing import check_standing
@@ -14,35 +14,6 @@ from asset_factory.sim_checks.description import Description
 from asset_factory.sim_checks.geometry import kinematics
 from asset_factory.sim_checks.geometry.collision import Collider
 from asset_factory.sim_checks.geometry.path import Orbit
-
-
-def chain(links: int) -> Description:
-    """Boxes in a row, each on a hinge at the end of the one before, 2 mm apart."""
-    pitch = 0.102
-    bodies = [
-        body(f"l{i}", [((pitch * i + 0.05, 0.0, 0.0), (0.1, 0.05, 0.05))], (pitch * i, 0.0, 0.0))
-        for i in range(links)
-    ]
-    hinges = [
-        joint(
-            f"j{i}", "revolute", f"l{i - 1}", f"l{i}", (pitch, 0, 0), (0.0, 0.0, 1.0), (0.0, 0.02)
-        )
-        for i in range(1, links)
-    ]
-    return described(bodies, hinges)
-
-
-def keyboard(keys: int) -> Description:
-    """Keys in a row, 2 mm apart, that go down into nothing."""
-    bodies = [body("base", [((0.0, 0.0, -1.0), (1.0, 1.0, 0.1))])]
-    slides = []
-    for i in range(keys):
-        at = (0.02 * i, 0.0, 0.0)
-        bodies.append(body(f"k{i}", [(at, (0.018, 0.018, 0.01))], at))
-        slides.append(
-            joint(f"j{i}", "prismatic", "base", f"k{i}", at, (0.0, 0.0, -1.0), (0.0, 0.004))
-        )
-    return described(bodies, slides)
 
 
 def counted(

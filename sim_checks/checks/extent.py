@@ -1,0 +1,68 @@
+"""Is a file small enough to be judged at all? Counted in work, not in seconds.
+
+What is beyond is not judged rather than judged in part: such a file never passes.
+"""
+
+from __future__ import annotations
+
+from ..config import WorkConfig
+from ..description import Description
+from ..geometry.kinematics import NotATree, build_tree, free_ranges
+from ..report import Finding, Severity
+
+CODE = "too_large_to_judge"
+
+
+def oversized(description: Description, config: WorkConfig) -> Finding | None:
+    """Return why none of the static checks looks at a file, if it is too large for them."""
+    hulls = sum(len(link.collisions) for link in description.links)
+    if hulls > config.hulls:
+        return beyond(
+            f"{hulls} collision shapes: every one is compared with all others", hulls, config.hulls
+        )
+    try:
+        tree = build_tree(description)
+    except NotATree:
+        # There is no motion to follow; the lint says so.
+        return None
+    # Depths below each joint: a chain moves half the square of its links.
+    above = {tree.root: 0}
+    moving = {joint.name for joint in tree.moving}
+    for joint in tree.order:
+        above[joint.child] = above[joint.parent] + (joint.name in moving)
+    moved = sum(above.values())
+    if moved > config.moved_links:
+        return beyond(
+            f"its joints move {moved} links, counted once for each joint that moves them",
+            moved,
+            config.moved_links,
+        )
+    return None
+
+
+def undriven(description: Description, name: str, config: WorkConfig) -> Finding | None:
+    """Return why a simulator is not asked, if driving every joint takes too much of it."""
+    try:
+        driven = len(free_ranges(build_tree(description)))
+    except NotATree:
+        return None
+    work = driven * len(description.links)
+    if work <= config.driven_links:
+        return None
+    words = (
+        f"{driven} joints to drive, one by one, in a model of {len(description.links)} links: "
+        f"{name} was not asked"
+    )
+    return beyond(words, work, config.driven_links, simulator=name)
+
+
+def beyond(words: str, count: int, most: int, simulator: str | None = None) -> Finding:
+    """Return the finding that something was too much to look at."""
+    return Finding(
+        CODE,
+        Severity.HARD,
+        f"too large to judge: {words} ({count}, at most {most})",
+        simulator,
+        value=count,
+        limit=most,
+    )

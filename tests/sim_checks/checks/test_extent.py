@@ -1,0 +1,74 @@
+"""A file beyond the bounds of work is not judged, says what was not looked at, and never passes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from box_world import cabinet, write_urdf
+from many_joints import chain, keyboard
+
+from asset_factory.sim_checks.checks.extent import oversized, undriven
+from asset_factory.sim_checks.checks.in_simulator import judge_in_simulator
+from asset_factory.sim_checks.checks.penetration import check_penetration
+from asset_factory.sim_checks.config import CheckConfig, PenetrationConfig, WorkConfig
+from asset_factory.sim_checks.judge import examine_here
+from asset_factory.sim_checks.report import Report, Status
+from asset_factory.sim_checks.run import run_checks
+
+PLENTY = WorkConfig()
+BOXES = ((0.0, "shell"), (0.3, "drawer"))
+SLIDE = (
+    '<joint name="slide" type="prismatic"><parent link="shell"/><child link="drawer"/>'
+    '<axis xyz="1 0 0"/><limit lower="0" upper="0.3" effort="10" velocity="1"/></joint>'
+)
+
+
+@pytest.mark.parametrize(
+    ("bounds", "counted"),
+    [({"hulls": 24}, "25 collision shapes"), ({"moved_links": 23}, "move 24 links")],
+)
+def test_a_file_beyond_a_bound_is_not_looked_at(bounds: dict[str, int], counted: str) -> None:
+    keys = keyboard(24)
+    assert oversized(keys, PLENTY) is None
+    found = oversized(keys, replace(PLENTY, **bounds))
+    assert found is not None
+    assert (found.code, counted in found.message) == ("too_large_to_judge", True)
+    assert Report("keys.urdf", findings=(found,)).status is Status.UNJUDGED
+
+
+def test_a_chain_moves_half_the_square_of_its_links() -> None:
+    links = 20
+    moved = links * (links - 1) // 2
+    assert oversized(chain(links), replace(PLENTY, moved_links=moved)) is None
+    assert oversized(chain(links), replace(PLENTY, moved_links=moved - 1)) is not None
+
+
+def test_too_many_looks_are_no_verdict() -> None:
+    description = cabinet()
+    judged = check_penetration(description, PenetrationConfig())
+    assert not judged.findings
+    (found,) = check_penetration(description, PenetrationConfig(), most_looks=3).findings
+    assert found.code == "too_large_to_judge"
+    assert (found.value, found.limit) == (4, 3)
+
+
+def test_a_simulator_is_not_asked_for_more_than_it_can_drive() -> None:
+    description = keyboard(24)
+    work = 24 * 25
+    assert undriven(description, "mujoco", replace(PLENTY, driven_links=work)) is None
+    config = replace(CheckConfig(), work=replace(PLENTY, driven_links=work - 1))
+    (found,) = judge_in_simulator(description, "mujoco", config).findings
+    assert (found.code, found.simulator) == ("too_large_to_judge", "mujoco")
+
+
+def test_what_is_too_large_never_passes(tmp_path: Path) -> None:
+    path = write_urdf(
+        tmp_path, {name: ((x, 0.0, 0.1), (0.2, 0.2, 0.2)) for x, name in BOXES}, SLIDE
+    )
+    small = replace(CheckConfig(), work=replace(PLENTY, hulls=1))
+    assert examine_here(path, CheckConfig()).description is not None
+    report = run_checks(path, ("mujoco",), small)
+    assert [finding.code for finding in report.findings] == ["too_large_to_judge"]
+    assert report.status is Status.UNJUDGED
