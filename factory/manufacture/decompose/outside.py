@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ...asset import Hull
 from ...mesh import FloatArray
 from .convex import depth_below
 
-#: Points measured at a time, which bounds memory.
-BLOCK = 1024
-#: What lies no further beyond a plane is on it but for rounding [m].
+#: Points measured at a time: what is known of them stays small, and near the processor.
+BLOCK = 512
+#: What lies no further beyond all planes is within but for rounding [m].
 ROUNDING_M = 1e-12
 
 
@@ -26,9 +25,8 @@ def outside(hulls: Sequence[Hull], points: FloatArray) -> FloatArray:
     """
     if not hulls:
         return np.full(len(points), np.inf)
-    corners = cKDTree(np.concatenate([hull.vertices for hull in hulls]))
     blocks = [points[start : start + BLOCK] for start in range(0, len(points), BLOCK)]
-    return np.concatenate([np.zeros(0), *(_outside(hulls, corners, block) for block in blocks)])
+    return np.concatenate([np.zeros(0), *(_outside(hulls, block) for block in blocks)])
 
 
 def uncovered(hulls: Sequence[Hull], points: FloatArray) -> float:
@@ -36,15 +34,19 @@ def uncovered(hulls: Sequence[Hull], points: FloatArray) -> float:
     return float(outside(hulls, points).max(initial=0.0))
 
 
-def _outside(hulls: Sequence[Hull], corners: cKDTree, points: FloatArray) -> FloatArray:
-    """The same of a block; a hull is asked only where its planes are nearer than what is found."""
-    least = np.array([-depth_below(hull, points) for hull in hulls]).clip(min=0.0)
-    found: FloatArray = least.min(axis=0)
-    out = np.flatnonzero(found > 0.0)
-    found[out] = corners.query(points[out])[0]
-    for hull, bound in zip(hulls, least, strict=True):
-        near = out[bound[out] < found[out]]
-        found[near] = np.minimum(found[near], _from_one(hull, points[near]))
+def _outside(hulls: Sequence[Hull], points: FloatArray) -> FloatArray:
+    """The same of a block of points: first from the hull whose planes are nearest.
+
+    Others are asked only where their planes are nearer than that.
+    """
+    least = np.array([-depth_below(hull, points) for hull in hulls])
+    found: FloatArray = np.where(least.min(axis=0) > ROUNDING_M, np.inf, 0.0)
+    likeliest = least.argmin(axis=0)
+    for first in (True, False):
+        for number, hull in enumerate(hulls):
+            asked = np.flatnonzero((least[number] < found) & ((likeliest == number) == first))
+            if len(asked):
+                found[asked] = np.minimum(found[asked], _from_one(hull, points[asked]))
     return found
 
 

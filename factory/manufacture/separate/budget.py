@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
@@ -13,13 +13,16 @@ from ...asset import Hull
 from ...config import SeparateConfig
 from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, Mesh
-from ..decompose.outside import outside
+from ..decompose.convex import depth_below
+from ..decompose.outside import ROUNDING_M, outside
 from ..decompose.solids import manifold_of_hull, union
 
 #: Points spread over a part's visible surface, by area; its corners are looked at besides.
 SPREAD = 1500
 #: Most corners that are looked at.
 MOST_CORNERS = 3000
+#: So many hulls are remembered with how far points of a surface lie beyond them.
+MOST_KNOWN = 500
 #: Points that are bared by less are not looked at [m].
 SHAVED_M = 1e-4
 
@@ -32,11 +35,13 @@ class SeenSurface:
         points: [m], shape [n, 3]; the first ``spread`` by area, then corners.
         spread: how many stand for equal areas each.
         diagonal: of the part [m].
+        known: what was measured before, by the hull's identity: most of them no cut touches.
     """
 
     points: FloatArray
     spread: int
     diagonal: float
+    known: dict[int, tuple[Hull, FloatArray]] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(cls, mesh: Mesh) -> SeenSurface:
@@ -52,9 +57,24 @@ class SeenSurface:
             corners = corners[generator.choice(len(corners), MOST_CORNERS, replace=False)]
         return cls(np.concatenate([spread, corners]), SPREAD, mesh.diagonal)
 
-    def outside(self, hulls: Sequence[Hull]) -> FloatArray:
-        """How far each point lies outside all of some hulls [m], shape [n]."""
-        return outside(hulls, self.points)
+    def beyond(self, hulls: Sequence[Hull]) -> FloatArray:
+        """How far each point lies beyond a face plane of every hull [m], shape [n].
+
+        That is how deep a cut went: a plane that takes all of a sheet at a slight angle is never
+        deep, however far from what is left the sheet's other end lies then.
+        """
+        nearest = np.full(len(self.points), np.inf)
+        for hull in hulls:
+            np.minimum(nearest, self._beyond_one(hull), out=nearest)
+        return np.asarray(np.maximum(nearest, 0.0))
+
+    def _beyond_one(self, hull: Hull) -> FloatArray:
+        # With the hull, so that no other one gets its identity.
+        if id(hull) not in self.known:
+            if len(self.known) >= MOST_KNOWN:
+                self.known.clear()
+            self.known[id(hull)] = hull, -depth_below(hull, self.points)
+        return self.known[id(hull)][1]
 
 
 @dataclass(frozen=True)
@@ -71,6 +91,10 @@ class Excuse:
     held: bool
     hinges: Sequence[Joint]
 
+    def holds(self, points: FloatArray, config: SeparateConfig) -> npt.NDArray[np.bool_]:
+        """Which points lie in the other part, or as near as they may come to it, shape [n]."""
+        return outside(self.other, points) < config.clearance_m
+
 
 @dataclass(frozen=True)
 class Loss:
@@ -83,7 +107,7 @@ class Loss:
         bare_area: share of it that is not covered any more, hidden or not.
         untouched: share of it that lies outside what is left by more than may be, hidden or not,
             after this cut and all before it; 0 where this one adds nothing to it.
-        bared_m: deepest that its visible surface lies bare where nothing excuses it [m].
+        bared_m: deepest cut below its visible surface where nothing excuses it [m].
         planed_m: the same beside a hinge, or in a part that no joint holds it in [m].
     """
 
@@ -97,7 +121,7 @@ class Loss:
 
     @property
     def deepest_m(self) -> float:
-        """Deepest that its visible surface lies bare, excused or not [m]."""
+        """Deepest cut below its visible surface, excused or not [m]."""
         return max(self.bared_m, self.planed_m)
 
 
@@ -124,30 +148,50 @@ def loss(
     open_share = share
     if excuse.held and share > config.planed_volume:
         open_share -= (_within(before, excuse.other) - _within(after, excuse.other)) / whole
-    outside_before = surface.outside(before)
-    outside_after = surface.outside(after)
-    bare = outside_after - outside_before
-    bare_before, bare_after = (
-        float((far[: surface.spread] > config.gap_m).mean())
-        for far in (outside_before, outside_after)
-    )
-    looked = np.flatnonzero(bare > SHAVED_M)
-    bare = bare[looked]
-    points = surface.points[looked]
-    within = outside(excuse.other, points) < config.clearance_m
+    depth = surface.beyond(after) - surface.beyond(before)
+    taken = depth > SHAVED_M
+    points = surface.points[taken]
+    depth = depth[taken]
+    within = excuse.holds(points, config)
     hidden = within & excuse.held
     planed = ~hidden & (within | _beside(points, excuse.hinges, config.hinge_m))
     free = ~hidden & ~planed
-    bared = (bare > config.visible_m) & (looked < surface.spread)
-    lost = ~hidden & bared
+    area, bare_area, untouched = _bared(surface, before, after, excuse, config)
     return Loss(
         share,
         max(0.0, open_share),
-        float(lost.sum()) / surface.spread,
+        area,
+        bare_area,
+        untouched,
+        float(depth[free].max(initial=0.0)),
+        float(depth[planed].max(initial=0.0)),
+    )
+
+
+def _bared(
+    surface: SeenSurface,
+    before: Sequence[Hull],
+    after: Sequence[Hull],
+    excuse: Excuse,
+    config: SeparateConfig,
+) -> tuple[float, float, float]:
+    """The shares of a surface that are bared and not hidden, bared, and untouched: see `Loss`."""
+    # Most lie within a hull that no cut touched, which is known.
+    out = surface.beyond(after)[: surface.spread] > ROUNDING_M
+    points = surface.points[: surface.spread][out]
+    now = outside(after, points)
+    far = now > config.visible_m
+    points = points[far]
+    now = now[far]
+    more = now - outside(before, points)
+    bared = more > config.visible_m
+    hidden = excuse.held & excuse.holds(points[bared], config)
+    untouched = now > config.gap_m
+    added = (untouched & (more > SHAVED_M)).any()
+    return (
+        float((~hidden).sum()) / surface.spread,
         float(bared.sum()) / surface.spread,
-        bare_after if bare_after > bare_before else 0.0,
-        float(bare[free].max(initial=0.0)),
-        float(bare[planed].max(initial=0.0)),
+        float(untouched.sum()) / surface.spread if added else 0.0,
     )
 
 

@@ -10,6 +10,7 @@ from ...articulation import Joint
 from ...asset import Hull
 from ...config import SeparateConfig
 from ...mesh import FloatArray
+from ..decompose.outside import outside
 from ..hinges import is_crooked
 from .budget import SeenSurface
 
@@ -71,7 +72,7 @@ def seat_roundness(
     1: it turns in a round seat. A lever whose arm stands out to one side of a collar has one; a
     door has none, however it is hung, nor a lever whose axis lies beside the collar: 0.
     """
-    arms = _arms(surface, joint)[surface.outside(holder) <= near_m]
+    arms = _arms(surface, joint)[outside(holder, surface.points) <= near_m]
     across = arms @ np.linalg.svd(joint.axis[None])[2][1:].T
     turned = np.arctan2(across[:, 1], across[:, 0]) / (2.0 * np.pi)
     sector = np.round(SEAT_SECTORS * turned).astype(int) % SEAT_SECTORS
