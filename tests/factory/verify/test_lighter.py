@@ -24,6 +24,7 @@ class Draft:
     passes: bool = True
     before: Any = None
     inspected: Any = None
+    work: int = 0
 
 
 def drafted(
@@ -35,7 +36,7 @@ def drafted(
     """
     aims: list[int | None] = []
 
-    def made(self: Rounds, plan: Plan, folder: str) -> Draft:
+    def made(self: Rounds, plan: Plan, folder: str, done: int = 0) -> Draft:
         aims.append(plan.fewer)
         count = 150 if plan.fewer is None else min(150, plan.fewer) + fat
         count += cut_off
