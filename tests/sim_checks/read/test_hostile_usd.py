@@ -78,7 +78,9 @@ def be_killed(folder: Path) -> None:
 
 def test_whatever_a_reader_raises_or_dies_of_is_a_sentence(tmp_path):
     with WarmChild() as child:
-        with pytest.raises(DescriptionError, match=r"unreadable: thing\.usd: .*something of /thing"):
+        with pytest.raises(
+            DescriptionError, match=r"unreadable: thing\.usd: .*something of /thing"
+        ):
             ask_of(child, "thing.usd", raise_oddly, tmp_path, limits=SHORT)
         with pytest.raises(DescriptionError, match=r"too_large: thing\.usd"):
             ask_of(child, "thing.usd", take_memory, tmp_path, limits=SHORT)
