@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import sys
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import asdict
 from typing import Any
 
-from rich.console import Console
 from rich.markup import escape
 from rich.table import Column, Table
+
+from asset_factory.factory.runtime.terminal import Terminal, complain
 
 from .episodes import VERSION, Settings, Taken
 
@@ -20,7 +20,7 @@ def show_episode(count: int, total: int, taken: Taken, seconds: float) -> None:
     episode = taken.episode
     how = f"{taken.steps} steps" if taken.success else f"{taken.reason}: {taken.message}"
     where = f"{episode.asset} {episode.joint} seed {episode.seed}"
-    print(f"[{count}/{total}] {where}: {how} ({seconds:.0f} s)", file=sys.stderr, flush=True)
+    complain(f"[{count}/{total}] {where}: {how} ({seconds:.0f} s)")
 
 
 def sum_up(taken: Iterable[Taken], settings: Settings) -> dict[str, Any]:
@@ -75,4 +75,4 @@ def print_summary(summary: dict[str, Any]) -> None:
             str(row["steps"]),
             escape(why),
         )
-    Console().print(table)
+    Terminal().print(table)

@@ -17,6 +17,7 @@ from contextlib import contextmanager
 from typing import Any, NoReturn
 
 from asset_factory.factory.errors import Exit
+from asset_factory.factory.runtime.terminal import complain
 
 from ..tasks.arguments import BLIND_MODES
 from ..tasks.catalog import TASKS
@@ -63,7 +64,7 @@ def _without_registry(arguments: Sequence[str]) -> tuple[list[str], str | None]:
 
 
 def _refuse(words: str) -> NoReturn:
-    print(words, file=sys.stderr)
+    complain(words)
     raise SystemExit(Exit.USAGE)
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from rich.console import Console
 from rich.markup import escape
 from rich.table import Column, Table
+
+from asset_factory.factory.runtime.terminal import Terminal, complain
 
 from .attempt import Attempt
 
@@ -31,11 +31,7 @@ class Progress:
         """Tell of one."""
         self._number += 1
         count = f"[{self._robot} {self._number}/{self._total}]"
-        print(
-            f"{count} {attempt.asset} {attempt.joint}: {_said(attempt)}",
-            file=sys.stderr,
-            flush=True,
-        )
+        complain(f"{count} {attempt.asset} {attempt.joint}: {_said(attempt)}")
 
 
 def print_table(attempts: Mapping[str, Sequence[Mapping[str, Any]]]) -> None:
@@ -56,7 +52,7 @@ def print_table(attempts: Mapping[str, Sequence[Mapping[str, Any]]]) -> None:
                 f"{row['mean_force_n']:.1f}",
                 "" if row["solved"] else escape(f"{row['reason']}: {row['message']}"),
             )
-    Console().print(table)
+    Terminal().print(table)
 
 
 def _said(attempt: Attempt) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -20,6 +19,7 @@ from ..registry import Registry
 from ..registry.result import Result
 from ..runtime.layout import SUMMARY
 from ..runtime.store import write_json
+from ..runtime.terminal import complain, say
 from . import console
 from .flags import (
     DEFAULT_SIMULATORS,
@@ -105,7 +105,7 @@ def run(command: Build) -> int:
     inputs = wanted_inputs(command)
     job = job_for(command, inputs)
     for sentence in (*passed_over(command), *idle_retries(command)):
-        print(f"factory: {sentence}", file=sys.stderr)
+        complain(f"factory: {sentence}")
     results: list[Result] = []
     stopped = 0
     try:
@@ -117,16 +117,15 @@ def run(command: Build) -> int:
     summary = Summary(tuple(results), JobState.INTERRUPTED if stopped else job.state, left)
     _write_summary(command.output / SUMMARY, summary.to_dict())
     if summary.state is JobState.INTERRUPTED:
-        print(
+        complain(
             f"factory: interrupted; what was finished is registered, {left} inputs are left; "
-            "the same command goes on with them",
-            file=sys.stderr,
+            "the same command goes on with them"
         )
         return stopped or Exit.INTERRUPTED
     _show(summary, command)
     page = report_after(command.output, command.workers) if command.report else None
     if page is not None and not (command.json or command.quiet):
-        print(f"Report: {page}")
+        say(f"Report: {page}")
     if summary.count(Status.UNJUDGED):
         return Exit.UNJUDGED
     return Exit.REJECTED if command.strict and summary.count(Status.REJECTED) else Exit.OK
@@ -134,16 +133,16 @@ def run(command: Build) -> int:
 
 def _wind_up(job: Job) -> None:
     job.wind_up()
-    print("factory: finishing what is begun; Ctrl-C again stops at once", file=sys.stderr)
+    complain("factory: finishing what is begun; Ctrl-C again stops at once")
 
 
 def _show(summary: Summary, command: Build) -> None:
     if command.json:
-        print(json.dumps(summary.to_dict(), indent=2))
+        say(json.dumps(summary.to_dict(), indent=2))
     elif not command.quiet:
         console.print_results(summary, command.output)
         if summary.left:
-            print(
+            say(
                 f"{summary.left} inputs are left ({summary.state.replace('_', ' ')}); "
                 "the same command goes on with them."
             )

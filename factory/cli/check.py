@@ -20,6 +20,7 @@ from asset_factory.sim_checks.read.usd.layers import is_usd
 from ..errors import ConfigError, Exit
 from ..presets import load_config
 from ..runtime.store import write_json
+from ..runtime.terminal import say
 from . import console
 from .flags import DEFAULT_SIMULATORS, simulators_named, workers_fitting
 
@@ -72,7 +73,7 @@ def run(command: Check) -> int:
     data: Any = [report.to_dict() for report in reports]
     data = data if len(data) > 1 or any(path.is_dir() for path in command.files) else data[0]
     if not printed:
-        print(json.dumps(data, indent=2))
+        say(json.dumps(data, indent=2))
     elif command.json is not None:
         write_json(command.json, data)
     statuses = {report.status for report in reports}

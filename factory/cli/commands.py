@@ -12,6 +12,7 @@ from typing import Annotated, Any, Union
 import tyro
 
 from ..errors import AssetFactoryError, Exit
+from ..runtime.terminal import complain
 from . import (
     build,
     check,
@@ -97,10 +98,10 @@ def run(arguments: Sequence[str] | None = None) -> int:
     try:
         return command.run(flags)
     except AssetFactoryError as error:
-        print(f"factory: {error}", file=sys.stderr)
+        complain(f"factory: {error}")
         return Exit.USAGE
     except KeyboardInterrupt:
-        print("factory: interrupted; what was finished is registered", file=sys.stderr, flush=True)
+        complain("factory: interrupted; what was finished is registered")
         # Worker processes follow this one; waiting for their threads would wait for their work.
         os._exit(Exit.INTERRUPTED)
 
@@ -112,15 +113,12 @@ def parse(arguments: Sequence[str] | None = None) -> tuple[Command, Any]:
     if not first.startswith("-") and first not in names:
         near = get_close_matches(first, names, n=1, cutoff=0.5)
         meant = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(names)}"
-        print(f"factory: no command {first!r}; {meant}", file=sys.stderr)
+        complain(f"factory: no command {first!r}; {meant}")
         raise SystemExit(Exit.USAGE)
     twice = _said_twice(sys.argv[1:] if arguments is None else arguments)
     if twice:
         wanted = f"say {twice} once, with all that it is to hold after it"
-        print(
-            f"factory: {twice} is there twice and only the last would count; {wanted}",
-            file=sys.stderr,
-        )
+        complain(f"factory: {twice} is there twice and only the last would count; {wanted}")
         raise SystemExit(Exit.USAGE)
     named = tuple(Annotated[c.flags, tyro.conf.subcommand(c.name)] for c in COMMANDS)
     any_command: Any = Union[named]  # noqa: UP007 - made from a table

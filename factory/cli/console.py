@@ -26,6 +26,7 @@ from ..registry import Entry
 from ..registry.result import Result
 from ..report.summary import Summary
 from ..runtime.layout import ASSETS, REJECTED, SUMMARY
+from ..runtime.terminal import Terminal, one_line
 
 STATUS_STYLE = {Status.PASSED: "green", Status.REJECTED: "red", Status.UNJUDGED: "yellow"}
 #: In a table of more inputs than this, those known from before are left out.
@@ -38,7 +39,7 @@ def follow(results: Iterable[Result], total: int, *, quiet: bool = False) -> lis
     What was known from before is counted, not told one by one; rate and time left are those of the
     rest.
     """
-    console = Console(stderr=True, quiet=quiet)
+    console = Terminal(stderr=True, quiet=quiet)
     return (
         _follow_on_terminal(console, results, total)
         if console.is_terminal
@@ -89,7 +90,7 @@ def _follow_on_terminal(console: Console, results: Iterable[Result], total: int)
 @contextmanager
 def counted(what: str) -> Iterator[Callable[[int, int], None]]:
     """A progress bar on a terminal, and nothing elsewhere: to be told so many done, of so many."""
-    console = Console(stderr=True)
+    console = Terminal(stderr=True)
     columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
         task = progress.add_task(what, total=None)
@@ -101,7 +102,8 @@ def _known_sentence(known: int, total: int) -> str:
 
 
 def _sentence(result: Result) -> str:
-    return f"{result.entry.id}: {result.entry.message}" if result.entry.message else result.entry.id
+    said = f"{result.entry.id}: {result.entry.message}" if result.entry.message else result.entry.id
+    return one_line(said)
 
 
 def print_results(summary: Summary, output: Path) -> None:
@@ -246,7 +248,7 @@ def print_weights(info: WeightsInfo) -> None:
 
 def terminal() -> Console:
     """Where people look: standard output, as wide as it is."""
-    console = Console()
+    console = Terminal()
     # A pipe or a log file has no width; a table squeezed into 80 columns there would cut the
     # reasons.
-    return console if console.is_terminal else Console(width=200)
+    return console if console.is_terminal else Terminal(width=200)

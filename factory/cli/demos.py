@@ -11,6 +11,7 @@ from tyro.conf import Positional
 
 from ..errors import ConfigError, Exit
 from ..registry import Split
+from ..runtime.terminal import say
 from .flags import check_effort
 
 if TYPE_CHECKING:
@@ -102,7 +103,7 @@ def run(command: Demos) -> int:
         write_json(command.to / "summary.json", summary)
     print_summary(summary)
     counts = f"{summary['successes']} of {summary['episodes']} episodes succeeded"
-    print(f"{counts}, {summary['trajectories']} trajectories in {command.to}")
+    say(f"{counts}, {summary['trajectories']} trajectories in {command.to}")
     if not all(each.judged for each in taken):
         return Exit.UNJUDGED
     return Exit.REJECTED if command.strict and not summary["successes"] else Exit.OK

@@ -10,6 +10,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from ..errors import Exit
+from ..runtime.terminal import say
 from . import console
 
 STYLE = {"works": "green", "missing": "yellow", "broken": "red"}
@@ -38,7 +39,7 @@ def run(command: Doctor) -> int:
 
     found = tuple(abilities(command.output))
     if command.json:
-        print(json.dumps([asdict(each) for each in found], indent=2))
+        say(json.dumps([asdict(each) for each in found], indent=2))
     else:
         table = Table("", "for", "", "detail", "what would help")
         for each in found:

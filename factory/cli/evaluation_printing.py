@@ -6,13 +6,13 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from rich.console import Console
 from rich.markup import escape
 from rich.progress import track
 from rich.table import Table
 
 from ..evaluation.files import CSV_NAME, JSON_NAME
 from ..evaluation.trial import Row
+from ..runtime.terminal import Terminal
 
 Column = tuple[str, str, str, str, int]
 #: Characters of the columns that say which row it is, of a number, and of a column's frame.
@@ -58,7 +58,7 @@ COLUMNS: dict[str, tuple[Column, ...]] = {
 
 def followed(rows: Iterable[Row], total: int) -> list[Row]:
     """Collect rows as they come, with a progress bar on a terminal; failures are told at once."""
-    console = Console(stderr=True)
+    console = Terminal(stderr=True)
     watched = (
         track(rows, "evaluating", total=total, console=console) if console.is_terminal else rows
     )
@@ -73,9 +73,9 @@ def followed(rows: Iterable[Row], total: int) -> list[Row]:
 
 def print_summary(data: dict[str, Any], output: Path) -> None:
     """Tables of what :func:`~asset_factory.factory.evaluation.files.write_results` wrote."""
-    console = Console()
+    console = Terminal()
     # A pipe or a log file has no width; a table squeezed into 80 columns there could not be read.
-    console = console if console.is_terminal else Console(width=240)
+    console = console if console.is_terminal else Terminal(width=240)
     known = COLUMNS["physical" if data["settings"]["convention"] == "physical" else "published"]
     columns = _fitting(known, console.width)
     for by in dict.fromkeys(entry["by"] for entry in data["summary"]):

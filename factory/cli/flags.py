@@ -31,9 +31,11 @@ class Reading:
     """Who says what moves: auto, annotated, geometric, seams, particulate or
     rigid."""
     checkpoint: str | None = None
-    """Weights for particulate, which auto then asks alone: a file, or hf:owner/repository/file."""
+    """Weights for particulate, which auto then asks alone: a file, or
+    hf:owner/repository/file[@commit][#sha256]."""
     features: str | None = None
-    """Weights of its feature extractor, if it needs one: a file, or hf:owner/repository/file."""
+    """Weights of its feature extractor, if it needs one: a file, or
+    hf:owner/repository/file[@commit][#sha256]."""
     points: int | None = None
     """Points that particulate labels per sample."""
     samples: int | None = None

@@ -10,9 +10,9 @@ import tyro
 
 from ..errors import ConfigError, Exit
 from ..registry import Registry
+from ..runtime.terminal import say
 from . import console
 from .flags import EntryFilters
-from .registry_printing import say
 
 #: Rows of a table that nobody set a limit for.
 TABLE_ROWS = 200
@@ -48,7 +48,7 @@ def run(command: List) -> int:
     found = registry.select(filters, limit=limit + 1 if limit else None, after=command.after)
     entries = found[: limit or None]
     if command.json:
-        print(json.dumps([asdict(entry) for entry in entries], indent=2))
+        say(json.dumps([asdict(entry) for entry in entries], indent=2))
         return Exit.OK
     console.print_entries(entries)
     if len(found) > len(entries):

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..runtime.terminal import say
 from .flags import simulators_named, with_repairs
 from .report import report_after
 
@@ -69,10 +70,10 @@ def run(command: Nightly) -> int:
         report = run_night(config, Work(config), name=command.name, fresh=command.fresh)
     if command.report:
         report_after(config.output, config.workers or None)
-    print(message(report))
+    say(message(report))
     for sentence in report.attention:
-        print(f"  {sentence}")
-    print(nights_of(config.output) / report.night.name / PAGE)
+        say(f"  {sentence}")
+    say(nights_of(config.output) / report.night.name / PAGE)
     return report.night.exit_code
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -11,6 +10,7 @@ import tyro
 from tyro.conf import Positional
 
 from ..errors import AssetFactoryError, ConfigError, Exit
+from ..runtime.terminal import complain, say
 from . import console
 from .flags import Reading, reading_config
 
@@ -46,10 +46,10 @@ def run(command: Predict) -> int:
     if isinstance(outcome.error, AssetFactoryError):
         raise outcome.error
     if outcome.value is None:
-        print(f"factory: {command.input.name}: {outcome.detail}", file=sys.stderr)
+        complain(f"factory: {command.input.name}: {outcome.detail}")
         return Exit.UNJUDGED
     if command.json:
-        print(json.dumps(outcome.value, indent=2))
+        say(json.dumps(outcome.value, indent=2))
     else:
         console.print_prediction(outcome.value)
     return Exit.REJECTED if "rejected" in outcome.value else Exit.OK

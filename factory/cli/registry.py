@@ -20,8 +20,9 @@ from ..registry.sources import entries_of
 from ..registry.split import SPLITS
 from ..registry.verify import verify
 from ..runtime.remote import is_url, shown
+from ..runtime.terminal import say
 from .flags import EntryFilters
-from .registry_printing import print_diff, print_freed, print_problems, print_rebuilt, say, size
+from .registry_printing import print_diff, print_freed, print_problems, print_rebuilt, size
 
 #: Rows of a table that nobody set a limit for.
 TABLE_ROWS = 200
@@ -213,7 +214,7 @@ def _verify(command: Verify) -> int:
     ids = [registry.entry(asset_id).id for asset_id in command.ids]
     problems = verify(registry, ids or None)
     if command.json:
-        print(json.dumps([asdict(problem) for problem in problems], indent=2))
+        say(json.dumps([asdict(problem) for problem in problems], indent=2))
     else:
         print_problems(problems, len(ids) or registry.count())
     return Exit.REJECTED if problems else Exit.OK
@@ -236,7 +237,7 @@ def _gc(command: Gc) -> int:
 def _diff(command: Difference) -> int:
     found = diff(entries_of(command.before), entries_of(command.after))
     if command.json:
-        print(json.dumps(found.to_dict(), indent=2))
+        say(json.dumps(found.to_dict(), indent=2))
     else:
         print_diff(found)
     return Exit.REJECTED if command.strict and (found.newly_failed or found.gone) else Exit.OK
@@ -311,9 +312,9 @@ def _split(command: SplitCommand) -> int:
     for entry in Registry(command.output).walk(command.wanted.filters(status="passed")):
         chosen[entry.split].append(entry.id)
     if command.json:
-        print(json.dumps(chosen, indent=2))
+        say(json.dumps(chosen, indent=2))
     else:
         for name, ids in chosen.items():
             for asset_id in ids:
-                print(f"{name}\t{asset_id}")
+                say(f"{name}\t{asset_id}")
     return Exit.OK

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from rich.console import Console
 from rich.table import Table
 
 from ..registry.cleaning import Freed
@@ -13,6 +12,7 @@ from ..registry.diff import Diff, EntryChange
 from ..registry.entry import Entry
 from ..registry.rebuild import Rebuilt
 from ..registry.verify import Problem
+from ..runtime.terminal import Terminal, one_line, say
 
 #: Lines of one kind that are shown before the rest is only counted.
 SHOWN = 50
@@ -50,7 +50,7 @@ def print_freed(freed: Freed) -> None:
     for name in ("staging", "unfinished", "cache"):
         removed = getattr(freed, name)
         table.add_row(name, str(removed.files), size(removed.bytes))
-    Console().print(table)
+    Terminal().print(table)
     say(f"freed {size(freed.bytes)}")
 
 
@@ -71,14 +71,9 @@ def print_diff(diff: Diff) -> None:
     say(", ".join([*counts, f"{diff.same} the same"]))
 
 
-def say(text: str) -> None:
-    """A line as it is: no markup, no wrapping."""
-    Console().print(text, markup=False, soft_wrap=True, highlight=False)
-
-
 def _lines(kind: str, sentences: Sequence[str]) -> None:
     for sentence in sentences[:SHOWN]:
-        say(f"{kind}: {sentence}")
+        say(one_line(f"{kind}: {sentence}"))
     if len(sentences) > SHOWN:
         say(f"{kind}: and {len(sentences) - SHOWN} more; --json has all")
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ConfigError, Exit, RegistryError
 from ..registry import Registry
+from ..runtime.terminal import complain, say
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ def run(command: ReportPages) -> int:
     registry = Registry(command.output)
     if command.workers is not None and command.workers < 1:
         raise ConfigError(f"--workers: is {command.workers}, want at least 1")
-    print(write_report(registry, command.workers))
+    say(write_report(registry, command.workers))
     return Exit.OK
 
 
@@ -53,7 +53,7 @@ def write_report(registry: Registry, workers: int | None) -> Path:
         where = error.filename or registry.root
         raise RegistryError(f"{where}: the report cannot be written: {error.strerror}") from error
     for sentence in drawn.failed:
-        print(f"factory: no page of {sentence}", file=sys.stderr)
+        complain(f"factory: no page of {sentence}")
     return drawn.index
 
 
@@ -65,5 +65,5 @@ def report_after(output: Path, workers: int | None) -> Path | None:
     try:
         return write_report(Registry(output), workers)
     except (ConfigError, RegistryError) as error:
-        print(f"factory: {error}", file=sys.stderr)
+        complain(f"factory: {error}")
         return None

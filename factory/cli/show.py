@@ -11,6 +11,7 @@ from tyro.conf import Positional
 from ..errors import Exit
 from ..registry import Registry
 from ..runtime.layout import MANIFEST
+from ..runtime.terminal import say
 from . import console
 
 
@@ -42,7 +43,7 @@ def run(command: Show) -> int:
             "manifest": json.loads(manifest.read_text()) if manifest.is_file() else None,
             "report": registry.report(entry).to_dict(),
         }
-        print(json.dumps(data, indent=2))
+        say(json.dumps(data, indent=2))
     else:
         console.print_entry(entry, registry.folder(entry), registry.report(entry))
     return Exit.OK

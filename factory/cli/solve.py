@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING
 from tyro.conf import Positional
 
 from ..errors import ConfigError, Exit, RegistryError
+from ..runtime.terminal import complain, say
 from .flags import check_effort
 
 if TYPE_CHECKING:
@@ -91,7 +91,7 @@ def run(command: Solve) -> int:
         shown[asset.id] = records[asset.id].of([joint.name for joint in _joints(asset, command)])
     print_table(shown)
     solved = sum(any(row["solved"] for row in rows) for rows in shown.values())
-    print(f"{solved} of {len(shown)} assets have at least one solved joint")
+    say(f"{solved} of {len(shown)} assets have at least one solved joint")
     if any(row["reason"] in UNJUDGED for rows in shown.values() for row in rows):
         return Exit.UNJUDGED
     return Exit.REJECTED if command.strict and solved < len(shown) else Exit.OK
@@ -166,5 +166,5 @@ def _film(command: Solve, attempt: Attempt) -> bool:
     )
     if outcome.failure is None:
         return True
-    print(f"no video of {attempt.asset} {attempt.joint}: {outcome.detail}", file=sys.stderr)
+    complain(f"no video of {attempt.asset} {attempt.joint}: {outcome.detail}")
     return not isinstance(outcome.error, ConfigError)

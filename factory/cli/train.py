@@ -10,6 +10,7 @@ import tyro
 from tyro.conf import Positional
 
 from ..errors import ConfigError, Exit
+from ..runtime.terminal import say
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,7 @@ def run(command: Train) -> int:
     """Train, or print the recipe; returns the exit code."""
     recipe = printed_recipe(command)
     if recipe is not None:
-        print(recipe, end="")
+        say(recipe, end="")
         return Exit.OK
     return Exit.OK if train(command) else Exit.INTERRUPTED
 

@@ -9,6 +9,7 @@ from tyro.conf import Positional
 
 from ..errors import ConfigError, Exit, InputRejected
 from ..runtime.store import write_whole
+from ..runtime.terminal import say
 
 
 @dataclass(frozen=True)
@@ -44,12 +45,12 @@ def run(command: ViewFile) -> int:
         raise ConfigError(f"{command.file}: {rejection.code}: {rejection.message}") from rejection
     if command.save is None:
         with serve(page, command.port) as server:
-            print(f"{command.file.name} is shown at {server.url} until Ctrl-C", flush=True)
+            say(f"{command.file.name} is shown at {server.url} until Ctrl-C")
             server.run()
         return Exit.OK
     try:
         write_whole(command.save, page)
     except OSError as error:
         raise ConfigError(f"--save: {command.save}: {error.strerror}") from error
-    print(command.save)
+    say(command.save)
     return Exit.OK

@@ -26,6 +26,7 @@ from ..geometry.posing import closed, turned
 from ..geometry.triangles import face_areas
 from ..mesh import FloatArray
 from ..runtime.store import write_whole
+from ..runtime.terminal import say
 from ..training.objects.catalog import CATEGORIES, make_object
 from ..training.objects.mixture import in_character
 from .physical import physical
@@ -226,7 +227,7 @@ def main(arguments: list[str] | None = None) -> int:
     trust = Trust(weights, least)
     write_whole(asked.output, text_of(trust).encode())
     right = np.concatenate([trial.right for trial in trials])
-    print(
+    say(
         f"{len(trials)} objects, {len(right)} proposals, {right.mean():.2f} of them right; "
         f"least {trust.least:g}"
     )

@@ -17,6 +17,8 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
+from ..runtime.terminal import Terminal
+
 
 class Watch:
     """Tells how a run goes.
@@ -77,7 +79,7 @@ def watching(steps: int, done: int, quiet: bool) -> Iterator[Watch]:
         done: of them, before this start.
         quiet: say nothing, as processes but the first do.
     """
-    console = Console(stderr=True, quiet=quiet)
+    console = Terminal(stderr=True, quiet=quiet)
     if quiet or not console.is_terminal:
         yield Watch(console, steps, done, None)
         return

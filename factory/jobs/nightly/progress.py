@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import sys
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from time import monotonic
 
-from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
@@ -15,6 +13,7 @@ from asset_factory.sim_checks import Status
 
 from ...registry.result import Result
 from ...report.nightly.formats import clock_span
+from ...runtime.terminal import Terminal, complain
 
 #: Without a terminal there is a line every so often [s]; the rate is that of the last while [s].
 EVERY_S = 60.0
@@ -28,9 +27,9 @@ def followed(
 
     There will be ``total`` results at most; ``say`` takes the lines instead of standard error.
     """
-    console = Console(stderr=True)
+    console = Terminal(stderr=True)
     drawn = console.is_terminal and say is None
-    say = say or (lambda line: print(line, file=sys.stderr, flush=True))
+    say = say or complain
     columns = TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[pace]}")
     marks = deque([(monotonic(), 0)])
     told = monotonic()

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 import socket
-import sys
 import time
 from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
+from ...runtime.terminal import complain
 from .cluster import ClusterLost
 
 #: A node whose disk was full, or where processes died, is asked again after so long [s].
@@ -24,7 +24,7 @@ class NoNodeLeft(ClusterLost):
 
 def say(sentence: str) -> None:
     """To whoever started the job."""
-    print(f"factory: {sentence}", file=sys.stderr, flush=True)
+    complain(f"factory: {sentence}")
 
 
 class Nodes:

@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from functools import lru_cache
 from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
 
 from ...errors import ConfigError
+from ...runtime.store import digest_file
+from ...runtime.terminal import complain
 
 HUB = "hf:"
+#: How a hub's file is named: a commit and a digest make it the same file for ever.
+ADDRESS = f"{HUB}owner/repository/file[@commit][#sha256]"
+_ADDRESS = re.compile(
+    rf"{HUB}(?P<repository>[^/@#]+/[^/@#]+)/(?P<file>[^@#]+)"
+    r"(?:@(?P<revision>[0-9a-f]{40}))?(?:#(?P<sha256>[0-9a-f]{64}))?"
+)
 SHIPPED = "shipped"
 """The name of the weights that come with the package."""
 
@@ -23,7 +33,8 @@ class WeightsProvenance:
 
     Attributes:
         network: its name.
-        source: the published file, as ``hf:owner/repository/file``.
+        source: the published file, as :data:`ADDRESS`; without a digest, for none could be taken
+            where this was written: :func:`fetch` says what a user can pin.
         terms: of the published weights, one sentence.
     """
 
@@ -59,16 +70,55 @@ def weights_at(places: Mapping[str, Path]) -> Iterator[None]:
         _ELSEWHERE.reset(before)
 
 
+@dataclass(frozen=True)
+class HubFile:
+    """A file of a hub.
+
+    Attributes:
+        repository: ``owner/name``.
+        file: its path there.
+        revision: the commit, 40 hexadecimal digits; ``None``: the newest.
+        sha256: of its content; ``None``: any.
+    """
+
+    repository: str
+    file: str
+    revision: str | None = None
+    sha256: str | None = None
+
+    def __str__(self) -> str:
+        commit = f"@{self.revision}" if self.revision else ""
+        digest = f"#{self.sha256}" if self.sha256 else ""
+        return f"{HUB}{self.repository}/{self.file}{commit}{digest}"
+
+
+def parse_address(address: str) -> HubFile:
+    """Return what a hub's address names.
+
+    Raises:
+        ConfigError: it is malformed, or names a branch or tag, which is another file tomorrow.
+    """
+    found = _ADDRESS.fullmatch(address)
+    if found is None:
+        raise ConfigError(
+            f"{address}: want {ADDRESS}, as {PARTICULATE.source}; "
+            "a commit has 40 hexadecimal digits, a SHA-256 64"
+        )
+    return HubFile(**found.groupdict())
+
+
 def fetch(checkpoint: str) -> Path:
     """The checkpoint's file: the path itself, the package's own, or a download kept by the hub.
 
-    Within :func:`weights_at`, the file that it names.
+    Within :func:`weights_at`, the file that it names. A download is what its address says before
+    anybody reads it; where that says no commit or no digest, this is told once, with both.
 
     Args:
-        checkpoint: a path, ``shipped``, or ``hf:owner/repository/file``.
+        checkpoint: a path, ``shipped``, or :data:`ADDRESS`.
 
     Raises:
-        ConfigError: no such file, a malformed address, or a download that failed.
+        ConfigError: no such file, a malformed address, a download that failed, or one with another
+            digest.
     """
     if checkpoint in _ELSEWHERE.get():
         return _ELSEWHERE.get()[checkpoint]
@@ -77,14 +127,33 @@ def fetch(checkpoint: str) -> Path:
         path = Path(str(own)) if checkpoint == SHIPPED else Path(checkpoint).expanduser()
         if not path.is_file():
             raise ConfigError(
-                f"{checkpoint}: no such file; "
-                f"want a checkpoint, {SHIPPED}, or {HUB}owner/repository/file"
+                f"{checkpoint}: no such file; want a checkpoint, {SHIPPED}, or {ADDRESS}"
             )
         return path
-    owner, _, rest = checkpoint.removeprefix(HUB).partition("/")
-    repository, _, name = rest.partition("/")
-    if not (owner and repository and name):
-        raise ConfigError(f"{checkpoint}: want {HUB}owner/repository/file, as {PARTICULATE.source}")
+    wanted = parse_address(checkpoint)
+    path = _downloaded(wanted)
+    found = path.stat()
+    _require_wanted(wanted, path, found.st_ino, found.st_size, found.st_mtime_ns)
+    return path
+
+
+@lru_cache(maxsize=8)
+def _require_wanted(wanted: HubFile, path: Path, *_state: int) -> None:
+    """Refuse a download with another digest; tell of one that may be another one tomorrow."""
+    digest = digest_file(path)
+    if wanted.sha256 not in (None, digest):
+        raise ConfigError(f"{wanted}: its SHA-256 is {digest}; it is not the file that was asked")
+    pinned = HubFile(wanted.repository, wanted.file, wanted.revision or revision_of(path), digest)
+    if pinned != wanted:
+        complain(f"{wanted}: may be another file tomorrow; this one is {pinned}")
+
+
+def revision_of(path: Path) -> str | None:
+    """Return the commit that a file in the hub's cache is of; ``None`` if its folder has none."""
+    return next((part for part in path.parts if re.fullmatch("[0-9a-f]{40}", part)), None)
+
+
+def _downloaded(wanted: HubFile) -> Path:
     try:
         from huggingface_hub import hf_hub_download
         from huggingface_hub.errors import (
@@ -94,10 +163,13 @@ def fetch(checkpoint: str) -> Path:
         )
     except ImportError as error:
         raise ConfigError(
-            f"{checkpoint}: downloads need huggingface_hub: pip install huggingface_hub"
+            f"{wanted}: downloads need huggingface_hub: pip install huggingface_hub"
         ) from error
     try:
-        return Path(hf_hub_download(repo_id=f"{owner}/{repository}", filename=name))
+        place = hf_hub_download(
+            repo_id=wanted.repository, filename=wanted.file, revision=wanted.revision
+        )
     except (HfHubHTTPError, HFValidationError, LocalEntryNotFoundError, OSError) as error:
         first = (str(error).strip().splitlines() or [type(error).__name__])[0]
-        raise ConfigError(f"{checkpoint}: download failed: {first}") from error
+        raise ConfigError(f"{wanted}: download failed: {first}") from error
+    return Path(place)

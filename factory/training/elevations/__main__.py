@@ -18,6 +18,7 @@ import numpy as np
 from ...articulation import Articulation
 from ...errors import InputRejected
 from ...geometry.posing import closed, turned
+from ...runtime.terminal import say
 from ..objects import CATEGORIES, make_object
 from ..sources.description import find_descriptions, read_description
 from ..sources.settings import SourceSettings
@@ -97,7 +98,7 @@ def _described(folder: Path, degrees: float) -> Iterator[tuple[str, Articulation
         try:
             whole = closed(read_description(item, SourceSettings()))
         except InputRejected as error:
-            print(f"{item.name} left out: {error}")
+            say(f"{item.name} left out: {error}")
             continue
         yield item.name, turned(whole, float(np.radians(degrees)))
 
@@ -106,7 +107,7 @@ def _judge(options: argparse.Namespace) -> None:
     rows = [_kept(options.kept, options.seed, number) for number in range(options.objects)]
     judges = fit(rows, options.seed)
     options.output.write_text(table_of(judges, options.objects), encoding="utf-8")
-    print(report(rows, options.seed))
+    say(report(rows, options.seed))
 
 
 def _kept(folder: Path, seed: int, number: int) -> Rows:

@@ -12,6 +12,7 @@ from torch.nn import functional  # noqa: TID253
 
 from ...articulate.seams.sight import CUES
 from ...runtime.store import writing
+from ...runtime.terminal import say
 from .network import PictureNetwork
 from .views import UNKNOWN, SideView, read_views
 
@@ -69,7 +70,7 @@ def learn_to_see(folder: Path, state: Path, output: Path, rounds: int, seed: int
             torch.nn.utils.clip_grad_norm_(network.parameters(), 1.0)
             optimiser.step()
             step += 1
-        print(f"round {number + 1}, of views held out: {report(network, held)}", flush=True)
+        say(f"round {number + 1}, of views held out: {report(network, held)}")
         torch.save(network.state_dict(), state)
         write_network(output, network)
 

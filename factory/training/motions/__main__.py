@@ -13,6 +13,7 @@ import numpy as np
 
 from ...articulation import Articulation
 from ...errors import ConfigError
+from ...runtime.terminal import complain, say
 from .fitting import fit_motions
 from .motion_sample import MotionSample, motion_samples
 from .objects import described, generated
@@ -30,10 +31,10 @@ def main(arguments: list[str] | None = None) -> int:
         motion_samples = list(measured(islice(objects, 0, None, asked.every)))
         text = motions_text(fit_motions(motion_samples, asked.steps))
     except ConfigError as error:
-        print(error, file=sys.stderr)
+        complain(error)
         return 2
     asked.output.write_text(text)
-    print(
+    say(
         f"{len(motion_samples)} parts of {len({each.name for each in motion_samples})} objects; "
         f"weights in {asked.output}"
     )

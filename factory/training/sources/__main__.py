@@ -8,6 +8,7 @@ import time
 from pathlib import Path
 
 from ...errors import ConfigError
+from ...runtime.terminal import complain, say
 from .cache import find_all, prepare
 from .catalog import SOURCES, source
 from .fronts import front_advice
@@ -24,7 +25,7 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         if asked.write_split is not None:
             names = [item.name for item in find_all(asked.kind, asked.path)]
-            print(*write_split(asked.write_split, names, asked.held_out), sep="\n")
+            say("\n".join(map(str, write_split(asked.write_split, names, asked.held_out))))
             return 0
         started = time.monotonic()
         prepared = prepare(
@@ -37,12 +38,12 @@ def main(arguments: list[str] | None = None) -> int:
             on_progress=_progress if sys.stderr.isatty() else None,
         )
     except ConfigError as error:
-        print(error, file=sys.stderr)
+        complain(error)
         return 2
-    print(*prepared.report.lines(), sep="\n")
+    say("\n".join(prepared.report.lines()))
     known = source(asked.kind).front if asked.front == "auto" else asked.front
-    print(f"  {front_advice(prepared.sampled_objects, known)}")
-    print(f"  {time.monotonic() - started:.1f} s; sampled objects in {asked.cache}")
+    say(f"  {front_advice(prepared.sampled_objects, known)}")
+    say(f"  {time.monotonic() - started:.1f} s; sampled objects in {asked.cache}")
     return 0
 
 
@@ -97,7 +98,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _progress(done: int, count: int) -> None:
-    print(f"\r{done} of {count}", end="" if done < count else "\n", file=sys.stderr, flush=True)
+    complain(f"{done} of {count}", end="\r" if done < count else "\n")
 
 
 if __name__ == "__main__":

@@ -23,6 +23,7 @@ from asset_factory.factory.particulate.weights.safetensors import (
     write_safetensors,
 )
 from asset_factory.factory.particulate.weights.sources import PARTFIELD, PARTICULATE, fetch
+from asset_factory.factory.runtime.store import digest_file
 
 pytestmark = pytest.mark.usefixtures("warm_reader")
 
@@ -156,6 +157,9 @@ def test_a_missing_file_is_refused(tmp_path):
         fetch(str(tmp_path / "model.pt"))
 
 
+COMMIT = "0123456789abcdef" * 2 + "01234567"
+
+
 class DownloadError(OSError):
     """As the hub's library raises it."""
 
@@ -173,23 +177,63 @@ def stand_in_hub(monkeypatch, download):
 def test_an_address_is_downloaded(monkeypatch, released):
     asked = []
 
-    def download(repo_id, filename):
-        asked.append((repo_id, filename))
+    def download(repo_id, filename, revision):
+        asked.append((repo_id, filename, revision))
         return str(released)
 
     stand_in_hub(monkeypatch, download)
     assert fetch(PARTICULATE.source) == released
     assert fetch(PARTFIELD.source) == released
     assert fetch("hf:a/b/deep/er/file.pt") == released
+    assert fetch(f"hf:a/b/file.pt@{COMMIT}") == released
     assert asked == [
-        ("rayli/Particulate", "model.pt"),
-        ("mikaelaangel/partfield-ckpt", "model_objaverse.ckpt"),
-        ("a/b", "deep/er/file.pt"),
+        ("rayli/Particulate", "model.pt", None),
+        ("mikaelaangel/partfield-ckpt", "model_objaverse.ckpt", None),
+        ("a/b", "deep/er/file.pt", None),
+        ("a/b", "file.pt", COMMIT),
     ]
 
 
+def hub_of(monkeypatch, folder, content=b"weights"):
+    """A hub whose newest commit holds one file, laid out as its library's cache."""
+    file = folder / "snapshots" / COMMIT / "file.pt"
+    file.parent.mkdir(parents=True)
+    file.write_bytes(content)
+    stand_in_hub(monkeypatch, lambda repo_id, filename, revision: str(file))
+    return file
+
+
+def test_a_download_with_another_digest_is_refused_before_it_is_read(monkeypatch, tmp_path):
+    file = hub_of(monkeypatch, tmp_path)
+    digest = digest_file(file)
+    assert fetch(f"hf:a/b/file.pt@{COMMIT}#{digest}") == file
+    with pytest.raises(ConfigError, match=digest):
+        fetch(f"hf:a/b/file.pt@{COMMIT}#{'0' * 64}")
+    # The same address once more, and the hub has changed the file meanwhile.
+    file.write_bytes(b"other weights")
+    with pytest.raises(ConfigError, match="not the file that was asked"):
+        fetch(f"hf:a/b/file.pt@{COMMIT}#{digest}")
+
+
+def test_what_is_not_pinned_is_told_once_with_how_to_pin_it(monkeypatch, tmp_path, capsys):
+    pinned = f"hf:a/b/file.pt@{COMMIT}#{digest_file(hub_of(monkeypatch, tmp_path))}"
+    for _ in range(2):
+        fetch("hf:a/b/file.pt")
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert said.endswith(f"this one is {pinned}\n")
+    fetch(pinned)
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize("pin", ["@main", "@v1.0", "#abc", "@", f"#{'0' * 64}@{'0' * 40}"])
+def test_a_branch_or_half_a_digest_is_no_pin(pin):
+    with pytest.raises(ConfigError, match="40 hexadecimal digits"):
+        fetch(f"hf:a/b/file.pt{pin}")
+
+
 def test_a_failed_download_is_one_sentence(monkeypatch):
-    def download(repo_id, filename):
+    def download(repo_id, filename, revision):
         raise DownloadError("the hub cannot be reached\nsecond line")
 
     stand_in_hub(monkeypatch, download)
