@@ -171,6 +171,8 @@ UNJUDGED: Mapping[str, str] = {
     "too_large_to_judge": "more shapes, motions or contacts than are looked at; says which",
     "check_crashed": "the process of the static checks died",
     "check_timeout": "the static checks gave no answer in time",
+    "reading_timeout": "what reads the input gave no answer in time",
+    "reading_killed": "what reads the input was killed by somebody else",
     "decomposition_timeout": "convex decomposition gave no answer in time",
     "decomposition_killed": "somebody, or the kernel, ended the process of convex decomposition",
     "build_crashed": "the process that built the asset died, or met a fault of the program",

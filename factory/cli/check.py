@@ -20,7 +20,7 @@ from asset_factory.sim_checks.read.usd.layers import is_usd
 from ..errors import ConfigError, Exit
 from ..presets import load_config
 from ..runtime.store import write_json
-from ..runtime.terminal import say
+from ..runtime.terminal import complain, say
 from . import console
 from .flags import DEFAULT_SIMULATORS, simulators_named, workers_fitting
 
@@ -69,7 +69,7 @@ def run(command: Check) -> int:
                 console.print_report(report)
             # Where reports go elsewhere than to the terminal, that says how far it is.
             if sys.stderr.isatty() and not (printed and sys.stdout.isatty()):
-                print(f"{len(reports)} of {len(files)} files judged", file=sys.stderr)
+                complain(f"{len(reports)} of {len(files)} files judged")
     data: Any = [report.to_dict() for report in reports]
     data = data if len(data) > 1 or any(path.is_dir() for path in command.files) else data[0]
     if not printed:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Annotated, Any, Protocol
@@ -19,6 +18,7 @@ from ..presets import load_config
 from ..registry.entry import SOLVED
 from ..registry.rows import Filters
 from ..registry.split import SPLITS
+from ..runtime.terminal import complain
 
 DEFAULT_SIMULATORS = "sapien"
 
@@ -152,7 +152,7 @@ def workers_fitting(asked: int | None, each: int) -> int:
         raise ConfigError(f"--workers: is {asked}, want at least 1")
     workers, sentence = workers_for(asked, each)
     if sentence is not None:
-        print(f"factory: {sentence}", file=sys.stderr)
+        complain(f"factory: {sentence}")
     return workers
 
 

@@ -7,8 +7,11 @@ from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
+from asset_factory.sim_checks import Finding, Severity
+from asset_factory.sim_checks.report import KILLED, OUT_OF_TIME
+
 from ..config import BuildConfig
-from ..errors import InputRejected
+from ..errors import InputRejected, Unjudged
 from ..runtime.store import digest_bytes
 from .intake import Intake
 from .load import LOAD, load
@@ -51,6 +54,7 @@ class Source:
         Raises:
             InputRejected: with a reason code; ``input_changed`` if it was another one each time it
                 was looked at.
+            Unjudged: what reads it hung, or somebody ended it.
         """
         for _ in range(MOST_READINGS):
             try:
@@ -62,6 +66,9 @@ class Source:
                 if unchanged(self.path, reads):
                     raise
                 continue
+            except (TimeoutError, ChildProcessError) as error:
+                self.reads = {self.path.name: content_digest(self.path), **reads}
+                raise _unjudged(error) from error
             self.reads = reads
             self.digest = intake.provenance.digest
             # Files read one after the other may be of two versions.
@@ -112,6 +119,14 @@ class Source:
         other = [full_name(self.path)] if full_name(self.path) != safe_name(self.path) else []
         other += [by_folder or ""] if by_folder != guess_category(self.path.stem) else []
         return digest_bytes(os.fsencode(" ".join([digest, *other]))) if other else digest
+
+
+def _unjudged(error: OSError) -> Unjudged:
+    """Say which of the two ends of a reader was no verdict."""
+    hung = isinstance(error, TimeoutError)
+    code = "reading_timeout" if hung else "reading_killed"
+    cause = OUT_OF_TIME if hung else KILLED
+    return Unjudged(Finding(code, Severity.HARD, str(error), cause=cause))
 
 
 def loaded_key(path: Path, reads: Reads, config: BuildConfig) -> str:

@@ -69,8 +69,7 @@ def register_failure(
     origin = Source(source, config)
     origin.reads = reads
     stage = crash_stage(registry, origin.id, outcome)
-    # What reads an input may hang too, in a process of its own.
-    late = outcome.failure is Failure.TIMEOUT or isinstance(outcome.error, TimeoutError)
+    late = outcome.failure is Failure.TIMEOUT
     code = "build_timeout" if late else ALWAYS if stage else ONCE
     message = f"building {source.name}: {sentence(outcome, stage)}"
     finding = Finding(code, Severity.HARD, message, cause=OUT_OF_TIME if late else None)

@@ -9,8 +9,8 @@ class TooManyLooks(Exception):
     """More exact looks than one file may take."""
 
 
-class Looks:
-    """Looks taken so far.
+class LookBudget:
+    """Looks taken so far, of at most so many.
 
     Args:
         most: after so many the next one raises.

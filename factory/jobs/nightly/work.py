@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -15,6 +14,7 @@ from ...registry.cleaning import collect_garbage
 from ...registry.mending import Settled, mend_rows, settle
 from ...registry.verify import Problem, verify
 from ...report.nightly.formats import counted
+from ...runtime.terminal import complain
 from .. import Executor, LocalExecutor
 from ..job import Job
 from ..memory import BUILD_BYTES, workers_for
@@ -70,7 +70,7 @@ class Work:
         if config.executor == LOCAL:
             workers, sentence = workers_for(config.workers or None, BUILD_BYTES)
             if sentence is not None:
-                print(f"factory: {sentence}", file=sys.stderr)
+                complain(f"factory: {sentence}")
             return LocalExecutor(workers, config.build.retries)
         from ..ray.builds import ray_executor
 

@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 from mesh_cube import write_glb, write_gltf, write_obj
 
+from asset_factory.factory.build import build_asset
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake import reads as reads_module
+from asset_factory.factory.intake import source as source_module
 from asset_factory.factory.intake.source import Source
 from asset_factory.factory.jobs.probe import Readings
 from asset_factory.factory.registry import keys
@@ -190,3 +192,20 @@ def test_the_same_bytes_with_another_sidecar_are_made_of_other_files(tmp_path) -
         readings.note(source.path, source.reads)
         assert all(readings.probe(other.path).key == source_key(other) for other in sources[:1])
     assert all(readings.probe(source.path).key == source_key(source) for source in sources)
+
+
+@pytest.mark.parametrize(
+    ("error", "code"), [(TimeoutError, "reading_timeout"), (ChildProcessError, "reading_killed")]
+)
+def test_a_reader_that_was_stopped_gives_no_verdict(error, code, tmp_path, monkeypatch) -> None:
+    path = write_obj(tmp_path)
+
+    def stopped(*arguments: object) -> None:
+        raise error(f"{path.name}: no answer within 60 s")
+
+    monkeypatch.setattr(source_module, "load", stopped)
+    result = build_asset(path, tmp_path / "out", CONFIG)
+    assert (result.entry.status, result.entry.reason) == ("unjudged", code)
+    assert "no answer within 60 s" in result.entry.message
+    monkeypatch.undo()
+    assert build_asset(path, tmp_path / "out", CONFIG).entry.status == "rejected"
