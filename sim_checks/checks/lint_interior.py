@@ -210,6 +210,9 @@ def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull:
         FlatHull: where they span no volume.
     """
     points = np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes])
+    # One format welds corners that another repeats.
+    cells = np.rint((points - grid.start) / (ROUNDING * grid.size)).astype(np.int64)
+    points = points[np.unique(cells, axis=0, return_index=True)[1]]
     if len(points) > CORNERS:
         columns = np.rint((points[:, :2] - grid.start[:2]) / grid.size).astype(np.int64) @ [
             grid.shape[1],

@@ -210,3 +210,23 @@ def test_both_formats_of_an_asset_leave_the_same_share_free(
     urdf, mjcf = figures
     assert 0.1 < urdf["interior_kept"] < 0.9
     assert mjcf == pytest.approx(urdf, abs=5e-4)
+
+
+def test_corners_that_a_format_repeats_change_nothing() -> None:
+    # So many posts under a dome that their outline is thinned where each triangle has its own.
+    places = 0.05 * (np.arange(11.0) - 5.0)
+    heights = 0.3 - 0.3 * np.add.outer(places**2, places**2)
+    posts = [
+        box_shape((x, y, heights[i, j] / 2.0), (0.004, 0.004, heights[i, j]), "mesh")
+        for i, x in enumerate(places)
+        for j, y in enumerate(places)
+    ]
+    corners = np.vstack([post.vertices for post in posts])
+    faces = np.vstack([post.faces + 8 * i for i, post in enumerate(posts)])
+    welded = DescribedShape("posts", "mesh", corners, faces)
+    own = np.arange(faces.size).reshape(-1, 3)
+    repeated = replace(welded, vertices=corners[faces].reshape(-1, 3), faces=own)
+    block = box_shape((0.0, 0.0, 0.2), (0.55, 0.55, 0.2))
+    one, other = (told(Link("posts", None, (block,), (shape,)))[1] for shape in (welded, repeated))
+    assert 0.1 < one["interior_kept"] < 0.9
+    assert one == other
