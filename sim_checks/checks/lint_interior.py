@@ -29,8 +29,12 @@ CHUNK = 500_000
 WALLED = 5
 #: Components of a normal below this count as level.
 LEVEL = 1e-9
-#: Centres this close to a hull, in voxels, are in it, so that rounding decides nothing.
-TOUCH = 1e-6
+#: The lattice stands this far off the middle of what it is laid around, in voxels. Things are made
+#: in even measures, so that whole walls would lie on or half way between centres, where rounding
+#: decides: one format has them in single precision, another as text.
+OFF = np.array([0.0123, 0.0179, 0.0237])
+#: Lengths that differ by less, in voxels, differ by rounding.
+ROUNDING = 1e-3
 #: More corners than this are thinned before their convex hull is taken, whose cost grows with their
 #: square.
 CORNERS = 1000
@@ -61,6 +65,9 @@ def interior_findings(
     pocket is where a ball as wide as a hand comes from outside and finds visible walls on at least
     five of six sides, below among them: the inside of a cabinet, drawer, oven or bowl, not of a
     bottle, a knob or a table, nor of a block drawn without its bottom.
+
+    What only rounding tells apart is measured alike: the URDF and the MJCF of an asset have the
+    same figures.
 
     Args:
         link: with what is visible.
@@ -142,8 +149,8 @@ def _grid(shapes: Sequence[DescribedShape], config: LintConfig) -> _Grid:
     bounds = np.array([corners.min(axis=0), corners.max(axis=0)])
     extent = bounds[1] - bounds[0]
     size = max(float(extent.max()) / config.voxels, config.voxel_m)
-    counts = np.ceil(extent / size).astype(int) + 1
-    start = (bounds[0] + bounds[1] - (counts - 1) * size) / 2.0 - MARGIN * size
+    counts = np.ceil(extent / size - ROUNDING).astype(int) + 1
+    start = (bounds[0] + bounds[1] - (counts - 1) * size) / 2.0 - (MARGIN + OFF) * size
     nx, ny, nz = (int(count) + 2 * MARGIN for count in counts)
     return _Grid(start, size, (nx, ny, nz))
 
@@ -203,6 +210,9 @@ def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull:
         FlatHull: where they span no volume.
     """
     points = np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes])
+    # One format welds corners that another repeats.
+    cells = np.rint((points - grid.start) / (ROUNDING * grid.size)).astype(np.int64)
+    points = points[np.unique(cells, axis=0, return_index=True)[1]]
     if len(points) > CORNERS:
         columns = np.rint((points[:, :2] - grid.start[:2]) / grid.size).astype(np.int64) @ [
             grid.shape[1],
@@ -254,7 +264,7 @@ def _reached(surface: BoolArray, grid: _Grid, hand: float) -> BoolArray:
 
     It may not cross a surface.
     """
-    room = ndimage.distance_transform_edt(~surface) * grid.size >= hand / 2.0
+    room = ndimage.distance_transform_edt(~surface) >= hand / 2.0 / grid.size - ROUNDING
     labels, _ = ndimage.label(room)
     border = np.ones(grid.shape, dtype=bool)
     border[1:-1, 1:-1, 1:-1] = False
@@ -272,8 +282,8 @@ def _rasterised(hull: CollisionHull, grid: _Grid) -> BoolArray:
     normals = hull.normals
     offsets = (hull.offsets - normals @ grid.start) / grid.size
     low, high = (hull.bounds - grid.start) / grid.size
-    i0, j0 = (max(0, int(np.ceil(low[k] - TOUCH))) for k in (0, 1))
-    i1, j1 = (min(grid.shape[k] - 1, int(np.floor(high[k] + TOUCH))) for k in (0, 1))
+    i0, j0 = (max(0, int(np.ceil(low[k]))) for k in (0, 1))
+    i1, j1 = (min(grid.shape[k] - 1, int(np.floor(high[k]))) for k in (0, 1))
     if i0 > i1 or j0 > j1:
         return inside
     i, j = np.meshgrid(np.arange(i0, i1 + 1), np.arange(j0, j1 + 1), indexing="ij")
@@ -282,9 +292,7 @@ def _rasterised(hull: CollisionHull, grid: _Grid) -> BoolArray:
     down = normals[:, 2] < -LEVEL
     top = (room[..., up] / normals[up, 2]).min(axis=-1)
     bottom = (room[..., down] / normals[down, 2]).max(axis=-1)
-    bottom[(room[..., ~(up | down)] < -TOUCH).any(axis=-1)] = np.inf
+    bottom[(room[..., ~(up | down)] < 0.0).any(axis=-1)] = np.inf
     k = np.arange(grid.shape[2])
-    inside[i0 : i1 + 1, j0 : j1 + 1] = (k >= bottom[..., None] - TOUCH) & (
-        k <= top[..., None] + TOUCH
-    )
+    inside[i0 : i1 + 1, j0 : j1 + 1] = (k >= bottom[..., None]) & (k <= top[..., None])
     return inside

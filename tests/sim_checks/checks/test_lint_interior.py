@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
 from box_world import body, box_shape
+from fault_corpus.good_things import carcass, drawer
+from fault_corpus.things import Body, Thing, at, box, write_mjcf, write_urdf
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -17,6 +20,7 @@ from asset_factory.sim_checks.description import DescribedShape, FloatArray, Lin
 from asset_factory.sim_checks.geometry.hull import convex_hull
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
 from asset_factory.sim_checks.read.primitives import cylinder
+from asset_factory.sim_checks.read.read import read_here
 from asset_factory.sim_checks.report import Severity
 
 T = 0.018
@@ -161,3 +165,68 @@ def test_a_dense_round_mesh_costs_no_more_memory_than_its_points() -> None:
     severities, numbers = told(Link("bowl", None, cube, bowl))
     assert severities == [Severity.HARD]
     assert numbers["pocket_kept"] == 0.0
+
+
+def bowl(radius: float) -> tuple[FloatArray, ...]:
+    """Staves around a floor, [m]."""
+    turns = np.linspace(0.0, 2.0 * np.pi, 13)
+    rings = [
+        scale * radius * np.column_stack([np.cos(turns), np.sin(turns)]) for scale in (0.85, 1.0)
+    ]
+    staves = [
+        np.array([[*ring[k + j], z] for ring in rings for j in (0, 1) for z in (0.0, radius)])
+        for k in range(12)
+    ]
+    return (*staves, box((0.0, 0.0, 0.05 * radius), (1.5 * radius, 1.5 * radius, 0.1 * radius)))
+
+
+@pytest.mark.parametrize(
+    "looks",
+    [
+        carcass((0.8, 0.6, 0.7)),
+        carcass((0.8, 0.8, 1.1)),
+        carcass((1.16, 0.31, 1.17)),
+        carcass((0.7, 1.2, 0.3)),
+        carcass((0.384, 0.3, 0.2)),
+        drawer(0.5, 0.1, 0.3, 0.4, (0.5, 0.24)),
+        drawer(0.32, 0.0, 0.16, 0.32, (0.32, 0.16)),
+        bowl(0.16),
+        bowl(0.4),
+    ],
+)
+@pytest.mark.parametrize("share", [0.5, 0.7])
+def test_both_formats_of_an_asset_leave_the_same_share_free(
+    looks: tuple[FloatArray, ...], share: float, tmp_path: Path
+) -> None:
+    low, high = np.min(looks, axis=(0, 1)), np.max(looks, axis=(0, 1))
+    size = (high - low) * [1.0, 1.0, share]
+    block = box(low + size / 2.0, size)
+    frame = at(0.013, -0.207, 0.31)
+    thing = Thing("thing", (Body("body", (*looks, block), frame, 5.0, looks),), ())
+    figures = []
+    for write in (write_urdf, write_mjcf):
+        link = next(link for link in read_here(write(thing, tmp_path)).links if link.visuals)
+        figures.append(told(link)[1])
+    urdf, mjcf = figures
+    assert 0.1 < urdf["interior_kept"] < 0.9
+    assert mjcf == pytest.approx(urdf, abs=5e-4)
+
+
+def test_corners_that_a_format_repeats_change_nothing() -> None:
+    # So many posts under a dome that their outline is thinned where each triangle has its own.
+    places = 0.05 * (np.arange(11.0) - 5.0)
+    heights = 0.3 - 0.3 * np.add.outer(places**2, places**2)
+    posts = [
+        box_shape((x, y, heights[i, j] / 2.0), (0.004, 0.004, heights[i, j]), "mesh")
+        for i, x in enumerate(places)
+        for j, y in enumerate(places)
+    ]
+    corners = np.vstack([post.vertices for post in posts])
+    faces = np.vstack([post.faces + 8 * i for i, post in enumerate(posts)])
+    welded = DescribedShape("posts", "mesh", corners, faces)
+    own = np.arange(faces.size).reshape(-1, 3)
+    repeated = replace(welded, vertices=corners[faces].reshape(-1, 3), faces=own)
+    block = box_shape((0.0, 0.0, 0.2), (0.55, 0.55, 0.2))
+    one, other = (told(Link("posts", None, (block,), (shape,)))[1] for shape in (welded, repeated))
+    assert 0.1 < one["interior_kept"] < 0.9
+    assert one == other
