@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import numpy as np
 from ..articulation import Articulation
 from ..asset import Asset, Inertial
 from ..mesh import FloatArray
+from ..runtime.numbers import DIGITS
 from .meshes import hull_obj
 from .resistance import Resistance, joint_resistances, resistance_notes
 from .textures import TextureFolder
@@ -94,11 +96,16 @@ def child_offset(articulation: Articulation, part: int) -> FloatArray:
 
 
 def safe_tensor(inertial: Inertial) -> FloatArray:
-    """The inertia tensor [kg m2], moved off the triangle inequality's limit by a millionth."""
+    """The inertia tensor [kg m2], moved off the triangle inequality's limit by a millionth.
+
+    In as many digits of its trace as are written of any number: products of inertia that cancel to
+    nothing leave other last digits on every processor.
+    """
     moments = np.linalg.eigvalsh(inertial.tensor)
     slack = TRIANGLE_SLACK * moments[2]
     lift = max(0.0, slack - (moments[0] + moments[1] - moments[2]))
-    return np.asarray(inertial.tensor + lift * np.eye(3))
+    decimals = DIGITS - 1 - math.floor(math.log10(moments.sum()))
+    return np.asarray(np.round(inertial.tensor + lift * np.eye(3), decimals) + 0.0)
 
 
 def _write_hulls(asset: Asset, part: int, folder: Path) -> tuple[Path, ...]:

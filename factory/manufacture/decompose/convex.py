@@ -7,14 +7,22 @@ from scipy.spatial import ConvexHull, QhullError
 
 from ...asset import Hull
 from ...errors import InvalidAsset
+from ...geometry.rows import distinct_rows
 from ...mesh import FloatArray, IntArray
+from ...runtime.numbers import DECIMALS
 
 #: Bodies thinner than this are planes: qhull and the simulators' cookers lose them [m].
 THINNEST_M = 1e-5
 
 
 def hull_of(points: FloatArray) -> Hull | None:
-    """The convex hull of ``points`` [m], shape [n, 3]; ``None`` if they are (nearly) coplanar."""
+    """The convex hull of ``points`` [m], shape [n, 3]; ``None`` if they are (nearly) coplanar.
+
+    Of the points as they are written, in one order: last digits, which are others on every
+    processor, would decide how flat faces are cut into triangles, and all that follows from it.
+    """
+    points = np.round(points, DECIMALS) + 0.0
+    points = points[distinct_rows(points)[0]]
     if len(points) < 4:
         return None
     center = points.mean(axis=0)

@@ -17,6 +17,9 @@ from .solids import OpenSurface, neighbours
 #: Share of its outline's convex hull that a flat patch may leave empty, for rounding's sake.
 SPARE_SHARE = 0.002
 
+#: Of a cost, a share of what is allowed.
+COST_DECIMALS = 9
+
 
 @dataclass
 class _Patch:
@@ -125,7 +128,11 @@ def _offer(
 
 
 def _cost(first: _Patch, second: _Patch, error_m: float) -> float:
-    """How much of the allowed error joining two patches would use; more than 1 is too much."""
+    """How much of the allowed error joining two patches would use; more than 1 is too much.
+
+    Rounded, so that faces of one plane cost the same, whatever the last digits are: what was met
+    first is joined first.
+    """
     normal = first.normal + second.normal
     area = math.sqrt(float(normal @ normal))
     if area <= 0.0 or float(first.normal @ second.normal) < 0.0:
@@ -138,7 +145,7 @@ def _cost(first: _Patch, second: _Patch, error_m: float) -> float:
         return np.inf
     outline, length = _outline(points, direction)
     allowed = SPARE_SHARE * outline + 0.25 * error_m * length
-    return max(height / error_m, (outline - area) / allowed)
+    return round(max(height / error_m, (outline - area) / allowed), COST_DECIMALS)
 
 
 def _outline(points: FloatArray, direction: FloatArray) -> tuple[float, float]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from ...asset import Hull
 from ...mesh import FloatArray, IntArray
+from ...runtime.numbers import DECIMALS
 from ..decompose.convex import hull_of
 
 #: A hull no thicker than this is a sheet [m].
@@ -21,6 +22,10 @@ ALIKE = 0.7
 UNLIKE = 3
 #: Volumes that differ by less than this share do so by rounding.
 ROUNDING_SHARE = 1e-9
+#: Corners this near to a plane lie on it [m].
+FLUSH_M = 1e-7
+#: Lengths that are the same to so many decimals differ by rounding [m].
+ROUNDING_DECIMALS = 12
 
 
 @dataclass(frozen=True)
@@ -71,7 +76,8 @@ def meeting(
     ends = (a.vertices @ directions.T).max(axis=0)
     lags = np.zeros(len(directions)) if behind is None else np.minimum(directions @ behind, 0.0)
     starts = (points_b @ directions.T).min(axis=0) + lags
-    order = np.argsort(ends - starts, kind="stable")
+    # Triangles of one face reach equally far but for last digits, which must not choose among them.
+    order = np.argsort(np.round(ends - starts, ROUNDING_DECIMALS), kind="stable")
     best = order[:most]
     if ends[best[0]] > starts[best[0]]:
         best = _with_others(directions, order, best)
@@ -153,7 +159,7 @@ def given_way(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
     over = float(along.max()) - offset
     if over <= 0.0 or float(np.ptp(along)) > SHEET_M or float(along.min()) < offset - LEFT_M:
         return clipped(hull, normal, offset)
-    return Hull(hull.vertices - over * normal, hull.faces)
+    return Hull(np.round(hull.vertices - over * normal, DECIMALS) + 0.0, hull.faces)
 
 
 def volumes_below(hull: Hull, normals: FloatArray, offsets: FloatArray) -> FloatArray:
@@ -186,6 +192,8 @@ def volumes_below(hull: Hull, normals: FloatArray, offsets: FloatArray) -> Float
 def clipped(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
     """The part of a hull with ``normal . x <= offset`` [m]; ``None`` if no volume is left."""
     height = hull.vertices @ normal - offset
+    # Where an edge that all but lies in the plane crosses it, last digits would say.
+    height[np.abs(height) < FLUSH_M] = 0.0
     if height.max() <= 0.0:
         return hull
     around = np.concatenate([hull.faces[:, [0, 1]], hull.faces[:, [1, 2]], hull.faces[:, [2, 0]]])
