@@ -61,7 +61,8 @@ def _of_groups(proc: Path, groups: Path) -> Iterator[int]:
     for line in lines:
         _, controllers, path = line.split(":", 2)
         if controllers == "":
-            root, names = groups, ("memory.max", "memory.current", "inactive_file")
+            root = groups
+            names = ("memory.max", "memory.current", "inactive_file")
         elif "memory" in controllers.split(","):
             root = groups / "memory"
             names = ("memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file")

@@ -15,7 +15,7 @@ from dataclasses import replace
 from ..config import PenetrationConfig, WorkConfig
 from ..description import Description, FloatArray
 from ..geometry.kinematics import build_tree, free_ranges
-from ..geometry.looks import Looks, TooManyLooks
+from ..geometry.looks import LookBudget, TooManyLooks
 from ..geometry.solids import SolidPair, Solids
 from .combinations import combination_values
 from .diagnosis import Diagnosis
@@ -55,13 +55,15 @@ def check_penetration(
         NotATree: for a file whose links do not form a tree.
     """
     try:
-        return _measured(description, config, Looks(most_looks))
+        return _measured(description, config, LookBudget(most_looks))
     except TooManyLooks:
         words = "exact looks do not tell how deep its parts penetrate each other"
         return CheckResult((beyond(words, most_looks + 1, most_looks),))
 
 
-def _measured(description: Description, config: PenetrationConfig, looks: Looks) -> CheckResult:
+def _measured(
+    description: Description, config: PenetrationConfig, looks: LookBudget
+) -> CheckResult:
     tree = build_tree(description)
     solids = Solids(description, tree, looks)
     ranges = free_ranges(tree)

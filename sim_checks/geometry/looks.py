@@ -9,8 +9,8 @@ class TooManyLooks(Exception):
     """More exact looks than one file may take."""
 
 
-class Looks:
-    """Looks taken so far.
+class LookBudget:
+    """LookBudget taken so far.
 
     Args:
         most: after so many the next one raises.

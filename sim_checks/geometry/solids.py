@@ -13,7 +13,7 @@ from .coupled_path import AnyPath, CoupledPath
 from .depth import HullOverlap
 from .hull import FlatHull, convex_hull
 from .kinematics import Poser, Tree, unit_axis
-from .looks import Looks
+from .looks import LookBudget
 from .path import Path
 
 
@@ -69,9 +69,11 @@ class Solids:
         looks: exact looks at two hulls, that those who ask count, too.
     """
 
-    def __init__(self, description: Description, tree: Tree, looks: Looks | None = None) -> None:
+    def __init__(
+        self, description: Description, tree: Tree, looks: LookBudget | None = None
+    ) -> None:
         self.tree = tree
-        self.looks = looks or Looks()
+        self.looks = looks or LookBudget()
         part_of = tree.part_of()
         at_zero = tree.link_poses({})
         self.items: list[LinkSolid] = []

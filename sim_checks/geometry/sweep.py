@@ -20,7 +20,7 @@ from ..description import FloatArray
 from .collision import Collider
 from .coupled_path import AnyPath, CoupledOrbit
 from .depth import HullOverlap
-from .looks import Looks
+from .looks import LookBudget
 from .path import Orbit
 
 #: Intervals of the path in which what is far from everything is told.
@@ -123,7 +123,7 @@ class Sweep:
         moving: Sequence[Collider],
         standing: Sequence[Collider],
         steps: int,
-        budget: Looks | None = None,
+        budget: LookBudget | None = None,
     ) -> None:
         self.path = path
         self.moving = moving
@@ -131,7 +131,7 @@ class Sweep:
         self._backwards = path.inverse()
         self.places = np.linspace(0.0, path.length, steps + 1)
         self.looks = 0
-        self._budget = budget or Looks()
+        self._budget = budget or LookBudget()
         self._start_poses = [collider.pose for collider in moving]
         self._boxes: dict[int, FloatArray] = {}
         self._moving_orbits: dict[int, Orbit | CoupledOrbit] = {}
