@@ -10,7 +10,7 @@ class TooManyLooks(Exception):
 
 
 class LookBudget:
-    """LookBudget taken so far.
+    """How many exact looks a file may take, and how many it took.
 
     Args:
         most: after so many the next one raises.
