@@ -10,7 +10,7 @@ class TooManyLooks(Exception):
 
 
 class LookBudget:
-    """Looks taken so far, of at most so many.
+    """How many exact looks a file may take, and how many it took.
 
     Args:
         most: after so many the next one raises.
