@@ -26,6 +26,7 @@ sys.path.insert(0, str(ROOT / "tests" / "samples"))
 
 from fuzz_cases import Case, real_seeds, seeds  # noqa: E402 - the attacks live with the tests
 from fuzz_hostile import MESH_PAGES  # noqa: E402
+from fuzz_hostile_mjcf import MJCF_PAGES  # noqa: E402
 from fuzz_hostile_texts import TEXT_PAGES  # noqa: E402
 from fuzz_hostile_usd import USD_PAGES  # noqa: E402
 from fuzz_hostile_weights import WEIGHT_PAGES  # noqa: E402
@@ -42,7 +43,8 @@ SLOW = ("mjcf", "usd")
 BY_HAND = "by hand: "
 PAGES = {
     f"{BY_HAND}{name}": page
-    for name, page in {**MESH_PAGES, **TEXT_PAGES, **USD_PAGES, **WEIGHT_PAGES}.items()
+    for pages in (MESH_PAGES, TEXT_PAGES, MJCF_PAGES, USD_PAGES, WEIGHT_PAGES)
+    for name, page in pages.items()
 }
 
 

@@ -67,7 +67,7 @@ class Evaluate:
     points: int = 100_000
     """paper, release: points per object."""
     checkpoint: str = "shipped"
-    """Weights for particulate and auto: a file, or hf:owner/repository/file[@commit][#sha256]."""
+    """Weights for particulate and auto: a file, or hf:owner/repository/file@commit."""
     features: str = ""
     """Weights of its feature extractor, where those want features."""
     network_points: int | None = None

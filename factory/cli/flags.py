@@ -32,10 +32,10 @@ class Reading:
     rigid."""
     checkpoint: str | None = None
     """Weights for particulate, which auto then asks alone: a file, or
-    hf:owner/repository/file[@commit][#sha256]."""
+    hf:owner/repository/file@commit."""
     features: str | None = None
     """Weights of its feature extractor, if it needs one: a file, or
-    hf:owner/repository/file[@commit][#sha256]."""
+    hf:owner/repository/file@commit."""
     points: int | None = None
     """Points that particulate labels per sample."""
     samples: int | None = None

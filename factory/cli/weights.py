@@ -18,7 +18,7 @@ class InfoCommand:
     """Say which network a checkpoint is for, its sizes, and the terms of the published weights."""
 
     checkpoint: Positional[str]
-    """A safetensors, .pt or .ckpt file, or hf:owner/repository/file[@commit][#sha256]."""
+    """A safetensors, .pt or .ckpt file, or hf:owner/repository/file@commit."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class WeightsConvert:
     """Write a checkpoint as safetensors, which holds tensors and nothing that could run."""
 
     checkpoint: Positional[str]
-    """A safetensors, .pt or .ckpt file, or hf:owner/repository/file[@commit][#sha256]."""
+    """A safetensors, .pt or .ckpt file, or hf:owner/repository/file@commit."""
     target: Positional[Path]
     """The file to write; ends in .safetensors."""
 
