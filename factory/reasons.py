@@ -15,7 +15,7 @@ INPUT: Mapping[str, str] = {
     "unsupported": "a format, or a feature of one, that is not read",
     "empty": "no triangles",
     "missing_file": "a file that it needs is not there",
-    "too_large": "more bytes, faces, pixels, elements or numbers than the limit that is named",
+    "too_large": "more bytes, faces, pixels, bodies, memory or numbers than the limit named",
     "absurd_size": "it would measure under a micrometre, or reach over 1000 km [m]",
     "license_disallowed": "it stands under none of the licenses in `intake.allowed_licenses`",
     "input_changed": "somebody was writing its files each time they were read [readings]",

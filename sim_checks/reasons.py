@@ -9,7 +9,7 @@ UNREADABLE: Mapping[str, str] = {
     "invalid_xml": "no XML",
     "forbidden_doctype": "XML with entities or a document type, which can be made to explode",
     "unknown_format": "neither a URDF nor an MJCF; or USD whose files cannot be told beforehand",
-    "too_large": "more bytes than the limit",
+    "too_large": "more bytes, bodies, geoms, prims or memory than the limit that is named",
     "missing_element": "the format demands an element that is not there",
     "missing_name": "a link or joint without a name",
     "missing_number": "the format demands a number that is not there",

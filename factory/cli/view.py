@@ -7,9 +7,10 @@ from pathlib import Path
 
 from tyro.conf import Positional
 
-from ..errors import ConfigError, Exit, InputRejected
+from ..config import BuildConfig
+from ..errors import AssetFactoryError, ConfigError, Exit, InputRejected
 from ..runtime.store import write_whole
-from ..runtime.terminal import say
+from ..runtime.terminal import complain, say
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,8 @@ class ViewFile:
 
 def run(command: ViewFile) -> int:
     """Serve or save the page; returns the exit code."""
+    from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
+
     from ..jobs.pages import missing_library
     from ..report.site.alone import page_of_file
     from ..report.site.server import serve
@@ -39,10 +42,19 @@ def run(command: ViewFile) -> int:
     missing = missing_library()
     if missing is not None:
         raise ConfigError(missing)
-    try:
-        page = page_of_file(command.file).encode()
-    except InputRejected as rejection:
+    # A file of anybody's may take any time and memory to read: in a process of its own.
+    usual = BuildConfig()
+    limits = Limits(wall_s=usual.asset_wall_s, memory_bytes=usual.asset_memory_bytes)
+    outcome = run_isolated(page_of_file, command.file, limits=limits)
+    if isinstance(outcome.error, InputRejected):
+        rejection = outcome.error
         raise ConfigError(f"{command.file}: {rejection.code}: {rejection.message}") from rejection
+    if isinstance(outcome.error, AssetFactoryError):
+        raise outcome.error
+    if outcome.value is None:
+        complain(f"factory: {command.file.name}: {outcome.detail}")
+        return Exit.UNJUDGED
+    page = outcome.value.encode()
     if command.save is None:
         with serve(page, command.port) as server:
             say(f"{command.file.name} is shown at {server.url} until Ctrl-C")

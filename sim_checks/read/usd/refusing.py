@@ -14,6 +14,8 @@ from ..native import require_word
 
 T = TypeVar("T")
 _LETTERS_SAID = 240
+#: A damaged file has thousands of faults, and its library tells each.
+_LETTERS_READ = 10_000
 #: In an error of its library, beside where that is in its source.
 _ITS_WORDS = re.compile(r" at line \d+ in file \S+ : '(.*?)'(?=, Error in |\)$|$)", re.DOTALL)
 #: Time only ends what hangs, and is no verdict.
@@ -39,7 +41,7 @@ def refusing(name: str, folder: Path) -> Iterator[None]:
     except MemoryError as error:
         raise DescriptionError("too_large", f"{name}: does not fit into memory") from error
     except Exception as error:
-        said = f"{type(error).__name__}: {error}"
+        said = f"{type(error).__name__}: {error}"[:_LETTERS_READ]
         said = " ".join(" ".join(_ITS_WORDS.findall(said) or [said]).split())
         words = said.replace(str(folder), "")[:_LETTERS_SAID]
         raise DescriptionError("unreadable", f"{name}: USD cannot read it: {words}") from error
