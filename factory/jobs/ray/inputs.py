@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import io
 import shutil
@@ -14,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from asset_factory.sim_checks.processes.scratch import scratch
+from asset_factory.sim_checks.read.regular import read_regular
 
 from ...intake.companions import companions
 from ...intake.reads import Reads, digest_now, leads_out
@@ -144,13 +146,15 @@ def _archived(source: Path, names: list[str]) -> bytes:
         for name in names:
             if not (_inside(name) and (source.parent / name).is_file()):
                 continue
+            left = MOST_BYTES - packed.tell()
             try:
-                content = (source.parent / name).read_bytes()
-            except OSError:
-                # Nobody can read it there either.
-                continue
-            if packed.tell() + len(content) > MOST_BYTES:
-                raise ValueError(f"{source}: its files have more than {MOST_BYTES} bytes")
+                content = read_regular(source.parent / name, left)
+            except OSError as error:
+                if error.errno != errno.EFBIG:
+                    # Nobody can read it there either.
+                    continue
+                message = f"{source}: its files have more than {MOST_BYTES} bytes"
+                raise ValueError(message) from error
             member = tarfile.TarInfo(Path(name).as_posix())
             member.size = len(content)
             archive.addfile(member, io.BytesIO(content))

@@ -175,3 +175,11 @@ def test_another_checkpoint_than_was_sent_is_refused(node):
     with pytest.raises(ExchangeError, match="digest"):
         arrived(Cluster(), sent)
     assert not list(node.rglob("w.pt"))
+
+
+def test_an_input_too_large_to_send_is_refused_unread(tmp_path):
+    vast = tmp_path / "vast.obj"
+    with vast.open("wb") as file:
+        file.truncate(2**40)
+    with pytest.raises(ValueError, match=r"vast\.obj: its files have more than"):
+        packed(vast)
