@@ -16,9 +16,7 @@ def dying(source: Path, **rest: object) -> None:
     note(source)
     clock = Stopwatch()
     with clock.stage("load"):
-        if "hangs" in source.name:
-            # As where a compiler in a process of its own gave no answer.
-            raise TimeoutError(f"{source.name}: what reads it gave no answer")
+        pass
     stage = f"stage_{os.getpid()}" if "wanders" in source.name else "decompose"
     with clock.stage(stage), clock.stage("hulls"):
         pass

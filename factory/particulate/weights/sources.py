@@ -18,7 +18,7 @@ from ...runtime.terminal import complain
 
 HUB = "hf:"
 #: How a hub's file is named: a commit and a digest make it the same file for ever.
-ADDRESS = f"{HUB}owner/repository/file[@commit][#sha256]"
+ADDRESS = f"{HUB}owner/repository/file@commit#sha256"
 _ADDRESS = re.compile(
     rf"{HUB}(?P<repository>[^/@#]+/[^/@#]+)/(?P<file>[^@#]+)"
     r"(?:@(?P<revision>[0-9a-f]{40}))?(?:#(?P<sha256>[0-9a-f]{64}))?"

@@ -69,11 +69,3 @@ def test_another_version_other_limits_or_a_word_end_the_wait(tmp_path, monkeypat
     monkeypatch.setattr(keys, "__version__", "99.0")
     assert not built(tmp_path, "dies").known
     assert [entry.reason for entry in Registry(tmp_path / "out").entries()] == ["crashed"]
-
-
-def test_a_reader_that_hung_is_no_verdict_and_is_tried_again(tmp_path):
-    result = built(tmp_path, "hangs")
-    assert (result.entry.status, result.entry.reason) == ("unjudged", "build_timeout")
-    assert "what reads it gave no answer" in result.entry.message
-    assert not built(tmp_path, "hangs").known
-    assert made(tmp_path / "in") == ["hangs.stl"] * 2
