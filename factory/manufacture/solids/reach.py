@@ -29,13 +29,10 @@ def reaching(matter: Matter, hulls: Sequence[Hull]) -> tuple[Hull, ...]:
     """
     if not hulls:
         return ()
-    points = matter.sparse
-    distances = np.array([outside([hull], points) for hull in hulls])
-    nearest = distances.argmin(axis=0)
-    far = distances.min(axis=0) > FAR_M
+    points = matter.sparse[outside(hulls, matter.sparse) > FAR_M]
+    nearest = np.array([outside([hull], points) for hull in hulls]).argmin(axis=0)
     return tuple(
-        _stretched(matter, hull, points[far & (nearest == number)])
-        for number, hull in enumerate(hulls)
+        _stretched(matter, hull, points[nearest == number]) for number, hull in enumerate(hulls)
     )
 
 
