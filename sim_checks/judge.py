@@ -153,8 +153,7 @@ class Judge:
                 finding = Finding(error.code, Severity.HARD, error.message)
                 return Report(path.name, (), (finding,), {}, ())
             except (TimeoutError, ChildProcessError) as error:
-                code = "check_timeout" if isinstance(error, TimeoutError) else "check_crashed"
-                return Report(path.name, (), (Finding(code, Severity.HARD, str(error)),), {}, ())
+                return Report(path.name, (), (_unanswered(str(error), error),), {}, ())
             report = self.check(urdf, simulators)
         words = f"{path.name} was judged as the URDF that says the same: no engine here reads USD"
         told = Finding("read_as_urdf", Severity.SOFT, words)
@@ -240,6 +239,16 @@ def _unasked(description: Description, simulators: Sequence[str]) -> list[Findin
 def _failure(outcome: Outcome[Any], path: Path) -> Finding:
     message = f"the static checks gave no verdict on {path.name}: {outcome.detail}"
     if outcome.failure is Failure.TIMEOUT:
+        return _unanswered(message, TimeoutError())
+    return _unanswered(message, ChildProcessError() if outcome.killed else outcome.error)
+
+
+def _unanswered(message: str, error: Exception | None) -> Finding:
+    """Tell what hung (TimeoutError) and what was ended (ChildProcessError) from what crashed.
+
+    Readers in children of their own raise the first two; see :func:`~.read.native.require_word`.
+    """
+    if isinstance(error, TimeoutError):
         return Finding("check_timeout", Severity.HARD, message, cause=OUT_OF_TIME)
-    cause = KILLED if outcome.killed else None
+    cause = KILLED if isinstance(error, ChildProcessError) else None
     return Finding("check_crashed", Severity.HARD, message, cause=cause)

@@ -112,16 +112,19 @@ def _plausible(
         return
     points = np.vstack([shape.vertices for shape in shapes])
     diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
-    yield from _center(link, inertia.center, config)
-    yield from _gyration(link, math.sqrt(float(moments[2]) / inertia.mass), diagonal, config)
+    everything = np.vstack([shape.vertices for shape in (*link.collisions, *link.visuals)])
+    box = np.array([everything.min(axis=0), everything.max(axis=0)])
+    yield from _center(link, inertia.center, box, config)
+    gyration = math.sqrt(float(moments[2]) / inertia.mass)
+    yield from _gyration(link, gyration, box, diagonal, config)
     yield from _density(link, inertia.mass, config)
 
 
-def _center(link: Link, center: FloatArray, config: LintConfig) -> Iterator[Finding]:
+def _center(
+    link: Link, center: FloatArray, box: FloatArray, config: LintConfig
+) -> Iterator[Finding]:
     """How far the centre of mass lies outside the box around all that the link shows or touches."""
-    points = np.vstack([shape.vertices for shape in (*link.collisions, *link.visuals)])
-    low = points.min(axis=0)
-    high = points.max(axis=0)
+    low, high = box
     diagonal = float(np.linalg.norm(high - low))
     outside = float(np.linalg.norm(np.maximum(0.0, np.maximum(low - center, center - high))))
     if outside <= config.center_soft * diagonal:
@@ -173,10 +176,9 @@ def _density(link: Link, mass: float, config: LintConfig) -> Iterator[Finding]:
 
 
 def _gyration(
-    link: Link, gyration: float, diagonal: float, config: LintConfig
+    link: Link, gyration: float, box: FloatArray, diagonal: float, config: LintConfig
 ) -> Iterator[Finding]:
-    points = np.vstack([shape.vertices for shape in (*link.collisions, *link.visuals)])
-    across = float(np.linalg.norm(np.ptp(points, axis=0)))
+    across = float(np.linalg.norm(np.ptp(box, axis=0)))
     number = round(gyration, 6) if math.isfinite(gyration) else None
     if gyration > across:
         message = (

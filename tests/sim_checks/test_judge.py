@@ -13,6 +13,7 @@ from test_run_checks import drawer
 from asset_factory.sim_checks import Status, run_checks
 from asset_factory.sim_checks.config import CheckConfig, ChildConfig
 from asset_factory.sim_checks.judge import Judge
+from asset_factory.sim_checks.processes.isolation import Failure, Outcome, WarmChild
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS, installed
 
 ENGINES = tuple(name for name in SIMULATORS if installed(name))
@@ -92,3 +93,25 @@ def test_an_engine_that_asks_for_too_much_memory_is_stopped(good: Path) -> None:
     report = run_checks(good, ENGINES[:1], config)
     assert report.hard[0].code == "check_crashed"
     assert report.status is Status.UNJUDGED
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "stopped"),
+    [
+        (TimeoutError("hung"), "check_timeout", True),
+        (ChildProcessError("ended"), "check_crashed", True),
+        (RuntimeError("a fault of the program"), "check_crashed", False),
+    ],
+)
+def test_what_stopped_a_reader_of_the_static_checks_is_told(
+    error: Exception, code: str, stopped: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(
+        WarmChild,
+        "call",
+        lambda *asked, **named: Outcome(None, Failure.RAISED, str(error), "", 0.0, error=error),
+    )
+    with Judge() as judge:
+        report = judge.check(write_urdf(tmp_path), ())
+    (finding,) = report.findings
+    assert (finding.code, finding.stopped, report.status) == (code, stopped, Status.UNJUDGED)
