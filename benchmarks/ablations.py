@@ -22,9 +22,9 @@ from typing import Any
 import numpy as np
 
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.training.objects import MixtureSettings
-from asset_factory.factory.training.objects.mixture import sample_object
-from asset_factory.factory.training.sampled_object import sampled_from, write_sampled
+from asset_factory.learn.objects import MixtureSettings
+from asset_factory.learn.objects.mixture import sample_object
+from asset_factory.learn.samples.sampled_object import sampled_from, write_sampled
 
 #: Points kept of an object, of which each example takes some.
 POINTS = 4096

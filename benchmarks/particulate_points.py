@@ -21,7 +21,7 @@ from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.mesh import FloatArray, IntArray, Mesh
 from asset_factory.factory.particulate.inference import infer
 from asset_factory.factory.particulate.model import Model, Particulate, load_model
-from asset_factory.factory.training.objects import make_object
+from asset_factory.learn.objects import make_object
 
 CATEGORIES = (
     "cabinet",

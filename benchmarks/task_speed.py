@@ -38,7 +38,7 @@ from asset_factory.factory.manufacture.plan import Plan
 from asset_factory.factory.manufacture.stage import manufacture, with_targets
 from asset_factory.factory.runtime.stages import Stages
 from asset_factory.factory.runtime.store import Store
-from asset_factory.factory.training.objects import make_object
+from asset_factory.learn.objects import make_object
 
 WARM_STEPS = 20
 STEPS = 200

@@ -23,9 +23,9 @@ from asset_factory.factory.particulate import sampling
 from asset_factory.factory.particulate.components import component_features
 from asset_factory.factory.particulate.sharp import sharp_edges
 from asset_factory.factory.particulate.surface import Surface
-from asset_factory.factory.training.objects import CATEGORIES, MixtureSettings, training_object
-from asset_factory.factory.training.sample import DrawSettings, draw
-from asset_factory.factory.training.sampled_object import sampled_from
+from asset_factory.learn.objects import CATEGORIES, MixtureSettings, training_object
+from asset_factory.learn.samples.sample import DrawSettings, draw
+from asset_factory.learn.samples.sampled_object import sampled_from
 
 REUSE = 16
 OBJECTS = 2

@@ -24,7 +24,7 @@ from asset_factory.factory.articulate.catalog import ARTICULATORS
 from asset_factory.factory.cli.commands import COMMANDS, OPTIONS
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.reasons import TABLES
-from asset_factory.factory.training.settings import TrainConfig
+from asset_factory.learn.train.settings import TrainConfig
 from asset_factory.sim_checks import Finding
 from asset_factory.sim_checks.reasons import DEGREES
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS

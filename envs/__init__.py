@@ -29,7 +29,7 @@ register_tasks()
 
 
 def __getattr__(name: str) -> Any:
-    """The class of a task, e.g. ``OpenJointEnv``, imported when first asked for."""
+    """Return the class of a task, e.g. ``OpenJointEnv``, imported when first asked for."""
     for task in TASKS:
         if name == task.class_name:
             return getattr(import_module(f"{__name__}.tasks.{task.module}"), name)

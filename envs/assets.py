@@ -57,7 +57,7 @@ class OpenableJoint:
 
     @property
     def lever(self) -> float:
-        """How far from the axis it is held [m]; 0 for what slides."""
+        """Return how far from the axis it is held [m]; 0 for what slides."""
         if self.kind == "prismatic":
             return 0.0
         return float(np.linalg.norm(np.cross(self.axis, self.rest_point - self.origin)))
@@ -101,7 +101,7 @@ class RegisteredAsset:
 
     @property
     def movable(self) -> dict[str, ManifestJoint]:
-        """Every joint with a degree of freedom, whether or not it can be held, by name."""
+        """Return every joint with a degree of freedom, whether or not it can be held, by name."""
         return {joint.name: joint for joint in self.joints if joint.movable}
 
     @property
@@ -110,13 +110,13 @@ class RegisteredAsset:
         return np.asarray(self.bounds + np.array([0.0, 0.0, self.ground_offset]))
 
     def closed_value(self, joint: str) -> float:
-        """The joint's value when closed [rad] or [m]; its input pose if it has no limit."""
+        """Return the joint's value when closed [rad] or [m]; its input pose if it has no limit."""
         found = self.movable[joint]
         ends = _limits(found)
         return 0.0 if ends is None or found.kind is JointKind.CONTINUOUS else ends[0]
 
     def joint(self, name: str) -> OpenableJoint:
-        """The openable joint of that name. Raises RegistryError listing those there are."""
+        """Return the openable joint of that name. Raises RegistryError listing those there are."""
         for joint in self.openable:
             if joint.name == name:
                 return joint
@@ -125,12 +125,12 @@ class RegisteredAsset:
         raise RegistryError(f"asset {self.id!r}: no joint {name!r} to open{why}; there are {names}")
 
     def narrowed(self, openable: tuple[OpenableJoint, ...]) -> RegisteredAsset:
-        """The same asset with fewer targets."""
+        """Return the same asset with fewer targets."""
         return replace(self, openable=openable)
 
 
 def read_registry(registry: str | Path) -> dict[str, RegisteredAsset]:
-    """Every asset in ``registry/assets``, by id, sorted.
+    """Return every asset in ``registry/assets``, by id, sorted.
 
     Raises:
         RegistryError: no registry there, nothing in it, or a manifest that cannot be read.
@@ -151,7 +151,7 @@ def read_registry(registry: str | Path) -> dict[str, RegisteredAsset]:
 def named(
     assets: dict[str, RegisteredAsset], ids: Sequence[str], registry: Path
 ) -> dict[str, RegisteredAsset]:
-    """Those of a registry's assets that have these ids, sorted; all if there are no ids.
+    """Return those of a registry's assets that have these ids, sorted; all if there are no ids.
 
     Raises:
         RegistryError: no such asset; names those there are.
@@ -233,7 +233,7 @@ def _holds(manifest: Manifest) -> dict[str, _Hold]:
 
 
 def _limits(joint: ManifestJoint) -> tuple[float, float] | None:
-    """A joint's ends [rad] or [m]; ``None`` if they are missing, infinite or swapped."""
+    """Return a joint's ends [rad] or [m]; ``None`` if they are missing, infinite or swapped."""
     if joint.kind is JointKind.CONTINUOUS:
         return 0.0, CONTINUOUS_RANGE
     ends = (joint.lower, joint.upper)
@@ -245,7 +245,7 @@ def _limits(joint: ManifestJoint) -> tuple[float, float] | None:
 def _openable(
     joint: ManifestJoint, joints: tuple[ManifestJoint, ...], holds: dict[str, _Hold]
 ) -> OpenableJoint | str:
-    """The joint as a target, or why it cannot be one."""
+    """Return the joint as a target, or why it cannot be one."""
     limits = _limits(joint)
     if limits is None:
         return f"its limits are [{joint.lower}, {joint.upper}], want finite ones, lower below upper"

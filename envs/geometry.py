@@ -19,7 +19,7 @@ STATIONS = 7
 
 
 def closed_values(asset: RegisteredAsset) -> dict[str, float]:
-    """The value of every movable joint of the closed object [rad] or [m]."""
+    """Return the value of every movable joint of the closed object [rad] or [m]."""
     return {name: asset.closed_value(name) for name in asset.movable}
 
 
@@ -75,7 +75,7 @@ def hull_boxes(
 
 
 def handle_path(asset: RegisteredAsset, joint: OpenableJoint, shares: FloatArray) -> FloatArray:
-    """The handle's path as the joint opens and all else is closed [m], shape [share, 3].
+    """Return the handle's path as the joint opens and all else is closed [m], shape [share, 3].
 
     The object stands on the ground.
     """

@@ -68,7 +68,7 @@ def load_asset(scene: Any, asset: RegisteredAsset, name: str, index: int) -> Any
 
 
 def build_ground(scene: Any) -> Any:
-    """A floor that carries robots; assets are fixed and may swing below it."""
+    """Return a floor that carries robots; assets are fixed and may swing below it."""
     from mani_skill.utils.building.ground import build_ground as build_plane
 
     ground = build_plane(scene)

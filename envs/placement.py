@@ -141,7 +141,7 @@ def find_place(
     start: float = 0.0,
     spread: float = 0.0,
 ) -> Place:
-    """The best place for a robot to move a joint from.
+    """Return the best place for a robot to move a joint from.
 
     A grid of places around the handle is searched for one from which the handle stays within
     comfortable reach, where the base is clear of the object and of whatever the joint swings, and
@@ -241,7 +241,7 @@ def _in_world(places: FloatArray, yaws: FloatArray, points: FloatArray) -> Float
 def _stretch(
     places: FloatArray, yaws: FloatArray, path: FloatArray, robot: RobotShape
 ) -> FloatArray:
-    """How far the path gets out of comfortable reach [m], shape [place]."""
+    """Return how far the path gets out of comfortable reach [m], shape [place]."""
     shoulders = _in_world(places, yaws, np.array([robot.shoulder]))
     offset = path[None] - shoulders
     lowered = np.clip(-offset[..., 2], 0.0, robot.lift)

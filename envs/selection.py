@@ -62,7 +62,7 @@ class Wanted:
                 raise ConfigError(f"{name} is {value!r}, want one of {', '.join(map(repr, known))}")
 
     def admits(self, joint: OpenableJoint) -> bool:
-        """Whether the joint passes, its name aside."""
+        """Return whether the joint passes, its name aside."""
         if self.joint_types and joint.kind not in self.joint_types:
             return False
         return joint.kind == "prismatic" or joint.lever >= self.min_lever
@@ -78,7 +78,7 @@ def verdicts_of(asset: RegisteredAsset) -> tuple[str, ...]:
 
 
 def select(assets: Assets, wanted: Wanted) -> Assets:
-    """The assets that pass every filter, each with the joints that do.
+    """Return the assets that pass every filter, each with the joints that do.
 
     Raises:
         RegistryError: there are none; says which filter left nothing and what there was before it.
@@ -137,7 +137,7 @@ def _with_joints(left: Assets, wanted: Wanted, assets: Assets) -> Assets:
 
 
 def _admitted(assets: Assets, wanted: Wanted, name: str | None = None) -> Assets:
-    """The assets that keep a joint, each with those that it keeps."""
+    """Return the assets that keep a joint, each with those that it keeps."""
     kept = {
         key: asset.narrowed(
             tuple(

@@ -55,7 +55,7 @@ THINNEST = 1e-3
 
 
 def described(asset: RegisteredAsset) -> ElementTree.Element:
-    """The asset's URDF as the stock code wants it, meshes by their full path.
+    """Return the asset's URDF as the stock code wants it, meshes by their full path.
 
     It opens every joint of a kind that has a visual called handle, closes all joints at their lower
     limit, and expects the front at -x.
@@ -251,7 +251,7 @@ def _corners(visuals: Iterable[ElementTree.Element]) -> Iterator[FloatArray]:
 
 
 def _asset_of(cabinet: str) -> str:
-    """The stock code names a cabinet by its id and the number of the environment."""
+    """Return the stock code names a cabinet by its id and the number of the environment."""
     return cabinet.rsplit("-", 1)[0]
 
 

@@ -99,7 +99,7 @@ class Targets:
         return self._allowed[env_idx, (draw * self.count[env_idx]).long()]
 
     def __getitem__(self, name: str) -> torch.Tensor:
-        """One property of the targets, shape [environment, ...]."""
+        """Return one property of the targets, shape [environment, ...]."""
         return self._now[name]
 
     def handle_pose(self) -> torch.Tensor:
@@ -118,7 +118,7 @@ class Targets:
         return link.pose.q, link.linear_velocity, link.angular_velocity
 
     def share(self, qpos: torch.Tensor) -> torch.Tensor:
-        """How far the targets are open, 0 to 1, shape [environment].
+        """Return how far the targets are open, 0 to 1, shape [environment].
 
         ``qpos`` is padded, shape [environment, dof].
         """
@@ -142,7 +142,7 @@ def turned(vectors: torch.Tensor, orientation: torch.Tensor) -> torch.Tensor:
 
 
 def named_slot(asset: RegisteredAsset, joint: str) -> int:
-    """Which candidate a joint is. Raises RegistryError listing those there are."""
+    """Return which candidate a joint is. Raises RegistryError listing those there are."""
     return asset.openable.index(asset.joint(joint))
 
 

@@ -89,12 +89,12 @@ class Joint:
 
     @property
     def movable(self) -> bool:
-        """Whether the joint has a degree of freedom."""
+        """Return whether the joint has a degree of freedom."""
         return self.kind is not JointKind.FIXED
 
     @property
     def turns(self) -> bool:
-        """Whether the joint's value is an angle."""
+        """Return whether the joint's value is an angle."""
         return self.kind in (JointKind.REVOLUTE, JointKind.CONTINUOUS)
 
     @property
@@ -177,18 +177,18 @@ class Articulation:
 
     @property
     def movable_joints(self) -> tuple[Joint, ...]:
-        """The joints with a degree of freedom, in tree order."""
+        """Return the joints with a degree of freedom, in tree order."""
         return tuple(joint for joint in self.joints if joint.movable)
 
     def joint(self, name: str) -> Joint:
-        """The joint of that name. Raises KeyError naming the ones there are."""
+        """Return the joint of that name. Raises KeyError naming the ones there are."""
         for candidate in self.joints:
             if candidate.name == name:
                 return candidate
         raise KeyError(f"no joint {name!r}; there are {[j.name for j in self.joints]}")
 
     def parent_joint(self, part: int) -> Joint | None:
-        """The joint that holds part ``part``; ``None`` for the root."""
+        """Return the joint that holds part ``part``; ``None`` for the root."""
         return None if part == 0 else self.joints[part - 1]
 
     def carried(self, part: int) -> tuple[int, ...]:
@@ -205,7 +205,7 @@ class Articulation:
         return np.zeros(3) if joint is None else joint.origin
 
     def part_mesh(self, part: int) -> Mesh:
-        """The faces of one part, in the object frame at rest."""
+        """Return the faces of one part, in the object frame at rest."""
         return self.mesh.submesh(self.parts[part].faces)
 
     def poses(self, values: dict[str, float] | None = None) -> FloatArray:

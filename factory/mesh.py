@@ -13,7 +13,7 @@ IntArray = npt.NDArray[np.int64]
 
 
 def read_only(array: npt.ArrayLike, dtype: npt.DTypeLike = np.float64) -> npt.NDArray[np.generic]:
-    """A contiguous copy of ``array`` that nobody can edit in place."""
+    """Return a contiguous copy of ``array`` that nobody can edit in place."""
     copy = np.array(array, dtype=dtype, order="C", copy=True)
     copy.setflags(write=False)
     return copy
@@ -116,7 +116,7 @@ class Mesh:
     def from_triangles(
         cls, vertices: npt.ArrayLike, faces: npt.ArrayLike, material: Material | None = None
     ) -> Mesh:
-        """A mesh of one plain material; ``vertices`` [m] and ``faces`` as in the class."""
+        """Return a mesh of one plain material; ``vertices`` [m] and ``faces`` as in the class."""
         triangles = np.asarray(faces, dtype=np.int64).reshape(-1, 3)
         return cls(
             vertices=np.asarray(vertices, dtype=np.float64).reshape(-1, 3),
@@ -144,7 +144,7 @@ class Mesh:
         return float(np.linalg.norm(self.extents))
 
     def submesh(self, face_indices: npt.ArrayLike) -> Mesh:
-        """The given faces as a mesh of their own, unused vertices and materials dropped."""
+        """Return the given faces as a mesh of their own, unused vertices and materials dropped."""
         selected = np.asarray(face_indices, dtype=np.int64)
         faces = self.faces[selected]
         used, compact = np.unique(faces, return_inverse=True)
@@ -183,7 +183,7 @@ class Mesh:
 
 
 def concatenate(meshes: list[Mesh]) -> Mesh:
-    """One mesh of all faces of ``meshes``, in order; vertices are not welded across them.
+    """Return one mesh of all faces of ``meshes``, in order; vertices are not welded across them.
 
     Equal materials are shared; different materials of one name are told apart by a suffix.
     """
@@ -218,7 +218,7 @@ class _Gathered:
         self._reached: dict[str, int] = {}
 
     def index(self, material: Material) -> int:
-        """Where the material is among all."""
+        """Return where the material is among all."""
         if material not in self._index_of:
             # Thousands of one name would else count from one again and again.
             name = material.name

@@ -17,7 +17,7 @@ C = TypeVar("C")
 
 
 def preset_names() -> tuple[str, ...]:
-    """The presets that come with the package."""
+    """Return the presets that come with the package."""
     names = (entry.name for entry in _shipped().iterdir())
     return (
         "default",
@@ -30,7 +30,7 @@ def _shipped() -> Traversable:
 
 
 def load_config(preset: str) -> BuildConfig:
-    """The configuration of a preset.
+    """Return the configuration of a preset.
 
     Args:
         preset: ``default``, the name of a shipped preset, or the path of a TOML file.

@@ -17,7 +17,7 @@ ABSURD = 1e6
 
 
 def sensible(values: npt.ArrayLike) -> bool:
-    """Whether every number is finite and no larger than :data:`ABSURD`."""
+    """Return whether every number is finite and no larger than :data:`ABSURD`."""
     # NaN compares as false.
     return bool((np.abs(np.asarray(values, dtype=np.float64)) <= ABSURD).all())
 

@@ -221,7 +221,7 @@ def examine_here(path: Path, config: CheckConfig, *, native: bool = True) -> Exa
 
 
 def _unasked(description: Description, simulators: Sequence[str]) -> list[Finding]:
-    """A file that none of the engines asked for can read has not passed them."""
+    """Return a file that none of the engines asked for can read has not passed them."""
     from .simulators.catalog import SIMULATORS
 
     if not simulators or any(description.format in SIMULATORS[name].formats for name in simulators):

@@ -123,7 +123,7 @@ class MeasuredPenetration:
 
     @property
     def contacts(self) -> Iterator[MeasuredContact]:
-        """Every two parts that come near, at rest and along the joints."""
+        """Yield every two parts that come near, at rest and along the joints."""
         yield from self.rest
         yield from self.zero or ()
         for joint in self.joints:
@@ -136,7 +136,7 @@ class MeasuredPenetration:
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> MeasuredPenetration:
-        """The inverse of :meth:`to_dict`."""
+        """Return the inverse of :meth:`to_dict`."""
         zero = data["zero"]
         return cls(
             diagonal_m=data["diagonal_m"],
@@ -153,7 +153,7 @@ class MeasuredPenetration:
 
 
 def penetrations(measurements: Mapping[str, Any]) -> tuple[MeasuredPenetration, ...]:
-    """What was measured of each file of an asset.
+    """Return what was measured of each file of an asset.
 
     Args:
         measurements: of a report, by file and check.

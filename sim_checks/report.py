@@ -74,7 +74,7 @@ class Finding:
 
     @property
     def stopped(self) -> bool:
-        """Whether another try may say something else: a clock or somebody ended this one."""
+        """Return whether another try may say something else: a clock or somebody ended this one."""
         return self.cause in (KILLED, OUT_OF_TIME)
 
 
@@ -129,7 +129,7 @@ class Report:
 
     @property
     def hard(self) -> tuple[Finding, ...]:
-        """The findings that reject."""
+        """Return the findings that reject."""
         return tuple(f for f in self.findings if f.severity is Severity.HARD)
 
     @property
@@ -168,7 +168,7 @@ class Report:
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Report:
-        """The inverse of :meth:`to_dict`."""
+        """Return the inverse of :meth:`to_dict`."""
         findings = (Finding(**f) for f in data["findings"])
         disagreements = tuple(Disagreement(**d) for d in data.get("disagreements", ()))
         return cls(

@@ -104,7 +104,7 @@ class _HandTarget:
 
 
 def _command(arm: Any, pose: Any) -> tuple[npt.NDArray[np.float32], bool]:
-    """The hand controller's command for a pose, and whether one step is enough."""
+    """Return the hand controller's command for a pose, and whether one step is enough."""
     from scipy.spatial.transform import Rotation
 
     goal = Rotation.from_quat(pose.q, scalar_first=True)

@@ -120,14 +120,14 @@ class Taken:
 
     @property
     def judged(self) -> bool:
-        """Whether it says something of the joint."""
+        """Return whether it says something of the joint."""
         return self.reason not in UNJUDGED
 
 
 def make_shards(
     assets: Iterable[RegisteredAsset], seeds: Sequence[int], size: int
 ) -> tuple[Shard, ...]:
-    """Every joint of every asset with every seed, in files of at most ``size`` episodes.
+    """Return every joint of every asset with every seed, in files of at most ``size`` episodes.
 
     A file holds one asset, and further seeds come last: more assets, and more seeds of the same
     ones, leave full files as they are.

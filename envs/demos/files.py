@@ -47,7 +47,7 @@ def keep_episode(folder: Path, settings: Settings, taken: Taken, trajectory: Pat
 
 
 def kept_episode(folder: Path, settings: Settings, episode: Episode) -> Taken | None:
-    """An episode that was kept, unless nothing is known of it."""
+    """Return an episode that was kept, unless nothing is known of it."""
     key = episode.key(settings)
     try:
         taken = _taken(json.loads((folder / f"{key}.json").read_text(encoding="utf-8")), episode)

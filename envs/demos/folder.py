@@ -71,7 +71,7 @@ def _require_room(target: Path, settings: Settings, shards: Sequence[Shard]) -> 
 
 
 def _described(target: Path) -> Iterator[tuple[str, dict[str, Any]]]:
-    """What each shard in a folder says of itself, by name."""
+    """Yield what each shard in a folder says of itself, by name."""
     for path in sorted(target.glob("*.json")):
         with suppress(OSError, ValueError, LookupError, TypeError):
             data = json.loads(path.read_text(encoding="utf-8"))[OURS]

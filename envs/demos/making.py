@@ -108,7 +108,7 @@ class Making:
 
 
 def answered(outcome: Outcome[Taken], episode: Episode) -> Taken:
-    """What a child running :func:`~.recording.record` said, or how it failed.
+    """Return what a child running :func:`~.recording.record` said, or how it failed.
 
     Raises what the user got wrong.
     """

@@ -106,7 +106,7 @@ def _act(environment: Any, registry: str, attempt: Attempt, settings: Settings) 
 
 
 def _judged(taken: Taken, success: bool, info: dict[str, Any], settings: Settings) -> Taken:
-    """What the trajectory that was recorded is worth."""
+    """Return what the trajectory that was recorded is worth."""
     if bool(info["success"]) != success:
         raise RuntimeError(f"the recorder wrote success {info['success']}, the task said {success}")
     steps = int(info["elapsed_steps"])

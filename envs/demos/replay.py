@@ -48,7 +48,7 @@ def replay(arguments: Sequence[str]) -> None:
 
 
 def _without_registry(arguments: Sequence[str]) -> tuple[list[str], str | None]:
-    """The other arguments, and the registry if one is named."""
+    """Return the other arguments, and the registry if one is named."""
     rest: list[str] = []
     registry = None
     waiting = iter(arguments)

@@ -84,7 +84,7 @@ class Driver:
         return np.array(self._part.qpos, dtype=float)
 
     def share(self) -> float:
-        """How far the joint is open now."""
+        """Return how far the joint is open now."""
         return self.world.share(self.object_values())
 
     def send(self, goal: FloatArray) -> None:
@@ -107,7 +107,7 @@ class Driver:
 
     @property
     def overloaded(self) -> bool:
-        """Whether the arm has borne too much for a quarter of a second."""
+        """Return whether the arm has borne too much for a quarter of a second."""
         return sustained(self.loads[-WINDOW:]) > OVERLOAD
 
     def go(self, path: FloatArray, step: float = STEP_RAD) -> None:
@@ -214,7 +214,7 @@ class Driver:
         return np.array([4.0 * ahead, 4.0 * offset[2]])
 
     def _stepped(self, action: FloatArray) -> Any:
-        """One control step, with forces sampled at every simulator step.
+        """Return one control step, with forces sampled at every simulator step.
 
         The arm moves and stops within one control step.
         """
@@ -261,7 +261,7 @@ def sustained(forces: Sequence[float]) -> float:
 
 
 def _press(kind: str, motion: FloatArray, hand: FloatArray) -> FloatArray:
-    """How far beyond where it seems to be the hand is sent [m], shape [3]."""
+    """Return how far beyond where it seems to be the hand is sent [m], shape [3]."""
     if kind == "push":
         return np.asarray(PRESS * motion / max(float(np.linalg.norm(motion)), 1e-9))
     return np.asarray(PRESS_ON * hand[:3, 2]) if kind == "drag" else np.zeros(3)

@@ -65,7 +65,7 @@ class Grip:
 
 
 def grasps(world: RobotWorld, poses: FloatArray, seed: int = 0) -> list[Grip]:
-    """Every way to close the hand around a target narrow enough for it.
+    """Return every way to close the hand around a target narrow enough for it.
 
     ``poses`` are of the object's links.
     """
@@ -112,7 +112,7 @@ def pushes(world: RobotWorld, poses: FloatArray, seed: int = 0) -> list[Grip]:
 
 
 def drags(world: RobotWorld, poses: FloatArray, seed: int = 0) -> list[Grip]:
-    """Every way to press closed fingertips on a surface that slides along itself.
+    """Return every way to press closed fingertips on a surface that slides along itself.
 
     Friction takes the surface along.
     """
@@ -136,7 +136,7 @@ def drags(world: RobotWorld, poses: FloatArray, seed: int = 0) -> list[Grip]:
 
 
 def unobstructed(world: RobotWorld, grips: list[Grip], poses: FloatArray) -> list[Grip]:
-    """Those at which the hand itself hits nothing, there and on its way there.
+    """Return those at which the hand itself hits nothing, there and on its way there.
 
     Of those that differ only in their distance from the surface the closest stays.
     """
@@ -155,7 +155,7 @@ def unobstructed(world: RobotWorld, grips: list[Grip], poses: FloatArray) -> lis
 
 
 def _only_what_moves(world: RobotWorld, grips: list[Grip], poses: FloatArray) -> list[Grip]:
-    """Those whose fingers, pressed on, are in what moves and not in what stays."""
+    """Return those whose fingers, pressed on, are in what moves and not in what stays."""
     if not grips:
         return []
     hands = np.array([grip.hand for grip in grips])
@@ -264,7 +264,7 @@ def _spread(
 
 
 def _directions() -> FloatArray:
-    """The 26 directions to the neighbours of a cube among cubes, shape [26, 3]."""
+    """Return the 26 directions to the neighbours of a cube among cubes, shape [26, 3]."""
     steps = np.array([step for step in product((-1, 0, 1), repeat=3) if any(step)], dtype=float)
     return np.asarray(steps / np.linalg.norm(steps, axis=1)[:, None])
 

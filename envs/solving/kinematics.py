@@ -87,7 +87,7 @@ class Chain:
         return columns
 
     def line(self, link: int) -> tuple[int, ...]:
-        """The links that carry a link, from the root to itself."""
+        """Return the links that carry a link, from the root to itself."""
         above = []
         while link >= 0:
             above.append(link)
@@ -95,12 +95,12 @@ class Chain:
         return tuple(above[::-1])
 
     def depends(self, link: int, degrees: Sequence[int]) -> bool:
-        """Whether a link moves when any of some joint values does."""
+        """Return whether a link moves when any of some joint values does."""
         return any(self.degree[above] in degrees for above in self.line(link))
 
 
 def read_chain(articulation: Any) -> Chain:
-    """The chain of a SAPIEN articulation."""
+    """Return the chain of a SAPIEN articulation."""
     links = articulation.links
     index = {link.name: i for i, link in enumerate(links)}
     order = {joint.name: i for i, joint in enumerate(articulation.active_joints)}
@@ -179,7 +179,7 @@ def reach(
 
 
 def pose_error(poses: FloatArray, goals: FloatArray) -> FloatArray:
-    """The twist from poses to goals: a shift [m], then a turn [rad], shape [count, 6].
+    """Return the twist from poses to goals: a shift [m], then a turn [rad], shape [count, 6].
 
     Poses and goals have shape [count, 4, 4].
     """

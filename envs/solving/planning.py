@@ -63,7 +63,7 @@ class ArmPlan:
 def plans(
     world: RobotWorld, values: FloatArray, object_values: FloatArray, grips: list[Grip], seed: int
 ) -> list[ArmPlan]:
-    """What could be done with some grips, the most promising first.
+    """Return what could be done with some grips, the most promising first.
 
     Args:
         world: the episode.
@@ -212,7 +212,7 @@ def _ways(
 def _checked(
     world: RobotWorld, candidates: list[ArmPlan], object_values: FloatArray
 ) -> list[ArmPlan]:
-    """The best candidates that run into nothing, cut where they do."""
+    """Return the best candidates that run into nothing, cut where they do."""
     closed = world.object_poses(object_values)
     passed: list[ArmPlan] = []
     looked = _of_each_grip(candidates, 3)[:FINALISTS]

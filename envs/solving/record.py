@@ -58,7 +58,7 @@ class SolveRecord:
 
 
 def attempt_row(attempt: Attempt, tries: int) -> dict[str, Any]:
-    """An attempt as JSON data: what would be the same the next time, without the actions."""
+    """Return an attempt as JSON data: what would be the same the next time, without the actions."""
     return {
         "joint": attempt.joint,
         "robot": attempt.robot,

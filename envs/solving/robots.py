@@ -54,7 +54,7 @@ class Robot:
     def action(
         self, goal: FloatArray, now: FloatArray, gripper: float, drive: FloatArray
     ) -> FloatArray:
-        """What ``env.step`` takes.
+        """Return what ``env.step`` takes.
 
         Args:
             goal: values of :attr:`joints`.

@@ -47,7 +47,7 @@ class Balls:
         return Balls(self.points[keep], self.link[keep], self.radius[keep])
 
     def thinned(self, every: int) -> Balls:
-        """Every so manieth point."""
+        """Return every so manieth point."""
         return Balls(self.points[::every], self.link[::every], self.radius[::every])
 
 
@@ -105,7 +105,7 @@ class LinkHulls:
 
     @cached_property
     def _by_link(self) -> dict[int, tuple[tuple[Piece, ...], FloatArray]]:
-        """The pieces of every link that has some, and the box around them."""
+        """Return the pieces of every link that has some, and the box around them."""
         found = {}
         for link in sorted({piece.link for piece in self.pieces}):
             pieces = tuple(piece for piece in self.pieces if piece.link == link)
@@ -115,7 +115,7 @@ class LinkHulls:
 
 
 def _inside(points: FloatArray, box: FloatArray) -> np.ndarray[Any, np.dtype[np.bool_]]:
-    """Whether points, shape [point, 3], are in a box or nearly, shape [2, 3]."""
+    """Return whether points, shape [point, 3], are in a box or nearly, shape [2, 3]."""
     lower = box[0] - NEAR
     upper = box[1] + NEAR
     x, y, z = points.T
@@ -144,7 +144,7 @@ def robot_balls(articulation: Any, fingers: Sequence[int]) -> Balls:
 
 
 def object_pieces(articulation: Any) -> LinkHulls:
-    """The convex pieces of an object."""
+    """Return the convex pieces of an object."""
     return LinkHulls(
         tuple(
             _piece(i, mesh) for i, link in enumerate(articulation.links) for mesh in _meshes(link)

@@ -78,7 +78,7 @@ def solve_joint(
 
 
 def answered(outcome: Outcome[Attempt], task: SolveTask) -> Attempt:
-    """What a child running :func:`attempted` said, or how it failed.
+    """Return what a child running :func:`attempted` said, or how it failed.
 
     Raises what the user got wrong.
     """
@@ -113,7 +113,7 @@ def _require_there(registry: str | Path, asset_id: str, joint: str, robot: str) 
 
 
 def make_episodes(registry: str | Path, robot: str = "panda", **options: Any) -> Any:
-    """The environment that attempts are made in; ``options`` go to ``gymnasium.make``."""
+    """Return the environment that attempts are made in; ``options`` go to ``gymnasium.make``."""
     import gymnasium
 
     return gymnasium.make(
@@ -187,7 +187,7 @@ def _solve_in(
 def _try(
     environment: Any, blank: Attempt, avoided: frozenset[tuple[object, ...]]
 ) -> tuple[Attempt, tuple[tuple[object, ...], ...]]:
-    """One episode, and the grips it took."""
+    """Return one episode, and the grips it took."""
     from .driving import Driver, sustained
     from .strategy import act
     from .world import read_world

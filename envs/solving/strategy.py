@@ -112,7 +112,7 @@ class _Nothing:
 def _best(
     driver: Driver, seed: int, stage: int, avoided: Set[Key]
 ) -> tuple[ArmPlan, FloatArray] | _Nothing:
-    """The most promising plan with a free way to it."""
+    """Return the most promising plan with a free way to it."""
     world = driver.world
     poses = driver.world.object_poses(driver.object_values())
     found: list[ArmPlan] = []

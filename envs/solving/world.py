@@ -98,7 +98,7 @@ class RobotWorld:
         return np.asarray(self.object_chain.forward(values[None], self.object_root)[0])
 
     def share(self, values: FloatArray) -> float:
-        """How far the joint is open."""
+        """Return how far the joint is open."""
         return float(
             (values[self.degree] - self.joint.lower) / (self.joint.upper - self.joint.lower)
         )
@@ -110,7 +110,7 @@ class RobotWorld:
         return frame[:3, 3], frame[:3, 0]
 
     def hand(self, poses: FloatArray) -> FloatArray:
-        """The hand frame, shape [count, 4, 4], of link poses, shape [count, link, 4, 4]."""
+        """Return the hand frame, shape [count, 4, 4], of link poses, shape [count, link, 4, 4]."""
         hand = poses[:, self.tip].copy()
         hand[:, :3, :3] = hand[:, :3, :3] @ self.robot.turn
         return hand
@@ -124,7 +124,7 @@ class RobotWorld:
     def hits(
         self, values: FloatArray, object_poses: FloatArray, touching: bool = False
     ) -> BoolArray:
-        """Which configurations run into the object or the ground, shape [count].
+        """Return which configurations run into the object or the ground, shape [count].
 
         Args:
             values: of the robot's joints, shape [count, degree].
@@ -149,7 +149,7 @@ class RobotWorld:
 
 
 def read_world(task: Any) -> RobotWorld:
-    """The world of a task's running episode.
+    """Return the world of a task's running episode.
 
     Args:
         task: a :class:`~asset_factory.envs.tasks.joint_task.JointTask` after ``reset``, with one
@@ -196,7 +196,7 @@ def read_world(task: Any) -> RobotWorld:
 def read_targets(
     record: RegisteredAsset, joint: OpenableJoint, links: Sequence[str]
 ) -> tuple[GraspTarget, ...]:
-    """A joint's interaction targets, best first; its handle if it has none."""
+    """Return a joint's interaction targets, best first; its handle if it has none."""
     found = [
         GraspTarget(
             number,

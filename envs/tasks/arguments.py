@@ -52,7 +52,7 @@ def check_number(task: str, num_envs: int, sim_backend: str) -> bool:
 
 
 def words(value: str | Sequence[str] | None) -> tuple[str, ...]:
-    """One word, several or none, as several."""
+    """Return one word, several or none, as several."""
     return () if value is None else (value,) if isinstance(value, str) else tuple(value)
 
 
@@ -74,7 +74,7 @@ def common_types(task: str, asked: Sequence[str], known: Sequence[str]) -> tuple
 
 
 def check_range(task: str, name: str, bounds: tuple[float, float]) -> tuple[float, float]:
-    """The bounds of a random factor. Raises ConfigError unless ``0 <= lower <= upper``."""
+    """Return the bounds of a random factor. Raises ConfigError unless ``0 <= lower <= upper``."""
     lower, upper = (float(value) for value in bounds)
     if not 0.0 <= lower <= upper < float("inf"):
         raise ConfigError(
@@ -84,7 +84,7 @@ def check_range(task: str, name: str, bounds: tuple[float, float]) -> tuple[floa
 
 
 def check_share(task: str, name: str, value: float) -> float:
-    """A share of a joint's range. Raises ConfigError unless it lies between 0 and 1."""
+    """Return a share of a joint's range. Raises ConfigError unless it lies between 0 and 1."""
     if not 0.0 <= value <= 1.0:
         raise ConfigError(f"{task}: {name} is {value}, want a share of the joint's range, 0 to 1")
     return float(value)
@@ -113,12 +113,12 @@ def choose_renderer(
 
 
 def wants_pictures(obs_mode: str, render_mode: str | None) -> bool:
-    """Whether an environment has to be able to render."""
+    """Return whether an environment has to be able to render."""
     return obs_mode not in BLIND_MODES or render_mode is not None
 
 
 def no_renderer(task: str, obs_mode: str, render_mode: str | None, error: Exception) -> ConfigError:
-    """What to raise where SAPIEN found nothing to render with."""
+    """Return what to raise where SAPIEN found nothing to render with."""
     return ConfigError(
         f"{task}: {_picture_words(obs_mode, render_mode)} needs Vulkan, "
         f"and none was found ({error}); install a GPU driver, or Mesa's software Vulkan "

@@ -138,7 +138,7 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         return super().reset(seed=seed, options=options)  # type: ignore[no-any-return]
 
     def _acceptable(self, options: dict[str, Any]) -> dict[str, RegisteredAsset]:
-        """What the episode may be about."""
+        """Return what the episode may be about."""
         asset = options.get("asset")
         joint = options.get("joint")
         if asset is None and joint is None:

@@ -147,26 +147,26 @@ class JointTask(JointScene):
 
     @property
     def asset_record(self) -> RegisteredAsset | None:
-        """The asset of the first environment; ``None`` before the scene is built."""
+        """Return the asset of the first environment; ``None`` before the scene is built."""
         return self.assets[0] if self.assets else None
 
     @property
     def target(self) -> OpenableJoint:
-        """The target of the first environment."""
+        """Return the target of the first environment."""
         return self.assets[0].openable[int(self.targets.slot[0])]
 
     @property
     def place(self) -> Place | None:
-        """Where the robot of the first environment was put; ``None`` without one."""
+        """Return where the robot of the first environment was put; ``None`` without one."""
         return None if self.agent is None else self._places_of(torch.arange(1))[0]
 
     def handle_position(self) -> torch.Tensor:
-        """Where to hold, world frame [m], shape [environment, 3]."""
+        """Return where to hold, world frame [m], shape [environment, 3]."""
         pose = self.targets.handle_pose()
         return pose[:, :3] + turned(self.targets["point"], pose[:, 3:])
 
     def open_fraction(self) -> torch.Tensor:
-        """How far the targets are open: 0 closed, 1 fully open, shape [environment]."""
+        """Return how far the targets are open: 0 closed, 1 fully open, shape [environment]."""
         return self.targets.share(self.asset.get_qpos())
 
     def evaluate(self) -> dict[str, torch.Tensor]:
@@ -228,7 +228,7 @@ class JointTask(JointScene):
     def compute_normalized_dense_reward(
         self, obs: Any, action: torch.Tensor, info: dict[str, Any]
     ) -> torch.Tensor:
-        """The dense reward divided by its largest value."""
+        """Return the dense reward divided by its largest value."""
         return self.compute_dense_reward(obs, action, info) / MAX_REWARD
 
 
@@ -248,5 +248,5 @@ def _unflattened(flat: torch.Tensor, like: dict[str, Any]) -> dict[str, Any]:
 
 
 def _width(value: Any) -> int:
-    """How many numbers per environment a part of a state holds."""
+    """Return how many numbers per environment a part of a state holds."""
     return sum(map(_width, value.values())) if isinstance(value, dict) else int(value[0].numel())

@@ -44,7 +44,7 @@ def annotation_of(intake: Intake) -> Annotation | None:
 
 
 def annotated_articulator(intake: Intake, annotation: Annotation) -> AnnotatedArticulator:
-    """The articulator that believes an annotation of this input."""
+    """Return the articulator that believes an annotation of this input."""
     return AnnotatedArticulator(annotation, intake.transform, intake.source_faces, lenient=True)
 
 
@@ -161,7 +161,7 @@ class AnnotatedArticulator:
         return Draft(mesh, labels, tuple(names), tuple(joints), tuple(notes))
 
     def _usual_travel(self, mesh: Mesh, labels: IntArray, joint: AnnotatedJoint) -> float | None:
-        """How far a slide without limits goes, in input units; ``None`` if it has some."""
+        """Return how far a slide without limits goes, in input units; ``None`` if it has some."""
         faces = mesh.faces[labels == joint.child]
         absent = joint.lower is None and joint.upper is None
         if joint.kind != "prismatic" or not absent or not len(faces):
@@ -247,7 +247,7 @@ def _turn_then_slide(joint: AnnotatedJoint, carrier: int) -> tuple[AnnotatedJoin
 
 
 def _limit(value: float | None) -> float | None:
-    """A limit as annotated; one that nothing ever reaches is none."""
+    """Return a limit as annotated; one that nothing ever reaches is none."""
     return value if value is None or abs(value) <= ABSURD else float("inf") * np.sign(value)
 
 

@@ -13,10 +13,10 @@ class Articulator(Protocol):
 
     @property
     def name(self) -> str:
-        """How it is chosen on the command line."""
+        """Return how it is chosen on the command line."""
 
     def articulate(self, mesh: Mesh) -> Articulation:
-        """The mesh's kinematic tree.
+        """Return the mesh's kinematic tree.
 
         Args:
             mesh: the whole object, metres, z up.

@@ -52,14 +52,14 @@ ARTICULATORS: Mapping[str, ArticulatorEntry] = MappingProxyType(
 
 
 def entry_of(name: str) -> ArticulatorEntry:
-    """The articulator's line. Raises ConfigError naming those there are."""
+    """Return the articulator's line. Raises ConfigError naming those there are."""
     if name not in ARTICULATORS:
         raise ConfigError(f"no articulator {name!r}; there are {', '.join(ARTICULATORS)}")
     return ARTICULATORS[name]
 
 
 def choose(intake: Intake, config: BuildConfig) -> Articulator:
-    """The articulator that the configuration names, for one input.
+    """Return the articulator that the configuration names, for one input.
 
     Args:
         intake: the loaded input.

@@ -33,12 +33,12 @@ class Draft:
         object.__setattr__(self, "face_part", read_only(self.face_part, np.int64))
 
     def noting(self, *notes: str) -> Draft:
-        """The same draft with more notes."""
+        """Return the same draft with more notes."""
         return replace(self, notes=(*self.notes, *notes))
 
     @property
     def root(self) -> int:
-        """The part that no joint holds; only for one tree."""
+        """Return the part that no joint holds; only for one tree."""
         held = {joint.child for joint in self.joints}
         return next(part for part in range(len(self.names)) if part not in held)
 
@@ -54,7 +54,7 @@ class Draft:
         return poses
 
     def subtree(self, part: int) -> set[int]:
-        """The part and everything it carries; needs ordered joints."""
+        """Return the part and everything it carries; needs ordered joints."""
         carried = {part}
         for joint in self.joints:
             if joint.parent in carried:
@@ -63,7 +63,7 @@ class Draft:
 
 
 def ordered(draft: Draft, forest: bool) -> Draft:
-    """The draft with its joints in tree order, parents first.
+    """Return the draft with its joints in tree order, parents first.
 
     Args:
         draft: any joints.

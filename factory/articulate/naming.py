@@ -19,7 +19,7 @@ JOINT_SUFFIX: Mapping[JointKind, str] = MappingProxyType(
 
 
 def numbered(labels: Iterable[str]) -> list[str]:
-    """Each label with its number among those alike: ``door_0``, ``door_1``, ``lid_0``."""
+    """Return each label with its number among those alike: ``door_0``, ``door_1``, ``lid_0``."""
     count: Counter[str] = Counter()
     names = []
     for label in labels:

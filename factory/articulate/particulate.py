@@ -123,7 +123,7 @@ def _part_name(reading: Decoded, index: int) -> str:
 
 
 def _joint(motion: PredictedMotion, parent: int, child: int) -> AnnotatedJoint:
-    """One joint in the network's frame."""
+    """Return one joint in the network's frame."""
     slides_only = motion.kind is MotionClass.PRISMATIC
     axis = motion.axis
     slide = motion.slide_direction
@@ -155,7 +155,7 @@ def _part_confidence(found: Consensus, part: int) -> float:
 
 
 def _joint_confidence(found: Consensus, part: int) -> float:
-    """The weakest link: that its part exists, hangs where it does, and moves as it does."""
+    """Return the weakest link: that its part exists, hangs where it does, and moves as it does."""
     decoded = found.chosen.parts[part]
     hangs = 1.0 if decoded.parent_probability is None else decoded.parent_probability
     return min(_part_confidence(found, part), hangs, decoded.motion.margin)
@@ -207,12 +207,12 @@ def _sample_notes(found: Consensus) -> list[str]:
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> ParticulateArticulator:
-    """The same one for every input. Raises ConfigError, see :func:`load_articulator`."""
+    """Return the same one for every input. Raises ConfigError, see :func:`load_articulator`."""
     return load_articulator(config.particulate)
 
 
 def load_articulator(config: ParticulateConfig) -> ParticulateArticulator:
-    """The articulator with the weights that a configuration names.
+    """Return the articulator with the weights that a configuration names.
 
     The network of the job is asked where there is one (:mod:`..particulate.service`), else it is
     loaded here.

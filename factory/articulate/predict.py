@@ -18,7 +18,7 @@ from .standing import standing_readings
 
 
 def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
-    """What moves in one input, as JSON data: metres, radians, object frame (z up).
+    """Return what moves in one input, as JSON data: metres, radians, object frame (z up).
 
     Args:
         source: a mesh, URDF or MJCF file.
@@ -45,7 +45,7 @@ def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
 
 
 def outline(articulation: Articulation) -> dict[str, Any]:
-    """An articulation as JSON data, rounded to a nanometre."""
+    """Return an articulation as JSON data, rounded to a nanometre."""
     names = [part.name for part in articulation.parts]
     return {
         "articulator": articulation.articulator,

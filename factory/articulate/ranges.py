@@ -139,7 +139,7 @@ def without_still_joints(draft: Draft) -> Draft:
 
 
 def closed_at_lower(draft: Draft) -> Draft:
-    """Every joint with its lower limit closed; needs ordered joints and 0 within the limits.
+    """Return every joint with its lower limit closed; needs ordered joints and 0 within the limits.
 
     The input pose is taken as closed when it is at one end of the range, unless that is the upper
     one and the object is far smaller at the other. When it is inside, the end at which the whole
@@ -172,7 +172,7 @@ def closed_at_lower(draft: Draft) -> Draft:
 
 
 def _opens_downwards(draft: Draft, joint: Joint) -> tuple[bool | None, str]:
-    """Whether the upper limit is closed, ``None`` where nothing tells; and a note."""
+    """Return whether the upper limit is closed, ``None`` where nothing tells; and a note."""
     near = AT_END * joint.range
     if -joint.lower <= near:
         return False, ""
@@ -216,7 +216,7 @@ def _box_volume(draft: Draft, joint: Joint, value: float) -> float:
 
 
 def _posed(draft: Draft, poses: FloatArray) -> Mesh:
-    """The mesh with every part moved; vertices shared between parts are told apart."""
+    """Return the mesh with every part moved; vertices shared between parts are told apart."""
     mesh = draft.mesh
     part = np.repeat(draft.face_part[:, None], 3, axis=1)
     keys = np.stack([mesh.faces.ravel(), part.ravel()], axis=1)

@@ -16,12 +16,12 @@ class RigidArticulator:
     name = "rigid"
 
     def articulate(self, mesh: Mesh) -> Articulation:
-        """The whole mesh (metres, z up) as the one part ``base``. Never fails."""
+        """Return the whole mesh (metres, z up) as the one part ``base``. Never fails."""
         return rigid_articulation(mesh, self.name)
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> RigidArticulator:
-    """The same one for every input."""
+    """Return the same one for every input."""
     return RigidArticulator()
 
 

@@ -18,7 +18,7 @@ LEAST = {"driving": 0, "points": 1, "context_points": 1, "max_faces": 4, "sample
 
 
 def decode_rules(config: ParticulateConfig) -> DecodeRules:
-    """How a configuration wants answers read.
+    """Return how a configuration wants answers read.
 
     Raises:
         ConfigError: a setting that cannot be, and what can.

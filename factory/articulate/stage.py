@@ -43,7 +43,7 @@ ARTICULATE = Stage(
 
 
 def articulate(intake: Intake, config: BuildConfig) -> Articulation:
-    """The kinematic tree of a loaded input, asked anew.
+    """Return the kinematic tree of a loaded input, asked anew.
 
     Arguments and errors as for :func:`readings_of`.
     """
@@ -51,7 +51,7 @@ def articulate(intake: Intake, config: BuildConfig) -> Articulation:
 
 
 def readings_of(intake: Intake, config: BuildConfig) -> tuple[Articulation, ...]:
-    """The kinematic trees that a loaded input may have, the likeliest first; asked anew.
+    """Return the kinematic trees that a loaded input may have, the likeliest first; asked anew.
 
     Arguments and errors as for :func:`~.catalog.choose`; besides:
 

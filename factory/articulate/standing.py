@@ -23,7 +23,7 @@ SURE = 0.6
 def standing_readings(
     intake: Intake, origin: Source, stages: Stages
 ) -> tuple[Intake, tuple[Articulation, ...]]:
-    """An input and its readings; stood up, if it opens only so.
+    """Return an input and its readings; stood up, if it opens only so.
 
     Where nothing moves and nobody gave an up axis for this very input, it is read with the one
     that other files have up. If that shows several doors or drawers, it lay.
@@ -74,7 +74,7 @@ def _stood_up(
 
 
 def _panels(articulation: Articulation) -> list[float]:
-    """How sure each door or drawer is."""
+    """Return how sure each door or drawer is."""
     return [
         joint.confidence or 0.0
         for joint in articulation.movable_joints

@@ -75,7 +75,7 @@ def without_empty_leaves(draft: Draft) -> Draft:
 
 
 def _without(draft: Draft, gone: set[int]) -> Draft:
-    """The draft renumbered without parts that own no face and hang on no joint."""
+    """Return the draft renumbered without parts that own no face and hang on no joint."""
     kept = [part for part in range(len(draft.names)) if part not in gone]
     new = np.full(len(draft.names), -1)
     new[kept] = np.arange(len(kept))

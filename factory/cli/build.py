@@ -171,7 +171,7 @@ def wanted_inputs(command: Build) -> tuple[Path, ...]:
 
 
 def passed_over(command: Build) -> Iterator[str]:
-    """A sentence about links that lead out of the folders given, if there are any."""
+    """Yield a sentence about links that lead out of the folders given, if there are any."""
     from ..intake.discover import links_out
     from ..intake.mirror import mirror_of
 
@@ -184,7 +184,7 @@ def passed_over(command: Build) -> Iterator[str]:
 
 
 def idle_retries(command: Build) -> Iterator[str]:
-    """One sentence per retry reason that nothing in the registry has, with those it has."""
+    """Yield one sentence per retry reason that nothing in the registry has, with those it has."""
     from ..jobs.budget import ANY
 
     known = Registry(command.output).reasons() if command.retry_rejected else ()
@@ -224,7 +224,7 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
 
 
 def build_config(command: Build) -> BuildConfig:
-    """The configuration that the flags ask for."""
+    """Return the configuration that the flags ask for."""
     config = with_repairs(reading_config(command.reading), command.repairs)
     interior = config.solids.interior and command.interior
     return replace(
@@ -236,7 +236,7 @@ def build_config(command: Build) -> BuildConfig:
 
 
 def _kept(results: Iterable[Result], into: list[Result]) -> Iterator[Result]:
-    """The same results, kept for the summary of a job that may be interrupted."""
+    """Yield the same results, kept for the summary of a job that may be interrupted."""
     for result in results:
         into.append(result)
         yield result

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
+from importlib import import_module
 from typing import Annotated, Any, Union
 
 import tyro
@@ -18,7 +19,6 @@ from . import (
     check,
     demos,
     doctor,
-    evaluate,
     listing,
     nightly,
     predict,
@@ -26,7 +26,6 @@ from . import (
     report,
     show,
     solve,
-    train,
     view,
     weights,
 )
@@ -47,6 +46,10 @@ class Command:
     run: Callable[[Any], int]
 
 
+#: Modules of commands that teach: their package stands above this one and is found by its name.
+_evaluate = import_module("asset_factory.learn.commands.evaluate")
+_train = import_module("asset_factory.learn.commands.train")
+
 #: Every command, in the order of the help.
 COMMANDS = (
     Command("build", build.Build, build.run),
@@ -61,8 +64,8 @@ COMMANDS = (
     Command("solve", solve.Solve, solve.run),
     Command("weights", weights.WeightsCommand, weights.run),
     Command("demos", demos.Demos, demos.run),
-    Command("evaluate", evaluate.Evaluate, evaluate.run),
-    Command("train", train.Train, train.run),
+    Command("evaluate", _evaluate.Evaluate, _evaluate.run),
+    Command("train", _train.Train, _train.run),
     Command("doctor", doctor.Doctor, doctor.run),
 )
 
@@ -107,7 +110,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 
 def parse(arguments: Sequence[str] | None = None) -> tuple[Command, Any]:
-    """The command that is meant, and its flags. Wrong usage raises SystemExit(2)."""
+    """Return the command that is meant, and its flags. Wrong usage raises SystemExit(2)."""
     first = next(iter(sys.argv[1:] if arguments is None else arguments), "-")
     names = [command.name for command in COMMANDS]
     if not first.startswith("-") and first not in names:
@@ -134,7 +137,7 @@ def parse(arguments: Sequence[str] | None = None) -> tuple[Command, Any]:
 
 
 def _said_twice(arguments: Sequence[str]) -> str:
-    """A flag that is there twice, if one is and does not add up."""
+    """Return a flag that is there twice, if one is and does not add up."""
     said = [each.split("=")[0] for each in arguments if each.startswith("--")]
     twice = (flag for flag in said if said.count(flag) > 1)
     return next((flag for flag in twice if (arguments[0], flag) not in ADDING), "")

@@ -247,7 +247,7 @@ def print_weights(info: WeightsInfo) -> None:
 
 
 def terminal() -> Console:
-    """Where people look: standard output, as wide as it is."""
+    """Return where people look: standard output, as wide as it is."""
     console = Terminal()
     # A pipe or a log file has no width; a table squeezed into 80 columns there would cut the
     # reasons.

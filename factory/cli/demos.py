@@ -110,7 +110,7 @@ def run(command: Demos) -> int:
 
 
 def _settings(command: Demos) -> Settings:
-    """How all episodes are made. Raises ConfigError for what cannot be."""
+    """Return how all episodes are made. Raises ConfigError for what cannot be."""
     from asset_factory.envs.demos.episodes import Settings
 
     check_effort(command, ("per_joint", "shard_size", "workers", "tries"))

@@ -70,7 +70,7 @@ class EntryFilters:
     """Only those that PhysX takes on a GPU: up to 64 hulls a link, of 64 corners, of aspect 64."""
 
     def filters(self, **defaults: str) -> Filters:
-        """The same for the registry. Raises ConfigError for what no asset can be."""
+        """Return the same for the registry. Raises ConfigError for what no asset can be."""
         values = {
             **defaults,
             **{name: value for name, value in asdict(self).items() if isinstance(value, str)},

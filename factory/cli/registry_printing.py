@@ -20,7 +20,7 @@ _UNITS = ("B", "kB", "MB", "GB", "TB")
 
 
 def size(number: float) -> str:
-    """A number of bytes as people say it."""
+    """Return a number of bytes as people say it."""
     unit = 0
     while number >= 1000 and unit < len(_UNITS) - 1:
         number = number / 1000

@@ -112,7 +112,7 @@ def _require_sound(command: Solve) -> None:
 
 
 def _wanted(assets: dict[str, RegisteredAsset], command: Solve) -> dict[str, RegisteredAsset]:
-    """The assets that the flags name. Raises RegistryError naming those there are."""
+    """Return the assets that the flags name. Raises RegistryError naming those there are."""
     from asset_factory.envs.assets import listed, named
 
     wanted = named(assets, command.ids, command.output)

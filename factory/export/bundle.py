@@ -74,7 +74,7 @@ def export_bundle(
 
 
 def with_manifest_of(bundle: Bundle, asset: Asset, provenance: Provenance) -> Bundle:
-    """A bundle whose ``asset.json`` is written anew, of the same asset with other targets.
+    """Return a bundle whose ``asset.json`` is written anew, of the same asset with other targets.
 
     Args:
         bundle: all that descriptions and meshes say stays.

@@ -33,7 +33,7 @@ TOOLS = ("asset-factory", "coacd", "manifold3d", "numpy", "pillow", "scipy", "tr
 
 
 def manifest_of(layout: Layout, provenance: Provenance) -> Manifest:
-    """What ``asset.json`` says of an asset that was laid out in a folder."""
+    """Return what ``asset.json`` says of an asset that was laid out in a folder."""
     asset = layout.asset
     articulation = asset.articulation
     rest = _bounds(layout, {})
@@ -157,7 +157,7 @@ def _target(layout: Layout, target: Target) -> ManifestTarget:
 
 
 def _placement(layout: Layout, joint: Joint) -> ManifestPlacement | None:
-    """Where a robot's base may stand to open the joint at its best target."""
+    """Return where a robot's base may stand to open the joint at its best target."""
     target = next((each for each in layout.asset.targets if each.joint == joint.name), None)
     place = None if target is None else standing_place(layout.asset, joint, target)
     if place is None:

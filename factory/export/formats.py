@@ -37,7 +37,7 @@ class Format:
 
 
 def as_text(text: Callable[[Layout], str]) -> Callable[[Layout, Path], None]:
-    """A writer of what a function says of a layout."""
+    """Return a writer of what a function says of a layout."""
 
     def write(layout: Layout, file: Path) -> None:
         file.write_text(text(layout), encoding="utf-8", newline="\n")
@@ -55,7 +55,7 @@ FORMATS = (
 
 
 def formats_named(names: tuple[str, ...]) -> tuple[Format, ...]:
-    """Those formats, in the table's order, and URDF and MJCF, which the judge reads.
+    """Return those formats, in the table's order, and URDF and MJCF, which the judge reads.
 
     Raises:
         ConfigError: there is no such format, or what it needs is not installed.

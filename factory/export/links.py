@@ -96,7 +96,7 @@ def child_offset(articulation: Articulation, part: int) -> FloatArray:
 
 
 def safe_tensor(inertial: Inertial) -> FloatArray:
-    """The inertia tensor [kg m2], moved off the triangle inequality's limit by a millionth.
+    """Return the inertia tensor [kg m2], moved off the triangle inequality's limit by a millionth.
 
     In as many digits of its trace as are written of any number: products of inertia that cancel to
     nothing leave other last digits on every processor.

@@ -76,7 +76,7 @@ class ManifestJoint:
 
     @property
     def movable(self) -> bool:
-        """Whether it has a degree of freedom."""
+        """Return whether it has a degree of freedom."""
         return self.kind is not JointKind.FIXED
 
 
@@ -187,11 +187,11 @@ class Manifest:
 
     @property
     def movable(self) -> dict[str, ManifestJoint]:
-        """Every joint with a degree of freedom, by name."""
+        """Return every joint with a degree of freedom, by name."""
         return {joint.name: joint for joint in self.joints if joint.movable}
 
     def to_json(self) -> str:
-        """The file's text."""
+        """Return the file's text."""
         fields = asdict(self)
         if not self.invented:
             del fields["invented"]
@@ -199,7 +199,7 @@ class Manifest:
 
     @classmethod
     def from_json(cls, text: str | bytes) -> Manifest:
-        """The inverse of :meth:`to_json`.
+        """Return the inverse of :meth:`to_json`.
 
         Raises:
             ValueError: it is no manifest of this version; says why.

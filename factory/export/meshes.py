@@ -20,7 +20,7 @@ def hull_obj(hull: Hull, origin: FloatArray) -> str:
 
 
 def visual_obj(mesh: Mesh, origin: FloatArray, library: str, material: str) -> str:
-    """A mesh of one material as OBJ, with its texture coordinates and normals.
+    """Return a mesh of one material as OBJ, with its texture coordinates and normals.
 
     Args:
         mesh: in the object frame at rest [m].
@@ -48,7 +48,7 @@ def visual_obj(mesh: Mesh, origin: FloatArray, library: str, material: str) -> s
 
 
 def material_mtl(material: Material, name: str, texture: str | None) -> str:
-    """One material as MTL; ``texture`` is an image file beside it."""
+    """Return one material as MTL; ``texture`` is an image file beside it."""
     red, green, blue, alpha = material.color
     lines = [
         f"newmtl {name}",

@@ -34,7 +34,7 @@ Look = tuple[tuple[float, float, float, float], str | None]
 
 
 def mjcf_text(layout: Layout) -> str:
-    """The whole document; file names are relative to the bundle's folder."""
+    """Return the whole document; file names are relative to the bundle's folder."""
     root = Element("mujoco", model=layout.asset.name)
     SubElement(
         root,
@@ -115,7 +115,7 @@ def _mesh_asset(assets: ElementTree.Element, kind: str, file: str) -> None:
 
 
 def _display(color: tuple[float, float, float, float]) -> str:
-    """A linear colour as MuJoCo shows it: its renderer does not convert to sRGB."""
+    """Return a linear colour as MuJoCo shows it: its renderer does not convert to sRGB."""
     return vector([*srgb_of(color[:3]), color[3]], DECIMALS_UNIT)
 
 

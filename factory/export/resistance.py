@@ -89,7 +89,7 @@ def joint_resistances(asset: Asset) -> tuple[Resistance, ...]:
 
 
 def resistance_notes(asset: Asset, resistances: tuple[Resistance, ...]) -> tuple[str, ...]:
-    """Which stated friction and damping was lowered, a sentence each."""
+    """Return which stated friction and damping was lowered, a sentence each."""
     notes = []
     for joint, resistance in zip(asset.articulation.joints, resistances, strict=True):
         for word, stated, written in (
@@ -140,7 +140,7 @@ def _damping(joint: Joint, inertia: float, reach: float) -> float:
 
 
 def _beyond_reason(joint: Joint, most: float) -> bool:
-    """Whether nothing usable was stated: nothing, or a lock rather than a friction."""
+    """Return whether nothing usable was stated: nothing, or a lock rather than a friction."""
     return joint.friction is None or joint.friction > LOCKED * most
 
 

@@ -23,7 +23,7 @@ DRAKE = "http://drake.mit.edu"
 
 
 def sdf_text(layout: Layout) -> str:
-    """The whole document; file names are relative to the bundle's folder."""
+    """Return the whole document; file names are relative to the bundle's folder."""
     root = Element("sdf", {"version": "1.9", "xmlns:drake": DRAKE})
     name = layout.asset.name
     model = SubElement(root, "model", name=name, canonical_link=layout.links[0].name)
@@ -41,7 +41,7 @@ def sdf_text(layout: Layout) -> str:
 
 
 def _world_joint(layout: Layout) -> ElementTree.Element:
-    """What holds the asset in place, as a URDF's root link is held by who loads it."""
+    """Return what holds the asset in place, as a URDF's root link is held by who loads it."""
     joint = Element("joint", name="world_joint", type="fixed")
     SubElement(joint, "parent").text = "world"
     SubElement(joint, "child").text = layout.links[0].name

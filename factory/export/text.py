@@ -13,7 +13,7 @@ DECIMALS_UNIT = 6
 
 
 def number(value: float, decimals: int = DECIMALS) -> str:
-    """The shortest text that reads back as ``value`` rounded to ``decimals``."""
+    """Return the shortest text that reads back as ``value`` rounded to ``decimals``."""
     return repr(rounded(value, decimals)).removesuffix(".0")
 
 
@@ -36,6 +36,6 @@ def scientific(values: Iterable[float]) -> str:
 
 
 def xml_text(root: ElementTree.Element) -> str:
-    """An indented XML document with a final newline."""
+    """Return an indented XML document with a final newline."""
     ElementTree.indent(root)
     return f'<?xml version="1.0"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'

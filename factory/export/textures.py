@@ -29,7 +29,7 @@ class TextureFolder:
         self.notes: list[str] = []
 
     def file_name(self, material: Material) -> str | None:
-        """The PNG of ``material``, written on first use; ``None`` for a plain colour."""
+        """Return the PNG of ``material``, written on first use; ``None`` for a plain colour."""
         texture = material.texture
         if texture is None:
             return None
@@ -52,7 +52,7 @@ class TextureFolder:
 
 
 def png_bytes(texture: Texture) -> bytes:
-    """The image as an 8-bit PNG; a PNG that already is one keeps its bytes.
+    """Return the image as an 8-bit PNG; a PNG that already is one keeps its bytes.
 
     Raises:
         OSError, ValueError, SyntaxError: Pillow cannot decode it.

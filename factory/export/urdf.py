@@ -23,7 +23,7 @@ from .text import number, vector, xml_text
 
 
 def urdf_text(layout: Layout) -> str:
-    """The whole document; file names are relative to the bundle's folder."""
+    """Return the whole document; file names are relative to the bundle's folder."""
     root = Element("robot", name=layout.asset.name)
     for part in range(len(layout.links)):
         root.append(_link(layout, part))

@@ -198,7 +198,7 @@ def _joint(
 
 
 def _x_to(axis: FloatArray) -> Rotation:
-    """The shortest rotation that turns the x axis to ``axis``."""
+    """Return the shortest rotation that turns the x axis to ``axis``."""
     across = np.cross(X_AXIS, axis)
     sine = float(np.linalg.norm(across))
     if sine < 1e-9:
@@ -222,7 +222,7 @@ class _Looks:
         self._made: dict[tuple[object, str | None], UsdShade.Material] = {}
 
     def material(self, piece: VisualPiece) -> UsdShade.Material:
-        """How a piece looks."""
+        """Return how a piece looks."""
         texture = None if piece.texture is None else piece.texture.as_posix()
         key = (piece.material.color, texture)
         if key not in self._made:

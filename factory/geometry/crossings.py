@@ -68,7 +68,7 @@ class Raster:
 
     @classmethod
     def around(cls, mesh: Mesh, side: Side, pixels: int, margin: int = 1) -> Raster:
-        """A picture of the whole mesh.
+        """Return a picture of the whole mesh.
 
         Args:
             mesh: to be looked at.

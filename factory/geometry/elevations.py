@@ -37,7 +37,7 @@ class Elevation:
 
     @property
     def seen(self) -> BoolArray:
-        """Where there is anything."""
+        """Return where there is anything."""
         return self.face >= 0
 
     @cached_property
@@ -86,7 +86,7 @@ def elevation(mesh: Mesh, side: Side, pixels: int = PIXELS) -> Elevation:
 
 
 def nearest(mesh: Mesh, crossed: Crossings) -> Elevation:
-    """What is seen of a mesh whose crossings are known."""
+    """Return what is seen of a mesh whose crossings are known."""
     raster = crossed.raster
     shape = (raster.rows, raster.columns)
     first = crossed.first
@@ -102,7 +102,7 @@ def nearest(mesh: Mesh, crossed: Crossings) -> Elevation:
 
 @lru_cache(maxsize=2)
 def _pixels(texture: Texture) -> npt.NDArray[np.uint8]:
-    """A texture as it is shown, [rows, columns, 3]; kept, as every side asks for it."""
+    """Return a texture as it is shown, [rows, columns, 3]; kept, as every side asks for it."""
     from PIL import Image
 
     with Image.open(io.BytesIO(texture.data)) as opened:

@@ -14,7 +14,7 @@ UP = np.array([0.0, 0.0, 1.0])
 
 
 def posed(articulation: Articulation, values: Mapping[str, float]) -> Articulation:
-    """The object with its joints at other values, which become its new 0.
+    """Return the object with its joints at other values, which become its new 0.
 
     Args:
         articulation: any.
@@ -53,7 +53,7 @@ def closed(articulation: Articulation) -> Articulation:
 
 
 def turned(articulation: Articulation, yaw: float) -> Articulation:
-    """The whole object turned about the vertical through the origin by ``yaw`` [rad]."""
+    """Return the whole object turned about the vertical through the origin by ``yaw`` [rad]."""
     motion = np.eye(4)
     motion[:3, :3] = rotation_about(UP, yaw)
     joints = tuple(
@@ -64,7 +64,7 @@ def turned(articulation: Articulation, yaw: float) -> Articulation:
 
 
 def face_parts(articulation: Articulation) -> IntArray:
-    """Which part each face belongs to, shape [face_count]."""
+    """Return which part each face belongs to, shape [face_count]."""
     owner = np.zeros(len(articulation.mesh.faces), dtype=np.int64)
     for index, part in enumerate(articulation.parts):
         owner[part.faces] = index
@@ -85,7 +85,7 @@ def _joint(joint: Joint, poses: FloatArray, value: float) -> Joint:
 
 
 def _moved(mesh: Mesh, owner: IntArray, poses: FloatArray) -> Mesh:
-    """Every face moved with its part; vertices that several parts share are told apart."""
+    """Return every face moved with its part; vertices that several parts share are told apart."""
     key = owner[:, None] * len(mesh.vertices) + mesh.faces
     used, faces = np.unique(key, return_inverse=True)
     part, vertex = np.divmod(used, len(mesh.vertices))

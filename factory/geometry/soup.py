@@ -40,7 +40,7 @@ class Soup:
 def plain_soup(
     corners: FloatArray, *, normals: FloatArray | None = None, material: Material | None = None
 ) -> Soup:
-    """A soup of one material without texture; arrays as in :class:`Soup`."""
+    """Return a soup of one material without texture; arrays as in :class:`Soup`."""
     return Soup(
         corners=corners,
         uv=None,

@@ -14,7 +14,7 @@ def face_areas(mesh: Mesh) -> FloatArray:
 
 
 def ends_of(corners: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """The least and the greatest of what the three corners of every triangle have.
+    """Return the least and the greatest of what the three corners of every triangle have.
 
     Args:
         corners: shape [triangle_count, 3, ...]: positions, or heights above a plane.

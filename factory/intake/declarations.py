@@ -20,7 +20,7 @@ class _Unbuilt:
 
 
 def parse_xml(text: bytes, name: str) -> Element:
-    """The root element of an XML file, in whatever encoding it is written.
+    """Return the root element of an XML file, in whatever encoding it is written.
 
     Raises:
         InputRejected: ``unreadable``: it declares a document type, or is not well-formed; ``name``

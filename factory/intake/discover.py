@@ -50,7 +50,7 @@ def find_inputs(paths: Sequence[Path]) -> tuple[Path, ...]:
 
 
 def is_description(path: Path) -> bool:
-    """Whether a file is a URDF, or an MJCF by its root element."""
+    """Return whether a file is a URDF, or an MJCF by its root element."""
     suffix = path.suffix.lower()
     return suffix == ".urdf" or (suffix == ".xml" and _root_tag(path) == "mujoco")
 
@@ -100,7 +100,7 @@ def _inputs_below(folder: Path) -> Iterator[Path]:
 
 
 def _is_main_layer(path: Path) -> bool:
-    """Whether a USD layer is the one to begin with, by its name."""
+    """Return whether a USD layer is the one to begin with, by its name."""
     usual = path.stem in MAIN_LAYERS or path.stem == path.parent.name
     return is_usd(path) and usual
 

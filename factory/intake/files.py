@@ -53,7 +53,7 @@ class InputFiles:
         return digest_bytes("\n".join(self._digests).encode())
 
     def read(self, path: Path) -> bytes:
-        """The content of ``path``.
+        """Return the content of ``path``.
 
         Raises:
             InputRejected: ``too_large``, or ``unreadable`` if it is no regular file.
@@ -95,7 +95,7 @@ class InputFiles:
         )
 
     def find(self, reference: str, base: Path) -> Path:
-        """Where ``reference``, as written in a file in folder ``base``, leads.
+        """Return where ``reference``, as written in a file in folder ``base``, leads.
 
         Raises:
             InputRejected: ``external_reference`` if it leads outside the input's folder.
@@ -117,7 +117,7 @@ class InputFiles:
 
 
 def lies_below(path: Path, folder: Path) -> bool:
-    """Whether a path, every link in it followed, lies in ``folder``, a resolved path."""
+    """Return whether a path, every link in it followed, lies in ``folder``, a resolved path."""
     # Path.resolve raises at links in a circle.
     with suppress(OSError, ValueError):
         return Path(os.path.realpath(path)).is_relative_to(folder)
@@ -125,7 +125,7 @@ def lies_below(path: Path, folder: Path) -> bool:
 
 
 def is_there(path: Path) -> bool:
-    """Whether something is there; nothing has a name that no file can have."""
+    """Return whether something is there; nothing has a name that no file can have."""
     with suppress(OSError, ValueError):
         return path.exists()
     return False

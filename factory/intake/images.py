@@ -51,7 +51,7 @@ def load_texture(data: bytes, name: str, files: InputFiles) -> Texture | None:
 
 
 def encode_png(image: object) -> bytes:
-    """A Pillow image as PNG, the same bytes for the same pixels."""
+    """Return a Pillow image as PNG, the same bytes for the same pixels."""
     from PIL import Image
 
     if not isinstance(image, Image.Image):

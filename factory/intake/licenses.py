@@ -13,7 +13,7 @@ _LETTERS_SAID = 160
 
 
 def is_allowed(license: str | None, allowed: Sequence[str]) -> bool:
-    """Whether an input may be used; arguments as for :func:`require_allowed`."""
+    """Return whether an input may be used; arguments as for :func:`require_allowed`."""
     stated = _stated(license)
     if not allowed:
         return True

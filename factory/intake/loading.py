@@ -189,7 +189,7 @@ def _read(reader: Reader, path: Path, files: InputFiles) -> Soup:
 
 
 def _said(error: Exception) -> str:
-    """An error in words for a report, which holds no path of this machine."""
+    """Return an error in words for a report, which holds no path of this machine."""
     if isinstance(error, OSError) and error.strerror:
         return error.strerror
     if isinstance(error, json.JSONDecodeError):

@@ -27,7 +27,7 @@ _UNKNOWN = -1
 
 
 def local_inputs(places: Sequence[Path | str], output: Path) -> tuple[Path, ...]:
-    """Where inputs lie on this machine; what lies behind a URL is fetched first.
+    """Return where inputs lie on this machine; what lies behind a URL is fetched first.
 
     A copy that was cut off goes on with what is missing. Each file is put in place whole; what is
     gone from the URL goes here too.
@@ -43,7 +43,7 @@ def local_inputs(places: Sequence[Path | str], output: Path) -> tuple[Path, ...]
 
 
 def mirror_of(place: Path | str, output: Path) -> Path:
-    """Where a place's files lie, or will once they are fetched."""
+    """Return where a place's files lie, or will once they are fetched."""
     if isinstance(place, Path) or not is_url(place):
         return Path(place)
     parts = urlsplit(shown(place))
@@ -105,7 +105,7 @@ def _fetch(url: str, mirror: Path) -> None:
 def _listed(
     system: Any, path: str, root: str, *, single: bool
 ) -> Iterator[tuple[str, tuple[int, str]]]:
-    """Every file's name below the root, its size [bytes] and what changes with it."""
+    """Yield every file's name below the root, its size [bytes] and what changes with it."""
     stem = PurePosixPath(path).stem
     found = {}
     # Where there are no listings, a file may be there all the same.
@@ -137,7 +137,7 @@ def _copy(system: Any, path: str, target: Path, listed: int) -> None:
 
 
 def _known(folder: Path) -> dict[str, tuple[int, str]]:
-    """What was fetched before; the last line of a file counts, one that was cut does not."""
+    """Return what was fetched before; the last line of a file counts, one that was cut does not."""
     known = {}
     path = folder / _FETCHED
     for line in path.read_text(encoding="utf-8").splitlines() if path.is_file() else ():

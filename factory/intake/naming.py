@@ -20,7 +20,7 @@ def safe_name(path: Path) -> str:
 
 
 def full_name(path: Path) -> str:
-    """What :func:`safe_name` makes safe and short."""
+    """Return what :func:`safe_name` makes safe and short."""
     folder = path.absolute().parent.name
     return f"{folder}_{path.stem}" if path.stem.lower() in GENERIC_STEMS and folder else path.stem
 

@@ -24,7 +24,7 @@ UP_AXES = tuple(_ROTATIONS)
 
 
 def parse_up(text: str) -> str:
-    """An up axis in the form ``y`` or ``-z``; ``+Y`` and ``Y`` are understood too.
+    """Return an up axis in the form ``y`` or ``-z``; ``+Y`` and ``Y`` are understood too.
 
     Raises:
         ConfigError: it is none of the six.
@@ -36,5 +36,5 @@ def parse_up(text: str) -> str:
 
 
 def rotation_to_z_up(axis: str) -> FloatArray:
-    """The rotation that turns ``axis`` (as from :func:`parse_up`) to +Z, shape [3, 3]."""
+    """Return the rotation that turns ``axis`` (as from :func:`parse_up`) to +Z, shape [3, 3]."""
     return np.array(_ROTATIONS[axis], dtype=np.float64)

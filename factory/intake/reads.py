@@ -67,12 +67,12 @@ def recorded(source: Path) -> Iterator[Reads]:
 
 
 def unchanged(source: Path, reads: Mapping[str, str]) -> bool:
-    """Whether every file still is what it was, or still is not there."""
+    """Return whether every file still is what it was, or still is not there."""
     return all(digest_now(source, name) == digest for name, digest in reads.items())
 
 
 def digest_now(source: Path, name: str) -> str:
-    """What one file of an input is now.
+    """Return what one file of an input is now.
 
     Args:
         source: the input, which may itself be a link to anywhere.
@@ -82,7 +82,7 @@ def digest_now(source: Path, name: str) -> str:
 
 
 def leads_out(source: Path, name: str) -> bool:
-    """Whether a file of an input is a link to outside its folder; arguments as above."""
+    """Return whether a file of an input is a link to outside its folder; arguments as above."""
     if name == source.name:
         return False
     real = Path(os.path.realpath(source.parent / name))

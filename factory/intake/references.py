@@ -71,7 +71,7 @@ class References:
 
 
 def _real(path: Path) -> str:
-    """Where a path leads; empty for a name that no file can have."""
+    """Return where a path leads; empty for a name that no file can have."""
     with suppress(OSError, ValueError):
         return os.path.realpath(path)
     return ""

@@ -58,7 +58,7 @@ def read_sidecar(path: Path, files: InputFiles) -> Sidecar:
 
 
 def sidecar_paths(path: Path) -> tuple[Path, Path]:
-    """Where the sidecar of mesh file ``path`` may lie, the one that wins first."""
+    """Return where the sidecar of mesh file ``path`` may lie, the one that wins first."""
     return path.with_name(path.name + ".toml"), path.with_name(path.stem + ".toml")
 
 

@@ -63,7 +63,7 @@ class Scale:
 
 @cache
 def size_table() -> Mapping[str, Size]:
-    """The table in ``configs/categories.toml``, by canonical name and by alias.
+    """Return the table in ``configs/categories.toml``, by canonical name and by alias.
 
     Raises:
         ConfigError: an entry contradicts itself or a name appears twice.
@@ -98,14 +98,14 @@ def size_table() -> Mapping[str, Size]:
 
 
 def normalised(category: str) -> str:
-    """A category as the table would write it; its canonical name if the table knows it."""
+    """Return a category as the table would write it; its canonical name if the table knows it."""
     name = "_".join(re.findall(r"[a-z0-9]+", category.lower())) or category
     size = size_table().get(name)
     return size.category if size else name
 
 
 def guess_category(stem: str, folder: str = "") -> str | None:
-    """A category of the table named in a file stem, else at the end of its folder's name.
+    """Return a category of the table named in a file stem, else at the end of its folder's name.
 
     The longest match in words wins, then an exact word over the tail of one (``kitchencabinet``),
     then
@@ -143,7 +143,7 @@ def _match(words: list[str], parts: list[str]) -> int:
 
 
 def scale_by_size(extents: FloatArray, category: str | None) -> Scale:
-    """The factor that makes a mesh plausible in metres, by category if it is known.
+    """Return the factor that makes a mesh plausible in metres, by category if it is known.
 
     Args:
         extents: of the mesh, z up, input units, shape [3].

@@ -84,7 +84,7 @@ class Source:
         raise InputRejected("input_changed", message, value=float(MOST_READINGS), unit="readings")
 
     def with_up(self, up: str) -> Source:
-        """The same input, read with another axis up."""
+        """Return the same input, read with another axis up."""
         intake = replace(self.config.intake, up=up)
         return Source(self.path, replace(self.config, intake=intake), self.place)
 
@@ -95,7 +95,7 @@ class Source:
 
     @property
     def id(self) -> str:
-        """The same input has the same id anywhere, another one another.
+        """Return the same input has the same id anywhere, another one another.
 
         What was not read to its end has one from its name and its own bytes; where it has more
         files than one, one that is no asset's, for the same bytes with other files beside them may

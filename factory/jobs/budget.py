@@ -45,14 +45,14 @@ class Budget:
             raise ConfigError(f"longest time: is {self.max_s:g} s, want 0 or more")
 
     def wants_again(self, entry: Entry) -> bool:
-        """Whether a known input is built all the same, for what is said of it."""
+        """Return whether a known input is built all the same, for what is said of it."""
         return entry.status is not Status.PASSED and (
             entry.reason in self.retry or ANY in self.retry
         )
 
 
 def parse_since(text: str, now: float | None = None) -> float:
-    """A point in time [s since 1970].
+    """Return a point in time [s since 1970].
 
     Args:
         text: seconds ago (``3600``), a date or a time (``2026-11-21``, ``2026-11-21T18:00``, local
@@ -82,7 +82,7 @@ def parse_since(text: str, now: float | None = None) -> float:
 
 
 def modified_since(inputs: Iterable[Path], since: float) -> Iterator[Path]:
-    """Those whose own file was modified at that time or later [s since 1970]."""
+    """Yield those whose own file was modified at that time or later [s since 1970]."""
     for path in inputs:
         try:
             if path.stat().st_mtime >= since:

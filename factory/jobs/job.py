@@ -52,7 +52,7 @@ UNWRITABLE = FULL_OR_CLOSED | {errno.EACCES, errno.EPERM}
 
 
 def modules_for(config: BuildConfig) -> tuple[str, ...]:
-    """What every worker needs, and had better import only once."""
+    """Return what every worker needs, and had better import only once."""
     return (*COMMON_MODULES, *((SAPIEN_MODULE,) if "sapien" in config.simulators else ()))
 
 
@@ -142,7 +142,7 @@ class Job:
             yield from self._build(urgent + waiting)
 
     def _wants_again(self, entry: Entry) -> bool:
-        """Whether a known input is built all the same."""
+        """Return whether a known input is built all the same."""
         if self._budget.repair and entry.id not in self._sound and entry.id not in self._damaged:
             problems = verify(self._registry, (entry.id,))
             (self._damaged if problems else self._sound).add(entry.id)
@@ -184,7 +184,7 @@ class Job:
                     log.ended(self.state, len(self._built), self.left)
 
     def _network(self, waiting: Sequence[Probe], stack: ExitStack) -> Address | None:
-        """One network for all workers, if one of the inputs may ask it."""
+        """Return one network for all workers, if one of the inputs may ask it."""
         plain = any(probe.source.suffix.lower() not in DESCRIPTION_SUFFIXES for probe in waiting)
         learned = entry_of(self._config.articulator).asks_network
         asks = plain and learned and find_spec("torch") is not None
@@ -195,7 +195,7 @@ class Job:
     def _calls(
         self, waiting: list[Probe], staging: Path, network: Callable[[], Address | None]
     ) -> Iterator[Call]:
-        """What workers shall do, made as they ask for it."""
+        """Yield what workers shall do, made as they ask for it."""
         for number, seen in enumerate(waiting):
             held = claim(self._output / CLAIMS, seen.claim)
             if held is None:
@@ -245,7 +245,7 @@ class Job:
             yield self._meanwhile.pop(0)
 
     def _ended(self, call: Call, outcome: Outcome[Product | None], log: Log) -> Iterator[Result]:
-        """One call's outcome is registered, its claim given up."""
+        """Yield one call's outcome is registered, its claim given up."""
         begun = self._begun.pop(call.name)
         try:
             if outcome.failure is None and outcome.value is None:

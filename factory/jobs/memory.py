@@ -54,7 +54,7 @@ def _of_machine(proc: Path) -> Iterator[int]:
 
 
 def _of_groups(proc: Path, groups: Path) -> Iterator[int]:
-    """What each group above this process leaves: a group's limit holds for all below it."""
+    """Yield what each group above this process leaves: a group's limit holds for all below it."""
     lines: list[str] = []
     with suppress(OSError):
         lines = (proc / "self" / "cgroup").read_text().splitlines()

@@ -36,7 +36,7 @@ class PagesDrawn:
 
 
 def missing_library() -> str | None:
-    """What the report needs and is not installed, as a sentence."""
+    """Return what the report needs and is not installed, as a sentence."""
     for library in LIBRARIES:
         if find_spec(library) is None:
             return f"the report needs {library}: pip install 'asset-factory[build]'"

@@ -50,7 +50,7 @@ class Probe:
 
 
 def known_of(probes: Sequence[Probe], registry: Registry) -> Iterator[Entry | None]:
-    """The row of each, if the registry has one for exactly this."""
+    """Yield the row of each, if the registry has one for exactly this."""
     rows = registry.known_keys([key for probe in probes for key in (probe.key, probe.failure_key)])
     return (rows.get(probe.key) or rows.get(probe.failure_key) for probe in probes)
 
@@ -98,7 +98,7 @@ class Readings:
             write_json(path, sorted(reads))
 
     def _names(self, source: Path, digest: str) -> list[str]:
-        """Those noted; else those of an input that is a single file."""
+        """Return those noted; else those of an input that is a single file."""
         try:
             noted = json.loads(self._path(source, digest).read_text())
         except (OSError, ValueError):

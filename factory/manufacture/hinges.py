@@ -30,7 +30,7 @@ CROOKED = float(np.cos(np.radians(3.0)))
 
 
 def is_askew(axis: FloatArray) -> bool:
-    """Whether a unit axis is a little off a principal direction of the object frame."""
+    """Return whether a unit axis is a little off a principal direction of the object frame."""
     return STRAIGHT <= float(np.abs(axis).max()) < STRAIGHT_ALREADY
 
 
@@ -40,7 +40,7 @@ def is_crooked(axis: FloatArray) -> bool:
 
 
 def at_front_edge(articulation: Articulation, joint: Joint) -> Joint | None:
-    """The same hinge at the outermost edge of its part, on the side where it is.
+    """Return the same hinge at the outermost edge of its part, on the side where it is.
 
     About that edge every point of a flat door moves away from what is beside and behind it.
 
@@ -87,7 +87,7 @@ def _at_edge(
 
 
 def _along_axis(direction: FloatArray) -> FloatArray | None:
-    """The axis of the object frame that a direction goes along, if it does."""
+    """Return the axis of the object frame that a direction goes along, if it does."""
     length = float(np.linalg.norm(direction))
     longest = int(np.abs(direction).argmax())
     if abs(float(direction[longest])) <= ALIKE * length:

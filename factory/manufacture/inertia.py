@@ -59,7 +59,7 @@ _NOTHING = _Moments(0.0, np.zeros(3), np.zeros((3, 3)))
 def part_inertial(
     mesh: Mesh, hulls: Sequence[Hull], density: float, config: InertiaConfig
 ) -> Inertial:
-    """What a part weighs, and how that is distributed.
+    """Return what a part weighs, and how that is distributed.
 
     Closed components count with the volume they enclose, overlaps once, cavities (closed shells
     that face inwards inside another) not at all. Open sheets count with their area times
@@ -283,7 +283,7 @@ def _cavities(closed: list[tuple[FloatArray, IntArray]], signed: FloatArray) -> 
 
 
 def _encloses(component: tuple[FloatArray, IntArray], point: FloatArray) -> bool:
-    """Whether a closed surface winds around a point (Van Oosterom and Strackee 1983)."""
+    """Return whether a closed surface winds around a point (Van Oosterom and Strackee 1983)."""
     vertices, faces = component
     a, b, c = (vertices[faces[:, i]] - point for i in range(3))
     la, lb, lc = (np.linalg.norm(p, axis=1) for p in (a, b, c))

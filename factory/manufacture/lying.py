@@ -41,7 +41,7 @@ def lying_on(articulation: Articulation, joints: Collection[str]) -> dict[str, i
 
 
 def _nearest(points: FloatArray, others: dict[int, FloatArray], near: float) -> int | None:
-    """Which of some parts is the nearest of most points [m], shape [n, 3]."""
+    """Return which of some parts is the nearest of most points [m], shape [n, 3]."""
     if not others:
         return None
     distances = np.array([cKDTree(other).query(points)[0] for other in others.values()])

@@ -75,7 +75,7 @@ class Spare:
 
 
 def first_plan(articulation: Articulation, spare: Spare) -> Plan:
-    """How an object is made before anything is known of it."""
+    """Return how an object is made before anything is known of it."""
     faces = len(articulation.mesh.faces)
     if not spare.fronts or faces <= MANY_FACES:
         return Plan()
@@ -84,7 +84,7 @@ def first_plan(articulation: Articulation, spare: Spare) -> Plan:
 
 
 def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
-    """The same tree with the joints that a plan rehangs, mends, shortens or freezes."""
+    """Return the same tree with the joints that a plan rehangs, mends, shortens or freezes."""
     if plan.given_up:
         onto = lying_on(articulation, plan.given_up)
         articulation = welded(articulation, plan.given_up, onto)

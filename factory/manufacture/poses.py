@@ -14,7 +14,7 @@ MOST_QUARTERS = 2.0
 def relative_poses(
     articulation: Articulation, a: int, b: int, count: int, share: float = 1.0
 ) -> list[FloatArray]:
-    """Where part ``b`` is as seen from ``a``, [4, 4] each.
+    """Return where part ``b`` is as seen from ``a``, [4, 4] each.
 
     As modelled, closed, and along each joint between them.
 
@@ -43,7 +43,7 @@ def relative_poses(
 
 
 def joints_between(articulation: Articulation, a: int, b: int) -> list[Joint]:
-    """The joints that move one of two parts and not the other."""
+    """Return the joints that move one of two parts and not the other."""
     above_a, above_b = ({j.name for j in _joints_above(articulation, part)} for part in (a, b))
     between = above_a ^ above_b
     return [joint for joint in articulation.movable_joints if joint.name in between]
@@ -76,6 +76,6 @@ def jointed(articulation: Articulation, a: int, b: int) -> bool:
 
 
 def held_by(articulation: Articulation, part: int) -> int | None:
-    """The next part above one that has a body; ``None`` if there is none."""
+    """Return the next part above one that has a body; ``None`` if there is none."""
     holders = (joint.parent for joint in _joints_above(articulation, part))
     return next((part for part in holders if len(articulation.parts[part].faces)), None)

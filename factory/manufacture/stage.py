@@ -98,7 +98,7 @@ def _aims(plan: Plan, hulls: HullsConfig) -> list[tuple[int, float]]:
 
 
 def with_targets(asset: Asset, stages: Stages) -> Asset:
-    """The same asset with the places where each joint is best opened."""
+    """Return the same asset with the places where each joint is best opened."""
     shapes = contents((asset.articulation.mesh.vertices, asset.articulation.mesh.faces))
     moved = contents((asset.articulation.parts, asset.articulation.joints, asset.bodies))
     key = FINISH.key(stages.config, "targets", *shapes, *moved)

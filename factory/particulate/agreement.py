@@ -30,7 +30,7 @@ class Consensus:
 
 
 def consensus(readings: tuple[Decoded, ...], areas: npt.ArrayLike) -> Consensus:
-    """The reading that agrees most with the others on average, the first of equals.
+    """Return the reading that agrees most with the others on average, the first of equals.
 
     Args:
         readings: of one mesh, at least one.
@@ -81,7 +81,7 @@ def part_agreement(one: Decoded, other: Decoded, areas: FloatArray) -> FloatArra
 
 
 def _effective(reading: Decoded, part: int) -> PredictedMotion | None:
-    """The part's motion; the root's is not carried out."""
+    """Return the part's motion; the root's is not carried out."""
     return None if part == reading.root else reading.parts[part].motion
 
 

@@ -89,7 +89,7 @@ class Decoded:
 
     @property
     def root(self) -> int:
-        """The part without a parent."""
+        """Return the part without a parent."""
         children = {child for _, child in self.edges}
         return next(part for part in range(len(self.parts)) if part not in children)
 

@@ -27,7 +27,7 @@ class UnitBox:
 
     @classmethod
     def around(cls, points: npt.ArrayLike) -> UnitBox:
-        """The box of ``points``, shape [n, 3]; a single point gets the size 1."""
+        """Return the box of ``points``, shape [n, 3]; a single point gets the size 1."""
         cloud = np.asarray(points, dtype=np.float64)
         low = cloud.min(axis=0)
         high = cloud.max(axis=0)
@@ -39,7 +39,7 @@ class UnitBox:
         return np.asarray((np.asarray(points, dtype=np.float64) - self.center) / self.size)
 
     def then(self, inner: UnitBox) -> UnitBox:
-        """The one box that does what this one and then ``inner`` do."""
+        """Return the one box that does what this one and then ``inner`` do."""
         return UnitBox(self.center + self.size * inner.center, self.size * inner.size)
 
     @property

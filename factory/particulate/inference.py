@@ -23,7 +23,7 @@ class Network(Protocol):
     """Whatever answers for a cloud of points."""
 
     def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
-        """The answer for one cloud, all in the network's frame.
+        """Return the answer for one cloud, all in the network's frame.
 
         Args:
             cloud: to label.
@@ -44,7 +44,7 @@ def infer(
     seed: int,
     rules: DecodeRules,
 ) -> Consensus:
-    """What the network makes of a mesh.
+    """Return what the network makes of a mesh.
 
     Args:
         vertices: object frame, z up [m], shape [vertex_count, 3].

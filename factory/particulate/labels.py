@@ -122,7 +122,7 @@ def fused_components(surface: Surface, labels: IntArray, share: float) -> IntArr
 
 
 def _tiny(surface: Surface, labels: IntArray) -> BoolArray:
-    """Which labels are strays, shape [label_count]."""
+    """Return which labels are strays, shape [label_count]."""
     area = np.bincount(labels, weights=surface.areas)
     return np.asarray(area < TINY * area.sum())
 

@@ -85,7 +85,7 @@ class Model:
     def predict(
         self, cloud: PointCloud, *, driving: int | None = None, hypothesis: int = 0
     ) -> Prediction:
-        """What the network says about a cloud.
+        """Return what the network says about a cloud.
 
         Args:
             cloud: of any size.
@@ -110,7 +110,7 @@ class Model:
         return driven
 
     def decode(self, driven: Driven, cloud: PointCloud, *, hypothesis: int = 0) -> Prediction:
-        """What the network says about points, given what others told about the parts.
+        """Return what the network says about points, given what others told about the parts.
 
         Every point is answered for alone: more or fewer of them change nothing.
         """
@@ -203,7 +203,7 @@ class FeatureField:
     _encoder: Any = field(repr=False)
 
     def features(self, context: npt.ArrayLike, points: npt.ArrayLike) -> Float32Array:
-        """A feature for every point.
+        """Return a feature for every point.
 
         Args:
             context: a sample of the whole surface, any frame, shape [context_count, 3]; features
@@ -266,7 +266,7 @@ class Particulate:
             )
 
     def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
-        """The answer for one cloud, all in the network's frame.
+        """Return the answer for one cloud, all in the network's frame.
 
         Args:
             cloud: to label.
@@ -298,7 +298,7 @@ def load_model(
     device: str = "cpu",
     max_parts: int = 16,
 ) -> Model:
-    """A Part Articulation Transformer from a checkpoint; its tensors tell sizes and variant.
+    """Return a Part Articulation Transformer from a checkpoint; its tensors tell sizes and variant.
 
     Args:
         checkpoint: a safetensors, ``.pt`` or ``.ckpt`` file, or ``hf:owner/repository/file``.

@@ -61,7 +61,7 @@ class PredictedMotion:
 
 
 def read_motion(prediction: Prediction, part: int, part_ids: IntArray) -> PredictedMotion:
-    """The motion of one part that has points.
+    """Return the motion of one part that has points.
 
     Args:
         prediction: finite.
@@ -101,7 +101,7 @@ def read_motion(prediction: Prediction, part: int, part_ids: IntArray) -> Predic
 
 
 def unit(vector: npt.ArrayLike) -> FloatArray | None:
-    """The vector's direction; ``None`` if it has none."""
+    """Return the vector's direction; ``None`` if it has none."""
     given = np.asarray(vector, dtype=np.float64)
     length = float(np.linalg.norm(given))
     return given / length if length > LEAST_DIRECTION else None
@@ -143,7 +143,7 @@ def _axis(prediction: Prediction, part: int, part_ids: IntArray) -> Line | None:
 
 
 def votes_for(prediction: Prediction, part: int, part_ids: IntArray) -> FloatArray:
-    """Where each of a part's points thinks its axis is nearest, shape [vote_count, 3].
+    """Return where each of a part's points thinks its axis is nearest, shape [vote_count, 3].
 
     Raises:
         InputRejected: ``prediction_not_finite``.

@@ -73,7 +73,7 @@ class _Patches:
             heapq.heappush(queue, (self.area[kept], self.label[kept], kept))
 
     def owners(self) -> IntArray:
-        """The patch that each one is part of in the end, shape [patch_count]."""
+        """Return the patch that each one is part of in the end, shape [patch_count]."""
         owners = np.asarray(self.parent, dtype=np.int64)
         while not np.array_equal(owners, owners[owners]):
             owners = owners[owners]

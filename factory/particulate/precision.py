@@ -17,7 +17,7 @@ class Precision(StrEnum):
 
 
 def product_dtype(precision: Precision | str) -> Any:
-    """The torch type that ``precision`` means."""
+    """Return the torch type that ``precision`` means."""
     import torch
 
     return torch.bfloat16 if Precision(precision) is Precision.BFLOAT16 else torch.float32

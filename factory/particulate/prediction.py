@@ -24,12 +24,12 @@ class MotionClass(IntEnum):
 
     @property
     def turns(self) -> bool:
-        """Whether the part turns about an axis."""
+        """Return whether the part turns about an axis."""
         return self in (MotionClass.REVOLUTE, MotionClass.BOTH)
 
     @property
     def slides(self) -> bool:
-        """Whether the part slides along a direction."""
+        """Return whether the part slides along a direction."""
         return self in (MotionClass.PRISMATIC, MotionClass.BOTH)
 
 
@@ -37,7 +37,7 @@ class ClosestPoints(Protocol):
     """Where on its part's axis each point's nearest point lies, as the network sees it."""
 
     def __call__(self, part_ids: IntArray, rows: IntArray | None = None) -> Float32Array:
-        """The closest points, network frame, shape [row_count, 3].
+        """Return the closest points, network frame, shape [row_count, 3].
 
         Args:
             part_ids: the part of every point of the cloud, 0 to part_count - 1, shape
@@ -106,5 +106,5 @@ class Prediction:
 
     @property
     def part_count(self) -> int:
-        """How many parts there can be."""
+        """Return how many parts there can be."""
         return int(self.mask_logits.shape[1])

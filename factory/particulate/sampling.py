@@ -36,7 +36,7 @@ class Cloud:
     components: IntArray
 
     def inside(self, box: UnitBox) -> Cloud:
-        """The same cloud in the unit frame of a box."""
+        """Return the same cloud in the unit frame of a box."""
         return replace(self, points=box.inside(self.points))
 
 
@@ -59,7 +59,7 @@ class CloudSample:
 def sample(
     surface: Surface, points: int, context_points: int, most_covered: int, rng: np.random.Generator
 ) -> CloudSample:
-    """Both clouds of a surface, and the frame in which the network sees them.
+    """Return both clouds of a surface, and the frame in which the network sees them.
 
     Args:
         surface: object frame [m].

@@ -36,7 +36,7 @@ class SharpEdges:
 
 
 def sharp_edges(surface: Surface) -> SharpEdges:
-    """The edges where some two faces fold by more than 30 and less than 150 degrees."""
+    """Return the edges where some two faces fold by more than 30 and less than 150 degrees."""
     edges = surface.edges
     chosen = np.full(len(edges.ends), -1)
     other = np.full(len(edges.ends), -1)

@@ -46,7 +46,7 @@ class Edges:
 
     @property
     def counts(self) -> IntArray:
-        """How many faces lie along each edge, shape [edge_count]."""
+        """Return how many faces lie along each edge, shape [edge_count]."""
         return np.diff(self.first)
 
 
@@ -65,7 +65,7 @@ class Surface:
 
     @classmethod
     def of(cls, vertices: FloatArray, faces: IntArray) -> Surface:
-        """The surface of any triangles; each face keeps its index and its exact corners."""
+        """Return the surface of any triangles; each face keeps its index and its exact corners."""
         used = vertices[np.unique(faces)] if len(faces) else np.zeros((1, 3))
         low = used.min(axis=0)
         step = WELD_SHARE * max(
@@ -105,7 +105,7 @@ class Surface:
 
     @cached_property
     def edges(self) -> Edges:
-        """All edges of faces with three different corners."""
+        """Return all edges of faces with three different corners."""
         return _edges(self.faces, np.flatnonzero(has_three_corners(self.faces)))
 
     @cached_property
@@ -148,7 +148,7 @@ class Surface:
 
     @cached_property
     def reconstructed(self) -> bool:
-        """Whether the surface bends a little nearly everywhere, as nobody models it.
+        """Return whether the surface bends a little nearly everywhere, as nobody models it.
 
         Modelled surfaces are flat or turn sharply over most of the borders between their faces.
         """
@@ -178,7 +178,7 @@ def _edges(faces: IntArray, chosen: IntArray) -> Edges:
 
 
 def has_three_corners(faces: IntArray) -> BoolArray:
-    """Whether a face's corners are different vertices, shape [face_count]."""
+    """Return whether a face's corners are different vertices, shape [face_count]."""
     return np.asarray(
         (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0]),
         dtype=np.bool_,

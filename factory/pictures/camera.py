@@ -99,7 +99,7 @@ class Viewpoint:
         self.axes = np.stack([right, np.cross(backward, right), backward])
 
     def camera(self, width: int, height: int, *poses: Mapping[str, float]) -> Camera:
-        """The nearest camera that has all of the object in its picture.
+        """Return the nearest camera that has all of the object in its picture.
 
         Args:
             width: of the picture [pixels].
@@ -152,7 +152,7 @@ class Viewpoint:
 
 
 def _fitted(points: FloatArray, axes: FloatArray, width: int, height: int) -> Camera:
-    """The nearest camera of those directions that holds all points."""
+    """Return the nearest camera of those directions that holds all points."""
     spread = float(np.tan(HALF_FIELD))
     half = np.array([spread * width / height, spread]) * (1.0 - MARGIN)
     local = points @ axes.T

@@ -52,7 +52,7 @@ class Hits:
         )
 
     def copy(self) -> Hits:
-        """The same, to be changed."""
+        """Return the same, to be changed."""
         return Hits(*(getattr(self, name).copy() for name in self.__dataclass_fields__))
 
 
@@ -150,7 +150,7 @@ class Caster:
         known: Hits | None = None,
         moving: frozenset[int] | None = None,
     ) -> Hits:
-        """What the middle of every pixel meets.
+        """Return what the middle of every pixel meets.
 
         Args:
             camera: which picture.
@@ -172,7 +172,7 @@ class Caster:
         return hits
 
     def cast(self, camera: Camera, values: Mapping[str, float], pixels: FloatArray) -> Hits:
-        """What places in the picture meet, shape [count, 2]."""
+        """Return what places in the picture meet, shape [count, 2]."""
         poses = self.scene.poses(values)
         hits = Hits.none(len(pixels))
         directions = camera.rays(pixels)

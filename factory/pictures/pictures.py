@@ -64,7 +64,7 @@ class Fault:
 
 
 def pictures_of(scene: SceneGraph, fault: Fault | None = None) -> Pictures:
-    """All pictures of a scene: the same scene gives the same bytes.
+    """Return all pictures of a scene: the same scene gives the same bytes.
 
     Args:
         scene: what is shown.
@@ -86,7 +86,7 @@ def pictures_of(scene: SceneGraph, fault: Fault | None = None) -> Pictures:
 
 
 def _pointed(look: Coloring, view: Viewpoint, fault: Fault) -> Pixels:
-    """The pose in which something is wrong, the place marked."""
+    """Return the pose in which something is wrong, the place marked."""
     values = {**look.caster.scene.opened(0.0), **fault.values}
     camera = view.camera(WIDTH, HEIGHT, values)
     seen = still(look, camera, values)
@@ -94,7 +94,7 @@ def _pointed(look: Coloring, view: Viewpoint, fault: Fault) -> Pixels:
 
 
 def marked(pixels: Pixels, camera: Camera, point: tuple[float, ...]) -> Pixels:
-    """The picture with a red ring around a place, whatever lies before it."""
+    """Return the picture with a red ring around a place, whatever lies before it."""
     from PIL import Image, ImageDraw
 
     column, row, _ = camera.places(np.array([point]))[0]
@@ -110,12 +110,12 @@ def marked(pixels: Pixels, camera: Camera, point: tuple[float, ...]) -> Pixels:
 
 
 def still(look: Coloring, camera: Camera, values: Mapping[str, float]) -> Pixels:
-    """One picture of a pose, sRGB with alpha, shape [height, width, 4]."""
+    """Return one picture of a pose, sRGB with alpha, shape [height, width, 4]."""
     return shaded(look, camera, values, look.caster.see(camera, values))
 
 
 def frames(look: Coloring, camera: Camera, count: int) -> list[Pixels]:
-    """The object from closed to open; what does not move is cast and coloured once."""
+    """Return the object from closed to open; what does not move is cast and coloured once."""
     scene = look.caster.scene
     moving = _moving(scene)
     closed = scene.opened(0.0)
@@ -131,7 +131,7 @@ def frames(look: Coloring, camera: Camera, count: int) -> list[Pixels]:
 
 
 def tints_of(caster: Caster) -> dict[tuple[int, int], tuple[float, float, float]]:
-    """A colour for every surface, neighbours in the list far apart."""
+    """Return a colour for every surface, neighbours in the list far apart."""
     found = {}
     number = 0
     for index, link in caster.links.items():
@@ -144,7 +144,7 @@ def tints_of(caster: Caster) -> dict[tuple[int, int], tuple[float, float, float]
 
 
 def webp(pixels: Pixels) -> bytes:
-    """A still as a WebP file."""
+    """Return a still as a WebP file."""
     from PIL import Image
 
     buffer = io.BytesIO()

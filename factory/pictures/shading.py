@@ -74,7 +74,7 @@ def shaded(
     under: Painted | None = None,
     rays: int = RAYS,
 ) -> npt.NDArray[np.uint8]:
-    """The picture, sRGB with alpha, shape [height, width, 4].
+    """Return the picture, sRGB with alpha, shape [height, width, 4].
 
     Args:
         look: what was cast, and its colours.
@@ -103,7 +103,7 @@ def paint(
     under: Painted | None = None,
     rays: int = RAYS,
 ) -> Painted:
-    """The colours of all pixels; arguments as :func:`shaded` has them."""
+    """Return the colours of all pixels; arguments as :func:`shaded` has them."""
     shape = (camera.height, camera.width)
     ends, bends = (each.reshape(-1) for each in _borders(hits, shape))
     if under is None:
@@ -158,7 +158,7 @@ def _lit(
 
 
 def _light(camera: Camera, normal: FloatRows) -> FloatRows:
-    """How much light surfaces of those normals throw back; both sides alike."""
+    """Return how much light surfaces of those normals throw back; both sides alike."""
     axes = camera.axes.astype(np.float32)
     key = ((KEY / np.linalg.norm(KEY)) @ axes).astype(np.float32)
     backward, direct, height = np.stack([axes[2], key, _UP]) @ normal.T

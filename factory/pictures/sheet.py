@@ -32,7 +32,7 @@ class SheetCell:
 
 
 def contact_sheet(cells: Sequence[SheetCell]) -> bytes:
-    """A PNG of up to :data:`MOST` assets, in order: the same cells give the same bytes."""
+    """Return a PNG of up to :data:`MOST` assets, in order: the same cells give the same bytes."""
     shown = cells[:MOST]
     columns = max(1, min(COLUMNS, len(shown)))
     rows = max(1, -(-len(shown) // columns))
@@ -71,7 +71,7 @@ def _draw(
 
 
 def _font(size: int) -> ImageFont.ImageFont | ImageFont.FreeTypeFont:
-    """The font that comes with Pillow: the same letters everywhere."""
+    """Return the font that comes with Pillow: the same letters everywhere."""
     return ImageFont.load_default(size)
 
 

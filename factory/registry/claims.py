@@ -31,7 +31,7 @@ class Claim:
 
 
 def claim(folder: Path, name: str) -> Claim | None:
-    """The right to do the work of that name; ``None`` while somebody else has it.
+    """Return the right to do the work of that name; ``None`` while somebody else has it.
 
     Args:
         folder: that all jobs share; made if need be.

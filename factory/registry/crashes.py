@@ -24,7 +24,7 @@ _MOST_FRAMES = 30
 
 
 def crash_stage(registry: Registry, asset_id: str, outcome: Outcome[Product]) -> str:
-    """The stage in which an input died the last two times; empty if it did not.
+    """Return the stage in which an input died the last two times; empty if it did not.
 
     Args:
         registry: where an earlier death may be listed.
@@ -46,7 +46,7 @@ def sentence(outcome: Outcome[Product], stage: str) -> str:
 
 
 def crash_measurements(outcome: Outcome[Product]) -> dict[str, Any]:
-    """What the report says of a death: its stage, and the lines that led there."""
+    """Return what the report says of a death: its stage, and the lines that led there."""
     if not any(outcome.deaths):
         return {}
     return {_CRASH: {"stage": outcome.deaths[-1], "trace": list(trace(outcome.output))}}
@@ -65,7 +65,7 @@ def trace(output: str) -> tuple[str, ...]:
 
 
 def _earlier_stage(registry: Registry, asset_id: str) -> str:
-    """Where an earlier job's process died last; empty if it did not."""
+    """Return where an earlier job's process died last; empty if it did not."""
     entry = registry.find(asset_id)
     if entry is None or entry.reason not in (ONCE, ALWAYS):
         return ""

@@ -51,7 +51,7 @@ class DamagedDatabaseError(RegistryError):
 
 @contextmanager
 def connected(root: Path) -> Iterator[sqlite3.Connection]:
-    """The registry's database, closed afterwards; every statement is its own transaction.
+    """Yield the registry's database, closed afterwards; every statement is its own transaction.
 
     Raises:
         DamagedDatabaseError: it cannot be read; says what makes it anew.
@@ -89,7 +89,7 @@ def _is_full(root: Path) -> bool:
 
 @contextmanager
 def writing(root: Path) -> Iterator[sqlite3.Connection]:
-    """One transaction with the only right to write; undone if the body raises."""
+    """Yield one transaction with the only right to write; undone if the body raises."""
     with connected(root) as connection:
         connection.execute("BEGIN IMMEDIATE")
         try:
@@ -149,17 +149,17 @@ def _counted(row: str, by: int) -> str:
 
 
 def index_name(columns: tuple[str, ...]) -> str:
-    """What the index of some columns is called."""
+    """Return what the index of some columns is called."""
     return f"assets_by_{'_'.join(columns)}"
 
 
 def schema_version(connection: sqlite3.Connection) -> int:
-    """Which version of the tables there is; 0 for none."""
+    """Return which version of the tables there is; 0 for none."""
     return int(connection.execute("PRAGMA user_version").fetchone()[0])
 
 
 def damaged(root: Path, why: str) -> DamagedDatabaseError:
-    """What to say, and to do, about a database that cannot be read."""
+    """Return what to say, and to do, about a database that cannot be read."""
     remedy = f"`factory registry rebuild --output {root}` makes it anew from the folders"
     return DamagedDatabaseError(f"{root / DATABASE}: damaged ({why}); {remedy}")
 

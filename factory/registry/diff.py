@@ -23,7 +23,7 @@ class EntryChange:
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """What differs."""
+        """Return what differs."""
         names = (f.name for f in fields(Entry) if f.name not in IGNORED)
         return tuple(
             name for name in names if getattr(self.before, name) != getattr(self.after, name)
@@ -52,7 +52,7 @@ class Diff:
 
     @property
     def empty(self) -> bool:
-        """Whether nothing differs."""
+        """Return whether nothing differs."""
         return not (self.new or self.gone or self.newly_passed or self.newly_failed or self.changed)
 
     def to_dict(self) -> dict[str, Any]:

@@ -76,7 +76,7 @@ def lasting_data(entry: Entry) -> dict[str, Any]:
 
 
 def entry_from(data: object, *, tags: tuple[str, ...] = (), solved: str = "") -> Entry:
-    """The entry that :func:`lasting_data` described; fields that are missing are empty.
+    """Return the entry that :func:`lasting_data` described; fields that are missing are empty.
 
     Raises:
         ValueError: it is not one, or its id could not be a folder's name.
@@ -105,7 +105,7 @@ def entry_from(data: object, *, tags: tuple[str, ...] = (), solved: str = "") ->
 
 
 def is_id(text: str) -> bool:
-    """Whether a text can be an asset's id and its folder's name."""
+    """Return whether a text can be an asset's id and its folder's name."""
     return _ID.fullmatch(text) is not None
 
 

@@ -31,7 +31,7 @@ def all_ids(root: Path) -> list[str]:
 
 
 def records(root: Path, ids: Sequence[str]) -> Iterator[RegistryRow | RegistryError]:
-    """A record for each id, or what is wrong with its folder."""
+    """Yield a record for each id, or what is wrong with its folder."""
     for asset_id in ids:
         try:
             yield read_record(current_folder(root, asset_id), note_path(root, asset_id))
@@ -40,7 +40,7 @@ def records(root: Path, ids: Sequence[str]) -> Iterator[RegistryRow | RegistryEr
 
 
 def current_folder(root: Path, asset_id: str) -> Path:
-    """Where an asset lies: with those that passed, or with the others.
+    """Return where an asset lies: with those that passed, or with the others.
 
     It lies in both only if a process died between putting it in one and taking it out of the other:
         the newer counts,
@@ -53,7 +53,7 @@ def current_folder(root: Path, asset_id: str) -> Path:
 
 
 def read_record(folder: Path, note: Path) -> RegistryRow:
-    """The row of one folder.
+    """Return the row of one folder.
 
     Raises:
         RegistryError: its report cannot be read, or is of another asset or place.

@@ -39,7 +39,7 @@ def mend_rows(registry: Registry, problems: Iterable[Problem]) -> None:
 def settle(
     registry: Registry, problems: Iterable[Problem], *, final: bool = True
 ) -> dict[str, Settled]:
-    """What became of damaged assets, once all that can be made again was.
+    """Return what became of damaged assets, once all that can be made again was.
 
     What was added to a folder, and assets that still are not what was registered, are moved to
     ``withdrawn``: nobody takes them for assets any more, and nothing is lost.

@@ -7,7 +7,7 @@ MAX_PATH = 1024
 
 
 def is_safe_path(name: str) -> bool:
-    """Whether a path stays in the folder that it is put into, on every system.
+    """Return whether a path stays in the folder that it is put into, on every system.
 
     Relative, with ``/`` between its parts, none of them empty, ``.`` or ``..``; no backslash, colon
     or control character.

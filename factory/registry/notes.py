@@ -39,12 +39,12 @@ class Note:
 
 
 def fingerprint(files: dict[str, str]) -> str:
-    """One digest for all files of an asset, from their own."""
+    """Return one digest for all files of an asset, from their own."""
     return digest_bytes(json.dumps(files, sort_keys=True).encode())
 
 
 def note_path(root: Path, asset_id: str) -> Path:
-    """Where an asset's note lies."""
+    """Return where an asset's note lies."""
     return root / NOTES / f"{asset_id}.json"
 
 

@@ -70,7 +70,7 @@ class Product:
 
 
 def finished(origin: Source, intake: Intake, made: Made, stages: Stages) -> Product:
-    """The product of an input that became an asset, good or bad."""
+    """Return the product of an input that became an asset, good or bad."""
     asset = made.asset
     verdict = made.verdict
     entry = Entry(
@@ -127,7 +127,7 @@ def stopped(
 
 
 def without_asset(origin: Source, finding: Finding, status: Status) -> tuple[Entry, BuildReport]:
-    """The row and the report of an input of which there is nothing else to say."""
+    """Return the row and the report of an input of which there is nothing else to say."""
     finding = replace(finding, message=well_formed(finding.message))
     entry = Entry(
         id=origin.id,

@@ -68,7 +68,7 @@ def rebuild(root: Path) -> Rebuilt:
 
 
 def _usable(root: Path) -> bool:
-    """Whether the database can be corrected. Raises RegistryError for a newer program's."""
+    """Return whether the database can be corrected. Raises RegistryError for a newer program's."""
     if not (root / DATABASE).is_file():
         return False
     try:

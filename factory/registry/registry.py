@@ -60,7 +60,7 @@ class Registry:
 
     @property
     def notes(self) -> Path:
-        """What was said of assets after they were registered."""
+        """Return what was said of assets after they were registered."""
         return self.root / NOTES
 
     @property
@@ -69,7 +69,7 @@ class Registry:
         return self.root / STAGING
 
     def staging_folder(self) -> AbstractContextManager[Path]:
-        """A fresh folder to build in; whatever is still in it afterwards is removed.
+        """Return a fresh folder to build in; whatever is still in it afterwards is removed.
 
         It is locked while the process lives, so that ``factory registry gc`` can tell what dead
         ones left.
@@ -184,34 +184,34 @@ class Registry:
     def select(
         self, filters: Filters, *, limit: int | None = None, after: str = ""
     ) -> tuple[Entry, ...]:
-        """What :meth:`entries` gives, with the filters as a value."""
+        """Return what :meth:`entries` gives, with the filters as a value."""
         with connected(self.root) as connection:
             return rows.select(connection, filters, limit=limit, after=after)
 
     def walk(self, filters: Filters | None = None) -> Iterator[Entry]:
-        """The same, one after the other, however many there are."""
+        """Yield the same, one after the other, however many there are."""
         after = ""
         while page := self.select(filters or Filters(), limit=_PAGE, after=after):
             yield from page
             after = page[-1].id
 
     def count(self, filters: Filters | None = None) -> int:
-        """How many rows pass."""
+        """Return how many rows pass."""
         with connected(self.root) as connection:
             return rows.count(connection, filters or Filters())
 
     def reasons(self) -> tuple[str, ...]:
-        """Every reason for which something did not pass, sorted."""
+        """Return every reason for which something did not pass, sorted."""
         with connected(self.root) as connection:
             return rows.reasons(connection)
 
     def find(self, asset_id: str) -> Entry | None:
-        """The row of that id, if there is one."""
+        """Return the row of that id, if there is one."""
         with connected(self.root) as connection:
             return rows.find(connection, "id", asset_id)
 
     def entry(self, asset_id: str) -> Entry:
-        """The row of that id. Raises RegistryError that names similar ids."""
+        """Return the row of that id. Raises RegistryError that names similar ids."""
         with connected(self.root) as connection:
             return self._entry(connection, asset_id)
 
@@ -220,7 +220,7 @@ class Registry:
         return self.known_keys((key,)).get(key)
 
     def known_keys(self, keys: Sequence[str]) -> dict[str, Entry]:
-        """The same for many keys at once, by key."""
+        """Return the same for many keys at once, by key."""
         with connected(self.root) as connection:
             found = {key: rows.find(connection, "key", key) for key in keys if key}
         return {
@@ -230,11 +230,11 @@ class Registry:
         }
 
     def folder(self, entry: Entry) -> Path:
-        """Where an entry's files lie."""
+        """Return where an entry's files lie."""
         return (self.assets if entry.status is Status.PASSED else self.rejected) / entry.id
 
     def report(self, entry: Entry) -> Report:
-        """The report an entry was judged by. Raises RegistryError if it is gone."""
+        """Return the report an entry was judged by. Raises RegistryError if it is gone."""
         for _ in range(_TRIES):
             try:
                 return read_report(self.folder(entry)).report
@@ -292,7 +292,7 @@ def _completed(entry: Entry, told: BuildReport, content: Path) -> Entry:
 
 
 def _same(content: Path, folder: Path, files: dict[str, str]) -> bool:
-    """Whether a folder already holds these very bytes."""
+    """Return whether a folder already holds these very bytes."""
     try:
         if (folder / REPORT).read_bytes() != (content / REPORT).read_bytes():
             return False

@@ -47,7 +47,7 @@ class StoredReport:
 
     @property
     def report(self) -> Report:
-        """What the judge said. Raises KeyError, TypeError or ValueError where it is none."""
+        """Return what the judge said. Raises KeyError, TypeError or ValueError where it is none."""
         return Report.from_dict(self.data)
 
     @property
@@ -57,17 +57,17 @@ class StoredReport:
 
     @property
     def entry(self) -> object:
-        """What the asset was registered as, JSON data. Raises KeyError where it has none."""
+        """Return what the asset was registered as, JSON data. Raises KeyError where it has none."""
         return self.data["entry"]
 
     @property
     def passed(self) -> bool:
-        """Whether it says that the asset passed."""
+        """Return whether it says that the asset passed."""
         return self.data.get("passed") is True
 
     @property
     def clean(self) -> bool:
-        """Whether it passed without any finding."""
+        """Return whether it passed without any finding."""
         return self.passed and self.data.get("findings") == []
 
     @property
@@ -80,7 +80,7 @@ class StoredReport:
 
     @property
     def repairs(self) -> tuple[str, ...]:
-        """What was repaired, a sentence each."""
+        """Return what was repaired, a sentence each."""
         return tuple(self.data.get("repairs", ()))
 
     @property
@@ -97,7 +97,7 @@ class StoredReport:
 
 
 def read_report(folder: Path) -> StoredReport:
-    """A folder's report. Raises RegistryError if it cannot be read."""
+    """Return a folder's report. Raises RegistryError if it cannot be read."""
     path = folder / REPORT
     try:
         if path.is_symlink() or path.stat().st_size > _MAX_BYTES:

@@ -54,7 +54,7 @@ class Filters:
     gpu_ready: str | None = None
 
     def query(self, *, after: str = "") -> tuple[str, list[str]]:
-        """What follows SELECT columns: the tables, the conditions, and their values."""
+        """Return what follows SELECT columns: the tables, the conditions, and their values."""
         asked = {
             item.name: getattr(self, item.name)
             for item in fields(self)
@@ -70,7 +70,7 @@ class Filters:
 
     @property
     def order(self) -> str:
-        """The column that the rows of :meth:`query` are found in the order of."""
+        """Return the column that the rows of :meth:`query` are found in the order of."""
         return "assets.id" if self.tag is None else "tags.id"
 
 
@@ -112,7 +112,7 @@ def delete(connection: sqlite3.Connection, asset_id: str) -> None:
 
 
 def find(connection: sqlite3.Connection, column: str, value: str) -> Entry | None:
-    """The first entry with that value in a column of the table."""
+    """Return the first entry with that value in a column of the table."""
     query = f"{_SELECT} FROM assets WHERE {column} = ? ORDER BY id LIMIT 1"
     row = connection.execute(query, (value,)).fetchone()
     return None if row is None else _entry(row)
@@ -137,7 +137,7 @@ def select(
 
 
 def count(connection: sqlite3.Connection, filters: Filters) -> int:
-    """How many entries pass."""
+    """Return how many entries pass."""
     if filters.tag is not None:
         query, values = filters.query()
         return int(connection.execute(f"SELECT count(*){query}", values).fetchone()[0])
@@ -173,7 +173,7 @@ def _entry(row: tuple[str | int | None, ...]) -> Entry:
 
 
 def reasons(connection: sqlite3.Connection) -> tuple[str, ...]:
-    """Every reason there is, sorted."""
+    """Return every reason there is, sorted."""
     found = connection.execute(
         "SELECT DISTINCT reason FROM assets WHERE reason != '' ORDER BY reason"
     )

@@ -17,7 +17,7 @@ _MAX_LINE = 1_000_000
 
 
 def entries_of(path: Path) -> tuple[Entry, ...]:
-    """Every entry of a registry or of an export, by id.
+    """Return every entry of a registry or of an export, by id.
 
     Args:
         path: a registry's folder; an export's folder, archive or ``entries.jsonl``.

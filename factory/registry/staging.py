@@ -28,7 +28,7 @@ def held_folder(parent: Path) -> Iterator[Path]:
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """The right to do what only one process may do at a time in a folder; waits for it."""
+    """Yield the right to do what only one process may do at a time in a folder; waits for it."""
     descriptor = os.open(folder, os.O_RDONLY)
     try:
         with suppress(OSError):

@@ -155,7 +155,7 @@ class _Sync:
 
 
 def _listed(system: Any, root: str) -> dict[str, dict[str, Any]]:
-    """Every file below a folder, read anew."""
+    """Return every file below a folder, read anew."""
     system.invalidate_cache()
     if not system.exists(root):
         return {}

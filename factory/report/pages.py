@@ -46,7 +46,7 @@ def script(data: Any) -> Markup:
 
 
 def trusted(text: str) -> Markup:
-    """A text of our own, put in as it is."""
+    """Return a text of our own, put in as it is."""
     from markupsafe import Markup
 
     return Markup(text)  # noqa: S704 - never an input's

@@ -36,7 +36,7 @@ class Summary:
     left: int = 0
 
     def count(self, status: Status) -> int:
-        """How many inputs ended so."""
+        """Return how many inputs ended so."""
         return sum(result.entry.status is status for result in self.results)
 
     def to_dict(self) -> dict[str, Any]:

@@ -45,6 +45,6 @@ class Stopwatch:
             self._within = within + seconds
 
     def timed(self, name: str, function: Callable[[], T]) -> T:
-        """What ``function`` returns; its time counts for ``name``, except stages within."""
+        """Return what ``function`` returns; its time counts for ``name``, except stages within."""
         with self.stage(name):
             return function()

@@ -50,14 +50,14 @@ class Stage:
     also: Callable[[Any], object] = nothing_else
 
     def key(self, config: object, *inputs: object) -> str:
-        """The name of the result of these inputs, see :func:`~.store.stage_key`."""
+        """Return the name of the result of these inputs, see :func:`~.store.stage_key`."""
         settings = {
             path: settings_of(reduce(getattr, path.split("."), config)) for path in self.settings
         }
         return stage_key(self.name, self.version, settings, self.identity(config), *inputs)
 
     def identity(self, config: object) -> list[object]:
-        """What would make another result of the same settings: versions, tables, code."""
+        """Return what would make another result of the same settings: versions, tables, code."""
         return [
             self.name,
             self.version,
@@ -85,7 +85,7 @@ def settings_of(value: object, *, without: tuple[str, ...] = (LIMIT, GATE)) -> A
 
 
 def limits_of(value: object) -> Any:
-    """The settings marked as limits, as JSON data; ``None`` where there are none."""
+    """Return the settings marked as limits, as JSON data; ``None`` where there are none."""
     if not is_dataclass(value):
         return None
     found = {
@@ -99,7 +99,7 @@ def limits_of(value: object) -> Any:
 
 @lru_cache(maxsize=64)
 def installed_version(distribution: str) -> str:
-    """A distribution's version; ``absent`` where it is not installed."""
+    """Return a distribution's version; ``absent`` where it is not installed."""
     try:
         return version(distribution)
     except PackageNotFoundError:

@@ -37,7 +37,7 @@ def contents(value: object) -> list[str | npt.NDArray[Any]]:
 
 
 def unpack(kind: type[T], arrays: Mapping[str, npt.NDArray[Any]]) -> T:
-    """The inverse of :func:`pack` for a value of type ``kind``.
+    """Return the inverse of :func:`pack` for a value of type ``kind``.
 
     Raises:
         ValueError: no such value was packed here.

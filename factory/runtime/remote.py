@@ -22,19 +22,19 @@ LOCAL: Final = "file"
 
 
 def is_url(text: str) -> bool:
-    """Whether a text is a URL, and no path."""
+    """Return whether a text is a URL, and no path."""
     return _URL.match(text) is not None
 
 
 def shown(url: str) -> str:
-    """A URL without what may be a secret: a name and a password, a query, a fragment."""
+    """Return a URL without what may be a secret: a name and a password, a query, a fragment."""
     scheme, _, rest = url.partition("://")
     place, slash, path = re.split(r"[?#]", rest, maxsplit=1)[0].partition("/")
     return f"{scheme}://{place.rpartition('@')[2]}{slash}{path}"
 
 
 def told(error: BaseException, url: str) -> str:
-    """What an error says, on one line, without the secrets of the URL that it is about."""
+    """Return what an error says, on one line, without the secrets of the URL that it is about."""
     text = " ".join(str(error).split()) or type(error).__name__
     # Longest first: a part of a secret must not spoil the rest of it.
     for secret in sorted(_secrets(url), key=len, reverse=True):
@@ -43,7 +43,7 @@ def told(error: BaseException, url: str) -> str:
 
 
 def located(url: str) -> tuple[Any, str]:
-    """The file system that a URL names, and the path there.
+    """Return the file system that a URL names, and the path there.
 
     Raises:
         ConfigError: fsspec, or what it needs for such URLs, is not installed; or there is no such
@@ -77,7 +77,7 @@ def stored_md5(details: dict[str, Any]) -> str:
 
 
 def version(details: dict[str, Any]) -> str:
-    """What changes with a remote file, as its listing says; empty where it says nothing."""
+    """Return what changes with a remote file, as its listing says; empty where it says nothing."""
     names = ("ETag", "etag", "md5Hash", "LastModified", "last_modified", "mtime", "created")
     return next((f"{name} {details[name]}" for name in names if details.get(name)), "")
 

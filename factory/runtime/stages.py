@@ -59,7 +59,7 @@ class Stages:
         make: Callable[[], T],
         worth: Callable[[T], bool] = always,
     ) -> T:
-        """What was kept under ``key``, else what ``make`` says, which is then kept.
+        """Return what was kept under ``key``, else what ``make`` says, which is then kept.
 
         Args:
             stage: its name.

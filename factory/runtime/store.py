@@ -40,7 +40,7 @@ def digest_file(path: Path) -> str:
 
 
 def stage_key(stage: str, version: int, *inputs: object) -> str:
-    """The name under which a stage's result is kept.
+    """Return the name under which a stage's result is kept.
 
     Args:
         stage: e.g. ``decompose``.
@@ -100,7 +100,7 @@ def write_whole(path: Path, data: bytes, *, lasting: bool = False) -> None:
 
 @contextmanager
 def writing(path: Path, *, lasting: bool = False) -> Iterator[BinaryIO]:
-    """A file that becomes ``path`` when the block ends well; for what is too large for bytes.
+    """Yield a file that becomes ``path`` when the block ends well; for what is too large for bytes.
 
     Everything else as in :func:`write_whole`.
     """

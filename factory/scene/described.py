@@ -30,7 +30,7 @@ PLAIN = ((0.62, 0.61, 0.58, 1.0), (0.30, 0.42, 0.55, 1.0), (0.55, 0.36, 0.28, 1.
 
 
 def scene_of_file(path: Path) -> SceneGraph:
-    """What a file shows.
+    """Return what a file shows.
 
     Args:
         path: a URDF, an MJCF, or a mesh in any format that is read; what it refers to lies in its
@@ -104,7 +104,7 @@ class _FileColors:
         link: int,
         plain: Color,
     ) -> list[SceneSurface]:
-        """A shape's triangles, by the materials that its file gives them."""
+        """Return a shape's triangles, by the materials that its file gives them."""
         visual = self._visual(file)
         if visual is None or visual.source_face_count != len(faces):
             return [plain_surface(link, vertices, faces, plain)]

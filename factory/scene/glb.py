@@ -27,7 +27,7 @@ REPLACED = 2
 
 
 def glb_of(scene: SceneGraph) -> bytes:
-    """The file's bytes: the same for the same scene."""
+    """Return the file's bytes: the same for the same scene."""
     writer = _Writer()
     shown = {"visuals": scene.visuals, "hulls": scene.hulls}
     if scene.replaced:
@@ -67,7 +67,7 @@ class _Writer(Buffer):
         self._material_of: dict[tuple[object, ...], int] = {}
 
     def material(self, surface: SceneSurface) -> int:
-        """The material of a surface; equal ones once."""
+        """Return the material of a surface; equal ones once."""
         key = (surface.color, surface.image)
         if key not in self._material_of:
             look: dict[str, Any] = {
@@ -93,7 +93,7 @@ class _Writer(Buffer):
         return self._image_of[image]
 
     def mesh(self, surfaces: list[SceneSurface]) -> int:
-        """A mesh of one primitive per surface."""
+        """Return a mesh of one primitive per surface."""
         primitives = []
         for surface in surfaces:
             attributes = {"POSITION": self.vertices(surface.vertices)}
@@ -140,7 +140,7 @@ def _local(joint: SceneJoint, value: float) -> tuple[list[float], list[float]]:
 
 
 def _animation(writer: _Writer, scene: SceneGraph, chains: list[list[int]]) -> dict[str, Any]:
-    """Every joint from closed to open and back."""
+    """Return every joint from closed to open and back."""
     times = np.linspace(0.0, SECONDS, KEYS, dtype=np.float32)
     amounts = 1.0 - np.abs(2.0 * times / SECONDS - 1.0)
     values = [scene.completed(scene.opened(float(amount))) for amount in amounts]

@@ -77,7 +77,7 @@ class Buffer:
         return len(self.accessors) - 1
 
     def glb(self, document: dict[str, Any]) -> bytes:
-        """The whole file: a document with this buffer."""
+        """Return the whole file: a document with this buffer."""
         self._pad()
         whole = {"asset": {"version": "2.0", "generator": GENERATOR}, **document}
         if self.data:
@@ -133,7 +133,7 @@ def primitive(
 def gltf_materials(
     buffer: Buffer, materials: tuple[Material, ...], images: tuple[bytes | None, ...]
 ) -> dict[str, Any]:
-    """The document's entries for materials, each with its PNG if it has one.
+    """Return the document's entries for materials, each with its PNG if it has one.
 
     Colours are linear, as glTF wants them. Equal images are embedded once.
     """

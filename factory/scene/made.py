@@ -78,14 +78,14 @@ def _replaced(asset: Asset, before: Asset) -> list[SceneSurface]:
 
 
 def scene_of_mesh(name: str, mesh: Mesh) -> SceneGraph:
-    """A mesh as an object of one link, nothing of which moves."""
+    """Return a mesh as an object of one link, nothing of which moves."""
     return SceneGraph(name, ("object",), (), tuple(surfaces_of(mesh, 0, np.zeros(3), {})))
 
 
 def surfaces_of(
     mesh: Mesh, link: int, frame: FloatArray, images: dict[Texture, bytes | None]
 ) -> list[SceneSurface]:
-    """One surface per material of a mesh [m].
+    """Return one surface per material of a mesh [m].
 
     Args:
         mesh: any.
@@ -108,7 +108,7 @@ def _surface(
     frame: FloatArray,
     images: dict[Texture, bytes | None],
 ) -> SceneSurface:
-    """A mesh of one material, its corners split only where normals or coordinates differ."""
+    """Return a mesh of one material, its corners split only where normals or coordinates differ."""
     image = None
     if material.texture is not None and mesh.corner_uv is not None:
         if material.texture not in images:

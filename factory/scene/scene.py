@@ -90,16 +90,16 @@ class SceneJoint:
 
     @property
     def moves(self) -> bool:
-        """Whether it has a degree of freedom."""
+        """Return whether it has a degree of freedom."""
         return self.kind != "fixed"
 
     @property
     def slides(self) -> bool:
-        """Whether its values are lengths."""
+        """Return whether its values are lengths."""
         return self.kind == "prismatic"
 
     def motion(self, value: float) -> FloatArray:
-        """What it adds to its origin at ``value`` [rad] or [m], shape [4, 4]."""
+        """Return what it adds to its origin at ``value`` [rad] or [m], shape [4, 4]."""
         pose = np.eye(4)
         if self.slides:
             pose[:3, 3] = value * self.axis
@@ -145,11 +145,11 @@ class SceneGraph:
 
     @cached_property
     def movable(self) -> tuple[SceneJoint, ...]:
-        """The joints with a degree of freedom, those that follow others included."""
+        """Return the joints with a degree of freedom, those that follow others included."""
         return tuple(joint for joint in self.joints if joint.moves)
 
     def completed(self, values: Mapping[str, float]) -> dict[str, float]:
-        """A value for every movable joint: as given, else by its leader, else 0."""
+        """Return a value for every movable joint: as given, else by its leader, else 0."""
         by_name = {joint.name: joint for joint in self.movable}
 
         def value(joint: SceneJoint, depth: int = 0) -> float:

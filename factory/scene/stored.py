@@ -25,7 +25,7 @@ _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
 
 def read_model(path: Path) -> bytes:
-    """The bytes of such a file.
+    """Return the bytes of such a file.
 
     Raises:
         OSError: it cannot be read.
@@ -41,7 +41,7 @@ def read_model(path: Path) -> bytes:
 
 
 def scene_from(data: bytes) -> SceneGraph:
-    """The scene of such a file's bytes. Raises ValueError."""
+    """Return the scene of such a file's bytes. Raises ValueError."""
     try:
         document, binary = _chunks(data)
         extras = document["extras"]

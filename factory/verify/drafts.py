@@ -44,17 +44,17 @@ class ReadingDraft:
 
     @property
     def passes(self) -> bool:
-        """Whether nothing rejects it so far."""
+        """Return whether nothing rejects it so far."""
         return self.inspected.reason is None
 
     @property
     def whole(self) -> bool:
-        """Whether it passes with every joint of its reading."""
+        """Return whether it passes with every joint of its reading."""
         return self.passes and not self.plan.frozen and not self.plan.given_up
 
 
 def work_of(asset: Asset) -> int:
-    """What it takes to make and inspect an asset once: hulls, and faces, that are moved.
+    """Return what it takes to make and inspect an asset once: hulls, and faces, that are moved.
 
     Counted from what it is, so that it is alike on every machine and with every cache. Each took
     3 to 23 ms of processor time.
@@ -64,7 +64,7 @@ def work_of(asset: Asset) -> int:
 
 
 def best_of(drafts: Iterable[ReadingDraft]) -> tuple[ReadingDraft, tuple[Finding, ...]]:
-    """The draft that becomes the asset, and what is said of the others.
+    """Return the draft that becomes the asset, and what is said of the others.
 
     The likeliest that passes with all its joints; else the likeliest that passes; else the
     likeliest. Those behind the first that passes whole are not made.

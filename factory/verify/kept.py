@@ -37,7 +37,7 @@ class Kept:
 
 
 def kept_of(reading: Articulation, made: Articulation, measured: Mapping[str, Any]) -> Kept:
-    """What is left.
+    """Return what is left.
 
     Args:
         reading: what was to be made.
@@ -58,7 +58,7 @@ def kept_of(reading: Articulation, made: Articulation, measured: Mapping[str, An
 
 
 def with_kept(verdict: Verdict, reading: Articulation, made: Articulation) -> Verdict:
-    """The same verdict, its report telling what is left."""
+    """Return the same verdict, its report telling what is left."""
     measurements = verdict.report.measurements
     kept = kept_of(reading, made, measurements.get("asset.urdf", {}))
     told = {**measurements, KEPT: kept.to_dict()}

@@ -43,14 +43,14 @@ GEOMETRY: frozenset[Repair] = frozenset(
 
 
 def allowed(repair: Repair, kinds: str) -> bool:
-    """Whether a repair is among those that were asked for, one of ``REPAIR_KINDS``."""
+    """Return whether a repair is among those that were asked for, one of ``REPAIR_KINDS``."""
     return kinds == "all" or (kinds == "geometry" and repair in GEOMETRY)
 
 
 def next_plan(
     verdict: Verdict, plan: Plan, config: RepairConfig, spare: Spare, asset: Asset | None = None
 ) -> Plan | None:
-    """What to change so that the asset becomes better, if anything can.
+    """Return what to change so that the asset becomes better, if anything can.
 
     Args:
         verdict: of the round just judged.

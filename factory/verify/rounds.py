@@ -107,7 +107,7 @@ class Rounds:
         return draft if draft is first else replace(draft, before=first.asset)
 
     def _lighter(self, draft: ReadingDraft) -> ReadingDraft:
-        """The same with fewer hulls, where it has too many and passes with those."""
+        """Return the same with fewer hulls, where it has too many and passes with those."""
         most = self.stages.config.hulls.most
         aim = most
         lightest = draft
@@ -127,7 +127,7 @@ class Rounds:
         return lightest
 
     def _next(self, verdict: Verdict, draft: ReadingDraft) -> Plan | None:
-        """What to do differently, if anything could help that is worth the work."""
+        """Return what to do differently, if anything could help that is worth the work."""
         config = self.stages.config.repair
         if draft.work > config.most_work:
             return None
@@ -142,7 +142,7 @@ class Rounds:
 
 
 def _said(verdict: Verdict) -> Verdict:
-    """The same verdict. Raises Unjudged: a clock or somebody stopped one who was to judge.
+    """Return the same verdict. Raises Unjudged: a clock or somebody stopped one who was to judge.
 
     What that one would have said is not known, so nothing is repaired or chosen by the rest.
     """

@@ -52,12 +52,12 @@ class Verdict:
 
     @property
     def status(self) -> Status:
-        """The report's."""
+        """Return the report's."""
         return self.report.status
 
     @property
     def reason(self) -> Finding | None:
-        """The first finding that rejects; ``None`` if it passed."""
+        """Return the first finding that rejects; ``None`` if it passed."""
         return self.report.hard[0] if self.report.hard else None
 
 
@@ -167,5 +167,5 @@ def _read_again(bundle: Bundle) -> Description | None:
 
 
 def _is_final(findings: tuple[Finding, ...]) -> bool:
-    """Whether the judge came to the end; else another try may say more."""
+    """Return whether the judge came to the end; else another try may say more."""
     return UNJUDGED_CODES.isdisjoint(finding.code for finding in findings)

@@ -84,7 +84,7 @@ class CauseEvidence:
 
 
 def likely_cause(evidence: CauseEvidence, rest_m: float, excess_m: float) -> Cause | None:
-    """What the numbers say, or nothing.
+    """Return what the numbers say, or nothing.
 
     Args:
         evidence: of one contact.

@@ -30,7 +30,7 @@ def combination_values(
 
 
 def _radical_inverse(index: int, base: int) -> float:
-    """The digits of ``index`` mirrored at the point, in [0, 1)."""
+    """Return the digits of ``index`` mirrored at the point, in [0, 1)."""
     value = 0.0
     scale = 1.0
     while index > 0:

@@ -101,7 +101,7 @@ def _remedy(held: HoldMotion, simulator: str, soft: bool) -> str:
 
 
 def _worst_of_each(findings: list[Finding]) -> Iterator[Finding]:
-    """One finding of each code and joint, the largest."""
+    """Yield one finding of each code and joint, the largest."""
     worst: dict[tuple[str, str | None], Finding] = {}
     for finding in findings:
         known = worst.setdefault((finding.code, finding.joint), finding)

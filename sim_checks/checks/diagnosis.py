@@ -138,7 +138,7 @@ class Diagnosis:
         )
 
     def _least_otherwise(self, course: JointCourse) -> float | None:
-        """The least worst excess among the other motions that can be tried [m]."""
+        """Return the least worst excess among the other motions that can be tried [m]."""
         motions = self._other_motions(course)
         return min(
             (replace(course, motion=item, located=False).run().excess for item in motions),

@@ -68,7 +68,7 @@ QUESTIONS = (
 def disagreements(
     findings: Sequence[Finding], measurements: Mapping[str, Any], simulators: Sequence[str]
 ) -> tuple[Disagreement, ...]:
-    """Every question that at least two simulators answered, and not alike.
+    """Return every question that at least two simulators answered, and not alike.
 
     Args:
         findings: of all checks on one asset.

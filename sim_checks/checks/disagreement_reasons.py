@@ -54,7 +54,7 @@ class EngineEvidence:
         return PASS
 
     def sweeps(self, joint: str | None) -> Iterator[Mapping[str, Any]]:
-        """What was measured along one joint's way."""
+        """Yield what was measured along one joint's way."""
         for sweep in self.measurements.get("penetration", {}).get("joints", ()):
             if sweep["joint"] == joint:
                 yield sweep
@@ -84,7 +84,7 @@ class Dispute:
 
     @property
     def failing(self) -> frozenset[str]:
-        """The others."""
+        """Return the others."""
         return frozenset(self.verdicts) - self.passing
 
     @property
@@ -234,7 +234,7 @@ def _across_a_slide(case: Dispute) -> str | None:
 
 
 def _is_across(case: Dispute, contact: Mapping[str, Any]) -> bool:
-    """Whether an overlap of a slide neither grows nor begins as it moves."""
+    """Return whether an overlap of a slide neither grows nor begins as it moves."""
     slides = any(sweep["unit"] == "m" for sweep in case.evidence.sweeps(case.joint))
     return slides and contact.get("excess_mm", 0.0) <= TOUCH_MM
 

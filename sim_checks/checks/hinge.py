@@ -56,7 +56,7 @@ def knuckles(
 
 
 def within(region: FloatArray, path: Path, radius: float) -> bool:
-    """Whether every point lies within ``radius`` [m] of the axis."""
+    """Return whether every point lies within ``radius`` [m] of the axis."""
     return bool(np.linalg.norm(path.orbit(region).radial, axis=1).max() <= radius)
 
 

@@ -46,12 +46,12 @@ class Rest:
 
     @cached_property
     def overlaps(self) -> Mapping[PartPair, HullOverlap]:
-        """How the solids of ``standings`` stand, by their indices."""
+        """Return how the solids of ``standings`` stand, by their indices."""
         return {(pair.first, pair.second): pair.overlap for pair in self.standings}
 
 
 def clear_until(course: JointCourse, failing: PairSweep) -> float:
-    """How far a joint goes from lower before such a pair fails [rad] or [m]; never too far.
+    """Return how far a joint goes from lower before such a pair fails [rad] or [m]; never too far.
 
     Found by halving.
 
@@ -102,7 +102,7 @@ class JointCourse:
     located: bool = True
 
     def run(self) -> JointSweep:
-        """The worst of every pair of parts along the way."""
+        """Return the worst of every pair of parts along the way."""
         start = self.rest.lower[self.joint.name]
         end = self.rest.upper[self.joint.name]
         found: dict[tuple[PartPair, PairKind], PairSweep] = {}
@@ -118,7 +118,7 @@ class JointCourse:
         return JointSweep(self.joint.name, self.joint.kind, start, end, ordered, looks)
 
     def path(self) -> Path:
-        """The motion of the joint by itself; the solids are placed where it starts."""
+        """Return the motion of the joint by itself; the solids are placed where it starts."""
         own = self.pairs.solids.path(self.joint, self._placed(), self._length)
         return own if self.motion is None else replace(self.motion, length=self._length)
 
@@ -132,7 +132,7 @@ class JointCourse:
         )
 
     def _groups(self) -> tuple[SolidGroup, ...]:
-        """The solids that are looked at, those that stand first."""
+        """Return the solids that are looked at, those that stand first."""
         groups = self.pairs.solids.groups(self.joint)
         if self.only is None:
             return groups
@@ -183,7 +183,7 @@ class _Encounter:
     frame: AnyPath | None
 
     def pairs(self) -> Iterator[tuple[tuple[PartPair, PairKind], PairSweep]]:
-        """The worst places, one or more for each pair of parts and kind."""
+        """Yield the worst places, one or more for each pair of parts and kind."""
         for (parts, kind), candidates in sorted(
             self._candidates().items(), key=lambda entry: entry[0]
         ):
@@ -242,7 +242,7 @@ class _Encounter:
         return PairSweep(parts, contact, float(worst.excess), float(worst.bound), at)
 
     def _still_knuckle(self, first: int, second: int, worst: Worst) -> bool:
-        """A knuckle stays within its radius and never gains more than it had."""
+        """Return a knuckle stays within its radius and never gains more than it had."""
         items = self.course.pairs.solids.items
         config = self.course.config
         path = self.sweep.path

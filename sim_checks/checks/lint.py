@@ -64,7 +64,7 @@ def check_lint(description: Description, config: LintConfig) -> CheckResult:
 
 
 def _downs(description: Description) -> dict[str, FloatArray]:
-    """Which way is down in each link's frame, with every joint at 0."""
+    """Return which way is down in each link's frame, with every joint at 0."""
     try:
         poses = build_tree(description).link_poses({})
     except NotATree:

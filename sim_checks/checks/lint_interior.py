@@ -202,7 +202,7 @@ def _points(
 
 
 def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull:
-    """The convex hull of the shapes' corners [m]; of many, the farthest out by direction.
+    """Return the convex hull of the shapes' corners [m]; of many, the farthest out by direction.
 
     These are taken where there are more than :data:`CORNERS`, in many directions.
 

@@ -80,7 +80,7 @@ def _size_findings(
 
 
 def _slip(length: float, diagonal: float, slides: bool) -> str:
-    """The likely reason for a range that is too long but would be fair in another unit."""
+    """Return the likely reason for a range that is too long but would be fair in another unit."""
     if slides:
         return (
             ": millimetres, most likely, where metres are meant"
@@ -182,7 +182,7 @@ def _gap(first: FloatArray, second: FloatArray) -> float:
 
 
 def _beside(point: FloatArray, axis: FloatArray, corners: FloatArray) -> float:
-    """How far a line passes beside the convex hull of points [m]; 0 if it goes through."""
+    """Return how far a line passes beside the convex hull of points [m]; 0 if it goes through."""
     first = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
     first /= np.linalg.norm(first)
     flat = (corners - point) @ np.column_stack([first, np.cross(axis, first)])

@@ -79,7 +79,7 @@ def _mesh_data(shape: DescribedShape) -> dict[str, Any]:
 
 
 def _worst_of_each_code(findings: list[Finding]) -> Iterator[Finding]:
-    """One finding per code: the worst, with the number of shapes that share it.
+    """Yield one finding per code: the worst, with the number of shapes that share it.
 
     A hundred hulls must not bury the rest.
     """
@@ -199,7 +199,7 @@ def _scale_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
 def _cover_findings(
     link: Link, hulls: list[CollisionHull], config: LintConfig
 ) -> tuple[list[Finding], dict[str, Any]]:
-    """How far the visible and the touchable surface are apart, both ways."""
+    """Return how far the visible and the touchable surface are apart, both ways."""
     generator = np.random.default_rng(0)
     visible = _sampled(link.visuals, DENSER * config.samples, generator)
     touchable = _sampled(link.collisions, config.samples, generator)
@@ -277,7 +277,7 @@ def _gap_finding(link: Link, words: str, gap: float, allowed: float) -> Finding:
 
 
 def _shift(low: FloatArray, high: FloatArray, hulls: list[CollisionHull]) -> float:
-    """How far the box of hulls is shifted against the visible box [m].
+    """Return how far the box of hulls is shifted against the visible box [m].
 
     Both ends of an axis must be moved the same way.
     """

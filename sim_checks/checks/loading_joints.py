@@ -55,7 +55,7 @@ def joint_findings(
 
 
 def joint_numbers(joint: LoadedJoint) -> dict[str, Any]:
-    """A joint as held, as JSON data."""
+    """Return a joint as held, as JSON data."""
     return {
         "joint": joint.name,
         "kind": joint.kind,
@@ -71,7 +71,7 @@ def joint_numbers(joint: LoadedJoint) -> dict[str, Any]:
 
 
 def listed(names: list[str]) -> str:
-    """A few names and the number of the others."""
+    """Return a few names and the number of the others."""
     more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
     return ", ".join(repr(name) for name in names[:MOST_NAMES]) + more
 
@@ -82,7 +82,7 @@ def rounded(value: float | None) -> float | None:
 
 
 def finite(value: float) -> float | None:
-    """The number, or ``None`` where it is none that can be written."""
+    """Return the number, or ``None`` where it is none that can be written."""
     return value if math.isfinite(value) else None
 
 

@@ -25,7 +25,7 @@ BOXED_STEPS = 32
 
 
 def open_neighbours(pairs: Pairs, rest: Rest, config: PenetrationConfig) -> tuple[BothOpen, ...]:
-    """The worst depth by pair of joints and parts, one joint moving with the other at upper.
+    """Return the worst depth by pair of joints and parts, one joint moving with the other at upper.
 
     Only joints that do not move the same part are asked, and only what the one moves against what
     the other does; what follows a joint moves with it. Pairs that stay apart are left out.
@@ -77,7 +77,7 @@ def _near(solids: Solids, rest: Rest) -> Iterator[tuple[JointLine, JointLine]]:
 
 
 def _independent(solids: Solids, joints: list[JointLine]) -> npt.NDArray[np.bool_]:
-    """Which joints carry nothing that another moves, itself or by a follower; symmetric."""
+    """Return which joints carry nothing that another moves, itself or by a follower; symmetric."""
     moves = np.zeros((len(joints), len(solids.tree.parts)), dtype=np.float32)
     for row, joint in enumerate(joints):
         moves[row, sorted(_parts(solids, joint))] = 1.0

@@ -68,7 +68,7 @@ class _OpeningOrder:
             self.needs.update(opened)
 
     def judged(self, name: str) -> JointSweep:
-        """One joint, once all is settled."""
+        """Return one joint, once all is settled."""
         first = self._swept(name, CLOSED)
         course = self.courses[name]
         if not self._failing(first):
@@ -136,7 +136,7 @@ class _OpeningOrder:
         return names.union(*(self.needs[name] for name in names))
 
     def _together(self, opened: Names) -> bool:
-        """Whether all of them open one after the other."""
+        """Return whether all of them open one after the other."""
         done = CLOSED
         while done != opened:
             ready = next(

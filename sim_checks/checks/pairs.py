@@ -25,7 +25,7 @@ class Pairs:
     knuckles: frozenset[PartPair] = frozenset()
 
     def kind(self, first: int, second: int) -> PairKind:
-        """How the pair is judged."""
+        """Return how the pair is judged."""
         links = frozenset((self.solids.items[first].link, self.solids.items[second].link))
         if links in self.excluded:
             return PairKind.EXCLUDED
@@ -36,7 +36,7 @@ class Pairs:
         )
 
     def parts(self, first: int, second: int) -> PartPair:
-        """The two parts, lower index first."""
+        """Return the two parts, lower index first."""
         a = self.solids.items[first].part
         b = self.solids.items[second].part
         return min(a, b), max(a, b)
@@ -51,7 +51,7 @@ class Pairs:
         *,
         located: bool = True,
     ) -> Contact:
-        """What there is to say of two solids as they are posed.
+        """Return what there is to say of two solids as they are posed.
 
         Args:
             first: index of a solid.
@@ -81,7 +81,7 @@ class Pairs:
     def worst(
         self, standings: Iterable[SolidPair], pose: Mapping[str, float]
     ) -> tuple[Contact, ...]:
-        """The deepest contact of every pair of parts and kind, in the order of parts."""
+        """Return the deepest contact of every pair of parts and kind, in the order of parts."""
         deepest: dict[tuple[PartPair, PairKind], SolidPair] = {}
         for pair in standings:
             key = self.parts(pair.first, pair.second), self.kind(pair.first, pair.second)

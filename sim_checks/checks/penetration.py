@@ -92,7 +92,7 @@ def _measured(
 def _knuckles(
     pairs: Pairs, rest: Rest, poses: Mapping[str, FloatArray], config: PenetrationConfig
 ) -> frozenset[PartPair]:
-    """Every pair of solids that is some hinge's knuckle at rest."""
+    """Return every pair of solids that is some hinge's knuckle at rest."""
     tree = pairs.solids.tree
     part_of = tree.part_of()
     overlapping: dict[PartPair, list[SolidPair]] = {}

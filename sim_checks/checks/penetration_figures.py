@@ -16,7 +16,7 @@ from .penetration_study import Contact, JointSweep, PairSweep, PenetrationStudy
 
 
 def unit_of(kind: str) -> str:
-    """The unit of a joint's values."""
+    """Return the unit of a joint's values."""
     return "m" if kind == "prismatic" else "rad"
 
 
@@ -26,7 +26,7 @@ def mm(metres: float) -> float:
 
 
 def _contact(contact: Contact) -> dict[str, Any]:
-    """The fields of a :class:`MeasuredContact`."""
+    """Return the fields of a :class:`MeasuredContact`."""
     return {
         "links": contact.links,
         "shapes": contact.shapes,
@@ -41,7 +41,7 @@ def _contact(contact: Contact) -> dict[str, Any]:
 
 
 def _pair(pair: PairSweep) -> dict[str, Any]:
-    """The fields of a :class:`MeasuredPair`."""
+    """Return the fields of a :class:`MeasuredPair`."""
     return {
         **_contact(pair.contact),
         "excess_mm": mm(pair.excess),
@@ -76,7 +76,7 @@ def _measured_joint(sweep: JointSweep) -> MeasuredJoint:
 
 
 def measured(study: PenetrationStudy) -> MeasuredPenetration:
-    """A study's figures as the report states them."""
+    """Return a study's figures as the report states them."""
     zero = study.zero
     return MeasuredPenetration(
         diagonal_m=round(study.diagonal, 6),

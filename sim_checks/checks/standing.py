@@ -79,7 +79,7 @@ class _RestingBody:
         self._near = self.floor + max(config.contact_m, config.contact_share * spread)
 
     def sunk(self, values: Mapping[str, float]) -> float:
-        """How far the lowest point is below the floor [m]."""
+        """Return how far the lowest point is below the floor [m]."""
         return max(0.0, self.floor - float(self._placed(values)[:, 2].min()))
 
     def stance(self, values: Mapping[str, float]) -> Stance:
@@ -205,7 +205,7 @@ def check_standing(description: Description, config: StandingConfig) -> CheckRes
 
 
 def _weighed(link: Link) -> bool:
-    """Whether a link's mass is known; one with nothing to touch may weigh nothing."""
+    """Return whether a link's mass is known; one with nothing to touch may weigh nothing."""
     inertia = link.inertia
     if inertia is None:
         return not link.collisions
@@ -230,7 +230,7 @@ def _joint_row(body: _RestingBody, joint: JointLine) -> dict[str, Any]:
 
 
 def _worst(body: _RestingBody, joint: JointLine) -> tuple[float, Stance]:
-    """Where in its range, others closed, a joint leaves the least margin.
+    """Return where in its range, others closed, a joint leaves the least margin.
 
     No footing at all is the worst.
     """
@@ -370,7 +370,7 @@ def _edges(points: FloatArray, thinnest: float) -> FloatArray | None:
 
 
 def _farthest(points: FloatArray, distances: FloatArray) -> FloatArray:
-    """The point with the greatest distance; of several, the highest."""
+    """Return the point with the greatest distance; of several, the highest."""
     far = points[distances >= distances.max() - SAME]
     point: FloatArray = far[int(np.argmax(far[:, 2]))]
     return point

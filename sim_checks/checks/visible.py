@@ -93,7 +93,7 @@ class Visible:
 
 
 def _surface(links: Sequence[Link], at_zero: Mapping[str, FloatArray]) -> VisibleSurface | None:
-    """One part's surface in its first link's frame."""
+    """Return one part's surface in its first link's frame."""
     vertices = []
     faces = []
     count = 0

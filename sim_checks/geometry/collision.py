@@ -42,7 +42,7 @@ class Collider:
 
     @property
     def hull(self) -> CollisionHull:
-        """The hull where it is placed."""
+        """Return the hull where it is placed."""
         if self._placed is None:
             self._placed = self.local.moved(self.pose)
         return self._placed
@@ -65,7 +65,7 @@ class Collider:
         self._object.setTransform(self._fcl.Transform(pose[:3, :3], pose[:3, 3]))
 
     def stand(self, other: Collider) -> HullOverlap:
-        """How the two placed hulls stand: exact depth, or a gap along a direction.
+        """Return how the two placed hulls stand: exact depth, or a gap along a direction.
 
         A positive gap is the distance between the two.
         """

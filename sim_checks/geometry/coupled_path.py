@@ -30,21 +30,21 @@ class CoupledPath:
 
     @cached_property
     def turning(self) -> bool:
-        """Whether anything turns."""
+        """Return whether anything turns."""
         return any(line.turning for line, _ in self.steps)
 
     def pose(self, at: float) -> FloatArray:
-        """The motion at ``at``, identity at 0; shape [4, 4]."""
+        """Return the motion at ``at``, identity at 0; shape [4, 4]."""
         pose: FloatArray = self.poses(np.array([at]))[0]
         return pose
 
     def poses(self, at: FloatArray) -> FloatArray:
-        """The motion at many places, shape [place_count] -> [place_count, 4, 4]."""
+        """Return the motion at many places, shape [place_count] -> [place_count, 4, 4]."""
         start = np.tile(np.eye(4), (len(at), 1, 1))
         return reduce(np.matmul, (line.poses(rate * at) for line, rate in self.steps), start)
 
     def inverse(self) -> CoupledPath:
-        """What stands still, seen from what moves."""
+        """Return what stands still, seen from what moves."""
         return CoupledPath(tuple((line, -rate) for line, rate in reversed(self.steps)), self.length)
 
     def unturned(self, vector: FloatArray, at: float) -> FloatArray:
@@ -53,7 +53,7 @@ class CoupledPath:
         return back
 
     def orbit(self, points: FloatArray) -> CoupledOrbit:
-        """How points [m] travel that are at their places at 0; shape [point_count, 3]."""
+        """Return how points [m] travel that are at their places at 0; shape [point_count, 3]."""
         return CoupledOrbit(self, points)
 
     def travel(self, points: FloatArray) -> float:

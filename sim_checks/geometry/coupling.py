@@ -34,7 +34,7 @@ def sound_chains(mimics: Mapping[str, Mimic | None]) -> dict[str, Mimic]:
 
 
 def whole_chain(name: str, sound: Mapping[str, Mimic], leader: str | None = None) -> Mimic:
-    """A chain of followers as one: the joint at its head, and what is made of its value.
+    """Return a chain of followers as one: the joint at its head, and what is made of its value.
 
     Args:
         name: of the last follower.
@@ -50,7 +50,7 @@ def whole_chain(name: str, sound: Mapping[str, Mimic], leader: str | None = None
 
 
 def common_range(limits: Limits, followers: Iterable[tuple[Mimic, Limits]]) -> Limits | None:
-    """A leader's limits, cut so that all followers keep theirs; ``None`` if nothing is left.
+    """Return a leader's limits, cut so that all followers keep theirs; ``None`` if nothing is left.
 
     Args:
         limits: the leader's.

@@ -67,7 +67,7 @@ def overlap_along(a: CollisionHull, b: CollisionHull, directions: FloatArray) ->
 
 
 def overlap(a: CollisionHull, b: CollisionHull) -> HullOverlap:
-    """The exact penetration depth of two hulls in one frame, or a separating direction."""
+    """Return the exact penetration depth of two hulls in one frame, or a separating direction."""
     if len(a.edges) * len(b.edges) > MANY_EDGE_PAIRS:
         grown = _grown(a, b)
         if grown is not None:
@@ -77,7 +77,7 @@ def overlap(a: CollisionHull, b: CollisionHull) -> HullOverlap:
 
 
 def widest_gap(a: CollisionHull, b: CollisionHull, direction: FloatArray) -> HullOverlap:
-    """The distance of two hulls that a direction separates, exactly, and its direction.
+    """Return the distance of two hulls that a direction separates, exactly, and its direction.
 
     The corners of the Minkowski difference nearest to the origin are collected one by one, and the
     point of their hull that is nearest is found anew (P. Wolfe's nearest point in a polytope,
@@ -105,7 +105,7 @@ def widest_gap(a: CollisionHull, b: CollisionHull, direction: FloatArray) -> Hul
 
 
 def _nearest_to_origin(points: FloatArray) -> FloatArray:
-    """The point of the points' convex hull that is nearest to the origin [m], shape [3]."""
+    """Return the point of the points' convex hull that is nearest to the origin [m], shape [3]."""
     # With a row of ones the weights may have any sum: the best share is the same.
     scaled = points / np.linalg.norm(points, axis=1).max()
     weights, _ = nnls(np.vstack([scaled.T, np.ones(len(points))]), np.array([0.0, 0.0, 0.0, 1.0]))
@@ -126,7 +126,7 @@ def _faces(a: CollisionHull, b: CollisionHull) -> HullOverlap:
 
 
 def _grown(a: CollisionHull, b: CollisionHull) -> HullOverlap | None:
-    """The depth by growing the Minkowski difference; ``None`` if qhull gives up."""
+    """Return the depth by growing the Minkowski difference; ``None`` if qhull gives up."""
     size = float(np.ptp(a.vertices, axis=0).max() + np.ptp(b.vertices, axis=0).max())
     grid = np.array(
         [[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if x or y or z],
@@ -196,7 +196,7 @@ def _edge_block(a: CollisionHull, b: CollisionHull, rows: slice, found: HullOver
 
 
 def _arcs_cross(first: FloatArray, second: FloatArray) -> np.ndarray:
-    """Which arcs between face normals cross; shapes [n, 2, 3] and [m, 2, 3] -> [n, m]."""
+    """Return which arcs between face normals cross; shapes [n, 2, 3] and [m, 2, 3] -> [n, m]."""
     a = first[:, 0]
     b = first[:, 1]
     c = second[:, 0]
@@ -216,7 +216,7 @@ def _arcs_cross(first: FloatArray, second: FloatArray) -> np.ndarray:
 def _verified(
     a: CollisionHull, b: CollisionHull, axes: FloatArray, reach: FloatArray, found: HullOverlap
 ) -> HullOverlap:
-    """The best axis by full support: rounding may let in a pair that spans no face."""
+    """Return the best axis by full support: rounding may let in a pair that spans no face."""
     order = np.argsort(reach, kind="stable")
     for start in range(0, len(order), VERIFIED):
         some = order[start : start + VERIFIED]

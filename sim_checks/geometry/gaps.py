@@ -46,7 +46,7 @@ ASKED = 12
 def visible_gap(
     first: VisibleSurface, second: VisibleSurface, poses: FloatArray, meeting: SurfaceMeeting
 ) -> float:
-    """How two surfaces stand around a meeting [m]: a gap, or a negative depth.
+    """Return how two surfaces stand around a meeting [m]: a gap, or a negative depth.
 
     The gap is at most the meeting's margin.
 
@@ -84,7 +84,7 @@ def visible_gap(
 def _zones(
     one: Patch, other: Patch, pairs: IntArray, meeting: SurfaceMeeting
 ) -> Iterator[tuple[Patch, Patch]]:
-    """The places where two surfaces meet, each by itself.
+    """Yield the places where two surfaces meet, each by itself.
 
     A drawer too wide meets two walls, and lies deep in neither. The largest few, as what both
     surfaces show around each.
@@ -128,7 +128,7 @@ def _way_out(one: Patch, other: Patch, meeting: SurfaceMeeting) -> float:
 
 
 def _least_pull(one: Patch, other: Patch, direction: FloatArray, most: float, best: float) -> float:
-    """The first pull up to ``most`` [m] that frees; ``best`` if none does."""
+    """Return the first pull up to ``most`` [m] that frees; ``best`` if none does."""
     meets = 0.0
     free = FINEST
     while _meets_after(one, other, free * direction):
@@ -152,7 +152,7 @@ def _meets_after(one: Patch, other: Patch, shift: FloatArray) -> bool:
 
 
 def _directions(one: Patch, other: Patch, meeting: SurfaceMeeting) -> FloatArray:
-    """Where to pull the first: the hulls' way out, then across the faces that meet."""
+    """Return where to pull the first: the hulls' way out, then across the faces that meet."""
     back = -meeting.direction
     pairs = one.skin.touching(other.skin, MET_FACES)
     corners = [
@@ -203,7 +203,7 @@ def _buried(outer: Patch, inner: Patch, meeting: SurfaceMeeting) -> float:
 
 
 def _corners(inner: Patch, meeting: SurfaceMeeting) -> FloatArray:
-    """A few of a patch's corners where the hulls meet.
+    """Return a few of a patch's corners where the hulls meet.
 
     Beyond, the other's nearest face may not have been looked at.
     """

@@ -63,7 +63,7 @@ class CollisionHull:
         return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)])
 
     def moved(self, pose: FloatArray) -> CollisionHull:
-        """The same hull placed by a rigid motion, shape [4, 4]."""
+        """Return the same hull placed by a rigid motion, shape [4, 4]."""
         rotation = pose[:3, :3]
         shift = pose[:3, 3]
         normals = self.normals @ rotation.T
@@ -77,7 +77,7 @@ class CollisionHull:
 
 
 def convex_hull(points: FloatArray) -> CollisionHull:
-    """The convex hull of points [m], shape [point_count, 3]; thinned if it has many corners.
+    """Return the convex hull of points [m], shape [point_count, 3]; thinned if it has many corners.
 
     A thinned hull is a little smaller.
 
@@ -91,7 +91,7 @@ def convex_hull(points: FloatArray) -> CollisionHull:
 
 @lru_cache(maxsize=4)
 def _large_hull(data: bytes) -> CollisionHull:
-    """Every check asks for the same few large ones, which take seconds."""
+    """Return every check asks for the same few large ones, which take seconds."""
     return _convex_hull(np.frombuffer(data).reshape(-1, 3))
 
 

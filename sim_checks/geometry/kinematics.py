@@ -40,11 +40,11 @@ class Tree:
 
     @property
     def free(self) -> tuple[JointLine, ...]:
-        """The joints of ``moving`` that follow no other: the independent variables."""
+        """Return the joints of ``moving`` that follow no other: the independent variables."""
         return tuple(joint for joint in self.moving if joint.name not in self.mimics)
 
     def followers(self, joint: JointLine) -> tuple[JointLine, ...]:
-        """The joints that follow ``joint``, directly or through others; file order."""
+        """Return the joints that follow ``joint``, directly or through others; file order."""
         return self._followers.get(joint.name, ())
 
     @cached_property
@@ -56,7 +56,7 @@ class Tree:
         return found
 
     def value_of(self, name: str, values: Mapping[str, float]) -> float:
-        """Where a joint is [rad] or [m].
+        """Return where a joint is [rad] or [m].
 
         Its own entry in ``values`` always counts, follower or not. Without one, a follower goes by
         where its leader is, and any other joint is at 0.
@@ -194,7 +194,7 @@ def _parts(
 
 
 def joint_motion(joint: JointLine, value: float) -> FloatArray:
-    """What the joint adds to its origin at ``value`` [rad] or [m]; shape [4, 4]."""
+    """Return what the joint adds to its origin at ``value`` [rad] or [m]; shape [4, 4]."""
     pose = np.eye(4)
     axis = unit_axis(joint)
     if joint.kind == "prismatic":
@@ -205,7 +205,7 @@ def joint_motion(joint: JointLine, value: float) -> FloatArray:
 
 
 def unit_axis(joint: JointLine) -> FloatArray:
-    """The joint's axis at length 1; x where it is zero, as loaders take it."""
+    """Return the joint's axis at length 1; x where it is zero, as loaders take it."""
     length = float(np.linalg.norm(joint.axis))
     return joint.axis / length if length > 1e-12 else np.array([1.0, 0.0, 0.0])
 

@@ -17,7 +17,7 @@ MET_FACES = 1000
 def strayed(
     found: tuple[Patch, Patch], meeting: SurfaceMeeting, rest: FloatArray, allowed: float
 ) -> bool:
-    """Whether small pieces of one part alone make the two surfaces meet.
+    """Return whether small pieces of one part alone make the two surfaces meet.
 
     Such pieces lie nearer the other part than their own.
 
@@ -78,7 +78,7 @@ def _nearer(
     poses: FloatArray,
     margin: float,
 ) -> bool:
-    """Whether a piece lies nearer the other part than the rest of its own part.
+    """Return whether a piece lies nearer the other part than the rest of its own part.
 
     Gaps beyond ``margin`` are equal.
     """

@@ -56,7 +56,7 @@ def _block_distances(points: FloatArray, hull: CollisionHull) -> FloatArray:
 
 
 def _beyond(points: FloatArray, hull: CollisionHull) -> FloatArray:
-    """How far points lie beyond each face plane [m], shape [point_count, face_count]."""
+    """Return how far points lie beyond each face plane [m], shape [point_count, face_count]."""
     return points @ hull.normals.T - hull.offsets
 
 

@@ -27,12 +27,12 @@ class Path:
     length: float
 
     def pose(self, at: float) -> FloatArray:
-        """The motion at ``at``, identity at 0; shape [4, 4]."""
+        """Return the motion at ``at``, identity at 0; shape [4, 4]."""
         pose: FloatArray = self.poses(np.array([at]))[0]
         return pose
 
     def poses(self, at: FloatArray) -> FloatArray:
-        """The motion at many places, shape [place_count] -> [place_count, 4, 4]."""
+        """Return the motion at many places, shape [place_count] -> [place_count, 4, 4]."""
         poses = np.tile(np.eye(4), (len(at), 1, 1))
         if self.turning:
             sine = np.sin(at)[:, None, None]
@@ -46,11 +46,11 @@ class Path:
 
     @cached_property
     def _cross(self) -> FloatArray:
-        """The matrix whose product with a vector is the axis' cross product with it."""
+        """Return the matrix whose product with a vector is the axis' cross product with it."""
         return np.cross(self.axis, np.eye(3)).T
 
     def inverse(self) -> Path:
-        """What stands still, seen from what moves."""
+        """Return what stands still, seen from what moves."""
         return replace(self, axis=-self.axis)
 
     def unturned(self, vector: FloatArray, at: float) -> FloatArray:
@@ -58,18 +58,18 @@ class Path:
         return self.pose(-at)[:3, :3] @ vector if self.turning else vector
 
     def orbit(self, points: FloatArray) -> Orbit:
-        """How points [m] travel that are at their places at 0; shape [point_count, 3]."""
+        """Return how points [m] travel that are at their places at 0; shape [point_count, 3]."""
         arm = points - self.origin
         along = (arm @ self.axis)[:, None] * self.axis
         radial = arm - along
         return Orbit(self, points, self.origin + along, radial, np.cross(self.axis, radial))
 
     def travel(self, points: FloatArray) -> float:
-        """How far the fastest of the points goes [m]."""
+        """Return how far the fastest of the points goes [m]."""
         return self.length * float(self.limits(points)[0].max(initial=0.0))
 
     def limits(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Each point's speed [m per unit] and acceleration [m per unit squared]."""
+        """Return each point's speed [m per unit] and acceleration [m per unit squared]."""
         if not self.turning:
             return np.ones(len(points)), np.zeros(len(points))
         radius = np.linalg.norm(self.orbit(points).radial, axis=1)
@@ -155,6 +155,6 @@ def boxed(points: FloatArray, margin: FloatArray) -> FloatArray:
 
 
 def bulge(radius: float, step: FloatArray) -> FloatArray:
-    """How far a circling point can rise above the higher of a step's two ends [m]."""
+    """Return how far a circling point can rise above the higher of a step's two ends [m]."""
     rise: FloatArray = radius * (1.0 - np.cos(0.5 * np.minimum(step, 2.0 * np.pi)))
     return rise

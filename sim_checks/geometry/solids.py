@@ -131,14 +131,14 @@ class Solids:
                 yield SolidPair(first, second, overlap)
 
     def path(self, joint: JointLine, poses: Mapping[str, FloatArray], length: float) -> Path:
-        """The way a joint by itself moves what hangs below it, from the posed value on."""
+        """Return the way a joint by itself moves what hangs below it, from the posed value on."""
         frame = poses[joint.child]
         # The axis is the same line in the child's frame at every value.
         axis = frame[:3, :3] @ unit_axis(joint)
         return Path(joint.kind != "prismatic", frame[:3, 3], axis, length)
 
     def groups(self, joint: JointLine) -> tuple[SolidGroup, ...]:
-        """The solids grouped by how they move with ``joint`` and its followers.
+        """Return the solids grouped by how they move with ``joint`` and its followers.
 
         Those that stand come first.
         """
@@ -168,7 +168,7 @@ class Solids:
         return tuple(groups)
 
     def moved(self, joint: JointLine) -> tuple[SolidGroup, ...]:
-        """Those of the groups that move."""
+        """Return those of the groups that move."""
         return tuple(group for group in self.groups(joint) if group.ways)
 
     def seen(
@@ -193,7 +193,7 @@ class Solids:
         return self._coupled(steps, poses, length)
 
     def way(self, group: SolidGroup, poses: Mapping[str, FloatArray], length: float) -> CoupledPath:
-        """How a group moves in the world, from the posed values on."""
+        """Return how a group moves in the world, from the posed values on."""
         return self._coupled(group.ways, poses, length)
 
     def _coupled(

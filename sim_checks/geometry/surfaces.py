@@ -83,7 +83,7 @@ class VisibleSurface:
         return labels[faces[:, 0]]
 
     def closed(self, rows: IntArray) -> bool:
-        """Whether the faces are closed: every edge runs as often one way as the other."""
+        """Return whether the faces are closed: every edge runs as often one way as the other."""
         faces = self.welded[rows]
         edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
         edges = edges[edges[:, 0] != edges[:, 1]]
@@ -93,7 +93,7 @@ class VisibleSurface:
         return not np.bincount(which, weights=sign).any()
 
     def without(self, rows: IntArray) -> VisibleSurface | None:
-        """The surface without some faces; ``None`` if nothing is left."""
+        """Return the surface without some faces; ``None`` if nothing is left."""
         kept = np.delete(self.faces, rows, axis=0)
         return VisibleSurface(self.vertices, kept) if len(kept) else None
 
@@ -125,7 +125,7 @@ class Patch:
 def patch(
     surface: VisibleSurface, pose: FloatArray, low: FloatArray, high: FloatArray
 ) -> Patch | None:
-    """The faces whose boxes reach into a box of the world [m]; ``None`` if there is none."""
+    """Return the faces whose boxes reach into a box of the world [m]; ``None`` if there is none."""
     ends = np.array(
         [[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
     )
@@ -146,7 +146,7 @@ def patch(
 def patches(
     first: VisibleSurface, second: VisibleSurface, poses: FloatArray, meeting: SurfaceMeeting
 ) -> tuple[Patch | None, Patch | None]:
-    """What the two surfaces show around a meeting; ``None`` where one shows nothing.
+    """Return what the two surfaces show around a meeting; ``None`` where one shows nothing.
 
     Args:
         first: of the part whose hull is first in the meeting.

@@ -199,7 +199,7 @@ class Sweep:
         return Worst(best.excess, bound, best.at, best.candidate, best.depth, best.direction)
 
     def place(self, index: int, at: float) -> Collider:
-        """A moving hull, put where it is at ``at``."""
+        """Return a moving hull, put where it is at ``at``."""
         collider = self.moving[index]
         collider.place(self.path.pose(at) @ self._start_poses[index])
         return collider

@@ -98,7 +98,7 @@ class Outcome(Generic[T]):
     deaths: tuple[str, ...] = ()
 
     def unwrap(self) -> T:
-        """The value.
+        """Return the value.
 
         Raises:
             Exception: what the function raised; RuntimeError with ``detail`` when the child died.
@@ -111,7 +111,7 @@ class Outcome(Generic[T]):
 
 
 def processors() -> int:
-    """How many this process may use: as many children are worth running at once."""
+    """Return how many this process may use: as many children are worth running at once."""
     return max(1, len(os.sched_getaffinity(0)))
 
 
@@ -230,7 +230,7 @@ class WarmChild:
     def _lost(
         self, process: _Process, failure: Failure, limits: Limits, started: float
     ) -> Outcome[Any]:
-        """The outcome of a child that gave no answer."""
+        """Return the outcome of a child that gave no answer."""
         crashed = failure is Failure.CRASHED
         unborn = crashed and not process.has_started
         exit_code, output = process.end(GOODBYE_S if crashed else 0.0)
@@ -310,11 +310,11 @@ class _Process:
 
     @property
     def has_started(self) -> bool:
-        """Whether it came so far as to listen to questions."""
+        """Return whether it came so far as to listen to questions."""
         return self._log.exists()
 
     def output(self) -> str:
-        """The end of what was written during the last question."""
+        """Return the end of what was written during the last question."""
         return _tail(self._log)
 
     def end(self, patience_s: float = 0.0) -> tuple[int | None, str]:
@@ -355,7 +355,7 @@ def _receive(connection: Connection, wall_s: float) -> Answer | Failure:
 
 
 def _by_itself(exit_code: int | None) -> bool:
-    """Whether a child died of what it did."""
+    """Return whether a child died of what it did."""
     return exit_code is not None and (-exit_code in FAULTS or 0 <= exit_code < ORPHANED)
 
 

@@ -40,7 +40,7 @@ def at(name: str) -> Iterator[None]:
 
 
 def place_in(folder: Path) -> str:
-    """Where the process was that kept its place in a folder; empty if it was nowhere."""
+    """Return where the process was that kept its place in a folder; empty if it was nowhere."""
     try:
         return (folder / PLACE_NAME).read_bytes().decode(errors="replace").strip()
     except OSError:

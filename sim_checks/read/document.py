@@ -22,7 +22,7 @@ MAX_DEPTH = 32
 
 
 def parse_document(path: Path) -> ET.Element:
-    """The root element of an XML file that declares no document type and so no entities.
+    """Return the root element of an XML file that declares no document type and so no entities.
 
     Raises:
         DescriptionError: ``missing_file``, ``too_large``, ``invalid_xml`` or ``forbidden_doctype``.
@@ -81,7 +81,7 @@ def _refusing(name: str) -> Iterator[None]:
 
 
 def find_file(reference: str, folder: Path) -> Path:
-    """The file that a description in ``folder`` means by ``reference``.
+    """Return the file that a description in ``folder`` means by ``reference``.
 
     ``package://name/rest`` has no package path here: ``name/rest`` and then ever shorter tails of
     it are looked for in the folder.
@@ -100,7 +100,7 @@ def find_file(reference: str, folder: Path) -> Path:
 
 
 def locate(reference: str, folder: Path) -> list[Path]:
-    """Where in ``folder``, a resolved path, the file of a reference may lie.
+    """Return where in ``folder``, a resolved path, the file of a reference may lie.
 
     Raises:
         DescriptionError: ``outside_folder``.
@@ -127,7 +127,7 @@ def locate(reference: str, folder: Path) -> list[Path]:
 
 
 def inside(path: Path, folder: Path) -> bool:
-    """Whether a path, every link in it followed, lies in ``folder``, a resolved path."""
+    """Return whether a path, every link in it followed, lies in ``folder``, a resolved path."""
     try:
         return path.resolve().is_relative_to(folder)
     except (OSError, RuntimeError, ValueError):

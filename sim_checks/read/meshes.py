@@ -14,7 +14,7 @@ MAX_MESH_BYTES = 512 * 2**20
 
 
 def read_mesh(path: Path) -> tuple[FloatArray, IntArray]:
-    """All triangles of a mesh file, scene transforms applied.
+    """Return all triangles of a mesh file, scene transforms applied.
 
     Returns:
         vertices [m or whatever the file has], shape [vertex_count, 3]; faces, shape [face_count,

@@ -17,7 +17,7 @@ PARTS = 18
 
 
 def box(size: FloatArray) -> tuple[FloatArray, IntArray]:
-    """A box centred at the origin; ``size`` are full edge lengths [m], shape [3]."""
+    """Return a box centred at the origin; ``size`` are full edge lengths [m], shape [3]."""
     corners = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
     quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
     faces = [triangle for a, b, c, d in quads for triangle in ((a, b, c), (a, c, d))]
@@ -25,14 +25,14 @@ def box(size: FloatArray) -> tuple[FloatArray, IntArray]:
 
 
 def cylinder(radius: float, length: float) -> tuple[FloatArray, IntArray]:
-    """A cylinder along z, centred at the origin [m]."""
+    """Return a cylinder along z, centred at the origin [m]."""
     return _lathe(
         [(0.0, -length / 2), (radius, -length / 2), (radius, length / 2), (0.0, length / 2)]
     )
 
 
 def capsule(radius: float, length: float) -> tuple[FloatArray, IntArray]:
-    """A cylinder of ``length`` along z with half spheres at its ends [m]."""
+    """Return a cylinder of ``length`` along z with half spheres at its ends [m]."""
     vertices, faces = _capsule()
     side = np.sign(vertices[:, 2:]) * [0.0, 0.0, 1.0]
     return (vertices - side) * radius + side * length / 2.0, faces
@@ -46,7 +46,7 @@ def ellipsoid(radii: FloatArray) -> tuple[FloatArray, IntArray]:
 
 @lru_cache(maxsize=1)
 def _ball() -> tuple[FloatArray, IntArray]:
-    """A ball of radius 1: an icosahedron, every face cut into equal parts and blown up."""
+    """Return a ball of radius 1: an icosahedron, every face cut into equal parts and blown up."""
     golden = (1.0 + np.sqrt(5.0)) / 2.0
     signs = [(a, b) for a in (-1.0, 1.0) for b in (-golden, golden)]
     corners = np.array([np.roll([0.0, a, b], shift) for a, b in signs for shift in range(3)])
@@ -66,7 +66,7 @@ def _ball() -> tuple[FloatArray, IntArray]:
 
 @lru_cache(maxsize=1)
 def _capsule() -> tuple[FloatArray, IntArray]:
-    """A capsule of radius 1 and length 2, not counting its ends."""
+    """Return a capsule of radius 1 and length 2, not counting its ends."""
     turn = 2.0 * np.pi * np.arange(SEGMENTS) / SEGMENTS
     ring = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(SEGMENTS)])
     ball = _ball()[0]

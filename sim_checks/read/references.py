@@ -40,12 +40,12 @@ class MujocoModel:
     documents: tuple[tuple[Path, ET.Element], ...]
 
     def settings(self, key: str) -> list[str]:
-        """What the compiler elements say of ``key``, the last word first."""
+        """Return what the compiler elements say of ``key``, the last word first."""
         found = [item.get(key) for _, root in self.documents for item in root.iter("compiler")]
         return [value for value in reversed(found) if value is not None]
 
     def places(self, element: ET.Element, key: str, document: Path) -> list[Path]:
-        """Where MuJoCo may look for a file; the first is where it should."""
+        """Return where MuJoCo may look for a file; the first is where it should."""
         reference = _plain(element.get(key, ""))
         if element.tag in DOCUMENTS:
             return [self.base / reference, document.parent / reference]

@@ -30,7 +30,7 @@ USUAL = ("sapien", "mujoco", "pybullet")
 
 
 def simulator(name: str) -> Simulator:
-    """The engine of this name.
+    """Return the engine of this name.
 
     Raises:
         ValueError: naming those that exist, and the nearest.
@@ -44,7 +44,7 @@ def simulator(name: str) -> Simulator:
 
 
 def installed(name: str) -> bool:
-    """Whether the engine's package is installed, without importing it."""
+    """Return whether the engine's package is installed, without importing it."""
     return installed_version(name) is not None
 
 
@@ -57,5 +57,5 @@ def installed_version(name: str) -> str | None:
 
 
 def install_line(name: str) -> str:
-    """The command that installs the engine."""
+    """Return the command that installs the engine."""
     return f"pip install 'asset-factory[{simulator(name).name}]'"

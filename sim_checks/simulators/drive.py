@@ -112,7 +112,7 @@ class _Order:
             yield opened
 
     def _leans(self, motion: JointMotion, index: int) -> bool:
-        """Whether this is the joint that was pushed most."""
+        """Return whether this is the joint that was pushed most."""
         return self._world.joints[index].name == motion.pushed
 
     def _in_the_way(self, motion: JointMotion) -> Joints:
@@ -127,7 +127,7 @@ class _Order:
         )
 
     def _all(self, index: int) -> Iterator[Joints]:
-        """What presses hardest need not be what is in the way."""
+        """Yield what presses hardest need not be what is in the way."""
         yield self._ready(index)
 
     def _ready(self, index: int) -> Joints:
@@ -135,13 +135,13 @@ class _Order:
 
 
 def arrived(motion: JointMotion, config: MotionConfig) -> bool:
-    """Whether the joint went all the way there and back."""
+    """Return whether the joint went all the way there and back."""
     there = motion.reached >= config.reach_fraction
     return motion.finite and there and motion.returned <= config.return_fraction
 
 
 def opens(motion: JointMotion, config: MotionConfig) -> bool:
-    """Whether it did without pushing another open: that other has to open first."""
+    """Return whether it did without pushing another open: that other has to open first."""
     return arrived(motion, config) and motion.others_moved <= config.others_hard
 
 
@@ -200,7 +200,7 @@ class _Law:
     def pull(
         self, error: FloatArray, speed: FloatArray, slip: FloatArray, acceleration: FloatArray
     ) -> FloatArray:
-        """What the hand adds to the balance [N m] or [N], shape [joint_count].
+        """Return what the hand adds to the balance [N m] or [N], shape [joint_count].
 
         Args:
             error: how far each joint lags behind where it should be.
@@ -311,14 +311,14 @@ class _DriveTrack:
 
     @property
     def arrived(self) -> bool:
-        """Whether it opened, and closed again."""
+        """Return whether it opened, and closed again."""
         return (
             self.reached >= self._config.reach_fraction
             and self.returned <= self._config.return_fraction
         )
 
     def opening(self, forces: FloatArray) -> float:
-        """What opens the joint, of these forces [N m] or [N]."""
+        """Return what opens the joint, of these forces [N m] or [N]."""
         force = float(forces[self._index])
         return force if self._travel > 0.0 else 0.0 - force
 
@@ -353,7 +353,7 @@ class _DriveTrack:
         blocked_by: tuple[str, str] | None,
         gain: Gain,
     ) -> JointMotion:
-        """All of it."""
+        """Return all of it."""
         shares = np.array([share(m, s) for m, s in zip(self._moved, self._sizes, strict=True)])
         shares[self._together] = 0.0
         most = int(np.argmax(shares))

@@ -45,7 +45,7 @@ def hold(
 
 
 def _start(world: World, motion: JointMotion, span: Ranges) -> FloatArray:
-    """Where the other joints stand [rad] or [m], shape [joint_count]."""
+    """Return where the other joints stand [rad] or [m], shape [joint_count]."""
     start = span.lower.copy()
     for i, joint in enumerate(world.joints):
         if joint.name in motion.needs_open:

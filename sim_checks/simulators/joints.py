@@ -34,12 +34,12 @@ class Ranges:
 
     @property
     def size(self) -> FloatArray:
-        """The same without its sign; 0 for a joint that is not driven."""
+        """Return the same without its sign; 0 for a joint that is not driven."""
         return np.abs(self.travel)
 
 
 def ranges(world: World) -> Ranges:
-    """The drive's ends: the limits, or 0 to a full turn, or 0 to 0.
+    """Return the drive's ends: the limits, or 0 to a full turn, or 0 to 0.
 
     A full turn is for joints without limits, 0 to 0 for those with nothing sensible. A leader goes
     as far as all that follow it can, and they go along. Put at their own lower limits instead, two
@@ -79,7 +79,7 @@ def _ends(joint: LoadedJoint) -> Limits:
 
 
 def companions(world: World, index: int) -> frozenset[int]:
-    """The joint and all that are forced to move with it."""
+    """Return the joint and all that are forced to move with it."""
     pairs = [{joint.name, joint.follows} for joint in world.joints if joint.follows is not None]
     found: set[str | None] = {world.joints[index].name}
     for _ in pairs:
@@ -108,7 +108,7 @@ def share(moved: float, size: float) -> float:
 
 
 def height(energy: float, mass: float) -> float:
-    """How high the energy [J] would lift the mass [kg], in metres; 0 for no mass."""
+    """Return how high the energy [J] would lift the mass [kg], in metres; 0 for no mass."""
     return float(energy / (mass * GRAVITY)) if mass > 0.0 else 0.0
 
 

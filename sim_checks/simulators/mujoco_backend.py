@@ -159,7 +159,7 @@ class MujocoWorld:
         self._mujoco.mj_step1(self._model, self._data)
 
     def contacts(self) -> dict[tuple[str, str], Touch]:
-        """Which links touch here, under the forces of the last step."""
+        """Return which links touch here, under the forces of the last step."""
         # After a step only the places of the new contacts are known, not yet their forces.
         self._mujoco.mj_forward(self._model, self._data)
         found: dict[tuple[str, str], Touch] = {}
@@ -254,7 +254,7 @@ def _excluded(model: Any, links: tuple[LoadedLink, ...]) -> tuple[tuple[str, str
 
 
 def _mimic(model: Any, mujoco: Any, joint: int) -> Mimic | None:
-    """What the joint is forced to follow, by the equality's constant and linear part."""
+    """Return what the joint is forced to follow, by the equality's constant and linear part."""
     for i in range(model.neq):
         if (
             model.eq_type[i] == mujoco.mjtEq.mjEQ_JOINT

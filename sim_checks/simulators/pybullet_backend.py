@@ -199,7 +199,7 @@ class PybulletWorld:
         self._state = None
 
     def contacts(self) -> dict[tuple[str, str], Touch]:
-        """Which links touched in the last step."""
+        """Return which links touched in the last step."""
         found: dict[tuple[str, str], Touch] = {}
         for point in self._bullet.getContactPoints(self._body, self._body, **self._client):
             a, b = sorted((int(point[3]), int(point[4])))

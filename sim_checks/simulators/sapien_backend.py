@@ -168,7 +168,7 @@ class SapienWorld:
             self._wound -= np.where(wrapped, np.sign(jump) * WINDING, 0.0)
 
     def contacts(self) -> dict[tuple[str, str], Touch]:
-        """Which links touched in the last step."""
+        """Return which links touched in the last step."""
         order = {link.name: i for i, link in enumerate(self.model.links)}
         found: dict[tuple[str, str], Touch] = {}
         for contact in self._scene.get_contacts():
@@ -214,7 +214,7 @@ def _actor_model(actor: Any) -> LoadedModel:
 
 
 def _mimics(articulation: Any, records: Any) -> dict[str, Mimic]:
-    """Which joints SAPIEN forces to follow which others, and how, by its builder's rule.
+    """Return which joints SAPIEN forces to follow which others, and how, by its builder's rule.
 
     It cannot be asked. It couples a joint to the one that carries it as the file says, and two
     joints of one link the wrong way round: the leader goes by the follower's value. All others it

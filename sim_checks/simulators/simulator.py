@@ -72,11 +72,11 @@ class LoadedJoint:
 
     @property
     def mimic(self) -> Mimic | None:
-        """What it is forced to follow, and how."""
+        """Return what it is forced to follow, and how."""
         return None if self.follows is None else Mimic(self.follows, self.rate, self.offset)
 
     def following(self, mimic: Mimic | None, *, forced_by_judge: bool = False) -> LoadedJoint:
-        """The same joint, forced to follow another."""
+        """Return the same joint, forced to follow another."""
         if mimic is None:
             return self
         rate = mimic.multiplier
@@ -141,7 +141,7 @@ class Touch:
 
     @property
     def presses(self) -> bool:
-        """Whether it does anything."""
+        """Return whether it does anything."""
         return self.force > 0.0 or self.depth > 0.0
 
     def __add__(self, other: Touch) -> Touch:
@@ -312,15 +312,15 @@ class World(Protocol):
 
     @property
     def model(self) -> LoadedModel:
-        """What arrived."""
+        """Return what arrived."""
 
     @property
     def joints(self) -> tuple[LoadedJoint, ...]:
-        """The joints that :meth:`step` pushes, all with one degree of freedom."""
+        """Return the joints that :meth:`step` pushes, all with one degree of freedom."""
 
     @property
     def time_step(self) -> float:
-        """What one :meth:`step` advances [s]."""
+        """Return what one :meth:`step` advances [s]."""
 
     @property
     def carried(self) -> tuple[frozenset[str], ...]:
@@ -363,7 +363,7 @@ class World(Protocol):
         """Link frames in world here, shape [4, 4] each."""
 
     def warnings(self) -> tuple[str, ...]:
-        """What the engine complained about while moving."""
+        """Return what the engine complained about while moving."""
 
     def close(self) -> None:
         """Release everything, so that the next world finds the engine as new; then ask no more."""
@@ -374,11 +374,11 @@ class Simulator(Protocol):
 
     @property
     def name(self) -> str:
-        """How it is chosen, e.g. ``sapien``; also the extra that installs it."""
+        """Return how it is chosen, e.g. ``sapien``; also the extra that installs it."""
 
     @property
     def distribution(self) -> str:
-        """The installed package that provides it."""
+        """Return the installed package that provides it."""
 
     @property
     def formats(self) -> tuple[str, ...]:

@@ -1,6 +1,6 @@
 """Turn 3D meshes into objects that robots can open.
 
-Three packages, and one direction between them (``envs -> factory -> sim_checks``):
+Four packages, and one direction between them (``learn -> envs -> factory -> sim_checks``):
 
 ``asset_factory.factory``
     makes: a mesh file becomes a :class:`Mesh`, an :class:`Articulation`, an :class:`Asset`, a
@@ -9,6 +9,9 @@ Three packages, and one direction between them (``envs -> factory -> sim_checks`
     judges any URDF or MJCF, ours or a stranger's: it knows files, never the factory's types.
 ``asset_factory.envs``
     uses: registry entries as ManiSkill tasks. Importing it registers them.
+``asset_factory.learn``
+    teaches: procedural objects, datasets, training and evaluation. What it makes reaches the maker
+    as files of weights, never as an import.
 ``asset_factory.configs``
     data only: presets and tables, read with ``importlib.resources``.
 

@@ -4,7 +4,7 @@ from dataclasses import fields
 
 import numpy as np
 
-from asset_factory.factory.training.sampled_object import SampledObject
+from asset_factory.learn.samples.sampled_object import SampledObject
 
 
 def box_sampled(seed, points=600):

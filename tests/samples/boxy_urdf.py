@@ -1,7 +1,7 @@
 """A small cabinet as a URDF of boxes, and a list that names it."""
 
-from asset_factory.factory.evaluation.listing import COLUMNS, half_of
 from asset_factory.factory.runtime.store import digest_file
+from asset_factory.learn.evaluate.listing import COLUMNS, half_of
 
 URDF = """<robot name="{name}">
   <link name="body"><visual><origin xyz="0 0 0.5"/>

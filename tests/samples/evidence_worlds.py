@@ -9,13 +9,13 @@ import numpy as np
 from asset_factory.factory.articulate.evidence import Partition
 from asset_factory.factory.articulation import Articulation, rotation_about
 from asset_factory.factory.mesh import Material, Mesh
-from asset_factory.factory.training.objects.kit.assembly import FRONT, Assembly, facing_front
-from asset_factory.factory.training.objects.kit.boards import carcass, tray
-from asset_factory.factory.training.objects.kit.casework import swung
-from asset_factory.factory.training.objects.kit.controls import knob
-from asset_factory.factory.training.objects.kit.pulls import Pull, add_pull
-from asset_factory.factory.training.objects.kit.shapes import box
-from asset_factory.factory.training.objects.kit.spans import within
+from asset_factory.learn.objects.kit.assembly import FRONT, Assembly, facing_front
+from asset_factory.learn.objects.kit.boards import carcass, tray
+from asset_factory.learn.objects.kit.casework import swung
+from asset_factory.learn.objects.kit.controls import knob
+from asset_factory.learn.objects.kit.pulls import Pull, add_pull
+from asset_factory.learn.objects.kit.shapes import box
+from asset_factory.learn.objects.kit.spans import within
 
 WOOD = Material("wood")
 STEEL = Material("steel", (0.5, 0.5, 0.5, 1.0))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from asset_factory.factory.mesh import Material, Mesh
-from asset_factory.factory.training.objects.kit import shapes
+from asset_factory.learn.objects.kit import shapes
 
 Span = tuple[float, float]
 

@@ -3,8 +3,8 @@
 import numpy as np
 
 from asset_factory.factory.articulation import Joint, JointKind
-from asset_factory.factory.evaluation.published.cloud import ScoredCloud
 from asset_factory.factory.intake.importers.prediction import point_on_line
+from asset_factory.learn.evaluate.published.cloud import ScoredCloud
 
 
 def arrays(path):

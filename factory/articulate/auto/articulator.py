@@ -102,7 +102,7 @@ class AutoArticulator:
         return tuple(replace(each, weights=self.weights) for each in different(made))
 
     def _least(self, rated: Sequence[Proposal]) -> float:
-        """How sure a part must be; one must be surer where only the network sees any."""
+        """Return how sure a part must be; one must be surer where only the network sees any."""
         least = least_of(self.trust, self.config.least_confidence)
         likely = [each for each in rated if each.confidence >= least]
         if not likely or self.config.least_confidence is not None:
@@ -176,7 +176,7 @@ class WithoutNetwork:
     name: str = "auto"
 
     def articulate(self, mesh: Mesh) -> Articulation:
-        """What of ``mesh`` (metres, z up) moves; else one rigid part and a note."""
+        """Return what of ``mesh`` (metres, z up) moves; else one rigid part and a note."""
         return self.readings(mesh)[0]
 
     def readings(self, mesh: Mesh) -> tuple[Articulation, ...]:
@@ -188,7 +188,7 @@ class WithoutNetwork:
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
-    """Who is asked for one input.
+    """Return who is asked for one input.
 
     What came with it is believed; else the network of a checkpoint of the user's own is asked
     alone; else the shipped network, rules of shape and, for one-piece meshes, their seams; all but
@@ -229,7 +229,7 @@ def load_auto(
 
 
 def _shared_out(mesh: Mesh, sure: list[Proposal]) -> tuple[list[Proposal], Sharing]:
-    """The faces shared out among proposals, without those of the network that are bodies."""
+    """Return the faces shared out among proposals, without those of the network that are bodies."""
     areas = face_areas(mesh)
     sharing = share_out([proposal.faces for proposal in sure], areas)
     boxes = [mesh.submesh(np.flatnonzero(proposal.faces)).bounds for proposal in sure]
@@ -270,7 +270,7 @@ def _assembled(
 
 
 def _joints(name: str, proposal: Proposal, holder: int, part: int) -> list[Joint]:
-    """One joint; two for a part that turns and slides: it slides in a carrier that turns."""
+    """Return one joint; two for a part that turns and slides: it slides in a carrier that turns."""
     motion = proposal.motion
     slide = proposal.slide
     sure = proposal.confidence

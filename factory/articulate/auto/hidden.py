@@ -48,7 +48,7 @@ def without_hidden(mesh: Mesh, rated: list[Proposal]) -> list[Proposal]:
 
 
 def _is_rack(mesh: Mesh, faces: IntArray) -> bool:
-    """Whether faces are a flat level thing that fills half of the mesh's width and depth."""
+    """Return whether faces are a flat level thing that fills half of the mesh's width and depth."""
     piece = mesh.submesh(faces)
     low, high = piece.bounds
     size = high - low

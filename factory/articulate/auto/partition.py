@@ -44,7 +44,7 @@ class Sharing:
 
 
 def share_out(parts: Sequence[BoolArray], areas: FloatArray) -> Sharing:
-    """The faces shared out, first come first served; what stays keeps at least one face.
+    """Return the faces shared out, first come first served; what stays keeps at least one face.
 
     Args:
         parts: faces of each part asked for, best first, shape [face_count] each.
@@ -103,7 +103,7 @@ def shells(
 
 
 def _within(inner: FloatArray, outer: FloatArray) -> bool:
-    """Whether a box lies in another, or in front of it as a door does.
+    """Return whether a box lies in another, or in front of it as a door does.
 
     Give or take a margin in proportion to the other's size, it ends where that ends, but for one
     level direction in which they at least touch.

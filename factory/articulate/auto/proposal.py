@@ -51,7 +51,7 @@ class Proposal:
 
     @property
     def proposer(self) -> Proposer:
-        """Who says so."""
+        """Return who says so."""
         if self.signs[SIGNS.index("learned")] > 0.0:
             return Proposer.NETWORK
         return Proposer.SIDES if self.signs[SIGNS.index("sides")] > 0.0 else Proposer.RULES

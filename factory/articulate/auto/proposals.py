@@ -116,7 +116,7 @@ def _motion(joint: Joint) -> SeenMotion:
 
 
 def _as_open(motion: SeenMotion, seen: SeenMotion | None) -> SeenMotion:
-    """The rules' motion, with the evidence's limits where it sees the part stand open.
+    """Return the rules' motion, with the evidence's limits where it sees the part stand open.
 
     The rules never see that.
     """

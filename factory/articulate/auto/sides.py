@@ -115,7 +115,7 @@ class Sightings:
 
 
 def _in_line(one: FloatArray, other: FloatArray, reach: FloatArray) -> bool:
-    """Whether two boxes, shape [2, 3], lie next to each other and line up across that."""
+    """Return whether two boxes, shape [2, 3], lie next to each other and line up across that."""
     gap = np.maximum(one[0] - other[1], other[0] - one[1])
     apart = int(gap.argmax())
     across = [axis for axis in range(3) if axis != apart]
@@ -127,7 +127,7 @@ def _in_line(one: FloatArray, other: FloatArray, reach: FloatArray) -> bool:
 
 
 def sightings(mesh: Mesh, pieces: IntArray) -> tuple[Sightings, ...]:
-    """What the sides of a mesh of several pieces show, the likeliest reading first.
+    """Return what the sides of a mesh of several pieces show, the likeliest reading first.
 
     Args:
         mesh: metres, z up.
@@ -141,7 +141,7 @@ def sightings(mesh: Mesh, pieces: IntArray) -> tuple[Sightings, ...]:
 
 
 def _is_panel(mover: OpeningPart) -> bool:
-    """Whether a part is a panel of a side; a lid has one plane, a mesh askew other sides."""
+    """Return whether a part is a panel of a side; a lid has one plane, a mesh askew other sides."""
     planes = mover.region.normals
     if mover.kind is JointKind.CONTINUOUS or len(planes) != PANEL_PLANES:
         return False
@@ -181,7 +181,7 @@ def _proposal(mover: OpeningPart, faces: BoolArray) -> Proposal:
 
 
 def _side_of(mover: OpeningPart) -> Side:
-    """The side that a panel's region was read from."""
+    """Return the side that a panel's region was read from."""
     return next(side for side in Side if np.allclose(side.frame[2], mover.region.normals[-1]))
 
 
@@ -277,7 +277,7 @@ def _through(crossed: Crossings) -> tuple[FloatArray, FloatArray]:
 
 
 def _panel_pieces(outlines: _Outlines, mover: OpeningPart) -> tuple[IntArray, bool]:
-    """The pieces that a panel is made of, and whether it is all of them.
+    """Return the pieces that a panel is made of, and whether it is all of them.
 
     Where the pieces that lie within its rectangle are not what is seen of it, the panel is a part
     of those that are seen. Then the mesh must be solid there: who models an inside models doors.

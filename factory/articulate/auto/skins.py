@@ -45,12 +45,12 @@ class Make:
 
     @property
     def is_skin(self) -> bool:
-        """Whether it is what image-to-3D tools give: network and rules see rubbish in it."""
+        """Return whether it is what image-to-3D tools give: network and rules see rubbish in it."""
         return self.one_piece and self.reconstructed
 
 
 def seam_readings(mesh: Mesh, least: float, articulator: str) -> tuple[Articulation, ...]:
-    """What may open of a mesh of one piece, the likeliest reading of its sides first.
+    """Return what may open of a mesh of one piece, the likeliest reading of its sides first.
 
     Args:
         mesh: metres, z up.
@@ -62,7 +62,7 @@ def seam_readings(mesh: Mesh, least: float, articulator: str) -> tuple[Articulat
 
 
 def different(readings: Sequence[Articulation]) -> tuple[Articulation, ...]:
-    """Those readings that do not move as an earlier one does."""
+    """Return those readings that do not move as an earlier one does."""
     first = {_motions(reading): reading for reading in reversed(readings)}
     return tuple(reading for reading in readings if first[_motions(reading)] is reading)
 
@@ -72,7 +72,7 @@ def _motions(reading: Articulation) -> str:
 
 
 def _sure(reading: Articulation, least: float) -> Articulation:
-    """The same with what is not sure one with the rest."""
+    """Return the same with what is not sure one with the rest."""
     parts = reading.parts
     chosen = [k for k in range(1, len(parts)) if (parts[k].confidence or 0.0) >= least]
     left = np.setdiff1d(np.arange(len(parts)), chosen)
@@ -85,5 +85,5 @@ def _sure(reading: Articulation, least: float) -> Articulation:
 
 
 def least_of(trust: Trust, asked: float | None) -> float:
-    """The probability below which a part is left fixed."""
+    """Return the probability below which a part is left fixed."""
     return trust.least if asked is None else asked

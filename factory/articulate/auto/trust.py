@@ -70,7 +70,7 @@ def log_odds(probability: float) -> float:
 
 @cache
 def load_trust() -> Trust:
-    """The weights that come with the package.
+    """Return the weights that come with the package.
 
     Raises:
         ConfigError: the file is for other signs.

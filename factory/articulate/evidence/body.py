@@ -82,7 +82,7 @@ class Partition:
 
     @cached_property
     def level(self) -> FloatArray:
-        """The object's level frame, see :func:`.frames.level_frame`."""
+        """Return the object's level frame, see :func:`.frames.level_frame`."""
         return level_frame(self.triangles)
 
     @cached_property
@@ -91,7 +91,7 @@ class Partition:
         return connected_components(self.mesh)
 
     def above(self, part: int) -> IntArray:
-        """What the part hangs on, directly or not, nearest first."""
+        """Return what the part hangs on, directly or not, nearest first."""
         found: list[int] = []
         at = int(self.parents[part])
         while at >= 0 and at not in found:
@@ -100,7 +100,7 @@ class Partition:
         return np.array(found, dtype=np.int64)
 
     def subtree(self, part: int) -> IntArray:
-        """The part and all that hangs on it, directly or not."""
+        """Return the part and all that hangs on it, directly or not."""
         inside = np.zeros(len(self.parents), dtype=bool)
         inside[part] = True
         for _ in range(len(self.parents)):
@@ -147,7 +147,7 @@ class Body:
 
     @cached_property
     def corners(self) -> FloatArray:
-        """The part's own vertices [m], shape [n, 3]."""
+        """Return the part's own vertices [m], shape [n, 3]."""
         return np.asarray(self.partition.triangles[self.faces].reshape(-1, 3))
 
     @cached_property
@@ -165,7 +165,7 @@ class Body:
 
     @cached_property
     def contact(self) -> Surfels:
-        """The part's own surfels that touch what stays, or the nearest ones."""
+        """Return the part's own surfels that touch what stays, or the nearest ones."""
         nearest = float(self.gaps.min(initial=np.inf))
         if not np.isfinite(nearest):
             return self.own
@@ -198,7 +198,7 @@ class Body:
 
 
 def body_of(partition: Partition, part: int) -> Body | None:
-    """The part as a body; ``None`` if it has no surface, or nothing stays."""
+    """Return the part as a body; ``None`` if it has no surface, or nothing stays."""
     own_faces = partition.face_part == part
     moving_faces = np.isin(partition.face_part, partition.subtree(part))
     own = spread(partition.triangles[own_faces], PART_SURFELS)

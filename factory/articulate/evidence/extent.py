@@ -79,7 +79,7 @@ def _half_open(body: Body, setting: Setting, out: float) -> Extent:
 
 
 def stands_out_by(body: Body, axis: FloatArray) -> float:
-    """How far the front of a part inside its holder stands out of it along a level axis [m].
+    """Return how far the front of a part inside its holder stands out of it along a level axis [m].
 
     Not negative. A handle is not the front, however far it stands out.
     """
@@ -91,7 +91,7 @@ def stands_out_by(body: Body, axis: FloatArray) -> float:
 
 
 def _front(body: Body, axis: FloatArray) -> float:
-    """Where the last broad face of a part across an axis is along it [m].
+    """Return where the last broad face of a part across an axis is along it [m].
 
     Broad: at least half as large as any.
     """
@@ -106,7 +106,7 @@ def _front(body: Body, axis: FloatArray) -> float:
 
 
 def single(candidates: Candidates, index: int) -> Candidates:
-    """One of them, as candidates."""
+    """Return one of them, as candidates."""
     at = slice(index, index + 1)
     return Candidates(
         candidates.slides[at],
@@ -118,5 +118,5 @@ def single(candidates: Candidates, index: int) -> Candidates:
 
 
 def nearest_to(axis: FloatArray, origin: FloatArray, point: FloatArray) -> FloatArray:
-    """The point of a line nearest to another [m], shape [3]."""
+    """Return the point of a line nearest to another [m], shape [3]."""
     return np.asarray(origin + axis * float(axis @ (point - origin)))

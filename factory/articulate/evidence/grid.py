@@ -66,7 +66,7 @@ class Grid:
         return found.reshape(travelled.shape)
 
     def filled(self, points: FloatArray) -> BoolArray:
-        """Whether the cells of points [m] hold anything, shape [...]."""
+        """Return whether the cells of points [m] hold anything, shape [...]."""
         cells = np.floor((points - self.low) / self.cell).astype(np.int64)
         inside = np.asarray(((cells >= 0) & (cells < np.array(self.shape))).all(axis=-1))
         i, j, k = np.where(inside[..., None], cells, 0).reshape(-1, 3).T
@@ -75,7 +75,7 @@ class Grid:
 
 
 def grid_around(surfels: Surfels, low: FloatArray, high: FloatArray) -> Grid:
-    """A grid over the box from ``low`` to ``high`` [m] with the surfels in it."""
+    """Return a grid over the box from ``low`` to ``high`` [m] with the surfels in it."""
     cell = float((high - low).max()) / CELLS
     shape = np.maximum(np.ceil((high - low) / cell).astype(np.int64), 1)
     inside = ((surfels.points >= low) & (surfels.points < low + shape * cell)).all(axis=1)

@@ -47,7 +47,7 @@ class Look:
 
 
 def look_at(body: Body) -> Look:
-    """The part's front and handle."""
+    """Return the part's front and handle."""
     directions = np.array(
         [sign * row for frame in body.frames for row in frame for sign in (1.0, -1.0)]
     )

@@ -75,7 +75,7 @@ class MotionEvidence:
 
     @property
     def evidence(self) -> Mapping[str, float]:
-        """The numbers by name."""
+        """Return the numbers by name."""
         return MappingProxyType(dict(zip(NAMES, self.numbers.tolist(), strict=True)))
 
 
@@ -86,7 +86,7 @@ def best_motion(
     rating: Rating | None = None,
     least_confidence: float = LEAST_CONFIDENCE,
 ) -> MotionEvidence:
-    """The most plausible motion of a part relative to the one it hangs on.
+    """Return the most plausible motion of a part relative to the one it hangs on.
 
     Args:
         partition: the mesh in its closed pose, or with slides that stand open, shared out among
@@ -135,7 +135,7 @@ def _motion(
 def _right_way(
     body: Body, candidates: Candidates, chosen: int, numbers: FloatArray, guess: Guess
 ) -> tuple[int, Extent]:
-    """The chosen candidate, or its reverse where what holds the part stops it at once.
+    """Return the chosen candidate, or its reverse where what holds the part stops it at once.
 
     Not so for what is pressed: buttons lie on what holds them.
     """

@@ -62,7 +62,7 @@ def load_rating(guided: bool) -> Rating:
 
 @cache
 def load_usual(slides: bool) -> Usual:
-    """The ranges that come with the package: for what slides, and for what turns."""
+    """Return the ranges that come with the package: for what slides, and for what turns."""
     return usual_of(_shipped()["slide_range" if slides else "turn_range"], slides, FILE)
 
 

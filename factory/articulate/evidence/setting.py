@@ -53,12 +53,12 @@ class Setting:
 
 
 def is_small(evidence: FloatArray) -> bool:
-    """Whether what slides is a button rather than a drawer, by its evidence."""
+    """Return whether what slides is a button rather than a drawer, by its evidence."""
     return bool(evidence[NAMES.index("slide_small")] > 0.4)
 
 
 def setting_of(body: Body, chosen: Candidates, evidence: FloatArray) -> Setting:
-    """The setting of exactly one candidate, whose evidence has shape [len(NAMES)]."""
+    """Return the setting of exactly one candidate, whose evidence has shape [len(NAMES)]."""
     slides = bool(chosen.slides[0])
     axis = chosen.axis[0]
     unit = _way(body, axis, evidence) if slides else 1.0

@@ -83,7 +83,7 @@ def displaced(
 
 
 def _lengths(body: Body, some: Candidates) -> FloatArray:
-    """How far a slide may go [m]: the part's length that way, or a fifth of its diagonal."""
+    """Return how far a slide may go [m]: the part's length that way, or a fifth of its diagonal."""
     extent = np.ptp(body.probes.points @ some.axis.T, axis=0)
     return np.asarray(np.maximum(extent, 0.2 * body.diagonal))
 

@@ -63,7 +63,7 @@ class Usual:
 
 
 def likelihood(said: float, values: FloatArray) -> FloatArray:
-    """How well each range explains a guess, up to a factor, shape of ``values``."""
+    """Return how well each range explains a guess, up to a factor, shape of ``values``."""
     if said >= ROUND:
         return np.where(np.isinf(values) | (values >= ROUND), 1.0, GUESS_WRONG)
     off = np.log(np.where(np.isinf(values), 1.0, values) / said) / GUESS_SPREAD
@@ -71,7 +71,7 @@ def likelihood(said: float, values: FloatArray) -> FloatArray:
 
 
 def worth(values: FloatArray) -> FloatArray:
-    """What it is worth to say one range where another is right, 0 to 1, shape [k, k]."""
+    """Return what it is worth to say one range where another is right, 0 to 1, shape [k, k]."""
     finite = np.where(np.isinf(values), 1e6, values)
     return np.asarray(np.exp(-np.abs(np.log(finite[:, None] / finite[None])) / WORTH))
 

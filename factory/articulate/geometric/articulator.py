@@ -69,7 +69,7 @@ class GeometricArticulator:
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> GeometricArticulator:
-    """The same one for every input."""
+    """Return the same one for every input."""
     return GeometricArticulator()
 
 
@@ -107,7 +107,7 @@ def _pieces_of(movers: tuple[Mover, ...]) -> IntArray:
 
 
 def _top(scene: Scene) -> tuple[Mover, ...]:
-    """What opens upwards, in the scene's frame."""
+    """Return what opens upwards, in the scene's frame."""
     return find_cap(scene) or find_lid(scene)
 
 

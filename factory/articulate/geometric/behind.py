@@ -71,7 +71,7 @@ def _behind(scene: Scene, panel: Panel, panels: tuple[Panel, ...], slack: float)
 
 
 def _drawer_box(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArray:
-    """Two sides and a bottom, or one body, behind the panel; else nothing."""
+    """Return two sides and a bottom, or one body, behind the panel; else nothing."""
     index = _behind(scene, panel, panels, 0.02)
     edge = 0.004 * scene.size
     outermost = (scene.low[index, SIDEWAYS] <= scene.box[0, SIDEWAYS] + edge[SIDEWAYS]) | (

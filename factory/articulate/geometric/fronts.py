@@ -67,7 +67,7 @@ def find_fronts(scene: Scene) -> tuple[Mover, ...]:
 
 
 def _is_sure(scene: Scene, front: FrontFace) -> bool:
-    """A drawer's box, or a handle on something that closes a space."""
+    """Return a drawer's box, or a handle on something that closes a space."""
     if is_crowded(scene, front.panel) and not _is_control_panel(scene, front.panel):
         return False
     if front.panel.is_box:
@@ -88,7 +88,7 @@ def _is_sure(scene: Scene, front: FrontFace) -> bool:
 
 
 def _covers_front_with_side_handle(scene: Scene, panel: Panel) -> bool:
-    """A lone door: one wall behind it may be missing, as below a sink or before a wall."""
+    """Return a lone door: one wall behind it may be missing, as below a sink or before a wall."""
     return bool(panel.has_side_handle and panel.area >= 0.6 * scene.size[SIDEWAYS] * scene.size[UP])
 
 
@@ -117,7 +117,7 @@ def _is_control_panel(scene: Scene, panel: Panel) -> bool:
 
 
 def _has_carrying_grip(scene: Scene, panel: Panel) -> bool:
-    """A grip in the middle of a panel that is no drawer: a crate's side.
+    """Return a grip in the middle of a panel that is no drawer: a crate's side.
 
     The panel is all of the front, or too narrow for a drawer.
     """
@@ -130,7 +130,7 @@ def _has_carrying_grip(scene: Scene, panel: Panel) -> bool:
 
 
 def _in_frame(scene: Scene, panel: Panel) -> bool:
-    """A house door: a flat object, mostly one tall panel with a side handle, in a frame."""
+    """Return a house door: a flat object, mostly one tall panel with a side handle, in a frame."""
     flat = scene.size[FRONT] <= 0.25 * min(scene.size[SIDEWAYS], scene.size[UP])
     tall = panel.height >= 0.7 * scene.size[UP] and panel.height >= 1.2 * panel.width
     frame = (
@@ -196,7 +196,7 @@ def _stands_alone(scene: Scene, panel: Panel) -> bool:
 
 
 def _beside(a: Panel, b: Panel, scene: Scene) -> bool:
-    """Two panels of one plane that line up in a row or a column, a hair apart."""
+    """Return two panels of one plane that line up in a row or a column, a hair apart."""
     if min(abs(a.low[FRONT] - b.low[FRONT]), abs(a.high[FRONT] - b.high[FRONT])) > scene.touch:
         return False
     for along, across in ((SIDEWAYS, UP), (UP, SIDEWAYS)):
@@ -304,7 +304,7 @@ def _without_knuckles(
 
 
 def _is_thick_door(scene: Scene, panel: Panel) -> bool:
-    """A door as thick as a fridge's, on a body as tall and deep as one."""
+    """Return a door as thick as a fridge's, on a body as tall and deep as one."""
     upright = (
         scene.size[UP] >= 1.2 * scene.size[SIDEWAYS]
         and scene.size[FRONT] >= 0.6 * scene.size[SIDEWAYS]
@@ -341,7 +341,7 @@ def _hinge_side(
 def _by_centred_handle(
     scene: Scene, front: FrontFace, fronts: list[FrontFace], handle: FloatArray
 ) -> tuple[str, tuple[str, ...]]:
-    """A handle in the middle of the width: an oven's door, a flap, a drawer, or no clue."""
+    """Return a handle in the middle of the width: an oven's door, a flap, a drawer, or no clue."""
     panel = front.panel
     aspect = panel.width / panel.height
     rise = (handle[:, UP].mean() - panel.center[UP]) / panel.height

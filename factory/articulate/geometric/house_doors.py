@@ -52,7 +52,7 @@ def _are_a_pair(scene: Scene, leaves: IntArray) -> bool:
 
 
 def _with_fittings(scene: Scene, leaf: int, leaves: IntArray) -> IntArray:
-    """The leaf and the small pieces on either face of it: handles, panes, bars, trims."""
+    """Return the leaf and the small pieces on either face of it: handles, panes, bars, trims."""
     middle = (scene.low + scene.high) / 2.0
     inside = (middle >= scene.low[leaf])[:, RECT].all(axis=1) & (middle <= scene.high[leaf])[
         :, RECT
@@ -97,7 +97,7 @@ def _is_framed(scene: Scene, leaves: IntArray, frame: IntArray) -> bool:
 
 
 def _hides(scene: Scene, low: np.ndarray, high: np.ndarray, frame: IntArray) -> np.ndarray:
-    """Which pieces of the frame lie before or behind the leaves rather than around them."""
+    """Return which pieces of the frame lie before or behind the leaves rather than around them."""
     shared = (
         np.minimum(scene.high[frame], high)[:, RECT] - np.maximum(scene.low[frame], low)[:, RECT]
     )
@@ -108,7 +108,7 @@ def _hides(scene: Scene, low: np.ndarray, high: np.ndarray, frame: IntArray) -> 
 
 
 def _opens_to_viewer(scene: Scene, leaves: IntArray, frame: IntArray) -> bool:
-    """A leaf opens to the side where it is nearer to the frame's face."""
+    """Return a leaf opens to the side where it is nearer to the frame's face."""
     ahead = scene.low[leaves, FRONT].min() - scene.low[frame, FRONT].min()
     behind = scene.high[frame, FRONT].max() - scene.high[leaves, FRONT].max()
     return bool(ahead <= behind + 1e-9 * scene.size[FRONT])

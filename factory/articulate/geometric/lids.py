@@ -41,7 +41,7 @@ class Cover:
 
 
 def find_lid(scene: Scene) -> tuple[Mover, ...]:
-    """The one lid of the object as a tuple of one, or nothing."""
+    """Return the one lid of the object as a tuple of one, or nothing."""
     slab = _top_slab(scene)
     if slab is not None and scene.size[UP] <= 0.2 * min(scene.size[PLAN]):
         return _screen(scene, slab)
@@ -60,7 +60,7 @@ def find_lid(scene: Scene) -> tuple[Mover, ...]:
 
 
 def _top_slab(scene: Scene) -> int | None:
-    """The highest flat piece that covers most of the object, seen from above."""
+    """Return the highest flat piece that covers most of the object, seen from above."""
     width, depth, height = scene.extents.T
     plan = width * depth
     flat = height <= 0.35 * np.minimum(width, depth)

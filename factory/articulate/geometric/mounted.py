@@ -45,7 +45,7 @@ def with_mounted(scene: Scene, seed: Panel, seeds: list[Panel]) -> Panel:
 
 
 def _stands_on(scene: Scene, piece: int, posts: list[int]) -> bool:
-    """Whether a piece is held by at least two of the others, as a bar by its posts."""
+    """Return whether a piece is held by at least two of the others, as a bar by its posts."""
     low = scene.low[piece] - scene.touch / 4.0
     high = scene.high[piece] + scene.touch / 4.0
     return int(((scene.low[posts] <= high) & (scene.high[posts] >= low)).all(axis=1).sum()) >= 2
@@ -73,14 +73,14 @@ def handle_box(scene: Scene, seed: Panel, mounted: IntArray) -> FloatArray | Non
 
 
 def protruding(scene: Scene, seed: Panel, mounted: IntArray) -> IntArray:
-    """Those of the mounted pieces that stand out furthest; none if nothing stands out."""
+    """Return those of the mounted pieces that stand out furthest; none if nothing stands out."""
     protrusion = seed.low[FRONT] - scene.low[mounted, FRONT]
     longest = float(protrusion.max(initial=0.0))
     return np.asarray(mounted[(protrusion >= 0.6 * longest) & (longest >= 0.75 * scene.touch)])
 
 
 def is_crowded(scene: Scene, panel: Panel) -> bool:
-    """Whether several grips say that the panel is several fronts in one piece.
+    """Return whether several grips say that the panel is several fronts in one piece.
 
     More than two; two that are not level; or two side by side in the middle, as of a pair of doors.
     """

@@ -115,7 +115,7 @@ def _has_knob(scene: Scene, cap: int, group: IntArray) -> bool:
 
 
 def find_turntables(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
-    """The one round plate that lies level inside a closed space, as in a microwave oven."""
+    """Return the one round plate that lies level inside a closed space, as in a microwave oven."""
     width, _, height = scene.extents.T
     large = width >= 0.3 * float(scene.size[PLAN].min())
     free = np.ones(len(width), dtype=bool)
@@ -227,6 +227,6 @@ def _wheels(scene: Scene, taken: IntArray) -> list[Mover]:
 
 
 def _apart(scene: Scene, a: int, b: int) -> bool:
-    """Whether two pieces are not about the same place, as a tyre and its rim are."""
+    """Return whether two pieces are not about the same place, as a tyre and its rim are."""
     middle = (scene.low + scene.high) / 2.0
     return bool(np.abs(middle[a] - middle[b]).max() > 0.5 * scene.extents[a, UP])

@@ -85,7 +85,7 @@ class Scene:
         return 0.004 * float(np.linalg.norm(self.size))
 
     def turned(self, rotation: FloatArray) -> Scene:
-        """The same pieces after another rotation of the view, shape [3, 3]."""
+        """Return the same pieces after another rotation of the view, shape [3, 3]."""
         return Scene(self.triangles @ rotation.T, self.labels, rotation @ self.rotation)
 
     def first_hit(

@@ -23,7 +23,7 @@ LIKELY = 0.85
 
 
 def appliance_door(front: Front, found: Sequence[Rectangle]) -> Opening | None:
-    """What opens of an appliance on which nothing else was found.
+    """Return what opens of an appliance on which nothing else was found.
 
     An oven's door is below its knobs and turns down, a microwave's is beside them and turns to the
     other side.

@@ -24,14 +24,14 @@ class SeamsArticulator:
     name = NAME
 
     def articulate(self, mesh: Mesh) -> Articulation:
-        """The likeliest reading of ``mesh`` (metres, z up); one rigid part if nothing opens.
+        """Return the likeliest reading of ``mesh`` (metres, z up); one rigid part if nothing opens.
 
         The mesh of the answer is cut along the outlines of its parts.
         """
         return self.readings(mesh)[0]
 
     def readings(self, mesh: Mesh) -> tuple[Articulation, ...]:
-        """What ``mesh`` may be, the likeliest first, at most four.
+        """Return what ``mesh`` may be, the likeliest first, at most four.
 
         All share one mesh: the given one, cut along the outlines of all their parts.
         """
@@ -43,7 +43,7 @@ class SeamsArticulator:
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> SeamsArticulator:
-    """The same one for every input."""
+    """Return the same one for every input."""
     return SeamsArticulator()
 
 

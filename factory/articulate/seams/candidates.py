@@ -64,7 +64,7 @@ class FrontScene:
     upright: Lines
 
     def handles_in(self, rectangle: Rectangle) -> tuple[Protrusion, ...]:
-        """The pulls in a rectangle, the most prominent first."""
+        """Return the pulls in a rectangle, the most prominent first."""
         inside = [
             handle
             for handle in self.face.pulls
@@ -87,12 +87,12 @@ class PanelCandidate:
 
     @property
     def cut(self) -> bool:
-        """Whether nobody saw a seam between its pieces."""
+        """Return whether nobody saw a seam between its pieces."""
         return len(self.pieces) > 1
 
 
 def candidates_of(scene: FrontScene, found: Sequence[Rectangle]) -> list[PanelCandidate]:
-    """What may be a panel of one side.
+    """Return what may be a panel of one side.
 
     Args:
         scene: the side.
@@ -119,7 +119,7 @@ def candidates_of(scene: FrontScene, found: Sequence[Rectangle]) -> list[PanelCa
 
 
 def whole_side(scene: FrontScene) -> Rectangle:
-    """All that is seen: the flush front of a box has no other outline."""
+    """Return all that is seen: the flush front of a box has no other outline."""
     first_row, last_row, first_column, last_column = scene.relief.box
     return Rectangle(
         np.array([first_row, first_column]),
@@ -130,7 +130,7 @@ def whole_side(scene: FrontScene) -> Rectangle:
 
 
 def _divided(scene: FrontScene, rectangle: Rectangle) -> list[PanelCandidate]:
-    """A rectangle with several pulls, cut between them, or between pairs of them."""
+    """Return a rectangle with several pulls, cut between them, or between pairs of them."""
     pulls = main_pulls(scene.handles_in(rectangle), rectangle)
     if len(pulls) < 2 or not of_one_kind(pulls):
         return []
@@ -165,7 +165,7 @@ def _paired(pulls: Sequence[Protrusion], rectangle: Rectangle) -> list[Protrusio
 
 
 def of_one_kind(pulls: Sequence[Protrusion]) -> bool:
-    """Whether handles are of one make, upright or level, as on one piece of furniture."""
+    """Return whether handles are of one make, upright or level, as on one piece of furniture."""
     longest = np.array([float(pull.size.max()) for pull in pulls])
     widest = np.array([float(pull.size.min()) for pull in pulls])
     return bool(
@@ -174,7 +174,7 @@ def of_one_kind(pulls: Sequence[Protrusion]) -> bool:
 
 
 def _usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
-    """Those that are solid and face the viewer."""
+    """Return those that are solid and face the viewer."""
     relief = scene.relief
     box = relief.box
     whole = max((box[1] - box[0]) * (box[3] - box[2]), 1)
@@ -186,7 +186,7 @@ def _usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
 
 
 def steps_back(scene: FrontScene, rectangles: Sequence[Rectangle]) -> BoolArray:
-    """Whether rectangles end in strips that lie far behind their middle, shape [n]."""
+    """Return whether rectangles end in strips that lie far behind their middle, shape [n]."""
     if not rectangles:
         return np.zeros(0, np.bool_)
     low = np.array([each.low for each in rectangles]) + ROUNDED
@@ -212,7 +212,7 @@ def steps_back(scene: FrontScene, rectangles: Sequence[Rectangle]) -> BoolArray:
 
 
 def deep(scene: FrontScene, rectangle: Rectangle) -> bool:
-    """Whether there is something behind a rectangle that could be open."""
+    """Return whether there is something behind a rectangle that could be open."""
     inner = tuple(
         slice(int(low), int(high) + 1)
         for low, high in zip(rectangle.low, rectangle.high, strict=True)
@@ -251,7 +251,7 @@ def main_pulls(handles: Sequence[Protrusion], rectangle: Rectangle) -> list[Prot
 
 
 def is_among(rectangle: Rectangle, others: Iterable[Rectangle]) -> bool:
-    """Whether it is one of several rectangles, give or take an edge."""
+    """Return whether it is one of several rectangles, give or take an edge."""
     return any(in_common(rectangle, other) >= SAME for other in others)
 
 

@@ -88,7 +88,7 @@ def _is_narrow_beside(panel: FrontPanel, door: FrontPanel) -> bool:
 
 
 def _common(one: FrontPanel, other: FrontPanel) -> float:
-    """How much of their heights two have in common [pixels]."""
+    """Return how much of their heights two have in common [pixels]."""
     both = (one.rectangle, other.rectangle)
     return min(float(each.high[0]) for each in both) - max(float(each.low[0]) for each in both)
 
@@ -105,7 +105,7 @@ def _has_bar_on_top(panel: FrontPanel) -> bool:
 
 
 def _stacked(one: FrontPanel, other: FrontPanel) -> bool:
-    """Whether two have the same columns; a panel has its own."""
+    """Return whether two have the same columns; a panel has its own."""
     low = abs(one.rectangle.low[1] - other.rectangle.low[1])
     high = abs(one.rectangle.high[1] - other.rectangle.high[1])
     return bool(max(low, high) <= ALIGNED)

@@ -38,14 +38,14 @@ def with_strips(face: Face, level: Lines, upright: Lines) -> Face:
 
 
 def _level(one: Protrusion, other: Protrusion) -> bool:
-    """Whether two are of one size, side by side."""
+    """Return whether two are of one size, side by side."""
     sizes = sorted([float(one.size.max()), float(other.size.max())])
     apart = abs(float(other.center[0] - one.center[0]))
     return sizes[1] <= ALIKE * sizes[0] and apart <= IN_ROW * sizes[0]
 
 
 def _on_strip(row: Sequence[Protrusion], level: Lines) -> bool:
-    """Whether a line passes below all of them, and one above."""
+    """Return whether a line passes below all of them, and one above."""
     reach = STRIP * max(float(knob.size.max()) for knob in row)
     low = min(int(knob.low[0]) for knob in row)
     high = max(int(knob.high[0]) for knob in row)
@@ -60,7 +60,7 @@ def _on_strip(row: Sequence[Protrusion], level: Lines) -> bool:
 
 
 def _parted(row: Sequence[Protrusion], upright: Lines) -> bool:
-    """Whether a seam passes between two of them."""
+    """Return whether a seam passes between two of them."""
     size = max(float(knob.size.max()) for knob in row)
     last = upright.sums.shape[1] - 1
     for one, other in pairwise(row):

@@ -27,15 +27,15 @@ class Region:
     offsets: FloatArray
 
     def turned(self, rotation: FloatArray) -> Region:
-        """The same turned about the origin; ``rotation`` has shape [3, 3]."""
+        """Return the same turned about the origin; ``rotation`` has shape [3, 3]."""
         return Region(self.normals @ rotation.T, self.offsets)
 
     def holds(self, point: FloatArray) -> bool:
-        """Whether a point, shape [3], lies inside."""
+        """Return whether a point, shape [3], lies inside."""
         return bool((self.normals @ point <= self.offsets).all())
 
     def same(self, other: Region) -> bool:
-        """Whether the other one has the same planes."""
+        """Return whether the other one has the same planes."""
         return np.array_equal(self.normals, other.normals) and np.array_equal(
             self.offsets, other.offsets
         )
@@ -55,7 +55,7 @@ class CutMesh:
 
 
 def uncut(mesh: Mesh) -> CutMesh:
-    """A mesh before any cut."""
+    """Return a mesh before any cut."""
     return CutMesh(mesh, np.arange(len(mesh.faces)))
 
 
@@ -78,7 +78,7 @@ def cut_around(cut: CutMesh, region: Region) -> CutMesh:
 
 
 def inside(mesh: Mesh, region: Region) -> BoolArray:
-    """Which triangles lie in a region they were cut around, shape [face_count]."""
+    """Return which triangles lie in a region they were cut around, shape [face_count]."""
     within = np.ones(len(mesh.faces), dtype=np.bool_)
     for normal, offset in zip(region.normals, region.offsets, strict=True):
         height = mesh.vertices @ normal - offset
@@ -153,7 +153,7 @@ _PIECES = {
 
 
 def _refined(cut: CutMesh, vertices: FloatArray, divided: _Divided) -> CutMesh:
-    """Every triangle with divided edges replaced by its pieces, at the end of the mesh."""
+    """Return every triangle with divided edges replaced by its pieces, at the end of the mesh."""
     mesh = cut.mesh
     whole = np.ones(len(mesh.faces), dtype=np.bool_)
     whole[divided.faces[divided.edges.any(axis=1)]] = False
@@ -190,7 +190,7 @@ def _refined(cut: CutMesh, vertices: FloatArray, divided: _Divided) -> CutMesh:
 
 
 def _spread(own: FloatArray, along: FloatArray, corner: IntArray, *, unit: bool) -> FloatArray:
-    """What the corners of pieces have, between what their triangle's corners had."""
+    """Return what the corners of pieces have, between what their triangle's corners had."""
     between = own + along[..., None] * (np.roll(own, -1, axis=1) - own)
     if unit:
         length = np.linalg.norm(between, axis=-1, keepdims=True)

@@ -22,7 +22,7 @@ LEAST_GAP = 0.01
 def divided(
     rectangle: Rectangle, handles: Sequence[Protrusion], level: Lines, upright: Lines
 ) -> list[tuple[Rectangle, Protrusion]]:
-    """A rectangle cut so that every piece has one handle; nothing if that cannot be.
+    """Return a rectangle cut so that every piece has one handle; nothing if that cannot be.
 
     Args:
         rectangle: what is to be cut.
@@ -67,7 +67,7 @@ class _Gap:
 def _gaps(
     rectangle: Rectangle, handles: Sequence[Protrusion], axis: int, lines: Lines
 ) -> list[_Gap]:
-    """Where a line along the other axis passes between handles."""
+    """Return where a line along the other axis passes between handles."""
     ordered = sorted(handles, key=lambda handle: float(handle.low[axis]))
     reach = float(ordered[0].high[axis])
     before = float(ordered[0].low[axis] - rectangle.low[axis])
@@ -87,7 +87,7 @@ def _gaps(
 def _seam_between(
     lines: Lines, rectangle: Rectangle, axis: int, start: float, stop: float
 ) -> tuple[int, float] | None:
-    """Where the best covered line between two places is, and its cover."""
+    """Return where the best covered line between two places is, and its cover."""
     between = np.flatnonzero((lines.at > start) & (lines.at < stop))
     if len(between):
         cover = lines.covered(between, rectangle.low[1 - axis], rectangle.high[1 - axis])
@@ -98,7 +98,7 @@ def _seam_between(
 
 
 def _unseen(start: float, stop: float, before: float, behind: float) -> int:
-    """Where to cut between two handles if no seam is seen.
+    """Return where to cut between two handles if no seam is seen.
 
     Half-way; where handles are along one end of their panels, each keeps as much room there as the
     outermost has.

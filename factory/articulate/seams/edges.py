@@ -28,7 +28,7 @@ SAME = 3.0
 def seen_thickness(
     fronts: Mapping[Side, Front], side: Side, panel: FrontPanel, rim: float
 ) -> float | None:
-    """How far behind its rim a panel ends [m], as the seams beside it show; else ``None``.
+    """Return how far behind its rim a panel ends [m], as the seams beside it show; else ``None``.
 
     Args:
         fronts: the four sides.
@@ -60,7 +60,7 @@ def _best(seams: FloatArray) -> tuple[float, float]:
 
 
 def _agreeing(found: Sequence[FloatArray], front: Front) -> float | None:
-    """How far behind the rim [m] two sides show a seam, the best covered one."""
+    """Return how far behind the rim [m] two sides show a seam, the best covered one."""
     if len(found) != 2:
         return None
     (one, other) = found
@@ -74,7 +74,7 @@ def _agreeing(found: Sequence[FloatArray], front: Front) -> float | None:
 
 
 def _beside(fronts: Mapping[Side, Front], side: Side, panel: FrontPanel) -> list[Front]:
-    """The sides that a panel reaches."""
+    """Return the sides that a panel reaches."""
     _, _, first, last = fronts[side].relief.box
     right = side.frame[0]
     at_left = int(panel.rectangle.low[1]) - first <= AT_OUTLINE

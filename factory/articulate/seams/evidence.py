@@ -54,14 +54,14 @@ class Seams:
 
     @property
     def relief(self) -> FloatArray:
-        """What the shape alone says."""
+        """Return what the shape alone says."""
         return 1.0 - (1.0 - self.groove) * (1.0 - SHARES["step"] * self.step) * (
             1.0 - SHARES["crease"] * self.crease
         ) * (1.0 - SHARES["border"] * self.border)
 
     @property
     def all(self) -> FloatArray:
-        """All of it together."""
+        """Return all of it together."""
         return 1.0 - (1.0 - self.relief) * (1.0 - SHARES["dark"] * self.dark) * (
             1.0 - SHARES["color"] * self.color
         )
@@ -132,7 +132,7 @@ def _seams(
 
 
 def _dip(values: FloatArray) -> FloatArray:
-    """How far a value lies below both sides of a narrow line."""
+    """Return how far a value lies below both sides of a narrow line."""
     return np.asarray(ndimage.grey_closing(values, size=(GROOVE_WIDTH, 1)) - values)
 
 
@@ -147,13 +147,13 @@ def _ramp(value: FloatArray, seen: BoolArray, nothing: float, certain: float) ->
 
 
 def _shifted(values: FloatArray, by: int) -> FloatArray:
-    """The values ``by`` rows further up; the border repeated."""
+    """Return the values ``by`` rows further up; the border repeated."""
     rows = np.clip(np.arange(len(values)) + by, 0, len(values) - 1)
     return np.asarray(values[rows])
 
 
 def _step(height: FloatArray) -> FloatArray:
-    """How far the height jumps across each row, beyond the slopes on both sides [pixels]."""
+    """Return how far the height jumps across each row, beyond the slopes on both sides [pixels]."""
     above = _shifted(height, 2)
     below = _shifted(height, -2)
     slopes = np.abs(_shifted(height, 5) - above) + np.abs(below - _shifted(height, -5))

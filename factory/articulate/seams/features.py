@@ -138,7 +138,7 @@ def _crossing(lines: Lines, rectangle: Rectangle, along: int, across: int) -> Fl
 
 
 def outline_sides(relief: Relief, rectangle: Rectangle) -> int:
-    """How many of a rectangle's sides are the side's own outline."""
+    """Return how many of a rectangle's sides are the side's own outline."""
     box = relief.box
     ends = (
         rectangle.low[0] - box[0],
@@ -150,7 +150,7 @@ def outline_sides(relief: Relief, rectangle: Rectangle) -> int:
 
 
 def _surface(scene: FrontScene, rectangle: Rectangle) -> list[float]:
-    """How thick, how proud and how even it is, and how unlike its surroundings in colour."""
+    """Return how thick, how proud and how even it is, and how unlike its surroundings in colour."""
     relief = scene.relief
     rows, columns = (
         slice(int(low) + 2, max(int(high) - 1, int(low) + 3))
@@ -200,7 +200,7 @@ def _ring(rectangle: Rectangle, shape: tuple[int, int]) -> list[tuple[slice, sli
 
 
 def _alike(rectangle: Rectangle, others: Sequence[Rectangle]) -> list[float]:
-    """How many rectangles of the same size lie beside it and above or below it."""
+    """Return how many rectangles of the same size lie beside it and above or below it."""
     low = np.array([other.low for other in others]).reshape(-1, 2)
     size = np.array([other.size for other in others]).reshape(-1, 2)
     apart = np.abs(low - rectangle.low)
@@ -213,7 +213,7 @@ def _alike(rectangle: Rectangle, others: Sequence[Rectangle]) -> list[float]:
 
 
 def _whole(scene: FrontScene) -> list[float]:
-    """The shape of the side and of the object behind it."""
+    """Return the shape of the side and of the object behind it."""
     relief = scene.relief
     first_row, last_row, first_column, last_column = relief.box
     rows = max(last_row - first_row, 1)
@@ -231,7 +231,7 @@ def _whole(scene: FrontScene) -> list[float]:
 def motion_features(
     scene: FrontScene, rectangle: Rectangle, panels: Sequence[Rectangle]
 ) -> FloatArray:
-    """What tells how a panel opens, as :data:`MOTION_NAMES` has it, shape [feature_count].
+    """Return what tells how a panel opens, as :data:`MOTION_NAMES` has it, shape [feature_count].
 
     Args:
         scene: the side.
@@ -314,7 +314,7 @@ def _neighbours(
 
 
 def _aside(rectangle: Rectangle, handles: Sequence[Protrusion]) -> float:
-    """How far to the right its handle is, -1 to 1; 0 without one."""
+    """Return how far to the right its handle is, -1 to 1; 0 without one."""
     if not handles:
         return 0.0
     across = (handles[0].center[1] - rectangle.low[1]) / max(float(rectangle.size[1]), 1.0)

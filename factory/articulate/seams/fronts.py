@@ -44,7 +44,7 @@ class Front:
 
     @cached_property
     def sight(self) -> Sight:
-        """What a picture network sees on it."""
+        """Return what a picture network sees on it."""
         return sight_of(self.relief)
 
     @cached_property
@@ -54,7 +54,7 @@ class Front:
 
     @cached_property
     def scene(self) -> FrontScene:
-        """The side with its candidate lines."""
+        """Return the side with its candidate lines."""
         first_row, last_row, first_column, last_column = self.relief.box
         level, upright = self._own_seams()
         rows = lines_of(level, first_row, last_row)
@@ -69,14 +69,14 @@ class Front:
         return self.level.only(kept[0]), upright.only(kept[1])
 
     def rectangles(self) -> tuple[Rectangle, ...]:
-        """Those that are closed by seams, the best first."""
+        """Return those that are closed by seams, the best first."""
         first_row, last_row, first_column, last_column = self.relief.box
         shortest = SHORTEST * min(last_row - first_row, last_column - first_column)
         return rectangles_of(self.scene.level, self.scene.upright, shortest)
 
 
 def fronts_of(reliefs: Mapping[Side, Relief]) -> dict[Side, Front]:
-    """The four sides of an object."""
+    """Return the four sides of an object."""
     faces = {side: cleared(reliefs[side]) for side in AROUND}
     return {
         side: Front(
@@ -89,6 +89,6 @@ def fronts_of(reliefs: Mapping[Side, Relief]) -> dict[Side, Front]:
 
 
 def thickness(relief: Relief, behind: Relief) -> FloatArray:
-    """How much lies between what is seen from a side and from its opposite [pixels]."""
+    """Return how much lies between what is seen from a side and from its opposite [pixels]."""
     depth = float(relief.depth) / relief.raster.pixel
     return np.asarray(depth + relief.height + behind.height[:, ::-1])

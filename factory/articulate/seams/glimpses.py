@@ -36,7 +36,7 @@ SNAP = 4
 
 
 def glimpsed(front: Front) -> tuple[FrontPanel, ...]:
-    """The panels of one side that the network alone is sure of."""
+    """Return the panels of one side that the network alone is sure of."""
     likely = front.sight.panel > LIKELY
     rows = np.flatnonzero(likely.sum(axis=1) >= LEAST_IN_LINE)
     columns = np.flatnonzero(likely.sum(axis=0) >= LEAST_IN_LINE)
@@ -50,7 +50,7 @@ def glimpsed(front: Front) -> tuple[FrontPanel, ...]:
 
 
 def _blocks(block: Block, level: FloatArray, upright: FloatArray) -> list[Block]:
-    """What is left of a block when it is cut along its surest end, and so on."""
+    """Return what is left of a block when it is cut along its surest end, and so on."""
     bottom, top, left, right = block
     rows = level[bottom + LEAST : top - LEAST + 1, left:right].mean(axis=1)
     columns = upright[bottom:top, left + LEAST : right - LEAST + 1].mean(axis=0)
@@ -67,13 +67,13 @@ def _blocks(block: Block, level: FloatArray, upright: FloatArray) -> list[Block]
 
 
 def _middle(profile: FloatArray) -> int:
-    """Where a profile is highest; in the middle, where it stays as high for a while."""
+    """Return where a profile is highest; in the middle, where it stays as high for a while."""
     around = ndimage.uniform_filter1d(profile, 3, mode="nearest")
     return int(np.where(profile == profile.max(), around, -np.inf).argmax())
 
 
 def _panel(front: Front, block: Block) -> FrontPanel | None:
-    """A block, if the network is sure of it."""
+    """Return a block, if the network is sure of it."""
     block = _settled(front.sight, block)
     sides = front.sight.ends_of(block)
     lines = front.scene.level.at, front.scene.upright.at
@@ -99,13 +99,13 @@ def _panel(front: Front, block: Block) -> FrontPanel | None:
 
 
 def _snapped(at: int, lines: IntArray) -> int:
-    """The nearest line, if it is near [pixels]."""
+    """Return the nearest line, if it is near [pixels]."""
     nearest = int(lines[np.abs(lines - at).argmin()])
     return nearest if abs(nearest - at) <= SNAP else at
 
 
 def _settled(sight: Sight, block: Block) -> Block:
-    """A block whose sides have moved in to the surest end near each."""
+    """Return a block whose sides have moved in to the surest end near each."""
     bottom, top, left, right = block
     rows = sight.level[bottom:top, left:right].mean(axis=1)
     columns = sight.upright[bottom:top, left:right].mean(axis=0)

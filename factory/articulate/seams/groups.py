@@ -31,7 +31,7 @@ class FrontPanel:
 
     @property
     def handle(self) -> Protrusion | None:
-        """The one that it is pulled by."""
+        """Return the one that it is pulled by."""
         return self.handles[0] if self.handles else None
 
     @property
@@ -59,7 +59,7 @@ class Group:
 
 
 def apart(one: Rectangle, other: Rectangle) -> bool:
-    """Whether two rectangles may both be panels."""
+    """Return whether two rectangles may both be panels."""
     return one.shared(other) <= OVERLAP * min(one.area, other.area)
 
 
@@ -67,14 +67,14 @@ Placed = TypeVar("Placed", FrontPanel, Group)
 
 
 def clear_of(some: Sequence[Placed], others: Sequence[FrontPanel]) -> list[Placed]:
-    """Those that overlap none of the others."""
+    """Return those that overlap none of the others."""
     return [
         each for each in some if all(apart(each.rectangle, other.rectangle) for other in others)
     ]
 
 
 def together(groups: Sequence[Group]) -> list[Group]:
-    """The set without overlaps that is worth most, of those that start with any one group.
+    """Return the set without overlaps that is worth most, of those that start with any one group.
 
     To each start the others are added in order of their value, if nothing is in their way.
     """

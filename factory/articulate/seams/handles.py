@@ -91,7 +91,7 @@ class Protrusion:
         return np.asarray(self.high - self.low + 1.0)
 
     def holds(self, other: Protrusion) -> bool:
-        """Whether another stands on it: then it is a panel in front of its frame."""
+        """Return whether another stands on it: then it is a panel in front of its frame."""
         return bool((other.low > self.low).all() and (other.high < self.high).all())
 
     @property
@@ -118,7 +118,7 @@ class Face:
     handles: tuple[Protrusion, ...]
 
     def without_mirrored(self, behind: Face) -> Face:
-        """The face with those handles marked that have a twin on the opposite side.
+        """Return the face with those handles marked that have a twin on the opposite side.
 
         A box is carried by such a pair; nothing opens there.
         """
@@ -139,7 +139,7 @@ class Face:
 
     @property
     def pulls(self) -> tuple[Protrusion, ...]:
-        """The handles that are no controls."""
+        """Return the handles that are no controls."""
         return tuple(handle for handle in self.handles if not handle.control)
 
 
@@ -231,7 +231,7 @@ def _reaches_across(relief: Relief, low: IntArray, high: IntArray) -> bool:
 
 
 def _border(low: IntArray, high: IntArray, shape: tuple[int, int]) -> list[tuple[slice, slice]]:
-    """The strips below, above, left and right of a box, clipped to the picture."""
+    """Return the strips below, above, left and right of a box, clipped to the picture."""
     (bottom, left) = (int(value) for value in low)
     (top, right) = (int(value) for value in high)
     rows = slice(bottom, top + 1)
@@ -263,7 +263,7 @@ def _is_round(handle: Protrusion) -> bool:
 
 
 def _spacings(handle: Protrusion, relief: Relief) -> tuple[float, float]:
-    """How far apart controls like it may lie in a row and in a column, in their sizes."""
+    """Return how far apart controls like it may lie in a row and in a column, in their sizes."""
     above = relief.side is Side.TOP
     if _is_round(handle):
         return SPACING, SPACING if above else IN_COLUMN

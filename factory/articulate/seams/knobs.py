@@ -24,7 +24,7 @@ SURE = 0.9
 
 
 def knobs_on(relief: Relief, face: Face) -> tuple[OpeningPart, ...]:
-    """The knobs of one side, if it has a row of them.
+    """Return the knobs of one side, if it has a row of them.
 
     Args:
         relief: the side.
@@ -41,7 +41,7 @@ def _is_knob(handle: Protrusion) -> bool:
 
 
 def _mover(relief: Relief, face: Face, knob: Protrusion) -> OpeningPart:
-    """A knob that turns clockwise without end: where it stops is not seen."""
+    """Return a knob that turns clockwise without end: where it stops is not seen."""
     raster = relief.raster
     right, up, away = raster.side.frame
     rows, columns = (slice(int(a), int(b) + 1) for a, b in zip(knob.low, knob.high, strict=True))

@@ -32,7 +32,7 @@ class PanelLayout:
 
 
 def layout_of(scene: FrontScene, found: Sequence[Rectangle]) -> PanelLayout:
-    """What surely opens on one side, as far as that can be there together.
+    """Return what surely opens on one side, as far as that can be there together.
 
     Args:
         scene: the side.

@@ -41,7 +41,7 @@ class LearnedJudge:
 
 @cache
 def load_judge(name: str, features: Sequence[str]) -> LearnedJudge:
-    """One of those that come with the package.
+    """Return one of those that come with the package.
 
     Args:
         name: of its table in the file.

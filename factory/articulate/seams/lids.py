@@ -78,12 +78,12 @@ class Lid:
     hinges: tuple[tuple[Side, float], ...]
 
     def is_seen(self, *, beside_panels: bool) -> bool:
-        """Whether the picture network sees enough of it; it sees some in any top."""
+        """Return whether the picture network sees enough of it; it sees some in any top."""
         return self.seen >= (CLEARLY_SEEN if beside_panels else SEEN)
 
 
 def find_lids(fronts: Mapping[Side, Front], top: Relief) -> list[Lid]:
-    """What may be a lid, the likeliest first.
+    """Return what may be a lid, the likeliest first.
 
     Args:
         fronts: the four sides.
@@ -127,7 +127,7 @@ def find_lids(fronts: Mapping[Side, Front], top: Relief) -> list[Lid]:
 
 
 def _told(covers: FloatArray) -> BoolArray:
-    """The sides that count, shape [4]: all, or all but the one on which no seam is seen."""
+    """Return the sides that count, shape [4]: all, or all but the one on which no seam is seen."""
     told = np.ones(len(covers), np.bool_)
     told[covers.argmin()] = covers.min() >= LEAST_SIDE
     return told
@@ -149,7 +149,7 @@ def _cover(relief: Relief, seams: Seams, evidence: FloatArray) -> FloatArray:
 
 
 def _widths(relief: Relief) -> FloatArray:
-    """How far each row spans [pixels]."""
+    """Return how far each row spans [pixels]."""
     seen = relief.seen
     any_seen = seen.any(axis=1)
     first = seen.argmax(axis=1)
@@ -165,7 +165,7 @@ def _value(
     covers: FloatArray,
     shapes: FloatArray,
 ) -> float | None:
-    """What speaks for a lid above a row; ``None`` if there can be none."""
+    """Return what speaks for a lid above a row; ``None`` if there can be none."""
     front = fronts[Side.FRONT].relief
     first, last, _, _ = front.box
     height = last - first
@@ -199,7 +199,7 @@ def _value(
 
 
 def _has_body(fronts: Mapping[Side, Front], row: int, height: int, first: int) -> bool:
-    """Whether there is something to close below the seam: no legs, no pole."""
+    """Return whether there is something to close below the seam: no legs, no pole."""
     for side in (Side.FRONT, Side.RIGHT):
         relief = fronts[side].relief
         widths = _widths(relief)
@@ -238,13 +238,13 @@ def _at_seam(front: Front, row: int, height: int, widest: float) -> list[tuple[f
 
 
 def _latch(front: Front, row: int, height: int) -> float:
-    """How central the most central latch of a side is, 0 to 1; 0 without one."""
+    """Return how central the most central latch of a side is, 0 to 1; 0 without one."""
     found = [central for central, _ in _at_seam(front, row, height, LATCH_WIDTH)]
     return max((each for each in found if each >= CENTRAL), default=0.0)
 
 
 def _has_hinges(front: Front, row: int, height: int) -> bool:
-    """Whether something small sits at the seam towards both ends of a side."""
+    """Return whether something small sits at the seam towards both ends of a side."""
     found = _at_seam(front, row, height, HINGE_WIDTH)
     return {half for central, half in found if central < CENTRAL} == {-1.0, 1.0}
 
@@ -252,7 +252,7 @@ def _has_hinges(front: Front, row: int, height: int) -> bool:
 def _hinges(
     fronts: Mapping[Side, Front], row: int, hidden: Sequence[Side]
 ) -> tuple[tuple[Side, float], ...]:
-    """Where the hinge may be; ``hidden``: sides on which no seam is seen."""
+    """Return where the hinge may be; ``hidden``: sides on which no seam is seen."""
     first, last, _, _ = fronts[Side.FRONT].relief.box
     height = last - first
     widths = {side: float(_widths(fronts[side].relief)[row - 2 : row + 3].max()) for side in AROUND}
@@ -269,7 +269,7 @@ def _hinges(
 
 
 def _foot(fronts: Mapping[Side, Front], side: Side, first: int, height: int) -> float:
-    """How far wheels reach out at the foot of a side, below a hinge, -1 to 1.
+    """Return how far wheels reach out at the foot of a side, below a hinge, -1 to 1.
 
     A pedal reaches out on the other side: it has no ends beyond the middle.
     """
@@ -279,7 +279,7 @@ def _foot(fronts: Mapping[Side, Front], side: Side, first: int, height: int) -> 
 
 
 def _reach(fronts: Mapping[Side, Front], side: Side, first: int, height: int) -> float:
-    """How much further a foot reaches out to a side than to the opposite one, -1 to 1."""
+    """Return how much further a foot reaches out to a side than to the opposite one, -1 to 1."""
     view = Side.FRONT if side in (Side.LEFT, Side.RIGHT) else Side.RIGHT
     relief = fronts[view].relief
     foot = np.flatnonzero(relief.seen[first : first + max(height // 8, 1)].any(axis=0))
@@ -294,7 +294,7 @@ def _reach(fronts: Mapping[Side, Front], side: Side, first: int, height: int) ->
 
 
 def _has_pedal(front: Front, first: int, height: int) -> bool:
-    """Whether what is nearest at the foot of a side is in its middle."""
+    """Return whether what is nearest at the foot of a side is in its middle."""
     relief = front.relief
     foot = np.where(relief.seen, relief.height, -np.inf)[first : first + max(height // 8, 1)]
     nearest = np.flatnonzero((foot > foot.max() - NEAREST).any(axis=0))

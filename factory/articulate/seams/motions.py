@@ -36,7 +36,7 @@ class Opening:
 
     @property
     def way(self) -> OpensBy:
-        """The likeliest."""
+        """Return the likeliest."""
         return self.ways[0][0]
 
 
@@ -126,7 +126,7 @@ def _weights(
 
 
 def _place(panel: FrontPanel, handle: Protrusion) -> tuple[float, float]:
-    """Where the handle is: across from the left and up from the bottom, 0 to 1."""
+    """Return where the handle is: across from the left and up from the bottom, 0 to 1."""
     low = panel.rectangle.low
     size = np.maximum(panel.rectangle.size, 1)
     up, across = (handle.center - low) / size

@@ -53,7 +53,7 @@ LEAST_VALUE = 0.8
 
 
 def choose(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[FrontPanel, ...]:
-    """The panels of one side that can be there together.
+    """Return the panels of one side that can be there together.
 
     Args:
         scene: the side.
@@ -71,7 +71,7 @@ def choose(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[FrontPanel, .
 
 
 def rated(scene: FrontScene, found: Sequence[Rectangle]) -> list[Group]:
-    """Each rectangle that may be a panel with what speaks for it, the likeliest first.
+    """Return each rectangle that may be a panel with what speaks for it, the likeliest first.
 
     Args:
         scene: the side.
@@ -106,7 +106,7 @@ def _groups(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[list[Group],
 
 
 def _divided(scene: FrontScene, rectangle: Rectangle) -> Group | None:
-    """A rectangle with several pulls, cut between them."""
+    """Return a rectangle with several pulls, cut between them."""
     pulls = main_pulls(scene.handles_in(rectangle), rectangle)
     if not 2 <= len(pulls) <= MOST_PIECES or _crossings(scene, rectangle) > len(pulls):
         return None
@@ -122,7 +122,7 @@ def _divided(scene: FrontScene, rectangle: Rectangle) -> Group | None:
 
 
 def usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
-    """Those that are solid, no slivers, and face the viewer, where the object is wide."""
+    """Return those that are solid, no slivers, and face the viewer, where the object is wide."""
     if not found:
         return []
     relief = scene.relief
@@ -145,7 +145,7 @@ def usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
 
 
 def _value(scene: FrontScene, rectangle: Rectangle) -> float:
-    """What speaks for a rectangle; the terms are in halves, set by hand."""
+    """Return what speaks for a rectangle; the terms are in halves, set by hand."""
     relief = scene.relief
     face = scene.face
     handles = scene.handles_in(rectangle)
@@ -171,12 +171,12 @@ def _value(scene: FrontScene, rectangle: Rectangle) -> float:
 
 
 def _certainty(handle: Protrusion) -> float:
-    """How surely a blob is a handle, by how far it stands off."""
+    """Return how surely a blob is a handle, by how far it stands off."""
     return float(np.clip((handle.height - 1.0) / FULL_HEIGHT, 0.3, 1.0))
 
 
 def _crossings(scene: FrontScene, rectangle: Rectangle) -> int:
-    """How many seams run through a rectangle from side to side: then it is not one panel."""
+    """Return how many seams run through a rectangle from side to side: then it is not one panel."""
     count = 0
     for lines, along, across in ((scene.level, 1, 0), (scene.upright, 0, 1)):
         margin = max(BEVEL * float(rectangle.size[across]), 6.0)
@@ -215,7 +215,7 @@ def _plinth(relief: Relief, rectangle: Rectangle) -> bool:
 
 
 def _alike(one: Rectangle, other: Rectangle) -> bool:
-    """Whether two panels are a row or a column of the same size."""
+    """Return whether two panels are a row or a column of the same size."""
     low = np.abs(one.low - other.low)
     high = np.abs(one.high - other.high)
     size = np.abs(one.size - other.size) / np.maximum(other.size, 1)

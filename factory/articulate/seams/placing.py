@@ -63,7 +63,7 @@ class OpeningPart:
 
 
 def box_before(side: Side, low: FloatArray, high: FloatArray, back: float) -> Region:
-    """All of a rectangle of one side that is before a depth, in that side's frame [m].
+    """Return all of a rectangle of one side that is before a depth, in that side's frame [m].
 
     Args:
         side: that is looked at.
@@ -79,7 +79,7 @@ def box_before(side: Side, low: FloatArray, high: FloatArray, back: float) -> Re
 
 
 def rim_depth(front: Front, panel: FrontPanel) -> float:
-    """How far behind the nearest point the outer edge of a panel lies [pixels]."""
+    """Return how far behind the nearest point the outer edge of a panel lies [pixels]."""
     top, bottom, left, right = _borders(front, panel)
     return max(float(np.median(each)) for each in (top, bottom, left, right) if len(each))
 
@@ -108,7 +108,7 @@ def panel_mover(
     confidence: float,
     sure: float,
 ) -> OpeningPart:
-    """A panel of a front that opens in one way.
+    """Return a panel of a front that opens in one way.
 
     Args:
         fronts: the four sides.
@@ -160,7 +160,7 @@ def panel_mover(
 def lid_mover(
     fronts: Mapping[Side, Front], lid: Lid, hinge: Side, confidence: float, sure: float
 ) -> OpeningPart:
-    """A lid hinged on one side."""
+    """Return a lid hinged on one side."""
     front = fronts[hinge]
     raster = front.relief.raster
     right, up, away = raster.side.frame
@@ -181,7 +181,7 @@ def lid_mover(
 
 
 def _nearest_above(front: Front, row: int) -> float:
-    """Where the lid begins, seen from the side of its hinge: depth [m]."""
+    """Return where the lid begins, seen from the side of its hinge: depth [m]."""
     rows = slice(row + 1, row + 8)
     depth = -front.face.height[rows][front.relief.seen[rows]]
     return float(np.percentile(depth, 25)) * front.relief.raster.pixel if len(depth) else 0.0

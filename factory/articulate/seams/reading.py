@@ -75,7 +75,7 @@ class MeshReading:
 
 
 def read(mesh: Mesh, pieces: IntArray | None = None) -> tuple[MeshReading, ...]:
-    """The readings of a mesh (metres, z up), the likeliest first, at most four.
+    """Return the readings of a mesh (metres, z up), the likeliest first, at most four.
 
     Args:
         mesh: metres, z up.
@@ -96,7 +96,7 @@ def read(mesh: Mesh, pieces: IntArray | None = None) -> tuple[MeshReading, ...]:
 
 
 def read_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[MeshReading, ...]:
-    """The readings of an object that is seen from its sides and from above."""
+    """Return the readings of an object that is seen from its sides and from above."""
     seen = _Sides.of(reliefs)
     top = reliefs[Side.TOP]
     knobs = {side: knobs_on(each.relief, each.scene.face) for side, each in seen.fronts.items()}
@@ -118,7 +118,7 @@ def _appliance_readings(seen: _Sides, side: Side) -> tuple[MeshReading, ...]:
 
 
 def _with(reading: MeshReading, knobs: Sequence[OpeningPart]) -> MeshReading:
-    """A reading with those knobs that sit on nothing that opens."""
+    """Return a reading with those knobs that sit on nothing that opens."""
     fixed = tuple(
         knob
         for knob in knobs
@@ -128,7 +128,7 @@ def _with(reading: MeshReading, knobs: Sequence[OpeningPart]) -> MeshReading:
 
 
 def _openings(seen: _Sides, *, has_knobs: bool) -> tuple[MeshReading, ...]:
-    """What opens, without knobs; what has some is an appliance, whose top is no lid."""
+    """Return what opens, without knobs; what has some is an appliance, whose top is no lid."""
     odds = value_of(seen.front.scene, seen.panels, seen.found[seen.side])
     if not has_knobs and seen.has_lid(odds < 0.0 and not seen.is_clear):
         return _lid_readings(seen.fronts, seen.lids)
@@ -172,24 +172,24 @@ class _Sides:
 
     @property
     def front(self) -> Front:
-        """The side with the panels."""
+        """Return the side with the panels."""
         return self.fronts[self.side]
 
     @property
     def value(self) -> float:
-        """What speaks for the panels."""
+        """Return what speaks for the panels."""
         return _front_value(self.panels, self.side)
 
     @property
     def is_clear(self) -> bool:
-        """Whether the picture network is sure of all of several panels."""
+        """Return whether the picture network is sure of all of several panels."""
         areas = [panel.rectangle.area for panel in self.panels]
         shown = [self.front.sight.shows(panel.rectangle) for panel in self.panels]
         return len(areas) > 1 and bool(np.average(shown, weights=areas) >= CLEAR)
 
     @property
     def is_evident(self) -> bool:
-        """Whether each of several panels has a handle and seams around it."""
+        """Return whether each of several panels has a handle and seams around it."""
         return len(self.panels) > 1 and all(
             panel.handles and panel.rectangle.closed >= SHUT for panel in self.panels
         )
@@ -301,7 +301,7 @@ def _without_planks(front: Front, panels: list[FrontPanel]) -> list[FrontPanel]:
 
 
 def _has_ends(front: Front, panel: FrontPanel) -> bool:
-    """Whether the picture network sees it end on all sides, as planks and plates do not."""
+    """Return whether the picture network sees it end on all sides, as planks and plates do not."""
     ends = front.sight.ends(panel.rectangle)
     return bool(ends.min() >= max(LEAST_ENDS, EVEN_ENDS * ends.max()))
 

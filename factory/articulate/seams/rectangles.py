@@ -136,15 +136,15 @@ class Rectangle:
 
     @property
     def closed(self) -> float:
-        """How well all four sides are covered, 0 to 1."""
+        """Return how well all four sides are covered, 0 to 1."""
         return float(0.5 * self.sides.mean() + 0.5 * self.sides.min())
 
     def holds(self, point: FloatArray | IntArray, margin: float = 0.0) -> bool:
-        """Whether a place (row, column) lies inside."""
+        """Return whether a place (row, column) lies inside."""
         return bool((point >= self.low + margin).all() and (point <= self.high - margin).all())
 
     def with_side(self, side: int, at: int) -> Rectangle:
-        """The same with one side elsewhere, ``BOTTOM``, ``TOP``, ``LEFT`` or ``RIGHT``."""
+        """Return the same with one side elsewhere, ``BOTTOM``, ``TOP``, ``LEFT`` or ``RIGHT``."""
         axis, upper = divmod(side, 2)
         low = self.low.copy()
         high = self.high.copy()
@@ -158,7 +158,7 @@ class Rectangle:
 
 
 def rectangles_of(level: Lines, upright: Lines, shortest: float) -> tuple[Rectangle, ...]:
-    """Every rectangle of these lines that is closed well enough, the best first.
+    """Return every rectangle of these lines that is closed well enough, the best first.
 
     Args:
         level: horizontal lines.

@@ -1,6 +1,6 @@
 """What a small picture network sees on a side: which pixels open, where they end, and how.
 
-Its figures come from ``training/elevations``; it runs in numpy, so that reading a mesh needs no
+Its figures come from ``learn/elevations``; it runs in numpy, so that reading a mesh needs no
 framework and gives the same answer everywhere.
 """
 
@@ -105,7 +105,7 @@ class Sight:
         )
 
     def is_of_lid(self, rectangle: Rectangle) -> bool:
-        """Whether more of a rectangle belongs to a lid than to a door, drawer or flap."""
+        """Return whether more of a rectangle belongs to a lid than to a door, drawer or flap."""
         squares = _squares_in(rectangle)
         return bool(self.lid[squares].sum() > self.panel[squares].sum())
 
@@ -124,7 +124,7 @@ def _squares_in(rectangle: Rectangle) -> tuple[slice, slice]:
 
 
 def sight_of(relief: Relief) -> Sight:
-    """What is seen on one side."""
+    """Return what is seen on one side."""
     answer = network_answer(shipped_weights(), cues_of(relief))
     squares = tuple(-(-length // SQUARE) for length in relief.shape)
     answer = answer[:, : squares[0], : squares[1]]
@@ -192,7 +192,7 @@ def network_answer(weights: Weights, cues: FloatArray) -> FloatArray:
 
 @cache
 def shipped_weights() -> Weights:
-    """Those that come with the package, by name."""
+    """Return those that come with the package, by name."""
     path = resources.files("asset_factory") / "configs" / FILE
     with path.open("rb") as file, np.load(file, allow_pickle=False) as stored:
         return {name: stored[name].astype(np.float32) for name in stored.files}
@@ -203,7 +203,7 @@ def _pair(weights: Weights, name: str, values: FloatArray) -> FloatArray:
 
 
 def _layer(weights: Weights, name: str, values: FloatArray, step: int = 1) -> FloatArray:
-    """A convolution, cut off below 0."""
+    """Return a convolution, cut off below 0."""
     found = _convolved(values, weights[f"{name}.weight"], weights[f"{name}.bias"], step)
     return np.maximum(found, 0.0)
 
@@ -233,7 +233,7 @@ def _convolved(
 
 
 def _halved(values: FloatArray) -> FloatArray:
-    """The greatest of every four."""
+    """Return the greatest of every four."""
     channels, rows, columns = values.shape
     return np.asarray(values.reshape(channels, rows // 2, 2, columns // 2, 2).max(axis=(2, 4)))
 

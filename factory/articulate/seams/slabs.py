@@ -23,7 +23,7 @@ SURE = 0.8
 def slabs_on(
     fronts: Mapping[Side, Front], side: Side, found: Sequence[Rectangle]
 ) -> tuple[FrontPanel, ...]:
-    """The slabs of one side, from outline to outline.
+    """Return the slabs of one side, from outline to outline.
 
     Args:
         fronts: the four sides.

@@ -20,7 +20,7 @@ WIDEST = 3.0
 
 
 def parted(face: Face, upright: Lines) -> Face:
-    """A face whose handles on an upright seam are two each, one on either side.
+    """Return a face whose handles on an upright seam are two each, one on either side.
 
     Args:
         face: a side without handles.

@@ -49,11 +49,11 @@ FORMATS = (
 
 
 def format_of(path: Path) -> MeshFormat | None:
-    """The format that a file's name speaks of; ``None`` if it is not read."""
+    """Return the format that a file's name speaks of; ``None`` if it is not read."""
     return next((form for form in FORMATS if form.suffix == path.suffix.lower()), None)
 
 
 def is_mesh(path: Path) -> bool:
-    """Whether a file may be built by itself, by its name."""
+    """Return whether a file may be built by itself, by its name."""
     form = format_of(path)
     return form is not None and form.stands_alone

@@ -70,7 +70,7 @@ def read_gltf(data: bytes, path: Path, files: InputFiles) -> Soup:
 
 
 def _instances(document: GltfDocument) -> Iterator[tuple[dict[str, Any], FloatArray]]:
-    """Every node of the default scene that shows a mesh, and its world matrix."""
+    """Yield every node of the default scene that shows a mesh, and its world matrix."""
     nodes = document.items("nodes")
     require_at_most(document.name, len(nodes), _MOST_NODES, "nodes")
     scenes = document.items("scenes")
@@ -243,7 +243,7 @@ def _look(material: Material | None, tint: tuple[float, ...] | None, name: str) 
 
 
 def _move(primitive: _Primitive, matrix: FloatArray) -> _Primitive:
-    """The primitive in the scene's frame; a mirroring matrix reverses the winding."""
+    """Return the primitive in the scene's frame; a mirroring matrix reverses the winding."""
     linear = matrix[:3, :3]
     with np.errstate(all="ignore"):
         determinant = np.linalg.det(linear)

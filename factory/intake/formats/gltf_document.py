@@ -80,7 +80,7 @@ class GltfDocument:
         self._numbers = 0
 
     def items(self, key: str) -> list[dict[str, Any]]:
-        """A top-level array of the document, empty if absent."""
+        """Return a top-level array of the document, empty if absent."""
         value = self.json.get(key, [])
         return value if isinstance(value, list) else []
 
@@ -92,7 +92,7 @@ class GltfDocument:
         return entries[index]
 
     def uri_bytes(self, uri: str) -> bytes:
-        """The content behind a URI: inline data, or a file in the asset's folder."""
+        """Return the content behind a URI: inline data, or a file in the asset's folder."""
         if uri[:5].lower() == "data:":
             header, _, payload = uri.partition(",")
             return (
@@ -118,7 +118,7 @@ class GltfDocument:
         return data, offset, length, int(view.get("byteStride", 0))
 
     def image_bytes(self, index: int) -> bytes:
-        """An image as it is encoded. Raises FileNotFoundError if its file is missing."""
+        """Return an image as it is encoded. Raises FileNotFoundError if its file is missing."""
         image = self.get("images", index)
         if "uri" in image:
             return self.uri_bytes(str(image["uri"]))
@@ -224,7 +224,7 @@ class GltfDocument:
 
 
 def _as_json(data: bytes, name: str) -> bytes:
-    """What has no GLB header, if it may be JSON. Raises InputRejected ``unreadable``."""
+    """Return what has no GLB header, if it may be JSON. Raises InputRejected ``unreadable``."""
     if data.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] != b"{":
         begins = " ".join(f"{byte:02x}" for byte in data[:4])
         raise unreadable(

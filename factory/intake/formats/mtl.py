@@ -96,7 +96,7 @@ def _unit(word: str) -> float:
 
 
 def _without_options(rest: str) -> str:
-    """The file name behind options such as ``-s 1 1 1``; it may hold spaces."""
+    """Return the file name behind options such as ``-s 1 1 1``; it may hold spaces."""
     words = rest.split(" ")
     while words and words[0].startswith("-") and len(words) > 1:
         skip = 1

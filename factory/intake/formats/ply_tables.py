@@ -65,7 +65,7 @@ class PlyTable:
 
 
 def read_header(data: bytes, name: str) -> PlyHeader:
-    """The header of a PLY file.
+    """Return the header of a PLY file.
 
     Raises:
         InputRejected: ``unreadable``.

@@ -125,7 +125,7 @@ def _allowed_license(
 
 
 def _joined(imported: Imported, name: str) -> tuple[Mesh, IntArray, IntArray]:
-    """All pieces as one mesh; the part of each of its faces; which of them have an area."""
+    """Return all pieces as one mesh; the part of each of its faces; which of them have an area."""
     if not imported.pieces:
         raise InputRejected("empty", f"{name}: no link has any geometry")
     whole = concatenate([mesh for _, mesh in imported.pieces])
@@ -169,7 +169,7 @@ def _choose_scale(
 
 
 def _doubts(extents: FloatArray, category: str | None) -> list[str]:
-    """A note where the size is not plausible; a description is believed all the same."""
+    """Return a note where the size is not plausible; a description is believed all the same."""
     if scale_by_size(extents, category).factor == 1.0:
         return []
     size = " x ".join(f"{extent:.3g}" for extent in extents)

@@ -37,7 +37,7 @@ SHOWN_GROUPS = range(3)
 
 
 def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Imported:
-    """Every body's visual geoms and every joint of an MJCF, in the world frame.
+    """Return every body's visual geoms and every joint of an MJCF, in the world frame.
 
     Several joints of one body become a chain through empty parts, in their order. A free joint is
     dropped.
@@ -95,7 +95,7 @@ def _body_name(model: CompiledModel, body: int) -> str:
 
 
 def _visuals(model: CompiledModel) -> list[CompiledGeom]:
-    """The geoms to show, judged for each group of bodies welded together."""
+    """Return the geoms to show, judged for each group of bodies welded together."""
     by_weld: dict[int, list[CompiledGeom]] = {}
     for geom in model.geoms:
         if geom.shape != "plane":
@@ -105,7 +105,7 @@ def _visuals(model: CompiledModel) -> list[CompiledGeom]:
 
 
 def shown(geoms: list[CompiledGeom]) -> list[CompiledGeom]:
-    """The geoms of one rigid body that are there to be seen.
+    """Return the geoms of one rigid body that are there to be seen.
 
     Where some collide and some do not, those that do not are visuals, and so is whatever shares
     their
@@ -155,7 +155,7 @@ def _shape(geom: CompiledGeom, model: CompiledModel, material: Material) -> Mesh
 
 
 def _images(model: CompiledModel, folder: Path, config: IntakeConfig) -> dict[int, Texture]:
-    """The model's flat textures that come from files, by index."""
+    """Return the model's flat textures that come from files, by index."""
     files = InputFiles(folder, config)
     images = {}
     for index, texture in enumerate(model.textures):

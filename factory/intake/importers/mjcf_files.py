@@ -15,7 +15,7 @@ FOLDERS = ("meshdir", "texturedir", "assetdir")
 
 
 def referenced_files(root: ET.Element, path: Path, max_bytes: int) -> list[Path]:
-    """Every file that an MJCF and the files it includes refer to, the includes among them.
+    """Return every file that an MJCF and the files it includes refer to, the includes among them.
 
     Args:
         root: the ``<mujoco>`` element.
@@ -82,7 +82,7 @@ def _asset_folders(document: ET.Element) -> list[str]:
 def _candidates(
     reference: str, folders: list[str], root: Path, base: Path, where: str
 ) -> list[Path]:
-    """The file under each folder it could mean; one is enough, none may lead outside."""
+    """Return the file under each folder it could mean; one is enough, none may lead outside."""
     found = []
     missing = None
     for folder in folders:

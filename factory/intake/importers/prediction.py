@@ -36,7 +36,7 @@ MOST = 1e9
 
 
 def read_prediction(path: Path, face_count: int, data: bytes | None = None) -> Annotation:
-    """The annotation in a ``pred.npz``.
+    """Return the annotation in a ``pred.npz``.
 
     Args:
         path: the file; nothing in it is unpickled.

@@ -12,7 +12,7 @@ RINGS = 16
 
 
 def box(size: npt.ArrayLike, material: Material) -> Mesh:
-    """An axis-aligned box of side lengths ``size`` [m], shape [3], centred at the origin."""
+    """Return an axis-aligned box of side lengths ``size`` [m], shape [3], centred at the origin."""
     corners = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
     quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
     faces = [triangle for a, b, c, d in quads for triangle in ((a, b, c), (a, c, d))]
@@ -20,7 +20,7 @@ def box(size: npt.ArrayLike, material: Material) -> Mesh:
 
 
 def cylinder(radius: float, length: float, material: Material) -> Mesh:
-    """A cylinder along z of ``radius`` and ``length`` [m], centred at the origin."""
+    """Return a cylinder along z of ``radius`` and ``length`` [m], centred at the origin."""
     half = length / 2.0
     return _revolved(
         np.array([[0.0, -half], [radius, -half], [radius, half], [0.0, half]]), material
@@ -28,7 +28,7 @@ def cylinder(radius: float, length: float, material: Material) -> Mesh:
 
 
 def ellipsoid(radii: npt.ArrayLike, material: Material) -> Mesh:
-    """An ellipsoid of semi-axes ``radii`` [m], shape [3], centred at the origin."""
+    """Return an ellipsoid of semi-axes ``radii`` [m], shape [3], centred at the origin."""
     angles = np.linspace(-np.pi / 2.0, np.pi / 2.0, RINGS + 1)
     unit = _revolved(np.stack([np.cos(angles), np.sin(angles)], axis=1), material)
     return Mesh.from_triangles(

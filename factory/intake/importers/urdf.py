@@ -46,7 +46,7 @@ class _UrdfJoint:
 
 
 def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig) -> Imported:
-    """Every link's visuals and every joint of a URDF, in the root link's frame.
+    """Return every link's visuals and every joint of a URDF, in the root link's frame.
 
     Args:
         robot: the ``<robot>`` element.

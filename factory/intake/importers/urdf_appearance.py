@@ -81,5 +81,5 @@ def painted(mesh: Mesh, shape: ET.Element, palette: Palette, where: str) -> Mesh
 
 
 def is_plain(material: Material) -> bool:
-    """Whether a mesh file left the looks open: the default colour and no image."""
+    """Return whether a mesh file left the looks open: the default colour and no image."""
     return material.texture is None and material.color == Material("default").color

@@ -53,7 +53,7 @@ class GeometryReader:
 
     @property
     def licenses(self) -> tuple[str, ...]:
-        """What the mesh files say of their licenses, each once."""
+        """Return what the mesh files say of their licenses, each once."""
         said = (visual.license for visual in self._visuals.values() if visual is not None)
         return tuple(dict.fromkeys(license for license in said if license))
 

@@ -33,7 +33,7 @@ from .usd_tree import annotation_of
 
 
 def load_usd(path: Path, config: IntakeConfig) -> Intake:
-    """An articulated USD asset as an input; a stage states its own units and up axis.
+    """Return an articulated USD asset as an input; a stage states its own units and up axis.
 
     Args:
         path: of the root layer; everything that it is composed of lies in or below its folder.

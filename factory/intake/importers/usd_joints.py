@@ -91,7 +91,7 @@ class BodyFrames:
 
 
 def joint_of(prim: Any, frames: BodyFrames) -> UsdJoint:
-    """One joint. Raises InputRejected: ``unsupported_joint``, ``unreadable``."""
+    """Return one joint. Raises InputRejected: ``unsupported_joint``, ``unreadable``."""
     from pxr import UsdPhysics
 
     joint = UsdPhysics.Joint(prim)

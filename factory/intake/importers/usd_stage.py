@@ -101,7 +101,7 @@ class _Bodies:
         self._rigid = rigid
 
     def of(self, prim: Any) -> str:
-        """The path of its body, or ``STATIC``."""
+        """Return the path of its body, or ``STATIC``."""
         path = prim.GetPath()
         while not path.isEmpty and str(path) != "/":
             if str(path) in self._rigid:
@@ -132,7 +132,7 @@ def _pieces(
 
 
 def _is_collider(prim: Any) -> bool:
-    """Whether a surface lies in a group called after collisions, or is called so itself."""
+    """Return whether a surface lies in a group called after collisions, or is called so itself."""
     return any(
         word in _COLLIDER_WORDS
         for name in str(prim.GetPath()).lower().split("/")

@@ -129,7 +129,7 @@ def _directed(
 
 
 def _annotated(link: _Link | None, parent: int, child: int, *, reversed_: bool) -> AnnotatedJoint:
-    """The joint; seen from ``body1``, ``body0`` moves the other way round."""
+    """Return the joint; seen from ``body1``, ``body0`` moves the other way round."""
     if link is None:
         up = np.array([0.0, 0.0, 1.0])
         return AnnotatedJoint(f"hold_{child}", "fixed", parent, child, up, np.zeros(3), None, None)

@@ -32,7 +32,7 @@ MAX_DEPTH = 32
 
 
 def read_xml(path: Path, max_bytes: int) -> Element:
-    """The root element of an XML file.
+    """Return the root element of an XML file.
 
     Raises:
         InputRejected: ``missing_file``; ``too_large``: more than ``max_bytes`` or
@@ -135,7 +135,7 @@ def find_reference(reference: str, folder: Path, where: str, base: Path | None =
 
 
 def _followed(path: Path) -> Path | None:
-    """Where a path leads; ``None`` for a name that no file can have."""
+    """Return where a path leads; ``None`` for a name that no file can have."""
     # Path.resolve raises at links in a circle.
     with suppress(OSError, ValueError):
         return Path(os.path.realpath(path))

@@ -33,7 +33,7 @@ def journal(path: Path) -> Iterator[Callable[[NightResult], None]]:
 
 
 def read_journal(path: Path) -> tuple[NightResult, ...]:
-    """All whole lines of a journal, in their order; empty if there is none."""
+    """Return all whole lines of a journal, in their order; empty if there is none."""
     attempts = []
     for line in path.read_bytes().splitlines() if path.is_file() else ():
         try:
@@ -44,7 +44,7 @@ def read_journal(path: Path) -> tuple[NightResult, ...]:
 
 
 def utc_now() -> datetime:
-    """The time."""
+    """Return the time."""
     return datetime.now(UTC)
 
 

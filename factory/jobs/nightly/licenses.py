@@ -24,13 +24,13 @@ class Licenses:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The same as the build's settings have it."""
+        """Return the same as the build's settings have it."""
         if self.unknown:
             return (*self.allowed, UNKNOWN) if self.allowed else ()
         return self.allowed or ("*",)
 
     def allow(self, license: str) -> bool:
-        """Whether an input under this license may be built."""
+        """Return whether an input under this license may be built."""
         return is_allowed(license, self.names)
 
 
@@ -50,7 +50,7 @@ def sort_out(
 
 
 def _stated(path: Path) -> str:
-    """What an input's sidecar states; empty where none can be read: loading says why."""
+    """Return what an input's sidecar states; empty where none can be read: loading says why."""
     try:
         found = [sidecar for sidecar in sidecar_paths(path) if sidecar.is_file()]
         if not found or found[0].stat().st_size > _MAX_BYTES:

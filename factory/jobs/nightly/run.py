@@ -214,7 +214,7 @@ class _NightRun:
 
 
 def _compared(report: NightlyReport, nights: Path, config: NightConfig) -> NightlyReport:
-    """The same report, against the last night before it that tried anything."""
+    """Return the same report, against the last night before it that tried anything."""
     night = report.night
     others = [other for other in files.stored_nights(nights) if other.name != night.name]
     earlier = [other for other in others if other.started <= night.started]
@@ -240,7 +240,7 @@ def _compared(report: NightlyReport, nights: Path, config: NightConfig) -> Night
 
 
 def _row_changes(before: Sequence[Entry], now: Sequence[Entry]) -> dict[str, int]:
-    """How many rows of the registry changed in each way, as told on the page."""
+    """Return how many rows of the registry changed in each way, as told on the page."""
     found = diff(before, now)
     groups = ("new", "newly_passed", "newly_failed", "changed", "gone")
     counts = {name.replace("_", " "): len(getattr(found, name)) for name in groups}

@@ -64,7 +64,7 @@ class NightConfig:
 
 
 def load_night(path: Path) -> NightConfig:
-    """The night that a TOML file describes; relative paths in it start from its folder.
+    """Return the night that a TOML file describes; relative paths in it start from its folder.
 
     Raises:
         ConfigError: unreadable, or a setting that does not exist or has another type.
@@ -94,7 +94,7 @@ def load_night(path: Path) -> NightConfig:
 
 
 def place_from(stated: str | Path, base: Path) -> Path | str:
-    """A URL as it is; a path, which may be relative to ``base``, from the root."""
+    """Return a URL as it is; a path, which may be relative to ``base``, from the root."""
     if isinstance(stated, str) and is_url(stated):
         return stated
     return Path(os.path.normpath(base / Path(stated).expanduser()))
@@ -112,7 +112,7 @@ def _weights(stated: str, base: Path) -> str:
 
 
 def with_licenses(config: NightConfig) -> NightConfig:
-    """The same night, whose build refuses what is under another license.
+    """Return the same night, whose build refuses what is under another license.
 
     Raises:
         ConfigError: the build's own settings name other licenses.

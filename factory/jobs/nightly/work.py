@@ -37,7 +37,7 @@ class Work:
 
     @property
     def settings(self) -> dict[str, str]:
-        """How the night is run, as its report tells it."""
+        """Return how the night is run, as its report tells it."""
         config = self._config
         return {
             "simulators": ", ".join(config.build.simulators),
@@ -49,11 +49,11 @@ class Work:
         }
 
     def find(self) -> tuple[Path, ...]:
-        """All inputs; those behind URLs are fetched."""
+        """Return all inputs; those behind URLs are fetched."""
         return find_inputs(local_inputs(self._config.inputs, self._config.output))
 
     def entries(self) -> tuple[Entry, ...]:
-        """All rows of the registry."""
+        """Return all rows of the registry."""
         return tuple(self._registry.walk())
 
     def job(self, inputs: tuple[Path, ...], damaged: frozenset[str] = frozenset()) -> Job:
@@ -65,7 +65,7 @@ class Work:
         return Job(inputs, config.output, config.build, executor, budget, one_network=here)
 
     def executor(self) -> Executor:
-        """Where workers run."""
+        """Return where workers run."""
         config = self._config
         if config.executor == LOCAL:
             workers, sentence = workers_for(config.workers or None, BUILD_BYTES)
@@ -82,13 +82,13 @@ class Work:
         )
 
     def budget(self) -> jobs.Budget:
-        """How much the job does."""
+        """Return how much the job does."""
         budget = self._config.budget
         longest = _HOUR_S * budget.max_hours
         return jobs.Budget(budget.limit or None, longest or None, budget.retry_rejected)
 
     def verify(self) -> tuple[Problem, ...]:
-        """What is wrong with registered assets."""
+        """Return what is wrong with registered assets."""
         return verify(self._registry)
 
     def mend_rows(self, damage: Sequence[Problem]) -> None:
@@ -96,7 +96,7 @@ class Work:
         mend_rows(self._registry, damage)
 
     def settle(self, damage: Sequence[Problem], *, final: bool) -> dict[str, Settled]:
-        """What became of damaged assets; those that nothing could mend are withdrawn."""
+        """Return what became of damaged assets; those that nothing could mend are withdrawn."""
         return settle(self._registry, damage, final=final)
 
     def tidy(self) -> str:

@@ -33,7 +33,7 @@ def versions() -> Versions:
 
 
 def difference(here: Versions, there: Versions) -> str:
-    """What a node has otherwise, in words; its first three are enough to see why."""
+    """Return what a node has otherwise, in words; its first three are enough to see why."""
     other = dict(there)
     words = [
         f"{name} {other.get(name, 'absent')}, here {version}"

@@ -28,7 +28,7 @@ WEIGHTS = "weights"
 def ray_executor(
     config: BuildConfig, *, workers: int | None = None, address: str = LOCAL, exchange: str = ""
 ) -> RayExecutor:
-    """The executor to give to a :class:`~.job.Job`, with ``one_network=False``.
+    """Return the executor to give to a :class:`~.job.Job`, with ``one_network=False``.
 
     Args:
         config: with which inputs are built.
@@ -54,5 +54,5 @@ def ray_executor(
 
 
 def files_of(product: Product | None) -> Reads:
-    """What an input was made of, as far as a call's value says."""
+    """Return what an input was made of, as far as a call's value says."""
     return {} if product is None else product.reads

@@ -93,7 +93,7 @@ def _own_signals() -> Iterator[None]:
 
 
 def _private(folder: str) -> dict[str, str]:
-    """The environment that a cluster of one's own is started in.
+    """Return the environment that a cluster of one's own is started in.
 
     Its processes keep temporary files in ``folder``: killed in the end, they remove none. They
     listen on the loopback address only, and to nobody but who knows a token that is written into no

@@ -99,7 +99,7 @@ class Transfer:
     url: str
 
     def opened(self, outcome: Outcome[Sent[T]]) -> Outcome[T]:
-        """The function's own outcome, with its folder here: paths in the value lead there.
+        """Return the function's own outcome, with its folder here: paths in the value lead there.
 
         Raises:
             OSError: the file that brings it is not there any more, or is another one.
@@ -254,7 +254,7 @@ def paths_below(value: Any, folder: Path) -> Iterator[Path]:
 
 
 def moved(value: Any, old: Path, new: Path) -> Any:
-    """A value with paths below one folder moved to another; see :func:`paths_below`."""
+    """Return a value with paths below one folder moved to another; see :func:`paths_below`."""
     if isinstance(value, Path):
         return new / value.relative_to(old) if value.is_relative_to(old) else value
     if isinstance(value, tuple):

@@ -152,7 +152,7 @@ class _Tasks(Generic[T]):
             self._told(self._networks.look)
 
     def most(self) -> int:
-        """How many calls may be under way now."""
+        """Return how many calls may be under way now."""
         if self._executor.workers is None:
             return AHEAD * self._room
         # Ray itself starts no more than there are processors in a cluster of one's own.
@@ -214,7 +214,7 @@ class _Tasks(Generic[T]):
             self._networks.close()
 
     def _outcome(self, under_way: Any, task: _Task) -> Outcome[T] | None:
-        """The outcome of a try that is over; ``None`` if it was lost and is made again."""
+        """Return the outcome of a try that is over; ``None`` if it was lost and is made again."""
         errors = self._ray.exceptions
         try:
             return self._answered(under_way, task)
@@ -246,7 +246,7 @@ class _Tasks(Generic[T]):
         return Outcome(None, Failure.CRASHED, detail, "", self._age(task), None, task.number + 1)
 
     def _answered(self, under_way: Any, task: _Task) -> Outcome[T] | None:
-        """What a node says; ``None`` if the call is made again. Raises what loses a try."""
+        """Return what a node says; ``None`` if the call is made again. Raises what loses a try."""
         word, node, answer = self._ray.get(under_way, timeout=FETCH_S)
         if word == "lost":
             raise OSError(answer)

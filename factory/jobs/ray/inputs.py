@@ -113,11 +113,11 @@ class Inputs:
     reads: Callable[[Any], Reads]
 
     def told(self, arguments: Mapping[str, Any]) -> dict[str, Any]:
-        """A call's arguments, with where its input lies."""
+        """Return a call's arguments, with where its input lies."""
         return {**arguments, self.place: arguments[self.argument]}
 
     def packed(self, arguments: Mapping[str, Any], more: frozenset[str]) -> PackedInput:
-        """An input with what it seems to refer to.
+        """Return an input with what it seems to refer to.
 
         Args:
             arguments: of the call.
@@ -140,7 +140,7 @@ def _inside(name: str) -> bool:
 
 
 def _archived(source: Path, names: list[str]) -> bytes:
-    """Those of an input's files that are there, without owners, times and modes."""
+    """Return those of an input's files that are there, without owners, times and modes."""
     packed = io.BytesIO()
     with tarfile.open(fileobj=packed, mode="w:", format=tarfile.PAX_FORMAT) as archive:
         for name in names:

@@ -100,7 +100,7 @@ class Nodes:
             end_connections(hosts)
 
     def options(self, node: str = "") -> dict[str, Any]:
-        """Where a task may run, as Ray is told; on that node, as long as it is there."""
+        """Return where a task may run, as Ray is told; on that node, as long as it is there."""
         if node:
             affinity = self._ray.util.scheduling_strategies.NodeAffinitySchedulingStrategy
             return {"scheduling_strategy": affinity(node, soft=True)}

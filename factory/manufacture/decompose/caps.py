@@ -14,7 +14,7 @@ OPENING_SHARE = 0.05
 
 
 def capped(surface: OpenSurface, share: float = OPENING_SHARE) -> Manifold | None:
-    """The solid that a surface encloses once its small openings are closed, outward.
+    """Return the solid that a surface encloses once its small openings are closed, outward.
 
     Args:
         surface: an open piece.

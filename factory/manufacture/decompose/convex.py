@@ -64,7 +64,7 @@ def thickness(vertices: FloatArray, planes: FloatArray) -> float:
 
 
 def depth_below(hull: Hull, points: FloatArray) -> FloatArray:
-    """How far each point lies below the hull's surface [m], shape [n].
+    """Return how far each point lies below the hull's surface [m], shape [n].
 
     Negative outside: there the hull is at least as far, see :mod:`.outside`.
     """

@@ -54,7 +54,7 @@ def as_one(solid: Manifold, error_m: float, slot_m: float | None = None) -> Cut 
 
 
 def flatness(vertices: FloatArray) -> float:
-    """How far off a plane rounding may leave a vertex [m]."""
+    """Return how far off a plane rounding may leave a vertex [m]."""
     return THINNEST_M + 1e-5 * float(np.ptp(vertices, axis=0).max())
 
 
@@ -96,7 +96,7 @@ def cut_along_faces(
 
 
 def opened(solid: Manifold, cavity: Manifold) -> list[Manifold]:
-    """A solid without a cavity, in pieces that are each one connected surface.
+    """Return a solid without a cavity, in pieces that are each one connected surface.
 
     An enclosed cavity has a surface of its own, which no step after this one would tell from a
         second body: the
@@ -141,7 +141,7 @@ def _best_cut(piece: Manifold) -> list[Manifold] | None:
 
 
 def _halves(piece: Manifold, normal: FloatArray, offset: float) -> list[Manifold]:
-    """What lies on either side of a plane, in connected pieces.
+    """Return what lies on either side of a plane, in connected pieces.
 
     A plane along a face would leave films of rounding's thickness on the wrong side, so a layer
     about it is taken away, and what ends there is then stretched back to the plane.

@@ -192,7 +192,7 @@ def packed(result: PartHulls) -> dict[str, npt.NDArray[Any]]:
 
 
 def unpacked(kept: Mapping[str, npt.NDArray[Any]]) -> PartHulls:
-    """The inverse of :func:`packed`."""
+    """Return the inverse of :func:`packed`."""
     vertices = np.split(kept["vertices"], np.cumsum(kept["vertex_counts"])[:-1])
     faces = np.split(kept["faces"], np.cumsum(kept["face_counts"])[:-1])
     return PartHulls(

@@ -105,7 +105,7 @@ def climb_down(solid: Manifold, error_m: float, config: DecomposeConfig) -> Rung
 
 
 def _believed(attempt: _Attempt) -> Outcome[list[Triangles]]:
-    """What comes of an attempt on every machine: an answer, a crash that repeats, no memory.
+    """Return what comes of an attempt on every machine: an answer, a crash that repeats, no memory.
 
     Raises:
         ImportError, RuntimeError, Unjudged: as :func:`climb_down`.
@@ -176,7 +176,7 @@ def _limits(config: DecomposeConfig) -> Limits:
 
 
 def complaint(solid: Manifold, hulls: list[Hull], outside_m: float) -> str | None:
-    """What is wrong with ``hulls`` as a cover of ``solid``; ``None`` if nothing is.
+    """Return what is wrong with ``hulls`` as a cover of ``solid``; ``None`` if nothing is.
 
     Args:
         solid: what they should cover.

@@ -159,7 +159,7 @@ def _cost(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> float:
 
 
 def _allowed(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> bool:
-    """Whether two clusters may be one hull: it fills nothing that must stay open."""
+    """Return whether two clusters may be one hull: it fills nothing that must stay open."""
     hull = _joined(first, second)
     if hull is None or yardstick.room.entered(hull, (first.hull, second.hull)):
         return False

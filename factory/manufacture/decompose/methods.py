@@ -52,12 +52,12 @@ def slot_of(config: DecomposeConfig) -> float:
 
 
 def whole(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces | None:
-    """One hull, where that fills little."""
+    """Return one hull, where that fills little."""
     return _named(as_one(solid, error_m, slot_of(config)))
 
 
 def along_faces(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces | None:
-    """A few pieces, cut along the solid's own faces."""
+    """Return a few pieces, cut along the solid's own faces."""
     return _named(cut_along_faces(solid, error_m, FEW_PIECES, slot_of(config)))
 
 

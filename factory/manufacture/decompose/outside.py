@@ -30,12 +30,12 @@ def outside(hulls: Sequence[Hull], points: FloatArray) -> FloatArray:
 
 
 def uncovered(hulls: Sequence[Hull], points: FloatArray) -> float:
-    """How far the worst of ``points`` lies outside all hulls [m]; zero if none does."""
+    """Return how far the worst of ``points`` lies outside all hulls [m]; zero if none does."""
     return float(outside(hulls, points).max(initial=0.0))
 
 
 def _outside(hulls: Sequence[Hull], points: FloatArray) -> FloatArray:
-    """The same of a block of points: first from the hull whose planes are nearest.
+    """Return the same of a block of points: first from the hull whose planes are nearest.
 
     Others are asked only where their planes are nearer than that.
     """

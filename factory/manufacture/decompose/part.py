@@ -123,7 +123,7 @@ def split_part(
 
 
 def _closed(sheet: OpenSurface, room: Room) -> Manifold | None:
-    """The solid that a surface nearly encloses, where closing it keeps nobody out."""
+    """Return the solid that a surface nearly encloses, where closing it keeps nobody out."""
     narrow = narrow_openings(sheet)
     # A bowl or a bottle that a hand gets into from above stays hollow.
     if not narrow and opens_up(sheet):
@@ -138,7 +138,7 @@ def _closed(sheet: OpenSurface, room: Room) -> Manifold | None:
 def _single(
     vertices: FloatArray, faces: IntArray, gated: Gated, error_m: float, config: DecomposeConfig
 ) -> PartPieces | None:
-    """The whole part as one hull, where all of it lies close below that hull's surface."""
+    """Return the whole part as one hull, where all of it lies close below that hull's surface."""
     if len(gated.solids) + len(gated.sheets) < 2 or not gated.solids or gated.cavities:
         return None
     hull = hull_of(vertices[np.unique(faces)])
@@ -162,7 +162,7 @@ def _outermost(solids: list[Manifold]) -> list[Manifold]:
 
 
 def _hollowed(solids: list[Manifold], cavities: list[Manifold]) -> list[Manifold]:
-    """The solids with what is hollow in them cut out."""
+    """Return the solids with what is hollow in them cut out."""
     for cavity in cavities:
         solids = [piece for solid in solids for piece in opened(solid, cavity)]
     return solids

@@ -20,7 +20,7 @@ SLOT_COSINE = 0.3
 
 
 def fills_little(hull: Hull, solid: Manifold, error_m: float, slot_m: float | None = None) -> bool:
-    """Whether ``hull`` may stand for ``solid``: its surface is within ``error_m`` of it.
+    """Return whether ``hull`` may stand for ``solid``: its surface is within ``error_m`` of it.
 
     That is so where every pocket it fills is a dent no deeper than ``error_m``, or a slot or hole
     no wider than ``slot_m``, whatever its depth: nobody's clearance shrinks by more than

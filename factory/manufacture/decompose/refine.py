@@ -25,7 +25,7 @@ MOST_SEARCHED = 64
 def refined(
     solid: Manifold, split: SolidPieces, error_m: float, config: DecomposeConfig, room: Room
 ) -> SolidPieces:
-    """The same pieces, with those that cannot stay split again with half the error.
+    """Return the same pieces, with those that cannot stay split again with half the error.
 
     Args:
         solid: a closed manifold [m].

@@ -46,12 +46,12 @@ class Room:
     points: FloatArray = field(default_factory=_nowhere)
 
     def inside(self, hull: Hull) -> FloatArray:
-        """The points that lie in a hull [m], shape [k, 3]."""
+        """Return the points that lie in a hull [m], shape [k, 3]."""
         near = self._near(hull)
         return near[depth_below(hull, near) > ENTERED_M] if len(near) else near
 
     def entered(self, hull: Hull, sources: Iterable[Hull] = ()) -> bool:
-        """Whether a hull takes room that the hulls which it was made from did not take."""
+        """Return whether a hull takes room that the hulls which it was made from did not take."""
         found = self.inside(hull)
         for source in sources:
             if not len(found):
@@ -60,7 +60,7 @@ class Room:
         return bool(len(found))
 
     def within(self, solid: Manifold) -> bool:
-        """Whether another part reaches into a solid."""
+        """Return whether another part reaches into a solid."""
         low, high = np.array(solid.bounding_box()).reshape(2, 3)
         near = self.points[((self.points > low) & (self.points < high)).all(axis=1)]
         return bool(inside(solid, near).any())

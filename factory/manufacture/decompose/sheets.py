@@ -128,7 +128,7 @@ def _offer(
 
 
 def _cost(first: _Patch, second: _Patch, error_m: float) -> float:
-    """How much of the allowed error joining two patches would use; more than 1 is too much.
+    """Return how much of the allowed error joining two patches would use; more than 1 is too much.
 
     Rounded, so that faces of one plane cost the same, whatever the last digits are: what was met
     first is joined first.
@@ -159,7 +159,7 @@ def _outline(points: FloatArray, direction: FloatArray) -> tuple[float, float]:
 
 
 def _across(x: float, y: float, z: float) -> FloatArray:
-    """Two unit vectors across a unit vector, as columns, shape [3, 2] (Duff et al. 2017)."""
+    """Return two unit vectors across a unit vector, as columns, shape [3, 2] (Duff et al. 2017)."""
     sign = math.copysign(1.0, z)
     a = -1.0 / (sign + z)
     b = x * y * a

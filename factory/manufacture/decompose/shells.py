@@ -38,13 +38,13 @@ def as_shell(surface: OpenSurface, error_m: float, room: Room) -> Hull | None:
 
 
 def narrow_openings(surface: OpenSurface) -> bool:
-    """Whether no hand gets in through any opening of a surface."""
+    """Return whether no hand gets in through any opening of a surface."""
     loops = boundary_loops(surface.faces)
     return bool(loops) and all(_width(surface.vertices[loop]) < HAND_M for loop in loops)
 
 
 def opens_up(surface: OpenSurface) -> bool:
-    """Whether it is open towards the top, as a tray is, whichever way it is wound."""
+    """Return whether it is open towards the top, as a tray is, whichever way it is wound."""
     corners = surface.vertices[surface.faces]
     vectors = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2.0
     middle = (surface.vertices.min(axis=0) + surface.vertices.max(axis=0)) / 2.0

@@ -13,7 +13,7 @@ VOLUME_SHARE = 0.02
 
 
 def simplified(solid: Manifold, max_faces: int, tolerance_m: float) -> Manifold:
-    """The solid with about ``max_faces`` triangles; itself where that would not stay closed.
+    """Return the solid with about ``max_faces`` triangles; itself where that would not stay closed.
 
     Args:
         solid: a closed manifold [m].
@@ -28,7 +28,7 @@ def simplified(solid: Manifold, max_faces: int, tolerance_m: float) -> Manifold:
 
 
 def lighter(surface: OpenSurface, max_faces: int) -> OpenSurface:
-    """An open surface with about ``max_faces`` triangles."""
+    """Return an open surface with about ``max_faces`` triangles."""
     if len(surface.faces) <= max_faces:
         return surface
     vertices, faces = _decimated(surface.vertices, surface.faces, max_faces)

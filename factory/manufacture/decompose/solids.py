@@ -48,7 +48,7 @@ class Gated:
 
 
 def manifold_of(vertices: FloatArray, faces: IntArray) -> Manifold | None:
-    """A manifold of these triangles [m]; ``None`` unless they close and enclose something.
+    """Return a manifold of these triangles [m]; ``None`` unless they close and enclose something.
 
     The volume may be negative: an inverted body.
     """
@@ -67,7 +67,7 @@ def manifold_of(vertices: FloatArray, faces: IntArray) -> Manifold | None:
 
 
 def closes(faces: IntArray) -> bool:
-    """Whether every edge is walked as often one way as the other.
+    """Return whether every edge is walked as often one way as the other.
 
     Asked before anything native: manifold3d 3.5 dies of a segmentation fault on some open meshes.
     """
@@ -81,7 +81,7 @@ def closes(faces: IntArray) -> bool:
 
 
 def manifold_of_hull(hull: Hull) -> Manifold:
-    """A hull as a manifold."""
+    """Return a hull as a manifold."""
     return Manifold.hull_points(np.array(hull.vertices))
 
 
@@ -95,7 +95,7 @@ def triangles_of(manifold: Manifold) -> tuple[FloatArray, IntArray]:
 
 
 def flipped(manifold: Manifold) -> Manifold:
-    """The same surface wound the other way."""
+    """Return the same surface wound the other way."""
     vertices, faces = triangles_of(manifold)
     turned = manifold_of(vertices, faces[:, ::-1])
     return manifold if turned is None else turned
@@ -236,7 +236,7 @@ def _inside_out(closed: list[Manifold]) -> tuple[list[Manifold], list[Manifold]]
 
 
 def contains(outer: Manifold, inner: Manifold) -> bool:
-    """Whether ``inner`` lies within ``outer``, up to a thousandth of its volume."""
+    """Return whether ``inner`` lies within ``outer``, up to a thousandth of its volume."""
     a = np.array(outer.bounding_box())
     b = np.array(inner.bounding_box())
     slack = 1e-9 + 1e-6 * float(np.abs(a).max())

@@ -14,7 +14,7 @@ TOGETHER = 64
 
 
 def inside(solid: Manifold, points: FloatArray) -> npt.NDArray[np.bool_]:
-    """Which points [m], shape [n, 3], lie in a solid, by its winding number, shape [n].
+    """Return which points [m], shape [n, 3], lie in a solid, by its winding number, shape [n].
 
     The solid angles are those of van Oosterom and Strackee 1983.
     """

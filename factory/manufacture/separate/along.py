@@ -64,7 +64,7 @@ def _even(before: FloatArray, pose: FloatArray, other: FloatArray) -> bool:
 def cut_apart_along(
     a: Sequence[Hull], b: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
 ) -> tuple[list[Hull], list[Hull]]:
-    """Both lists with every pair of hulls cut to the clearance at every pose.
+    """Return both lists with every pair of hulls cut to the clearance at every pose.
 
     Args:
         a: hulls of one part, object frame at rest.
@@ -95,7 +95,7 @@ def carved_apart_along(
     clearance_m: float,
     whole: tuple[float, float] = (1.0, 1.0),
 ) -> tuple[list[Hull], list[Hull]]:
-    """The same, but a hull may become several around what another takes of it.
+    """Return the same, but a hull may become several around what another takes of it.
 
     Args:
         a: hulls of one part, object frame at rest.
@@ -122,7 +122,7 @@ def carved_apart_along(
 def hull_depth(
     a: Sequence[Hull], b: Sequence[Hull], pose: FloatArray, margin: float = 0.0
 ) -> float:
-    """How deep the deepest two hulls of two parts lie in one another [m].
+    """Return how deep the deepest two hulls of two parts lie in one another [m].
 
     Gaps up to ``margin`` are negative depths; where all hulls are further apart, minus that.
     """
@@ -137,7 +137,7 @@ def _all_apart(
     clearance_m: float,
     whole: tuple[float, float],
 ) -> Sides:
-    """The pieces of one hull cut apart from those of another."""
+    """Return the pieces of one hull cut apart from those of another."""
     i = 0
     while i < len(ones):
         j = 0
@@ -194,7 +194,7 @@ def _planed(
 
 
 def _moved(before: Hull | None, after: Hull | None) -> bool:
-    """Whether a hull is as large as before, but elsewhere."""
+    """Return whether a hull is as large as before, but elsewhere."""
     if before is None or after is None or before is after:
         return False
     return after.volume > (1.0 - 1e-6) * before.volume
@@ -207,7 +207,7 @@ def _seen(solid: Hull, pose: FloatArray, behind: FloatArray) -> FloatArray:
 
 
 def _from_the_other(step: Step) -> tuple[FloatArray, FloatArray]:
-    """The same step of the first part as the second sees it."""
+    """Return the same step of the first part as the second sees it."""
     back = np.asarray(np.linalg.inv(step.pose))
     return back, -back[:3, :3] @ step.behind
 

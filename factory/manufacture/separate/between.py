@@ -82,7 +82,7 @@ def cut_between(
 def _too_near(
     a: Sequence[Hull], b: Sequence[Hull], poses: Sequence[FloatArray]
 ) -> list[FloatArray]:
-    """The poses at which two hulls of two parts come too near to one another."""
+    """Return the poses at which two hulls of two parts come too near to one another."""
     found = []
     for pose in poses:
         near = near_pairs(a, b, pose, LEAST_M)

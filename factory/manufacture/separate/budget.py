@@ -58,7 +58,7 @@ class SeenSurface:
         return cls(np.concatenate([spread, corners]), SPREAD, mesh.diagonal)
 
     def beyond(self, hulls: Sequence[Hull]) -> FloatArray:
-        """How far each point lies beyond a face plane of every hull [m], shape [n].
+        """Return how far each point lies beyond a face plane of every hull [m], shape [n].
 
         That is how deep a cut went: a plane that takes all of a sheet at a slight angle is never
         deep, however far from what is left the sheet's other end lies then.
@@ -132,7 +132,7 @@ def loss(
     excuse: Excuse,
     config: SeparateConfig,
 ) -> Loss:
-    """What a part loses.
+    """Return what a part loses.
 
     Args:
         surface: what is seen of it.
@@ -274,7 +274,7 @@ def _within(hulls: Sequence[Hull], others: Sequence[Hull]) -> float:
 
 
 def _beside(points: FloatArray, hinges: Sequence[Joint], radius_m: float) -> npt.NDArray[np.bool_]:
-    """Which points lie near a hinge's line, shape [n]."""
+    """Return which points lie near a hinge's line, shape [n]."""
     near = np.zeros(len(points), dtype=bool)
     for hinge in hinges:
         arm = points - hinge.origin

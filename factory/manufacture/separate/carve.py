@@ -25,7 +25,7 @@ def carved(
     most: int = MOST_PIECES,
     least_m3: float | None = None,
 ) -> list[Hull]:
-    """What is left of a hull outside some room, as convex pieces.
+    """Return what is left of a hull outside some room, as convex pieces.
 
     Piece by piece the largest that one plane of the room leaves outside is kept.
 

@@ -87,7 +87,7 @@ def meeting(
 
 
 def _with_others(directions: FloatArray, order: IntArray, best: IntArray) -> IntArray:
-    """The best of some directions and the next best that are unlike all before them.
+    """Return the best of some directions and the next best that are unlike all before them.
 
     A flat button has many faces that look up; a cut across it is found among the others.
     """
@@ -99,7 +99,7 @@ def _with_others(directions: FloatArray, order: IntArray, best: IntArray) -> Int
 
 
 def stand_apart(a: Hull, b: Hull, clearance_m: float) -> bool:
-    """Whether a face normal of one separates two hulls by a clearance [m].
+    """Return whether a face normal of one separates two hulls by a clearance [m].
 
     The same as asking for the depth of their :func:`meeting`, but each hull's ends along its own
     normals are known.
@@ -144,7 +144,7 @@ def cut_apart(
 
 
 def _thicker_gives(a: Hull, b: Hull, pose: FloatArray, direction: FloatArray) -> float:
-    """The first hull's share of a cut across a direction."""
+    """Return the first hull's share of a cut across a direction."""
     first = float(np.ptp(a.vertices @ direction))
     second = float(np.ptp(b.vertices @ (direction @ pose[:3, :3])))
     return first / (first + second)

@@ -57,7 +57,7 @@ def at_an_edge(surface: SeenSurface | None, joint: Joint, config: SeparateConfig
 
 
 def about_its_middle(surface: SeenSurface | None, joint: Joint) -> bool:
-    """Whether a part reaches about as far to one side of its axis as to the other."""
+    """Return whether a part reaches about as far to one side of its axis as to the other."""
     if surface is None:
         return True
     ahead, behind = _reach(_arms(surface, joint))
@@ -82,12 +82,12 @@ def seat_roundness(
 
 
 def planed_limit(config: SeparateConfig, diagonal: float) -> float:
-    """How much may be planed off a part of this diagonal [m], in [m]."""
+    """Return how much may be planed off a part of this diagonal [m], in [m]."""
     return max(config.tolerance_m, min(config.planed_m, config.planed_share * diagonal))
 
 
 def reach_m(surface: SeenSurface, joint: Joint) -> float:
-    """How far a part reaches from a joint's axis [m]."""
+    """Return how far a part reaches from a joint's axis [m]."""
     return float(np.linalg.norm(_arms(surface, joint), axis=1).max())
 
 

@@ -51,7 +51,7 @@ def thickness_m(solid: Manifold | None) -> float:
 
 
 def overlap(a: Manifold, b: Manifold, pose: FloatArray) -> MeshOverlap:
-    """How two solids intersect where their parts are.
+    """Return how two solids intersect where their parts are.
 
     Args:
         a: a solid at rest.

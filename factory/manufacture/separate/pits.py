@@ -73,7 +73,7 @@ class Pit:
 def dug_around(
     holder: Sequence[Hull], body: Hull, poses: Sequence[FloatArray], clearance_m: float
 ) -> list[Hull]:
-    """What is left of hulls around all the room that a convex body takes.
+    """Return what is left of hulls around all the room that a convex body takes.
 
     Args:
         holder: hulls, object frame at rest.
@@ -102,7 +102,7 @@ def swept_share(
 
 
 def stands_out_m(holder: Sequence[Hull], mover: Sequence[Hull], joint: Joint) -> float:
-    """How much further than its own travel a slide stands out of what it goes into [m].
+    """Return how much further than its own travel a slide stands out of what it goes into [m].
 
     Infinite where it goes into nothing. Negative for what is no button: it would go in deeper than
     it stands out, as a drawer that runs the wrong way, or meets something further on.
@@ -120,7 +120,7 @@ def stands_out_m(holder: Sequence[Hull], mover: Sequence[Hull], joint: Joint) ->
 
 
 def _spare(heights: FloatArray, before: list[tuple[float, float]], travel: float) -> float:
-    """The same along one direction.
+    """Return the same along one direction.
 
     Args:
         heights: of the mover [m], shape [n].
@@ -167,13 +167,13 @@ def _met(
 
 
 def _room(hulls: Sequence[Hull], poses: Sequence[FloatArray]) -> Hull | None:
-    """All the room that hulls take on their way, as one."""
+    """Return all the room that hulls take on their way, as one."""
     points = np.concatenate([hull.vertices for hull in hulls])
     return hull_of(np.concatenate([points @ pose[:3, :3].T + pose[:3, 3] for pose in poses]))
 
 
 def _around(piece: Hull, room: Hull, clearance_m: float) -> list[Hull]:
-    """What is left of a hull around a room; the hull itself where they do not meet."""
+    """Return what is left of a hull around a room; the hull itself where they do not meet."""
     if stand_apart(piece, room, clearance_m):
         return [piece]
     corners = room.vertices

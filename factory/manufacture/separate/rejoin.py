@@ -16,7 +16,7 @@ EXACT_M = 1e-4
 
 
 def with_hulls(piece: PartHulls, hulls: list[Hull], max_vertices: int) -> PartHulls:
-    """A part with what cuts left of its hulls.
+    """Return a part with what cuts left of its hulls.
 
     Args:
         piece: as it was before.

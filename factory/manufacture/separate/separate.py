@@ -95,12 +95,12 @@ class _Bench:
 
     @cached_property
     def solids(self) -> tuple[Manifold | None, ...]:
-        """Each part as one solid; ``None`` if its surfaces enclose nothing."""
+        """Return each part as one solid; ``None`` if its surfaces enclose nothing."""
         return part_solids(self.articulation)
 
     @cached_property
     def surfaces(self) -> tuple[SeenSurface | None, ...]:
-        """What is seen of each part; ``None`` of a carrier."""
+        """Return what is seen of each part; ``None`` of a carrier."""
         return tuple(
             SeenSurface.of(self.articulation.part_mesh(index)) if len(part.faces) else None
             for index, part in enumerate(self.articulation.parts)
@@ -138,7 +138,7 @@ class _Bench:
             self.hidden[pair] = at_rest
 
     def nears(self, pair: Pair) -> bool:
-        """Whether two parts that were cut apart are nearer at rest than they may be."""
+        """Return whether two parts that were cut apart are nearer at rest than they may be."""
         if pair in self.refused:
             return False
         a, b = (self._index(name) for name in pair)
@@ -166,7 +166,7 @@ class _Bench:
         return seat_roundness(surface, joint, self._holding(joint), near)
 
     def _holding(self, joint: Joint) -> list[Hull]:
-        """The hulls of what holds the part that a joint moves."""
+        """Return the hulls of what holds the part that a joint moves."""
         holder = held_by(self.articulation, joint.child)
         return [] if holder is None else self.hulls[holder]
 
@@ -201,11 +201,11 @@ class _Bench:
         return [Pit(holder, at_once) for at_once in (True, False)]
 
     def _holder(self, a: int, b: int) -> int:
-        """Which of two parts holds the other, 0 for the first."""
+        """Return which of two parts holds the other, 0 for the first."""
         return 0 if held_by(self.articulation, b) == a else 1
 
     def _sides(self, a: int, b: int) -> tuple[list[Hull], list[Hull]]:
-        """The hulls of the one that holds, and those of the other."""
+        """Return the hulls of the one that holds, and those of the other."""
         hulls = (self.hulls[a], self.hulls[b])
         return hulls if self._holder(a, b) == 0 else (hulls[1], hulls[0])
 
@@ -276,7 +276,7 @@ class _Bench:
         return planed
 
     def _is_a_rim(self, part: int, lost: Loss) -> bool:
-        """Whether no more than the rim of a socket was taken of what is seen of a part."""
+        """Return whether no more than the rim of a socket was taken of what is seen of a part."""
         surface = self.surfaces[part]
         deep = SOCKET_DEEP * surface.diagonal if surface else 0.0
         return (
@@ -289,7 +289,7 @@ class _Bench:
         return next(i for i, part in enumerate(self.articulation.parts) if part.name == name)
 
     def _limit(self, a: int, b: int) -> float:
-        """How much may be planed off two parts [m].
+        """Return how much may be planed off two parts [m].
 
         A share of what their hinge holds, or of the lesser one.
         """
@@ -308,7 +308,7 @@ class _Bench:
         ]
 
     def _deepening(self, a: int, b: int, poses: list[FloatArray]) -> tuple[float, str | None]:
-        """How deep two parts overlap at rest [m], and why they may not be cut apart, if so.
+        """Return how deep two parts overlap at rest [m], and why they may not be cut apart, if so.
 
         What is hidden at rest may go, and what a hinge's own edge needs to turn. What else only
         meets along the way is the joint's fault, and a cut would hide it.
@@ -356,7 +356,7 @@ class _Bench:
         return losses
 
     def _free_limit(self, a: int, b: int) -> float:
-        """How much may be cut off two parts together where nothing excuses it [m].
+        """Return how much may be cut off two parts together where nothing excuses it [m].
 
         What a joint that is hung straight runs into on its way is planed off like the edge beside
         a hinge; a crooked joint is to be mended.
@@ -374,7 +374,7 @@ class _Bench:
         )
 
     def _pressed(self, a: int, b: int) -> float:
-        """How far a button goes into what holds it [m]; 0 for all that is no button."""
+        """Return how far a button goes into what holds it [m]; 0 for all that is no button."""
         between = joints_between(self.articulation, a, b)
         if len(between) != 1 or between[0].turns or not jointed(self.articulation, a, b):
             return 0.0
@@ -384,7 +384,7 @@ class _Bench:
         return travel if travel <= PRESSED_M or button else 0.0
 
     def _overdone(self, a: int, b: int, losses: list[Loss], at_most: float | None) -> str | None:
-        """Why a cut takes too much, or what can be seen; ``None`` if it does neither."""
+        """Return why a cut takes too much, or what can be seen; ``None`` if it does neither."""
         planed = self._limit(a, b) + self.config.clearance_m
         limits = CutLimits(self._free_limit(a, b), planed, at_most or self.config.most_cut)
         names = [self.articulation.parts[part].name for part in (a, b)]

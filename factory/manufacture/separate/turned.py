@@ -73,7 +73,7 @@ class Turned:
     def _across(
         self, below: Hull, above: Hull, clearance_m: float, share: float, most: float
     ) -> Hulls:
-        """One hull on either side of a plane across the axis; ``share`` goes off the first.
+        """Return one hull on either side of a plane across the axis; ``share`` goes off the first.
 
         Nothing, where what is left would be less than ``most`` [m3].
         """
@@ -89,7 +89,7 @@ class Turned:
     def _around(
         self, inner: Hull, outer: Hull, clearance_m: float, share: float, most: float
     ) -> Hulls:
-        """The first within a cylinder, the other without it; ``share`` goes off the first.
+        """Return the first within a cylinder, the other without it; ``share`` goes off the first.
 
         Nothing, where what is left would be less than ``most`` [m3].
         """
@@ -107,7 +107,7 @@ class Turned:
         return self._within(inner, end - share * needed, second, most), second
 
     def _within(self, hull: Hull, radius_m: float, other: Hull | None, most: float) -> Hull | None:
-        """What of a hull lies in a cylinder about the axis; see :meth:`_around`."""
+        """Return what of a hull lies in a cylinder about the axis; see :meth:`_around`."""
         first, second = np.linalg.svd(self.joint.axis[None])[2][1:]
         left: Hull | None = hull if radius_m > 0.0 else None
         for angle in np.arange(SIDES) * 2.0 * np.pi / SIDES:
@@ -136,15 +136,15 @@ def _ways(
 
 
 def _near(one: Hull, other: Hull, way: Sequence[FloatArray], clearance_m: float) -> bool:
-    """Whether two hulls come nearer to one another than they may."""
+    """Return whether two hulls come nearer to one another than they may."""
     return any(meeting(one, other, pose).depth > ROUNDING_M - clearance_m for pose in way)
 
 
 def _volume(hulls: Hulls) -> float:
-    """What is left of two hulls [m3]."""
+    """Return what is left of two hulls [m3]."""
     return sum(hull.volume for hull in hulls if hull is not None)
 
 
 def _less(hulls: Hulls, most: float) -> bool:
-    """Whether two hulls are less than ``most`` [m3], by more than rounding."""
+    """Return whether two hulls are less than ``most`` [m3], by more than rounding."""
     return _volume(hulls) < most - ROUNDING_SHARE * abs(most)

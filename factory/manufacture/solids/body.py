@@ -130,7 +130,7 @@ def _standing_points(work: Workpiece, part: int) -> FloatArray:
 
 
 def _cells(work: Workpiece, part: int, points: FloatArray) -> BoolArray:
-    """A part's cells, and those that its skin passes where it is thinner than cells are."""
+    """Return a part's cells, and those that its skin passes where it is thinner than cells are."""
     own: BoolArray = work.owner == part
     thin = marked(work.lattice, points) & ~ndimage.binary_dilation(
         own, np.ones((3, 3, 3), dtype=bool)

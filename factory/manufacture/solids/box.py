@@ -27,7 +27,7 @@ class Box:
 
     @classmethod
     def around(cls, points: FloatArray) -> Box:
-        """The least one that holds some points [m], shape [n, 3]."""
+        """Return the least one that holds some points [m], shape [n, 3]."""
         return cls(points.min(axis=0), points.max(axis=0))
 
     @property
@@ -37,7 +37,7 @@ class Box:
 
     @property
     def empty(self) -> bool:
-        """Whether nothing lies in it."""
+        """Return whether nothing lies in it."""
         return bool((self.size <= 0.0).any())
 
     def holds(self, points: npt.ArrayLike, margin: float = 0.0) -> BoolArray:
@@ -53,11 +53,11 @@ class Box:
         return Box(self.low - np.asarray(margin), self.high + np.asarray(margin))
 
     def within(self, other: Box) -> Box:
-        """What both hold."""
+        """Return what both hold."""
         return Box(np.maximum(self.low, other.low), np.minimum(self.high, other.high))
 
     def turned(self, rows: FloatArray) -> Box:
-        """The same box in a frame whose axes are ``rows``, quarter turns of this one's."""
+        """Return the same box in a frame whose axes are ``rows``, quarter turns of this one's."""
         which = np.abs(rows).argmax(axis=1)
         sign = np.sign(rows[np.arange(3), which])
         ends = np.stack([self.low[which] * sign, self.high[which] * sign])

@@ -82,7 +82,7 @@ def solids(articulation: Articulation, config: SolidsConfig, fronts: bool = Fals
 
 
 def _notes(work: Workpiece, pieces: tuple[PartHulls | None, ...]) -> Iterator[str]:
-    """What was invented and what was not made as panels are, a sentence each."""
+    """Yield what was invented and what was not made as panels are, a sentence each."""
     kinds = Counter(record.kind for record in work.records)
     said = ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
     if said:

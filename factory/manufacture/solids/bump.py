@@ -45,7 +45,7 @@ class Bump:
 
 
 def find_bump(points: FloatArray, rim: FloatArray, joint: Joint) -> Bump | None:
-    """A knob, a button or a wheel.
+    """Return a knob, a button or a wheel.
 
     Args:
         points: of the part's skin [m], shape [n, 3].

@@ -42,7 +42,7 @@ SPACING = 1.5
 
 
 def gaps(panel: FlatPanel, joint_axis: FloatArray, gap: float) -> FloatArray:
-    """How far the carving reaches beyond each edge of a panel [m], shape [4]."""
+    """Return how far the carving reaches beyond each edge of a panel [m], shape [4]."""
     margin = np.full(4, gap)
     if panel.kind is PanelKind.DRAWER:
         return margin
@@ -57,7 +57,7 @@ def gaps(panel: FlatPanel, joint_axis: FloatArray, gap: float) -> FloatArray:
 def planes_of_panels(
     panels: dict[int, FlatPanel], joints: list[Joint], config: SolidsConfig
 ) -> list[list[float]]:
-    """Where the lattice must have planes, across each axis of the working frame [m]."""
+    """Return where the lattice must have planes, across each axis of the working frame [m]."""
     planes: list[list[float]] = [[], [], []]
     for part, panel in panels.items():
         margin = gaps(panel, joints[part - 1].axis, config.gap_m)

@@ -24,7 +24,7 @@ SPILT = 0.02
 
 
 def hollow(lattice: Lattice, room: BoolArray, column: Box, frame: FloatArray) -> tuple[Box, ...]:
-    """The largest boxes, one behind the other, in which everything can be hollowed.
+    """Return the largest boxes, one behind the other, in which everything can be hollowed.
 
     Args:
         lattice: of the object.
@@ -54,7 +54,7 @@ def hollow(lattice: Lattice, room: BoolArray, column: Box, frame: FloatArray) ->
 
 
 def _shrunk(lattice: Lattice, room: BoolArray, box: Box, frame: FloatArray) -> Box | None:
-    """A box in which all may be hollowed: the worst side is moved in until that is so."""
+    """Return a box in which all may be hollowed: the worst side is moved in until that is so."""
     span = lattice.span(box.turned(frame.T))
     axes = np.abs(frame).argmax(axis=1)
     signs = frame[np.arange(3), axes]

@@ -42,7 +42,7 @@ def cleared(work: Workpiece) -> dict[int, tuple[Hull, ...]]:
 
 
 def _relative(articulation: Articulation, a: int, b: int, count: int) -> list[FloatArray]:
-    """Where one part is as seen from another, at rest and along each joint between them."""
+    """Return where one part is as seen from another, at rest and along each joint between them."""
     closed = {joint.name: joint.lower for joint in articulation.movable_joints}
     poses = [closed, {}]
     for joint in joints_between(articulation, a, b):

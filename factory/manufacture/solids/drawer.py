@@ -19,7 +19,7 @@ LEAST_M = 0.04
 
 
 def drawer_box(hollow: Box, back: float, up: int = 1) -> tuple[Box, ...]:
-    """The boards of a drawer's box.
+    """Return the boards of a drawer's box.
 
     Args:
         hollow: that it slides in, in the frame of the drawer's front: right, up, away.
@@ -46,7 +46,7 @@ def drawer_box(hollow: Box, back: float, up: int = 1) -> tuple[Box, ...]:
 
 
 def _part(box: Box, axis: int, start: float, end: float) -> Box:
-    """The part of a box between two planes across an axis [m]."""
+    """Return the part of a box between two planes across an axis [m]."""
     low = box.low.copy()
     high = box.high.copy()
     low[axis] = start

@@ -37,7 +37,7 @@ def working_frame(articulation: Articulation, parts: tuple[int, ...]) -> FloatAr
 
 
 def turned_hull(hull: Hull, rotation: FloatArray) -> Hull:
-    """A hull turned by a rotation, shape [3, 3]."""
+    """Return a hull turned by a rotation, shape [3, 3]."""
     if np.array_equal(rotation, np.eye(3)):
         return hull
     return Hull(hull.vertices @ rotation.T, hull.faces)

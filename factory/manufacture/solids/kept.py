@@ -15,7 +15,7 @@ from .skin import parts_to_build
 
 
 def solid_parts(articulation: Articulation, stages: Stages, fronts: bool = False) -> SolidParts:
-    """An articulation with what is to be built made solid; any other comes back as it is.
+    """Return an articulation with what is to be built made solid; any other comes back as it is.
 
     Args:
         articulation: parts and joints.

@@ -59,7 +59,7 @@ def make_bumps(work: Workpiece) -> None:
 
 
 def _way(joint: Joint) -> list[FloatArray]:
-    """Where a knob or a button is, at rest and as it is pressed; it turns on the spot."""
+    """Return where a knob or a button is, at rest and as it is pressed; it turns on the spot."""
     slides = joint.kind is JointKind.PRISMATIC
     return [np.eye(4), *motions(joint, PRESSES)] if slides else [np.eye(4)]
 

@@ -82,7 +82,7 @@ class Lattice:
         return np.asarray(x[:, None, None] * y[None, :, None] * z[None, None, :])
 
     def span(self, box: Box) -> Span:
-        """The cells whose centres lie in a box."""
+        """Return the cells whose centres lie in a box."""
         x, y, z = (
             slice(*np.searchsorted(middle, [box.low[axis], box.high[axis]]))
             for axis, middle in enumerate(self.middles)
@@ -126,7 +126,7 @@ class Lattice:
 
 
 def enclosed(mesh: Mesh, lattice: Lattice) -> BoolArray:
-    """The cells whose centres a skin encloses, shape [nx, ny, nz].
+    """Return the cells whose centres a skin encloses, shape [nx, ny, nz].
 
     Along each axis a ray counts how often it entered less how often it left; two of three axes
     decide, so that a hole of the skin fills or empties no more than what lies behind it.
@@ -160,7 +160,7 @@ def closed_up(whole: BoolArray) -> BoolArray:
 
 
 def _wound(mesh: Mesh, lattice: Lattice, axis: int, side: Side) -> BoolArray:
-    """Whether rays along one axis are inside at the cells' centres, shape [nx, ny, nz]."""
+    """Return whether rays along one axis are inside at the cells' centres, shape [nx, ny, nz]."""
     longest = float(mesh.extents.max())
     step = min(float(np.median(np.diff(each))) for each in lattice.lines) * FINER
     raster = Raster.around(mesh, side, int(np.clip(longest / step, 64, 400)))

@@ -46,7 +46,7 @@ class Matter:
 
     @cached_property
     def sparse(self) -> FloatArray:
-        """One point of the surface per eight cells [m], shape [n, 3]."""
+        """Return one point of the surface per eight cells [m], shape [n, 3]."""
         cells = [
             np.searchsorted(line, self.points[:, axis]) // 2
             for axis, line in enumerate(self.lattice.lines)
@@ -56,13 +56,13 @@ class Matter:
 
     @cached_property
     def trifle(self) -> float:
-        """What a piece may fill wrongly [m3]."""
+        """Return what a piece may fill wrongly [m3]."""
         volumes = self.lattice.volumes
         return TRIFLE * float(volumes[self.solid].sum()) + TRIFLE_OF_ALL * float(volumes.sum())
 
     @cached_property
     def unwanted(self) -> Weights:
-        """How bad it is to fill a cell: one that must stay free, or air; 0: not."""
+        """Return how bad it is to fill a cell: one that must stay free, or air; 0: not."""
         return np.asarray(self.free + (~self.whole & ~self.solid).astype(np.uint8))
 
     @cached_property

@@ -112,7 +112,7 @@ def facing(joint: Joint, part: int, views: dict[Side, PartView]) -> PartView | N
 
 
 def _swings(joint: Joint, view: PartView, seen: BoolArray, outward: FloatArray) -> float:
-    """How much of the first motion of what is seen goes outward, 0 to 1."""
+    """Return how much of the first motion of what is seen goes outward, 0 to 1."""
     rows, columns = np.nonzero(seen)
     local = np.array(
         [view.columns[columns].mean(), view.rows[rows].mean(), float(np.mean(view.depth[seen]))]
@@ -129,7 +129,7 @@ def _swings(joint: Joint, view: PartView, seen: BoolArray, outward: FloatArray) 
 def find_panel(
     mesh: Mesh, faces: IntArray, part: int, joint: Joint, view: PartView
 ) -> FlatPanel | None:
-    """What is known of a part as a panel that faces a view.
+    """Return what is known of a part as a panel that faces a view.
 
     Args:
         mesh: the whole skin.

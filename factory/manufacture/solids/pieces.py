@@ -231,7 +231,7 @@ def _extreme(points: FloatArray, count: int) -> FloatArray:
 
 
 def _waste(matter: Matter, span: Span, hull: Hull) -> float:
-    """What a hull fills wrongly [m3]: beyond its matter, and more so what must stay free."""
+    """Return what a hull fills wrongly [m3]: beyond its matter, and more so what must stay free."""
     volumes = matter.lattice.volumes[span]
     own = float((volumes * matter.solid[span]).sum())
     spare = max(hull.volume - FULLER * own, 0.0)
@@ -278,7 +278,7 @@ def _within(planes: FloatArray, corners: FloatArray, step: float) -> FloatArray:
 
 
 def _best_cut(matter: Matter, node: _Node) -> tuple[Span, ...]:
-    """The two halves of that cut after which least is left to be cut; none if none helps."""
+    """Return the two halves of that cut after which least is left to be cut; none if none helps."""
     best: tuple[Span, ...] = ()
     least = np.inf
     nearby = _nearby(matter, node.span)
@@ -348,7 +348,7 @@ def _cost(matter: Matter, nearby: _Nearby, span: Span) -> float:
 
 
 def _blocked(matter: Matter, nearby: _Nearby, span: Span, box: Box, hull: ConvexHull) -> float:
-    """How much of what must stay free a hull fills [m3], times its weight."""
+    """Return how much of what must stay free a hull fills [m3], times its weight."""
     planes = _within(hull.equations, hull.points[hull.vertices], matter.lattice.step)
     if _cells_in(span) < EXACT_BELOW:
         return _filled(matter.lattice, matter.free, span, planes)

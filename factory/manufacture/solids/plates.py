@@ -25,7 +25,7 @@ INSET = 0.15
 
 
 def plates(articulation: Articulation) -> dict[int, Side]:
-    """The thin parts that open an upright side, hung on the body, and that side.
+    """Return the thin parts that open an upright side, hung on the body, and that side.
 
     None where somebody stated the parts: what was modelled so is meant so.
     """
@@ -58,7 +58,7 @@ def bare_fronts(articulation: Articulation) -> tuple[int, ...]:
 
 
 def _opened_side(part: Mesh, joint: Joint) -> Side | None:
-    """The upright side that a part moves out of."""
+    """Return the upright side that a part moves out of."""
     motion = joint.axis
     if joint.kind is JointKind.REVOLUTE:
         motion = np.cross(joint.axis, part.bounds.mean(axis=0) - joint.origin)
@@ -90,7 +90,7 @@ def _solid_behind(articulation: Articulation, part: int, side: Side) -> float:
 
 
 def _window(raster: Raster, local: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """The pixels well within a part's rectangle, shape [rows * columns]."""
+    """Return the pixels well within a part's rectangle, shape [rows * columns]."""
     low = local[:, :2].min(axis=0)
     high = local[:, :2].max(axis=0)
     inset = INSET * (high - low)

@@ -117,7 +117,7 @@ def _ended(panel: FlatPanel, axis: int, at: float, above: bool) -> FlatPanel:
 
 
 def _claimed(skin: CutSkin, panel: FlatPanel, claimants: set[int], behind: float) -> CutSkin:
-    """The skin cut along a panel's sides and back; what is within is the panel's.
+    """Return the skin cut along a panel's sides and back; what is within is the panel's.
 
     What lies there and belongs to something else that moves, a knob or an inner drawer, stays so.
     """
@@ -142,7 +142,7 @@ def _claimed(skin: CutSkin, panel: FlatPanel, claimants: set[int], behind: float
 
 
 def _behind(panel: FlatPanel, depth: float = OWN_BACK_M) -> Box:
-    """What lies right behind a panel, clear of its frame."""
+    """Return what lies right behind a panel, clear of its frame."""
     return Box(
         np.append(panel.low + INSET_M, panel.back),
         np.append(panel.high - INSET_M, panel.back + depth),
@@ -176,7 +176,7 @@ def recognize_bumps(
 
 
 def cut_bases(skin: CutSkin, bumps: dict[int, Bump], hosts: dict[int, int]) -> CutSkin:
-    """The skin cut where knobs begin; what is below belongs to what they stand on."""
+    """Return the skin cut where knobs begin; what is below belongs to what they stand on."""
     for index, bump in bumps.items():
         if bump.normal is None:
             continue
@@ -189,7 +189,7 @@ def cut_bases(skin: CutSkin, bumps: dict[int, Bump], hosts: dict[int, int]) -> C
 
 
 def _about(articulation: Articulation, part: int) -> Joint:
-    """The joint of a part; of one on a carrier that turns, the turning one."""
+    """Return the joint of a part; of one on a carrier that turns, the turning one."""
     joint = articulation.joints[part - 1]
     above = joint.parent
     if above and not len(articulation.parts[above].faces):

@@ -33,7 +33,7 @@ class CutSkin:
 
     @classmethod
     def of(cls, mesh: Mesh, part: IntArray) -> CutSkin:
-        """All triangles of a mesh."""
+        """Return all triangles of a mesh."""
         count = len(mesh.faces)
         return cls(
             mesh.vertices[mesh.faces],
@@ -67,12 +67,12 @@ class CutSkin:
         )
 
     def labelled(self, part: IntArray) -> CutSkin:
-        """The same triangles as other parts'."""
+        """Return the same triangles as other parts'."""
         return CutSkin(self.corners, self.face, self.weights, part)
 
 
 def cut(skin: CutSkin, normal: FloatArray, offset: float, which: BoolArray) -> CutSkin:
-    """The skin with some triangles cut where ``normal . x = offset`` [m].
+    """Return the skin with some triangles cut where ``normal . x = offset`` [m].
 
     Args:
         skin: to be cut.
@@ -121,7 +121,7 @@ class _Edges:
     height: FloatArray
 
     def between(self, first: int, second: int) -> tuple[FloatArray, FloatArray]:
-        """Where the edge between two corners crosses the plane."""
+        """Return where the edge between two corners crosses the plane."""
         a = self.height[:, first]
         b = self.height[:, second]
         share = np.clip(a / np.where(a == b, 1.0, a - b), 0.0, 1.0)[:, None]

@@ -16,7 +16,7 @@ SHARED_BORDER = 0.25
 
 
 def skin_parts(articulation: Articulation) -> tuple[int, ...]:
-    """The moved parts that are open patches of the surface they share with others.
+    """Return the moved parts that are open patches of the surface they share with others.
 
     The figure: length of the edges that a part shares with another one and with no second face of
     its own, over the diagonal of the part's box. Half a door's outline is more than a diagonal;
@@ -33,7 +33,7 @@ def skin_parts(articulation: Articulation) -> tuple[int, ...]:
 
 
 def parts_to_build(articulation: Articulation, fronts: bool = False) -> tuple[int, ...]:
-    """The moved parts that get a body by construction: patches of a skin, and bare fronts.
+    """Return the moved parts that get a body by construction: patches of a skin, and bare fronts.
 
     Args:
         articulation: parts and joints.

@@ -41,13 +41,13 @@ class FrontRelief:
     count: int
 
     def above(self, local: FloatArray) -> FloatArray:
-        """How far points of the panel's frame, shape [n, 3], stand out of the face [m]."""
+        """Return how far points of the panel's frame, shape [n, 3], stand out of the face [m]."""
         rows, columns = self._pixels(local)
         plain = self.plain[rows, columns]
         return np.asarray(np.where(np.isfinite(plain), plain - local[:, 2], -np.inf))
 
     def blob(self, local: FloatArray) -> FloatArray:
-        """Which blob points lie in, shape [n]; 0: none."""
+        """Return which blob points lie in, shape [n]; 0: none."""
         rows, columns = self._pixels(local)
         return np.asarray(self.blobs[rows, columns])
 
@@ -81,7 +81,7 @@ def relief(view: PartView, panel: FlatPanel) -> FrontRelief:
 
 
 def handles(face: FrontRelief, local: FloatArray) -> tuple[Hull, ...]:
-    """One hull for each thing that stands out of a face.
+    """Return one hull for each thing that stands out of a face.
 
     Args:
         face: of the panel.

@@ -64,7 +64,7 @@ def rim(edges: FloatArray, column: Box, back: float, sides: BoolArray) -> Triang
 
 
 def plate(outline: FloatArray, holes: Sequence[FloatArray], depth: float) -> Triangles:
-    """A flat face at some depth, seen from behind.
+    """Return a flat face at some depth, seen from behind.
 
     Args:
         outline: convex outline (right, up) [m], shape [n, 2].
@@ -84,12 +84,12 @@ def plate(outline: FloatArray, holes: Sequence[FloatArray], depth: float) -> Tri
 
 
 def flipped(triangles: Triangles) -> Triangles:
-    """The same triangles seen from the other side."""
+    """Return the same triangles seen from the other side."""
     return triangles[:, ::-1]
 
 
 def rectangle(box: Box) -> FloatArray:
-    """A box's outline (right, up), counter-clockwise, shape [4, 2]."""
+    """Return a box's outline (right, up), counter-clockwise, shape [4, 2]."""
     left, bottom = box.low[:2]
     right, top = box.high[:2]
     return np.array([[left, bottom], [right, bottom], [right, top], [left, top]])
@@ -113,7 +113,7 @@ def inside_of(boxes: Sequence[Box], mouth: float) -> Triangles:
 
 
 def outside_of(boxes: Sequence[Box]) -> Triangles:
-    """The surface of boards."""
+    """Return the surface of boards."""
     if not boxes:
         return np.zeros((0, 3, 3))
     mesh = _union(boxes).to_mesh64()

@@ -56,7 +56,7 @@ def entered(
 def hung(
     panel: FlatPanel, joint: Joint, slab: Hull, standing: BoolArray, lattice: Lattice
 ) -> tuple[Joint, str]:
-    """The joint about that line on which a panel swings free, and which line that is.
+    """Return the joint about that line on which a panel swings free, and which line that is.
 
     ``given`` where the input's own line does; else at the outer edge by the hinge, at the depth of
     the frame beside it, or behind a slab that has none; whichever enters least of what stands.

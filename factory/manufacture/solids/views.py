@@ -52,7 +52,7 @@ class PartView:
 
 
 def look(mesh: Mesh, face_part: IntArray, side: Side) -> PartView:
-    """One side's view of a mesh whose faces belong to parts, shape [face_count]."""
+    """Return one side's view of a mesh whose faces belong to parts, shape [face_count]."""
     picture = elevation(mesh, side, PIXELS)
     seen: BoolArray = picture.seen
     part = np.where(seen, face_part[picture.face], -1)

@@ -94,7 +94,7 @@ def _backed(work: Workpiece, panel: FlatPanel, triangles: FloatArray) -> FloatAr
 
 
 def _clipped(outline: FloatArray, panel: FlatPanel) -> FloatArray:
-    """An outline within a panel's rectangle, where frames bound it."""
+    """Return an outline within a panel's rectangle, where frames bound it."""
     if not len(outline):
         return outline
     reach = panel.reach(0.0, panel.back)
@@ -125,7 +125,7 @@ def bump_surfaces(work: Workpiece, part: int) -> None:
 
 
 def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Two directions that span a plane, right-handed with its normal."""
+    """Return two directions that span a plane, right-handed with its normal."""
     first = np.cross(normal, np.eye(3)[int(np.abs(normal).argmin())])
     first = first / np.linalg.norm(first)
     return first, np.cross(normal, first)
@@ -141,7 +141,7 @@ def hull_surfaces(work: Workpiece, part: int, hulls: tuple[Hull, ...]) -> None:
 
 
 def kept_skin(work: Workpiece) -> CutSkin:
-    """The skin without what of the body lies in gaps and hollows."""
+    """Return the skin without what of the body lies in gaps and hollows."""
     skin = work.skin
     gone = np.zeros(len(skin.face), dtype=bool)
     middles = skin.middles
@@ -161,7 +161,7 @@ def kept_skin(work: Workpiece) -> CutSkin:
 
 
 def meshed(work: Workpiece) -> Articulation:
-    """The articulation over the cut skin and all inner faces, in the working frame."""
+    """Return the articulation over the cut skin and all inner faces, in the working frame."""
     skin = kept_skin(work)
     mesh = work.source.mesh
     materials = list(mesh.materials)
@@ -219,7 +219,7 @@ def _welded(
 
 
 def _material(work: Workpiece, part: int, materials: list[Material]) -> int:
-    """Where the plain material of a part's inner faces is; made if need be."""
+    """Return where the plain material of a part's inner faces is; made if need be."""
     name = f"inner_{work.name(part)}"
     color = _color(work, part)
     materials.append(Material(name, color))

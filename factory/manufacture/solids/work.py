@@ -74,7 +74,7 @@ class Workpiece:
         return self.source.parts[part].name
 
     def host(self, part: int) -> int:
-        """The nearest part with faces that a part hangs on."""
+        """Return the nearest part with faces that a part hangs on."""
         return host_of(self.source, part)
 
     def closed_behind(self, part: int) -> bool:
@@ -93,7 +93,7 @@ class Workpiece:
         known[span] = np.maximum(known[span], weight)
 
     def blocked(self, part: int) -> Weights:
-        """How badly cells must stay free of a part's pieces, 0 where they need not."""
+        """Return how badly cells must stay free of a part's pieces, 0 where they need not."""
         if part not in self.free:
             self.free[part] = np.zeros(self.lattice.shape, dtype=np.uint8)
         return self.free[part]
@@ -112,7 +112,7 @@ class Workpiece:
 
 
 def host_of(articulation: Articulation, part: int) -> int:
-    """The nearest part with faces that a part hangs on."""
+    """Return the nearest part with faces that a part hangs on."""
     above = articulation.joints[part - 1].parent
     while above and not len(articulation.parts[above].faces):
         above = articulation.joints[above - 1].parent

@@ -94,7 +94,7 @@ def _of_joint(
 
 
 def _distinct(holds: list[Hold]) -> list[Hold]:
-    """The best ones that are not nearly the same as a better one."""
+    """Return the best ones that are not nearly the same as a better one."""
     kept: list[Hold] = []
     for hold in sorted(holds, key=lambda hold: -round(hold.score, 4)):
         same = any(

@@ -25,7 +25,7 @@ LEVEL_M = 1e-4
 
 
 def find_handle(articulation: Articulation, part: int) -> Handle | None:
-    """The geometry of a part that is called its handle.
+    """Return the geometry of a part that is called its handle.
 
     A protrusion from the part's front, if it has one: the component or cluster of faces that sticks
     out furthest from the hinge (revolute) or from the front nearest its middle (prismatic). Else
@@ -91,7 +91,7 @@ def _protruding_handle(
 
 
 def _far_handle(joint: Joint, shape: PartShape, source: str) -> Handle:
-    """The middle of what is furthest from the axis."""
+    """Return the middle of what is furthest from the axis."""
     reach = float(lever(joint, shape.corners).max())
     edge = lever(joint, shape.corners).max(axis=1) >= (1.0 - 0.02) * reach
     points = shape.corners[edge].reshape(-1, 3)
@@ -122,7 +122,7 @@ def _handle_near(
     outward: FloatArray,
     source: str,
 ) -> Handle:
-    """The point of the target faces nearest to ``point``, and what pulling there does."""
+    """Return the point of the target faces nearest to ``point``, and what pulling there does."""
     faces = np.flatnonzero(target) if target.any() else np.arange(len(shape.faces))
     on_surface = closest_point(shape.corners[faces], np.tile(point, (len(faces), 1)))
     nearest = int(np.linalg.norm(on_surface - point, axis=1).argmin())

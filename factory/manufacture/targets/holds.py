@@ -74,7 +74,7 @@ class HoldSearch:
     everything: Surroundings
 
     def near(self, point: FloatArray, normal: FloatArray | None = None) -> Neighbourhood:
-        """What a hand at a point may meet: one that comes against ``normal``, or any."""
+        """Return what a hand at a point may meet: one that comes against ``normal``, or any."""
         if normal is None:
             return neighbourhood(self.everything, self.shape.parts, point, ANY_HAND_REACH)
         return neighbourhood(
@@ -82,7 +82,7 @@ class HoldSearch:
         )
 
     def worth(self, point: FloatArray, normal: FloatArray) -> float:
-        """How good a place to pull it is, and how easily reached, 0 to 1."""
+        """Return how good a place to pull it is, and how easily reached, 0 to 1."""
         worth = 0.25 + 0.75 * float(place(self.joint, self.shape, point))
         if normal[2] < STRAIGHT_UP:
             worth *= FROM_BELOW
@@ -146,7 +146,7 @@ def _closed(task: HoldSearch, pose: Pose, view: HandView) -> Hold | None:
 def _rated_grasp(
     task: HoldSearch, pose: Pose, view: HandView, grip: tuple[float, float, float], worth: float
 ) -> Hold | None:
-    """A grip (lower and upper end of what is held, and how deep [m]) as a hold."""
+    """Return a grip (lower and upper end of what is held, and how deep [m]) as a hold."""
     low, high, depth = grip
     middle = (low + high) / 2.0
     width = high - low
@@ -188,7 +188,7 @@ def _rated_grasp(
 
 
 def _spins(task: HoldSearch, point: FloatArray, width: float) -> bool:
-    """Whether the joint's axis runs between the fingers."""
+    """Return whether the joint's axis runs between the fingers."""
     joint = task.joint
     return bool(
         joint.turns and np.linalg.norm(np.cross(joint.axis, point - joint.origin)) < width / 2.0
@@ -196,7 +196,7 @@ def _spins(task: HoldSearch, point: FloatArray, width: float) -> bool:
 
 
 def _surface_at(view: HandView, middle: float, depth: float) -> FloatArray:
-    """The outermost own surface in the middle between the fingers [m], object frame."""
+    """Return the outermost own surface in the middle between the fingers [m], object frame."""
     sliver = 1e-3
     top = view.within(
         np.array([middle - sliver, -sliver, -depth]), np.array([middle + sliver, sliver, depth])
@@ -206,7 +206,7 @@ def _surface_at(view: HandView, middle: float, depth: float) -> FloatArray:
 
 
 def exposed(task: HoldSearch, point: FloatArray, outward: FloatArray) -> bool:
-    """Whether there is any room for a fingertip before a point of the surface."""
+    """Return whether there is any room for a fingertip before a point of the surface."""
     side = _sideways(task, outward)
     view = neighbourhood(task.everything, task.shape.parts, point, 2.0 * min(GRIPPER.gaps)).view(
         np.stack([side, np.cross(outward, side), outward])
@@ -216,7 +216,7 @@ def exposed(task: HoldSearch, point: FloatArray, outward: FloatArray) -> bool:
 
 
 def poke(task: HoldSearch, point: FloatArray, outward: FloatArray) -> Hold | None:
-    """How to push a place that faces against the opening: straight, hooked, or ``None``.
+    """Return how to push a place that faces against the opening: straight, hooked, or ``None``.
 
     Args:
         task: what is to be opened.
@@ -256,7 +256,7 @@ def _hooked(
     ahead: FloatArray,
     tilt: float,
 ) -> Hold | None:
-    """A finger that comes against ``ahead``, its side towards the surface.
+    """Return a finger that comes against ``ahead``, its side towards the surface.
 
     Args:
         task: what is to be opened.
@@ -301,7 +301,7 @@ def _palm_is_free(view: HandView, half: float) -> bool:
 
 
 def _sideways(task: HoldSearch, outward: FloatArray) -> FloatArray:
-    """A direction across ``outward`` that fits the joint, shape [3]."""
+    """Return a direction across ``outward`` that fits the joint, shape [3]."""
     candidates = (
         task.joint.axis,
         np.array([0.0, 0.0, 1.0]),

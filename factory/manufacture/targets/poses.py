@@ -130,7 +130,7 @@ def _on_side(joint: Joint, shape: PartShape, outward: FloatArray) -> list[Pose]:
 def _fingers(
     joint: Joint, normal: FloatArray, axes: tuple[FloatArray, FloatArray]
 ) -> tuple[FloatArray, ...]:
-    """The thing's own two directions first, then the joint's, then the diagonals."""
+    """Return the thing's own two directions first, then the joint's, then the diagonals."""
     turned = _across(joint.axis, normal)
     wanted = [*axes]
     if turned.any():
@@ -177,7 +177,7 @@ def rectangle(points: FloatArray, normal: FloatArray) -> tuple[FloatArray, Float
 
 
 def nearest(surface: FloatArray, point: FloatArray) -> FloatArray:
-    """The point of some triangles nearest to ``point`` [m], shape [3]."""
+    """Return the point of some triangles nearest to ``point`` [m], shape [3]."""
     on_surface = closest_point(surface, np.tile(point, (len(surface), 1)))
     return np.asarray(
         on_surface[int(np.round(np.linalg.norm(on_surface - point, axis=1), 9).argmin())]

@@ -44,7 +44,7 @@ class ProtrudingFront:
 
 
 def front_of(shape: PartShape, outward: FloatArray) -> ProtrudingFront:
-    """The side of a shape that looks in a direction."""
+    """Return the side of a shape that looks in a direction."""
     height = shape.corners @ outward
     level, tolerance = _panel(shape, outward, height)
     return ProtrudingFront(outward, height, level, tolerance)
@@ -73,7 +73,7 @@ def opening_direction(joint: Joint, shape: PartShape) -> FloatArray:
 
 
 def looking(shape: PartShape, outward: FloatArray) -> BoolArray:
-    """Which faces look in a direction or against it, shape [face_count]."""
+    """Return which faces look in a direction or against it, shape [face_count]."""
     return np.asarray(np.abs(shape.normals @ outward) > LOOKS_OUT)
 
 

@@ -64,7 +64,7 @@ class PartShape:
 
 
 def shape_of(articulation: Articulation, part: int) -> PartShape:
-    """The surface of a part and of those fixed below it; faces without area are left out."""
+    """Return the surface of a part and of those fixed below it; faces without area are left out."""
     carried = {part}
     for joint in articulation.joints:
         if joint.parent in carried and joint.kind is JointKind.FIXED:
@@ -95,13 +95,13 @@ def lever(joint: Joint, points: FloatArray) -> FloatArray:
 
 
 def turns_on_the_spot(joint: Joint, shape: PartShape) -> bool:
-    """Whether the part's middle lies so near the axis that turning takes it nowhere."""
+    """Return whether the part's middle lies so near the axis that turning takes it nowhere."""
     rim = float(lever(joint, shape.corners).max())
     return bool(joint.turns and float(lever(joint, shape.middle)) < KNOB_SHARE * rim)
 
 
 def place(joint: Joint, shape: PartShape, points: FloatArray) -> FloatArray:
-    """How good places to pull are, 0 to 1: far from a hinge, near the middle of a drawer.
+    """Return how good places to pull are, 0 to 1: far from a hinge, near the middle of a drawer.
 
     Args:
         joint: moves the shape.

@@ -52,7 +52,7 @@ class Surroundings:
         return np.stack([self.boxes[0].min(axis=0), self.boxes[1].max(axis=0)])
 
     def inside(self, points: FloatArray) -> BoolArray:
-        """Which points lie within a hull, deeper than a touch, shape [point_count]."""
+        """Return which points lie within a hull, deeper than a touch, shape [point_count]."""
         found = np.zeros(len(points), dtype=bool)
         low = self.hull_boxes[:, 0]
         high = self.hull_boxes[:, 1]
@@ -122,7 +122,7 @@ class HandView:
         return np.asarray(((above >= low) & (below <= high)).all(axis=1))
 
     def free(self, low: FloatArray, high: FloatArray) -> bool:
-        """Whether nothing lies in a box of the frame [m]."""
+        """Return whether nothing lies in a box of the frame [m]."""
         low = low + TOUCH_M
         high = high - TOUCH_M
         if (high <= low).any():
@@ -141,7 +141,7 @@ class HandView:
         return clipped(self.local[self.own & self._met(low, high)], low, high)
 
     def spans(self, low: FloatArray, high: FloatArray, gap: float) -> FloatArray:
-        """What of the own geometry lies in a box, along the first axis.
+        """Return what of the own geometry lies in a box, along the first axis.
 
         Returns:
             Lower and upper ends [m] of what is further apart than ``gap``, in order, shape
@@ -169,7 +169,7 @@ class Neighbourhood:
     own: BoolArray
 
     def view(self, axes: FloatArray) -> HandView:
-        """The same in the frame of the given axes (rows)."""
+        """Return the same in the frame of the given axes (rows)."""
         return HandView(
             self.everything, self.point, axes, (self.near - self.point) @ axes.T, self.own
         )
@@ -182,7 +182,7 @@ def neighbourhood(
     reach: float,
     shift: FloatArray | None = None,
 ) -> Neighbourhood:
-    """What lies near a point.
+    """Return what lies near a point.
 
     Args:
         everything: around it.

@@ -124,7 +124,7 @@ class Block(nn.Module):  # type: ignore[misc]
         self.mlp_q = GatedPerceptron(width, shape.mlp, dropout)
 
     def forward(self, points: Tensor, queries: Tensor) -> tuple[Tensor, Tensor]:
-        """Both sides after one round: [batch, n, width] and [batch, m, width]."""
+        """Return both sides after one round: [batch, n, width] and [batch, m, width]."""
         queries = self.among_queries(queries)
         queries = queries + self.attn2(self.norm2(queries), points)
         points = points + self.attn3(self.norm3(points), queries)
@@ -137,17 +137,17 @@ class Block(nn.Module):  # type: ignore[misc]
         return queries + self.attn1(queries, queries)
 
     def finish_queries(self, queries: Tensor) -> Tensor:
-        """The queries' own perceptron."""
+        """Return the queries' own perceptron."""
         return queries + self.mlp_q(self.final_norm_q(queries))
 
 
 def two_layers(inputs: int, middle: int, outputs: int) -> Any:
-    """A perceptron with one hidden layer."""
+    """Return a perceptron with one hidden layer."""
     return nn.Sequential(nn.Linear(inputs, middle), nn.SiLU(), nn.Linear(middle, outputs))
 
 
 def split_first_layer(head: Any, tensor: Tensor, first: bool) -> Tensor:
-    """The share of a pair head's first layer that comes from one side of the pair.
+    """Return the share of a pair head's first layer that comes from one side of the pair.
 
     A head on concatenated pairs would need n m rows; its first layer is linear, so the shares of
     both sides are computed once each, n + m rows, and added.

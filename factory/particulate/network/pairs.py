@@ -15,7 +15,7 @@ _CACHED = 1 << 18
 
 
 def pair_logits(head: Any, rows: Tensor, columns: Tensor) -> Tensor:
-    """One number for every pair of a row and a column, shape [batch, n, m].
+    """Return one number for every pair of a row and a column, shape [batch, n, m].
 
     Args:
         head: perceptron on [row, column] concatenated, with one number out.

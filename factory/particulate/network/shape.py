@@ -74,7 +74,7 @@ SIZES = {
 
 
 def read_shape(tensors: Mapping[str, Shape], max_parts: int = 16) -> NetworkShape:
-    """The network that a checkpoint was saved from.
+    """Return the network that a checkpoint was saved from.
 
     Args:
         tensors: name to shape of every tensor.
@@ -158,7 +158,7 @@ def expected_tensors(shape: NetworkShape) -> dict[str, Shape]:
 
 
 def parameter_count(tensors: Mapping[str, Shape]) -> int:
-    """How many numbers those tensors hold."""
+    """Return how many numbers those tensors hold."""
     return sum(math.prod(shape) for shape in tensors.values())
 
 

@@ -113,7 +113,7 @@ class QueryPass:
         self._seen.mul_(shrink[..., None]).add_(seen.view(heads, parts, width))
 
     def found(self) -> Tensor:
-        """What attention to all points gives each query, shape [parts, width]."""
+        """Return what attention to all points gives each query, shape [parts, width]."""
         heads, parts, width = self._seen.shape
         seen = self._seen / self._total[..., None]
         values = self._attention.to_v.weight.view(heads, -1, width)
@@ -200,7 +200,7 @@ def own_parts(
 def part_outputs(
     network: PartArticulationTransformer, queries: Tensor
 ) -> dict[str, Float32Array | None]:
-    """What the part heads say, by the names of :class:`..prediction.Prediction`."""
+    """Return what the part heads say, by the names of :class:`..prediction.Prediction`."""
     outputs = network.part_outputs(queries[None])
     arrays = {each.name: getattr(outputs, each.name) for each in fields(outputs)}
     return {
@@ -229,7 +229,7 @@ class PairHead:
 
     @torch.inference_mode()  # type: ignore[untyped-decorator]
     def every_part(self, hidden: Tensor) -> Tensor:
-        """One number for each point and query, [n, width] to [n, parts]."""
+        """Return one number for each point and query, [n, width] to [n, parts]."""
         of_points = self._of_points(hidden)
         logits = torch.empty(len(hidden), len(self._of_parts), device=hidden.device)
         work = torch.empty_like(of_points)
@@ -241,7 +241,7 @@ class PairHead:
 
     @torch.inference_mode()  # type: ignore[untyped-decorator]
     def own_part(self, hidden: Tensor, part_ids: Tensor) -> Tensor:
-        """The head for each point and its part, [n, width] and [n] to [n, outputs]."""
+        """Return the head for each point and its part, [n, width] and [n] to [n, outputs]."""
         of_points = self._of_points(hidden).add_(self._of_parts[part_ids])
         return self._last(F.silu(of_points, inplace=True))
 

@@ -103,7 +103,7 @@ class PartArticulationTransformer(nn.Module):  # type: ignore[misc]
         return self.part_id_embed((numbers / self.shape.max_parts)[:, None])
 
     def mask_head(self, hypothesis: int = 0) -> Any:
-        """The perceptron that says which part a point belongs to."""
+        """Return the perceptron that says which part a point belongs to."""
         return (
             self.point_mask_decoder[hypothesis]
             if self.shape.hypotheses > 1
@@ -111,11 +111,11 @@ class PartArticulationTransformer(nn.Module):  # type: ignore[misc]
         )
 
     def mask_logits(self, hidden: Tensor, queries: Tensor, hypothesis: int = 0) -> Tensor:
-        """Which query each point belongs to, shape [batch, n, parts]."""
+        """Return which query each point belongs to, shape [batch, n, parts]."""
         return pair_logits(self.mask_head(hypothesis), hidden, queries)
 
     def part_outputs(self, queries: Tensor) -> PartOutputs:
-        """What the part heads say about the queries, [batch, parts, hidden]."""
+        """Return what the part heads say about the queries, [batch, parts, hidden]."""
         revolute = self.revolute_motion_decoder(queries)
         prismatic = self.prismatic_motion_decoder(queries)
         plucker = self.shape.axis_form is AxisForm.PLUCKER
@@ -130,7 +130,7 @@ class PartArticulationTransformer(nn.Module):  # type: ignore[misc]
         )
 
     def closest_points(self, hidden: Tensor, queries: Tensor, part_ids: Tensor) -> Tensor:
-        """The point nearest to each point on the axis of its part, shape [batch, n, 3].
+        """Return the point nearest to each point on the axis of its part, shape [batch, n, 3].
 
         Args:
             hidden: points after the last block, [batch, n, hidden].

@@ -52,7 +52,7 @@ class PartFieldEncoder(nn.Module):  # type: ignore[misc]
         self.triplane_transformer = TriplaneTransformer(shape)
 
     def forward(self, points: Tensor) -> Tensor:
-        """The field of a cloud.
+        """Return the field of a cloud.
 
         A point's feature depends on the whole cloud, so another sample of the same shape gives
         others.
@@ -68,7 +68,7 @@ class PartFieldEncoder(nn.Module):  # type: ignore[misc]
 
 
 def sample_field(planes: Tensor, points: Tensor) -> Tensor:
-    """The features of points, the sum of what the three planes say.
+    """Return the features of points, the sum of what the three planes say.
 
     Args:
         planes: of the field, shape [3, features, resolution, resolution].

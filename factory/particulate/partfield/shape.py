@@ -61,7 +61,7 @@ class PartFieldShape:
 def read_partfield_shape(
     tensors: Mapping[str, Shape], heads: int = 8, sdf_channels: int = 64
 ) -> PartFieldShape:
-    """The encoder that a checkpoint was saved from.
+    """Return the encoder that a checkpoint was saved from.
 
     Args:
         tensors: name to shape of every tensor.

@@ -61,7 +61,7 @@ class PointVoxelConv(nn.Module):  # type: ignore[misc]
 
 
 def voxelize(inputs: Tensor, cells: Tensor) -> Tensor:
-    """The mean of the inputs in every voxel, zero where there are none.
+    """Return the mean of the inputs in every voxel, zero where there are none.
 
     Args:
         inputs: shape [n, channels].
@@ -77,7 +77,7 @@ def voxelize(inputs: Tensor, cells: Tensor) -> Tensor:
 
 
 def scatter_to_planes(points: Tensor, features: Tensor, resolution: int) -> Tensor:
-    """The mean feature in every cell of the planes xy, yz and xz, zero where there is none.
+    """Return the mean feature in every cell of the planes xy, yz and xz, zero where there is none.
 
     Args:
         points: within [-1, 1]^3, shape [n, 3].

@@ -83,12 +83,12 @@ class Answering:
 
 
 def refusal(error: Exception) -> bytes:
-    """The answer of who has none."""
+    """Return the answer of who has none."""
     return pack(Message("refused", {"why": f"{type(error).__name__}: {error}"[:2000]}))
 
 
 def _cloud(asked: Message, name: str) -> Cloud:
-    """What a network looks at of a cloud; which faces its points lie on is nothing to it."""
+    """Return what a network looks at of a cloud; which faces its points lie on is nothing to it."""
     points = asked.arrays[f"{name}.points"]
     components = asked.arrays[f"{name}.components"]
     nowhere = np.zeros(len(points), dtype=np.int64)

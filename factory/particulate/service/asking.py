@@ -57,7 +57,7 @@ def call_asking(address: Address | None, function: Callable[..., T], *args: Any)
 
 
 def network_for(identity: str, own: Callable[[], Network]) -> Network:
-    """The service's network if there is a service, else one's own.
+    """Return the service's network if there is a service, else one's own.
 
     Args:
         identity: of the network wanted; a service that has another one is not listened to.
@@ -147,7 +147,7 @@ class _AskedClosest:
 
 @contextmanager
 def _connected(address: Address) -> Iterator[socket.socket]:
-    """A connection, once the service listens; OSError when it is late or gone for good."""
+    """Yield a connection, once the service listens; OSError when it is late or gone for good."""
     patient_until = time.monotonic() + address.start_s
     with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as connection:
         connection.settimeout(address.start_s)
@@ -163,7 +163,7 @@ def _connected(address: Address) -> Iterator[socket.socket]:
 
 
 def _seen(cloud: Cloud) -> dict[str, Any]:
-    """What the network looks at, in the numbers it computes with."""
+    """Return what the network looks at, in the numbers it computes with."""
     return {
         "points": np.asarray(cloud.points, np.float32),
         "normals": np.asarray(cloud.normals, np.float32),

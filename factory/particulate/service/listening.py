@@ -18,7 +18,7 @@ PATIENCE_S = 30.0
 
 
 def listening_socket(path: str) -> socket.socket:
-    """A socket that accepts askers on return, of this user only; replaces a dead one's."""
+    """Return a socket that accepts askers on return, of this user only; replaces a dead one's."""
     with suppress(FileNotFoundError):
         os.unlink(path)
     listening = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)

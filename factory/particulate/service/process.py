@@ -64,7 +64,7 @@ class ModelService:
 
     @property
     def address(self) -> Address:
-        """Where it is asked; good from the start, also before it listens."""
+        """Return where it is asked; good from the start, also before it listens."""
         return Address(str(self._folder / "socket"))
 
     @property
@@ -113,7 +113,7 @@ class _Late:
 
 
 def load_answering(config: ParticulateConfig, at_once: int) -> Answering:
-    """The network that a configuration names, ready for questions.
+    """Return the network that a configuration names, ready for questions.
 
     Raises:
         ConfigError: it cannot be loaded.

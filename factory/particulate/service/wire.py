@@ -67,7 +67,7 @@ def pack(message: Message) -> bytes:
 
 
 def unpack(data: bytes) -> Message:
-    """The message that some bytes hold.
+    """Return the message that some bytes hold.
 
     Raises:
         WireError: they hold none.

@@ -43,7 +43,7 @@ class WeightsInfo:
 
 
 def open_checkpoint(file: Path) -> Checkpoint:
-    """What a file of weights holds: safetensors, or a zip archive of torch.save.
+    """Return what a file of weights holds: safetensors, or a zip archive of torch.save.
 
     Raises:
         ConfigError: neither format, or damaged.
@@ -68,7 +68,7 @@ def open_checkpoint(file: Path) -> Checkpoint:
 
 
 def load_tensors(checkpoint: Checkpoint, leave: tuple[str, ...] = ()) -> dict[str, Tensor]:
-    """Every tensor, as float32 where it is any kind of float.
+    """Return every tensor, as float32 where it is any kind of float.
 
     Args:
         checkpoint: to read.
@@ -93,7 +93,7 @@ def naming(file: Path) -> Iterator[None]:
 
 
 def describe(file: Path) -> WeightsInfo:
-    """Which network a checkpoint is for, and its sizes.
+    """Return which network a checkpoint is for, and its sizes.
 
     Raises:
         ConfigError: not a checkpoint of a network this package knows.

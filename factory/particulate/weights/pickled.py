@@ -72,7 +72,7 @@ _STAND_INS = {"numpy.": _Value, "functools.partial": _Value, "collections.deque"
 
 
 def read_pickled(file: Path) -> Checkpoint:
-    """What a ``.pt`` or ``.ckpt`` file holds.
+    """Return what a ``.pt`` or ``.ckpt`` file holds.
 
     The weights are the mapping under ``state_dict``, as trainers save them, or the file's own
     mapping.
@@ -169,7 +169,7 @@ def _stand_in(name: str) -> tuple[type, str]:
 
 
 def _stored_bytes(file: Path) -> Counter[int]:
-    """How many storages there are of each size [bytes] that torch can map into memory."""
+    """Return how many storages there are of each size [bytes] that torch can map into memory."""
     with zipfile.ZipFile(file) as archive:
         records = archive.infolist()
         described = [record for record in records if record.filename.endswith("data.pkl")]
@@ -228,7 +228,7 @@ def _require_stored(file: Path, tensors: Mapping[str, Tensor], stored: Counter[i
 
 
 def _said(error: Exception) -> str:
-    """The reason itself: torch wraps it in advice on how to run what is in the file."""
+    """Return the reason itself: torch wraps it in advice on how to run what is in the file."""
     reason = error.__context__ or error
     first = (str(reason).strip().splitlines() or [""])[0]
     return f"{type(reason).__name__}: {first}"[:_LETTERS_SAID]

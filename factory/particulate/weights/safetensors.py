@@ -25,7 +25,7 @@ _LETTERS_SAID = 200
 
 
 def read_safetensors(file: Path) -> Checkpoint:
-    """What a safetensors file holds; no tensor is read yet.
+    """Return what a safetensors file holds; no tensor is read yet.
 
     Raises:
         ConfigError: no such format, or a tensor that the file does not hold to its end.

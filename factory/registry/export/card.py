@@ -132,6 +132,6 @@ def _table(heading: tuple[str, str], rows: Iterable[tuple[str, int]]) -> str:
 
 
 def _cell(text: str) -> str:
-    """A text from elsewhere that can neither end a cell nor begin a tag or a line."""
+    """Return a text from elsewhere that can neither end a cell nor begin a tag or a line."""
     plain = "".join(letter if letter.isprintable() else " " for letter in text)[:200]
     return plain.replace("|", "\\|").replace("<", "&lt;").replace("#", "\\#")

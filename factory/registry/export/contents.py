@@ -89,7 +89,7 @@ def _files(
 
 
 def _asset(registry: Registry, listed: Entry) -> tuple[Entry, dict[str, bytes]] | None:
-    """The entry as its folder has it, and the content of each of its files."""
+    """Return the entry as its folder has it, and the content of each of its files."""
     for attempt in range(_TRIES):
         folder = registry.folder(listed)
         if not folder.is_dir():

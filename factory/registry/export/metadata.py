@@ -19,7 +19,7 @@ _COLUMNS = (
 
 
 def described(entry: Entry, folder: str, manifest: bytes | None) -> dict[str, Any]:
-    """One row: the entry, where its files are in the export, and its manifest's physics.
+    """Return one row: the entry, where its files are in the export, and its manifest's physics.
 
     Args:
         entry: of the asset.

@@ -112,7 +112,7 @@ def _folders(content: Path) -> list[Path]:
 
 
 def _arrival(source: Path, folder: Path, *, trusted: bool) -> _Arrival:
-    """An asset that is what it says. Raises RegistryError otherwise."""
+    """Return an asset that is what it says. Raises RegistryError otherwise."""
     try:
         entry = read_record(folder, note_path(folder.parents[1], folder.name)).entry
         stored = read_report(folder)

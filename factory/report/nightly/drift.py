@@ -46,7 +46,7 @@ class SourceYield:
 
     @property
     def yielded(self) -> float:
-        """The share that passed, 0 to 1."""
+        """Return the share that passed, 0 to 1."""
         return self.passed / self.tried
 
 
@@ -56,7 +56,7 @@ def source_yields(
     earlier: Sequence[Mapping[str, tuple[int, int]]],
     rules: SourceRules,
 ) -> tuple[SourceYield, ...]:
-    """The yield of every source, by name.
+    """Return the yield of every source, by name.
 
     Args:
         attempts: of this night, one per input.
@@ -74,7 +74,7 @@ def source_yields(
 
 
 def sources_from(data: Mapping[str, Any]) -> dict[str, tuple[int, int]]:
-    """What a night's summary says of its sources; empty where that is nothing."""
+    """Return what a night's summary says of its sources; empty where that is nothing."""
     try:
         return {
             str(row["source"]): (int(row["passed"]), int(row["tried"])) for row in data["sources"]

@@ -126,7 +126,7 @@ def reasons(attempts: Sequence[NightResult]) -> tuple[Reason, ...]:
 
 
 def stage_times(attempts: Sequence[NightResult]) -> tuple[StageTime, ...]:
-    """Where the time went, the longest stage first; what was known from before took none."""
+    """Return where the time went, the longest stage first; what was known from before took none."""
     spent: dict[str, list[NightResult]] = defaultdict(list)
     for attempt in slowest(attempts, len(attempts)):
         for stage in attempt.stages:
@@ -141,7 +141,7 @@ def stage_times(attempts: Sequence[NightResult]) -> tuple[StageTime, ...]:
 
 
 def slowest(attempts: Sequence[NightResult], most: int = SLOWEST) -> tuple[NightResult, ...]:
-    """The inputs that took longest, of those built anew."""
+    """Return the inputs that took longest, of those built anew."""
     built = [attempt for attempt in attempts if not attempt.known]
     return tuple(sorted(built, key=lambda attempt: (-attempt.seconds, attempt.input))[:most])
 

@@ -33,7 +33,7 @@ def require_libraries() -> None:
 
 
 def nights_of(output: Path) -> Path:
-    """Where the nights of a registry lie."""
+    """Return where the nights of a registry lie."""
     return output / "nights"
 
 
@@ -69,13 +69,13 @@ def chosen_name(nights: Path, wanted: str | None) -> str:
 
 
 def next_name(nights: Path) -> str:
-    """The number after the highest there is."""
+    """Return the number after the highest there is."""
     numbers = [int(name) for name in names(nights) if name.isdecimal()]
     return f"{max(numbers, default=0) + 1:04d}"
 
 
 def read_night(folder: Path) -> Night | None:
-    """The figures of one night; ``None`` where there are none to be read."""
+    """Return the figures of one night; ``None`` where there are none to be read."""
     try:
         data = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
         # The folder's own name counts: people rename folders, and links must still lead there.
@@ -93,7 +93,7 @@ def read_sources(folder: Path) -> dict[str, tuple[int, int]]:
 
 
 def stored_nights(nights: Path) -> tuple[Night, ...]:
-    """All nights with a summary that can be read, by when they started."""
+    """Return all nights with a summary that can be read, by when they started."""
     stored = (read_night(nights / name) for name in names(nights))
     known = (night for night in stored if night is not None)
     return tuple(sorted(known, key=lambda night: (night.started, night.name)))

@@ -41,23 +41,23 @@ class NightResult:
 
     @property
     def known(self) -> bool:
-        """Whether the registry knew it already."""
+        """Return whether the registry knew it already."""
         return self.attempts == 0
 
     @property
     def passed(self) -> bool:
-        """Whether it is registered."""
+        """Return whether it is registered."""
         return self.status is Status.PASSED
 
 
 def attempt_of(result: Result, ended: datetime) -> NightResult:
-    """The attempt that a build's result tells of; ``ended`` is when it came."""
+    """Return the attempt that a build's result tells of; ``ended`` is when it came."""
     told = result.to_dict() | {"input": well_formed(result.input)}
     return attempt_from(told | {"started": stamp(ended - timedelta(seconds=result.seconds))})
 
 
 def attempt_from(data: Mapping[str, Any]) -> NightResult:
-    """An attempt from JSON data of any version. Raises TypeError where it is none."""
+    """Return an attempt from JSON data of any version. Raises TypeError where it is none."""
     known = {item.name: data[item.name] for item in fields(NightResult) if item.name in data}
     return NightResult(**{**known, "reused": tuple(data.get("reused", ()))})
 
@@ -133,12 +133,12 @@ class Night:
 
 
 def share(part: float, whole: float) -> float | None:
-    """A share, 0 to 1; ``None`` of nothing."""
+    """Return a share, 0 to 1; ``None`` of nothing."""
     return part / whole if whole else None
 
 
 def tally(attempts: Sequence[NightResult]) -> dict[str, int]:
-    """How many attempts of each verdict, known, and known to crash: a night's arguments."""
+    """Return how many attempts of each verdict, known, and known to crash: a night's arguments."""
     statuses = [attempt.status for attempt in attempts]
     counts = {str(status): statuses.count(status) for status in Status}
     crashed = sum(attempt.known and attempt.reason == ALWAYS for attempt in attempts)
@@ -152,7 +152,7 @@ def night_to(night: Night) -> dict[str, Any]:
 
 
 def night_from(data: Mapping[str, Any]) -> Night:
-    """A night from JSON data of any version. Raises KeyError, TypeError where it is none."""
+    """Return a night from JSON data of any version. Raises KeyError, TypeError where it is none."""
     told = {item.name: data[item.name] for item in fields(Night) if item.name in data}
     types = get_type_hints(Night)
     for name, value in told.items():

@@ -39,7 +39,7 @@ class Concern:
 
 
 def exit_code(concerns: Iterable[Concern]) -> int:
-    """The exit code of a night: that of the first of its concerns that makes one."""
+    """Return the exit code of a night: that of the first of its concerns that makes one."""
     return next((item.exit_code for item in concerns if item.exit_code != Exit.OK), Exit.OK)
 
 
@@ -51,7 +51,7 @@ def concerns(
     not_allowed: int = 0,
     sources: Sequence[SourceYield] = (),
 ) -> Iterator[Concern]:
-    """What somebody should look at, the worst first; nothing when all is well.
+    """Yield what somebody should look at, the worst first; nothing when all is well.
 
     ``not_allowed`` counts registered assets under a license that is not allowed; ``sources`` are
     the yields by source.

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 def night_page(report: NightlyReport) -> str:
-    """The page of a night, as HTML: the same report gives the same bytes."""
+    """Return the page of a night, as HTML: the same report gives the same bytes."""
     names = ("reasons", "stage_times", "slowest", "licenses")
     told = {name: getattr(figures, name)(report.attempts) for name in names}
     return environment().get_template("night.html.j2").render(report=report, **told)
@@ -37,7 +37,7 @@ def nights_page(nights: Sequence[Night]) -> str:
 
 
 def _row(night: Night, before: Night | None) -> dict[str, Any]:
-    """What the list of nights says of one of them."""
+    """Return what the list of nights says of one of them."""
     return {
         **asdict(night),
         "took": formats.clock_span(night.seconds),
@@ -50,7 +50,7 @@ def _row(night: Night, before: Night | None) -> dict[str, Any]:
 
 @cache
 def environment() -> Environment:
-    """Where the templates are found, and what they may call upon; all output is escaped."""
+    """Return where the templates are found, and what they may call upon; all output is escaped."""
     made = templates(__package__, is_allowed=is_allowed, share=share)
     names = ("clock_span", "counted", "percent", "points", "readable", "span", "figure")
     made.filters |= {name: getattr(formats, name) for name in names}

@@ -65,7 +65,7 @@ class NightlyReport:
 
     @cached_property
     def attempts(self) -> tuple[NightResult, ...]:
-        """What the night says of its inputs, one attempt each, by input."""
+        """Return what the night says of its inputs, one attempt each, by input."""
         return latest(self.tried)
 
 
@@ -115,7 +115,7 @@ def _change(change: InputChange) -> dict[str, Any]:
 
 
 def message(report: NightlyReport) -> str:
-    """What the night came to, in one line for a chat."""
+    """Return what the night came to, in one line for a chat."""
     night = report.night
     change = points(report.before.yielded if report.before else None, night.yielded)
     figures = ", ".join(filter(None, (percent(night.yielded), change)))

@@ -19,7 +19,7 @@ from .told import AssetPage, with_model
 
 
 def page_of_file(path: Path) -> str:
-    """One HTML file that shows a URDF, an MJCF, a mesh or an asset's folder.
+    """Return one HTML file that shows a URDF, an MJCF, a mesh or an asset's folder.
 
     Raises:
         InputRejected: it cannot be shown, with a reason code.

@@ -66,7 +66,7 @@ class Places:
             return ()
 
     def of(self, finding: Finding) -> Fault | None:
-        """Where a finding is; ``None`` where nothing is known of that."""
+        """Return where a finding is; ``None`` where nothing is known of that."""
         wanted = frozenset(finding.parts)
         for values, contact in self._contacts(finding.joint):
             if wanted and wanted == frozenset(contact.links) and _tells(finding, contact):
@@ -76,7 +76,7 @@ class Places:
         return None
 
     def sweeps(self) -> dict[str, SweepTold]:
-        """What was measured along each joint."""
+        """Return what was measured along each joint."""
         found = {}
         for measured in self._measured[:1]:
             for joint in measured.joints:
@@ -92,7 +92,7 @@ class Places:
         return sorted({contact.links for contact in contacts if contact.kind != PLAIN})
 
     def clearance(self) -> float | None:
-        """The smallest gap of any pair along any joint, negative for a depth [mm]."""
+        """Return the smallest gap of any pair along any joint, negative for a depth [mm]."""
         gaps = [mark.mm for told in self.sweeps().values() for mark in told.marks]
         return min(gaps, default=None)
 
@@ -122,7 +122,7 @@ class Places:
         return {name: self._upper[name] for name in joints if name in self._upper}
 
     def _value(self, finding: Finding) -> float:
-        """The joint's value that a finding speaks of, else where it is open."""
+        """Return the joint's value that a finding speaks of, else where it is open."""
         assert finding.joint is not None  # noqa: S101 - asked only of joints that are there
         low, high = self._range[finding.joint]
         value = finding.value
@@ -132,7 +132,7 @@ class Places:
 
 
 def _tells(finding: Finding, contact: MeasuredContact) -> bool:
-    """Whether a contact may be what a finding speaks of, by its depth where it names one."""
+    """Return whether a contact may be what a finding speaks of, by its depth where it names one."""
     if finding.unit != "mm" or finding.value is None:
         return True
     depths = (contact.depth_mm, getattr(contact, "excess_mm", contact.depth_mm))

@@ -24,12 +24,12 @@ STATIC_FILES = ("base.css", "site.css", "grid.js", "asset.js", "licenses.txt")
 
 
 def asset_html(page: AssetPage) -> str:
-    """The page of an asset in a site: pictures, model and scripts lie beside it."""
+    """Return the page of an asset in a site: pictures, model and scripts lie beside it."""
     return _templates().get_template("asset.html.j2").render(page=page, alone=None)
 
 
 def alone_html(page: AssetPage) -> str:
-    """The page of an asset as one file that needs nothing else."""
+    """Return the page of an asset as one file that needs nothing else."""
     model = packed(page.model)
     texts = {name: (STATIC / name).read_text(encoding="utf-8") for name in STATIC_FILES}
     js = f'factoryModel="{model}";\n{texts["asset.js"]}'
@@ -44,7 +44,7 @@ def alone_html(page: AssetPage) -> str:
 
 
 def grid_html(rows: Sequence[Mapping[str, Any]], lists: int, title: str) -> str:
-    """The grid's page.
+    """Return the grid's page.
 
     Args:
         rows: of all assets.
@@ -63,7 +63,7 @@ def list_html(rows: Sequence[Mapping[str, Any]], number: int, lists: int, title:
 
 
 def packed(model: bytes) -> str:
-    """A GLB as it stands in a script: gzip in base64, the same for the same bytes."""
+    """Return a GLB as it stands in a script: gzip in base64, the same for the same bytes."""
     return base64.b64encode(gzip.compress(model, 4, mtime=0)).decode()
 
 

@@ -36,7 +36,7 @@ class PageServer:
 
 @contextmanager
 def serve(page: bytes, port: int = 0) -> Iterator[PageServer]:
-    """A server of one page; nothing of the file system is within its reach.
+    """Yield a server of one page; nothing of the file system is within its reach.
 
     Args:
         page: HTML.

@@ -34,7 +34,7 @@ _LIBRARIES = ("embreex", "numpy", "pillow")
 
 
 def index_of(root: Path) -> Path:
-    """The first page of a registry's report."""
+    """Return the first page of a registry's report."""
     return root / PAGES / INDEX
 
 
@@ -53,7 +53,7 @@ def stale(registry: Registry) -> Iterator[Entry]:
 
 
 def page_key(root: Path, entry: Entry) -> str:
-    """What a page follows from: the entry, its report, and the code that draws it."""
+    """Return what a page follows from: the entry, its report, and the code that draws it."""
     place = ASSETS if entry.status is Status.PASSED else REJECTED
     try:
         told = digest_file(root / place / entry.id / REPORT)
@@ -118,7 +118,7 @@ def write_index(registry: Registry) -> Path:
 
 
 def _told(folder: Path, entry: Entry) -> dict[str, Any]:
-    """What the grid says of an entry; without a page of its own, what its row says."""
+    """Return what the grid says of an entry; without a page of its own, what its row says."""
     row = _row(folder / entry.id)
     return AssetPage(entry).row() if row is None else row["row"]
 
@@ -143,7 +143,7 @@ def _sheet(site: Path, rows: list[dict[str, Any]]) -> bytes:
 
 @cache
 def _code() -> str:
-    """The code and the libraries that draw pages."""
+    """Return the code and the libraries that draw pages."""
     package = Path(__file__).parents[2]
     folders = ("report/site", "report/templates", "pictures", "scene")
     suffixes = {".py", ".j2"}

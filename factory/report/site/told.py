@@ -93,7 +93,7 @@ class AssetPage:
 
     @property
     def groups(self) -> tuple[FindingGroup, ...]:
-        """The findings by severity and code, in the order in which they were found."""
+        """Return the findings by severity and code, in the order in which they were found."""
         found: dict[tuple[bool, str], list[FindingTold]] = {}
         for told in self.findings:
             hard = told.finding.severity is Severity.HARD
@@ -104,7 +104,7 @@ class AssetPage:
         )
 
     def row(self) -> dict[str, Any]:
-        """What the grid says of it, JSON data."""
+        """Return what the grid says of it, JSON data."""
         entry = self.entry
         kinds = [] if self.scene is None else [joint.kind for joint in self.scene.movable]
         words = {REPAIRS.get(step.split(" ", 1)[0], "other") for step in self.repairs}
@@ -130,14 +130,14 @@ class AssetPage:
 
 
 def about(entry: Entry) -> str:
-    """An asset in a few words: ``cabinet · 3 joints · 60 hulls``."""
+    """Return an asset in a few words: ``cabinet · 3 joints · 60 hulls``."""
     counts = [(entry.joints, "joint"), (entry.hulls, "hull")]
     told = [f"{number} {noun}{'' if number == 1 else 's'}" for number, noun in counts]
     return " · ".join([entry.category[:40], *told] if entry.category else told)
 
 
 def asset_page(root: Path, entry: Entry) -> AssetPage:
-    """What the page of a registered asset says.
+    """Return what the page of a registered asset says.
 
     Args:
         root: of the registry.
@@ -237,7 +237,7 @@ def _manifest(folder: Path) -> Manifest | None:
 
 
 def _model(folder: Path) -> bytes:
-    """The model of an asset; of one that was published without, what its URDF shows."""
+    """Return the model of an asset; of one that was published without, what its URDF shows."""
     try:
         return read_model(folder / MODEL)
     except (OSError, ValueError):

@@ -12,7 +12,7 @@ STUCK = frozenset({"rest_penetration", "sweep_penetration", "interior_filled"})
 
 
 def build_fronts(evidence: RepairEvidence, plan: Plan) -> Plan | None:
-    """All thin fronts, once, where one of them is rejected for sticking in something."""
+    """Return all thin fronts, once, where one of them is rejected for sticking in something."""
     if plan.build_fronts or not evidence.spare.fronts:
         return None
     stuck = [finding for finding in evidence.hard if finding.code in STUCK]

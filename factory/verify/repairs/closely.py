@@ -9,7 +9,7 @@ from .evidence import RepairEvidence
 
 
 def fit_closely(evidence: RepairEvidence, plan: Plan) -> Plan | None:
-    """All of an asset that is rejected for a part that was joined, once.
+    """Return all of an asset that is rejected for a part that was joined, once.
 
     Not where hulls were joined because the asset had too many.
     """

@@ -32,7 +32,7 @@ class RepairEvidence:
 
     @property
     def hard(self) -> tuple[Finding, ...]:
-        """The findings that reject."""
+        """Return the findings that reject."""
         return self.verdict.report.hard
 
     @property
@@ -45,18 +45,18 @@ class RepairEvidence:
         return (each for each in self.verdict.report.findings if each.code == code)
 
     def contacts(self) -> Iterator[MeasuredContact]:
-        """Every two parts that come near, at rest and along the joints."""
+        """Yield every two parts that come near, at rest and along the joints."""
         for measured in penetrations(self.verdict.report.measurements):
             yield from measured.contacts
 
     def joints(self) -> Iterator[MeasuredJoint]:
-        """Every joint over its range."""
+        """Yield every joint over its range."""
         for measured in penetrations(self.verdict.report.measurements):
             yield from measured.joints
 
 
 def ordered(one: str, other: str) -> Pair:
-    """Two parts, in a fixed order."""
+    """Return two parts, in a fixed order."""
     return (min(one, other), max(one, other))
 
 

@@ -9,7 +9,7 @@ from .evidence import RepairEvidence, listed, ordered
 
 
 def exclude_knuckles(evidence: RepairEvidence, plan: Plan) -> Plan | None:
-    """Every pair of parts with a ``hinge_overlap`` that is not excluded already."""
+    """Return every pair of parts with a ``hinge_overlap`` that is not excluded already."""
     found = {ordered(*f.parts) for f in evidence.found("hinge_overlap") if len(f.parts) == 2}
     new = frozenset(found) - plan.exclude
     if not new:

@@ -40,7 +40,7 @@ def give_up_guesses(evidence: RepairEvidence, plan: Plan) -> Plan | None:
 
 
 def _named(finding: Finding, evidence: RepairEvidence) -> list[str]:
-    """The guessed parts that a finding is about, by part or by joint, worth least first."""
+    """Return the guessed parts that a finding is about, by part or by joint, worth least first."""
     joints = {finding.joint, *finding.joints}
     guesses = evidence.spare.guesses.items()
     return [part for part, joint in guesses if part in finding.parts or joint in joints]

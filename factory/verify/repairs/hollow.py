@@ -9,7 +9,7 @@ from .evidence import RepairEvidence
 
 
 def hollow_out(evidence: RepairEvidence, plan: Plan) -> Plan | None:
-    """Every part that is rejected because nobody gets into it, once each.
+    """Return every part that is rejected because nobody gets into it, once each.
 
     Other hulls are cut apart anew: thin walls need less room than what filled them.
     """

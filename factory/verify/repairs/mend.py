@@ -30,7 +30,7 @@ Change = tuple[str, Joint, float]
 
 
 def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
-    """Every blocked joint that one small change lets go all its way, once each.
+    """Return every blocked joint that one small change lets go all its way, once each.
 
     The change is made only if nothing gets deeper along the whole range by it; beside a hinge at
     an edge, no more than may be planed off there.
@@ -98,7 +98,7 @@ def _straightened(joint: Joint) -> Joint | None:
 
 
 def _rehung(articulation: Articulation, joint: Joint) -> Iterator[tuple[str, Joint]]:
-    """A hinge at the edges of its part that are near, and which they are."""
+    """Yield a hinge at the edges of its part that are near, and which they are."""
     if joint.kind is not JointKind.REVOLUTE:
         return
     most = MOVED_SHARE * articulation.part_mesh(joint.child).diagonal

@@ -9,7 +9,7 @@ from .evidence import RepairEvidence
 
 
 def rehang_doors(evidence: RepairEvidence, plan: Plan) -> Plan | None:
-    """All blocked hinges that were guessed, once each."""
+    """Return all blocked hinges that were guessed, once each."""
     if "sweep_penetration" not in evidence.codes:
         return None
     blocked = {joint.joint for joint in evidence.joints() if joint.clear_until is not None}

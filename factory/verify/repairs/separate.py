@@ -9,7 +9,7 @@ from .evidence import RepairEvidence, listed, ordered
 
 
 def separate_hulls(evidence: RepairEvidence, plan: Plan) -> Plan | None:
-    """Every pair nearer than ``near_mm`` that is not cut apart already."""
+    """Return every pair nearer than ``near_mm`` that is not cut apart already."""
     near = {
         ordered(*contact.links)
         for contact in evidence.contacts()

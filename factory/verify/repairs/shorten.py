@@ -18,7 +18,7 @@ GAP_M = 0.002
 
 
 def shorten_or_freeze(evidence: RepairEvidence, plan: Plan) -> Plan | None:
-    """Every blocked joint shortened or frozen; nothing if one can be neither."""
+    """Return every blocked joint shortened or frozen; nothing if one can be neither."""
     if evidence.codes != {"sweep_penetration"}:
         return None
     upper = dict(plan.upper)
@@ -55,7 +55,7 @@ def shorten_or_freeze(evidence: RepairEvidence, plan: Plan) -> Plan | None:
 
 
 def _free_end(asset: Asset | None, name: str, clear_until: float) -> float | None:
-    """Where a joint still touches nothing, before it fails; ``None`` if that is nowhere."""
+    """Return where a joint still touches nothing, before it fails; ``None`` if that is nowhere."""
     if asset is None:
         return clear_until
     joint = asset.articulation.joint(name)

@@ -63,7 +63,7 @@ class _Urdf:
         self._names = _names([path for path in stage.bodies if self._is_link(path)])
 
     def _is_link(self, path: str) -> bool:
-        """The world is a link only where something is seen of it or moves against it."""
+        """Return the world is a link only where something is seen of it or moves against it."""
         if path != WORLD:
             return True
         world = self._stage.bodies[WORLD]
@@ -71,7 +71,7 @@ class _Urdf:
         return bool(world.visuals or world.collisions or movable)
 
     def document(self, name: str) -> bytes:
-        """The whole file."""
+        """Return the whole file."""
         root = ElementTree.Element("robot", name=re.sub(r"\W", "_", name))
         for path in self._names:
             self._link(root, self._stage.bodies[path])
@@ -81,7 +81,7 @@ class _Urdf:
         return written
 
     def _frame(self, path: str) -> FloatArray:
-        """A link's frame in its body's: where its joint is; of a root, the world's own."""
+        """Return a link's frame in its body's: where its joint is; of a root, the world's own."""
         for joint, child in self._hung:
             if joint.bodies[child] == path:
                 return joint.frames[child]
@@ -132,7 +132,7 @@ class _Urdf:
 
 
 def _hung(stage: PhysicsStage) -> list[tuple[PhysicsJoint, int]]:
-    """Every joint, with which of its bodies hangs on the other, from the roots down.
+    """Return every joint, with which of its bodies hangs on the other, from the roots down.
 
     A joint that would hang a body twice keeps ``body1`` below: the judge says that it is no tree.
     """
@@ -150,7 +150,7 @@ def _hung(stage: PhysicsStage) -> list[tuple[PhysicsJoint, int]]:
 
 
 def _names(paths: list[str]) -> dict[str, str]:
-    """A link name for each body: the prim's own, made different where two are alike."""
+    """Return a link name for each body: the prim's own, made different where two are alike."""
     names: dict[str, str] = {}
     for path in paths:
         name = re.sub(r"\W", "_", path.rpartition("/")[2]) or "world"

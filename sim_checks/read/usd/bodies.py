@@ -35,7 +35,7 @@ class PhysicsBody:
 
 
 def rotation_of(quaternion: Any) -> FloatArray:
-    """The rotation of a USD quaternion; none for none or zero. Shape [3, 3]."""
+    """Return the rotation of a USD quaternion; none for none or zero. Shape [3, 3]."""
     from scipy.spatial.transform import Rotation
 
     if quaternion is None:

@@ -39,7 +39,7 @@ class PhysicsJoint:
 
 
 def read_joint(prim: Any, bodies: dict[str, PhysicsBody]) -> PhysicsJoint:
-    """One joint; lengths are those of the bodies that it holds."""
+    """Return one joint; lengths are those of the bodies that it holds."""
     from pxr import UsdPhysics
 
     joint = UsdPhysics.Joint(prim)
@@ -71,7 +71,7 @@ def read_joint(prim: Any, bodies: dict[str, PhysicsBody]) -> PhysicsJoint:
 
 
 def _target(relation: Any, bodies: dict[str, PhysicsBody]) -> str:
-    """The body that a relationship names, or the one around what it names."""
+    """Return the body that a relationship names, or the one around what it names."""
     targets = relation.GetForwardedTargets()
     path = targets[0] if targets else None
     while path is not None and not path.isEmpty and str(path) not in bodies:

@@ -18,12 +18,12 @@ _SCHEME = re.compile(r"^[A-Za-z][A-Za-z0-9+.-]+:")
 
 
 def is_usd(path: Path) -> bool:
-    """Whether a file is called like a USD layer."""
+    """Return whether a file is called like a USD layer."""
     return path.suffix.lower() in SUFFIXES
 
 
 def layer_files(main: Path, folder: Path) -> Iterator[Path]:
-    """The file of each layer that an asset is composed of, before it is opened.
+    """Yield the file of each layer that an asset is composed of, before it is opened.
 
     It is followed through sublayers, references and payloads. Opening a layer opens no other; only
     composing does, and that comes later. Textures and materials named in attributes are never
@@ -79,7 +79,7 @@ def require_inside(path: Path) -> None:
 
 
 def _identifier(reference: str, layer: Any) -> str:
-    """What a reference in a layer would open, without opening it."""
+    """Return what a reference in a layer would open, without opening it."""
     from pxr import Sdf
 
     path, _ = Sdf.Layer.SplitIdentifier(reference)
@@ -99,7 +99,7 @@ def _identifier(reference: str, layer: Any) -> str:
 
 
 def _own_file(identifier: str, root: Path) -> Path:
-    """The file that holds a layer, or the package that holds it."""
+    """Return the file that holds a layer, or the package that holds it."""
     from pxr import Ar
 
     outer = identifier

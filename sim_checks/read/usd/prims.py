@@ -38,12 +38,12 @@ def list_prims(stage: Any, name: str) -> list[Any]:
 
 
 def is_on(attribute: Any) -> bool:
-    """Whether a switch is on, as it is where nobody says anything."""
+    """Return whether a switch is on, as it is where nobody says anything."""
     return attribute.Get() is not False
 
 
 def is_rigid_body(prim: Any) -> bool:
-    """Whether it is a body of its own that physics moves."""
+    """Return whether it is a body of its own that physics moves."""
     from pxr import UsdPhysics
 
     return bool(prim.HasAPI(UsdPhysics.RigidBodyAPI)) and is_on(
@@ -77,7 +77,7 @@ def joint_kind(prim: Any) -> str:
 
 
 def is_shown(prim: Any) -> bool:
-    """Whether a surface is visible, and made to be looked at."""
+    """Return whether a surface is visible, and made to be looked at."""
     from pxr import UsdGeom
 
     image = UsdGeom.Imageable(prim)

@@ -34,7 +34,7 @@ class PhysicsSurface:
 
 
 def read_surface(prim: Any, place: FloatArray) -> PhysicsSurface | None:
-    """A mesh, box, ball, cylinder or capsule as triangles; ``None`` for any other thing.
+    """Return a mesh, box, ball, cylinder or capsule as triangles; ``None`` for any other thing.
 
     Args:
         prim: a ``UsdGeom.Gprim``.

@@ -71,7 +71,7 @@ def read_stage(path: Path) -> PhysicsStage:
 
 
 def _body_of(prim: Any, bodies: dict[str, PhysicsBody]) -> str:
-    """The nearest body above a prim, itself included."""
+    """Return the nearest body above a prim, itself included."""
     path = prim.GetPath()
     while str(path) not in bodies:
         path = path.GetParentPath()
@@ -97,7 +97,7 @@ def _add_surface(prim: Any, body: PhysicsBody, pose: FloatArray) -> int:
 
 
 def _rigid(pose: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """A pose without its scale, and the scale, shape [3]."""
+    """Return a pose without its scale, and the scale, shape [3]."""
     scale = np.linalg.norm(pose[:3, :3], axis=0)
     if not (np.isfinite(pose).all() and (scale > 0.0).all()):
         raise DescriptionError("not_finite", "a body's place is not finite, or its scale is 0")

@@ -10,7 +10,7 @@ import pytest
 from asset_factory.factory.articulate.geometric import GeometricArticulator
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, rotation_about
 from asset_factory.factory.mesh import Mesh, concatenate
-from asset_factory.factory.training.objects import make_object
+from asset_factory.learn.objects import make_object
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
 SIDES = np.array([int(corner) for corner in "013032467475045051237276026064157173"]).reshape(-1, 3)

@@ -15,8 +15,8 @@ from asset_factory.factory.config import BuildConfig, ParticulateConfig
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.intake.intake import Intake, Provenance
 from asset_factory.factory.particulate.prediction import MotionClass
-from asset_factory.factory.training.objects.catalog import DEMO_CATEGORIES, make_object
-from asset_factory.factory.training.objects.characters import fused_like
+from asset_factory.learn.objects.catalog import DEMO_CATEGORIES, make_object
+from asset_factory.learn.surfaces import fused_like
 
 CONFIG = ParticulateConfig(points=3000, context_points=500)
 WEIGHTS = (Weights("oracle.safetensors", "ab" * 32, "no terms"),)

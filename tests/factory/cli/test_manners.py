@@ -11,9 +11,9 @@ import pytest
 
 from asset_factory.factory.cli import run
 from asset_factory.factory.cli.commands import parse
-from asset_factory.factory.cli.evaluation_printing import COLUMNS, _fitting
 from asset_factory.factory.report import machine
 from asset_factory.factory.report.machine import Health, Library, abilities
+from asset_factory.learn.commands.evaluation_printing import COLUMNS, _fitting
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS
 
 

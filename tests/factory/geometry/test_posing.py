@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from asset_factory.factory.geometry.posing import closed, face_parts, posed, turned
-from asset_factory.factory.training.objects import make_object
+from asset_factory.learn.objects import make_object
 
 CABINET = make_object("cabinet", 0)
 

@@ -6,7 +6,7 @@ import pytest
 from asset_factory.factory.articulation import Articulation, JointKind
 from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.geometry.welding import welded
-from asset_factory.factory.training.objects import make_object
+from asset_factory.learn.objects import make_object
 
 CABINET = make_object("cabinet", 0)
 

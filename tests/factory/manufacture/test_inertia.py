@@ -20,8 +20,8 @@ from asset_factory.factory.manufacture.inertia import (
     part_inertial,
 )
 from asset_factory.factory.mesh import Material, Mesh, concatenate
-from asset_factory.factory.training.objects import make_object
-from asset_factory.factory.training.objects.catalog import DEMO_CATEGORIES
+from asset_factory.learn.objects import make_object
+from asset_factory.learn.objects.catalog import DEMO_CATEGORIES
 
 DENSITY = 650.0
 CONFIG = InertiaConfig()

@@ -11,7 +11,7 @@ from asset_factory.factory.export.bundle import export_bundle
 from asset_factory.factory.intake.intake import Provenance
 from asset_factory.factory.manufacture.decompose.decompose import decompose
 from asset_factory.factory.manufacture.inertia import part_inertial
-from asset_factory.factory.training.objects import make_object
+from asset_factory.learn.objects import make_object
 
 
 def made(category: str, seed: int, suffix: str) -> Callable[[Path], Path]:

@@ -14,12 +14,12 @@ from asset_factory.factory.articulate.auto.views import Slide, look_around
 from asset_factory.factory.articulate.evidence import Guess, MotionEvidence, SeenMotion
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import AutoConfig, ParticulateConfig
-from asset_factory.factory.evaluation.bodies import bodies_of
 from asset_factory.factory.geometry.posing import face_parts, turned
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.particulate.prediction import MotionClass, Prediction
-from asset_factory.factory.training.objects import make_object
+from asset_factory.learn.evaluate.bodies import bodies_of
+from asset_factory.learn.objects import make_object
 
 SHOWN = ParticulateConfig(points=1500, context_points=500)
 SURE = 12.0

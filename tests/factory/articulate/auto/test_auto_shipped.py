@@ -5,8 +5,8 @@ import numpy as np
 from asset_factory.factory.articulate.auto import load_auto
 from asset_factory.factory.articulate.geometric import GeometricArticulator
 from asset_factory.factory.config import AutoConfig, ParticulateConfig
-from asset_factory.factory.evaluation.physical import physical
-from asset_factory.factory.training.objects import make_object
+from asset_factory.learn.evaluate.physical import physical
+from asset_factory.learn.objects import make_object
 
 #: Seeds below a million are never trained on.
 UNSEEN = [("notebook", 5), ("scissors", 5), ("toilet", 5), ("oven", 5)]

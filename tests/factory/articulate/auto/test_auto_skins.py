@@ -11,7 +11,7 @@ from asset_factory.factory.articulate.auto.articulator import WithoutNetwork
 from asset_factory.factory.articulate.auto.skins import Make, seam_readings
 from asset_factory.factory.config import AutoConfig
 from asset_factory.factory.mesh import Mesh, concatenate
-from asset_factory.factory.training.objects import make_object
+from asset_factory.learn.objects import make_object
 
 
 def crumb(mesh: Mesh, size: float) -> Mesh:

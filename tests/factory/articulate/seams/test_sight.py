@@ -26,8 +26,8 @@ from asset_factory.factory.articulate.seams.sight import (
     sight_of,
 )
 from asset_factory.factory.geometry.crossings import Side
-from asset_factory.factory.training.elevations.pictures import pictures_of
-from asset_factory.factory.training.objects import make_object
+from asset_factory.learn.elevations.pictures import pictures_of
+from asset_factory.learn.objects import make_object
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +52,7 @@ def test_a_convolution_is_a_cross_correlation() -> None:
 
 def test_it_computes_what_was_trained() -> None:
     torch = pytest.importorskip("torch")
-    from asset_factory.factory.training.elevations.network import PictureNetwork
+    from asset_factory.learn.elevations.network import PictureNetwork
 
     torch.manual_seed(3)
     network = PictureNetwork()

@@ -13,8 +13,8 @@ from trimesh.triangles import closest_point
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.manufacture.targets.handles import find_handle
 from asset_factory.factory.mesh import Material, Mesh, concatenate
-from asset_factory.factory.training.objects import fused_like, make_object
-from asset_factory.factory.training.objects.catalog import DEMO_CATEGORIES
+from asset_factory.learn.objects import fused_like, make_object
+from asset_factory.learn.objects.catalog import DEMO_CATEGORIES
 
 SEEDS = (0, 1, 2, 3)
 PLAIN = Material("plain")

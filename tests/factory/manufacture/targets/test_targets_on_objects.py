@@ -12,9 +12,9 @@ from trimesh.triangles import closest_point
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.manufacture.targets.find import find_targets
 from asset_factory.factory.mesh import Material
-from asset_factory.factory.training.objects import make_object
-from asset_factory.factory.training.objects.kinds import openings
-from asset_factory.factory.training.objects.kit import casework
+from asset_factory.learn.objects import make_object
+from asset_factory.learn.objects.kinds import openings
+from asset_factory.learn.objects.kit import casework
 
 #: A handle under whose material every maker's grips are found again.
 MARK = Material("grip", (1.0, 0.0, 1.0, 1.0))

@@ -1,1 +1,0 @@
-"""Training data and, one day, the trainer."""

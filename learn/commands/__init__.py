@@ -1,0 +1,1 @@
+"""The commands that teach: ``factory train`` and ``factory evaluate``."""

@@ -1,0 +1,274 @@
+"""``factory evaluate``: flags, and the call."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from tempfile import TemporaryFile
+from typing import TYPE_CHECKING, Annotated, Any
+
+import tyro
+
+from asset_factory.factory.errors import ConfigError, Exit
+from asset_factory.factory.runtime.store import digest_bytes, digest_file
+
+if TYPE_CHECKING:
+    from ..evaluate.cases import Request
+    from ..evaluate.methods import Method
+
+SETS = ("real", "procedural", "folder", "skins")
+HALVES = ("develop", "report", "both")
+
+
+@dataclass(frozen=True)
+class Evaluate:
+    """Compare what articulators say with what is true, on objects that come with their joints.
+
+    A method that gives no answer for a case is counted and scored as if it had said that nothing
+    moves; what hangs is counted and not scored. Exit codes: 0 all cases are scored; 3 some case
+    could not be made or hung; 2 wrong usage.
+
+    Example: factory evaluate --set procedural --method auto geometric --output evaluation/
+    """
+
+    output: Path
+    """Folder for evaluation.json and cases.csv; made if it is not there."""
+    kind: Annotated[str, tyro.conf.arg(name="set")] = "real"
+    """real: the frozen list of real objects; procedural: generated; folder: any with joints;
+    skins: one-piece surfaces with the truth beside them."""
+    data: Path | None = None
+    """real: root of the list's paths; folder: where URDF, MJCF and annotated meshes are; skins:
+    where annotated meshes are."""
+    listed: Annotated[Path | None, tyro.conf.arg(name="list")] = None
+    """real: another list than the package's own."""
+    half: str = "develop"
+    """real: develop, to choose and tune on; report, to be looked at once at the end; both."""
+    category: tuple[str, ...] = ()
+    """Only these; for procedural objects all by default."""
+    seeds: int = 4
+    """procedural: objects per category."""
+    first_seed: int = 0
+    """procedural: seed of the first one; leave it away from the seeds that training draws."""
+    pose: tuple[str, ...] = ("closed",)
+    """closed: every joint at its closed end; open: anywhere in its range, at random."""
+    yaw: tuple[str, ...] = ("front",)
+    """front: its front towards -Y; random: turned about the vertical by any angle."""
+    method: tuple[str, ...] = ("naive", "geometric")
+    """naive, geometric, particulate, auto, predictions."""
+    predictions: Path | None = None
+    """Folder of <case>.npz files in the published model's format, over meshes of --meshes."""
+    fused: bool = False
+    """Make each object one closed skin with its seams engraved first, as image-to-3D tools do."""
+    meshes: Path | None = None
+    """Write the cases' meshes there as <case>.obj and evaluate nothing."""
+    convention: str = "physical"
+    """physical: area and motion of faces; paper, release: published metrics, as worded, coded."""
+    points: int = 100_000
+    """paper, release: points per object."""
+    checkpoint: str = "shipped"
+    """Weights for particulate and auto: a file, or hf:owner/repository/file@commit."""
+    features: str = ""
+    """Weights of its feature extractor, where those want features."""
+    network_points: int | None = None
+    """Points that the network labels."""
+    device: str = "cpu"
+    """Where the network runs, as torch names it."""
+    repeats: int = 1
+    """How often a method that samples is asked, each time with another seed; the spread is told."""
+    limit: int | None = None
+    """Only the first so many cases."""
+    workers: int = 1
+    """Cases at once."""
+    timeout: float = 300.0
+    """After which an answer hangs: it is stopped and not scored [s]."""
+    cache: Path | None = None
+    """Folder that keeps objects once read."""
+
+
+def run(command: Evaluate) -> int:
+    """Evaluate; returns the exit code."""
+    return Exit.OK if evaluate(command) else Exit.UNJUDGED
+
+
+def evaluate(command: Evaluate) -> bool:
+    """Evaluate, write, print; returns whether all cases are scored.
+
+    Raises:
+        ConfigError: wrong usage, and what would be right.
+    """
+    from asset_factory.factory.config import BuildConfig
+    from asset_factory.sim_checks.processes.isolation import Limits
+
+    from ..evaluate.files import write_results
+    from ..evaluate.trial import Trial, run_trials, trials_of
+    from .evaluation_printing import followed, print_summary
+
+    _require_sound(command)
+    requests = _requests(command)
+    if command.meshes is not None:
+        _write_meshes(command.meshes, requests, command.cache)
+        return True
+    methods = _methods(command)
+    _require_writable(command.output)
+    settings = _settings(command, len(requests))
+    template = Trial(
+        requests[0],
+        methods[0],
+        convention=command.convention,
+        points=command.points,
+        kept=command.cache,
+    )
+    trials = trials_of(requests, methods, command.repeats, template)
+    limits = Limits(wall_s=command.timeout, memory_bytes=BuildConfig().asset_memory_bytes)
+    rows = followed(run_trials(trials, command.workers, limits), len(trials))
+    data = write_results(command.output, rows, settings)
+    print_summary(data, command.output)
+    return all(row.score is not None for row in rows)
+
+
+def _require_sound(command: Evaluate) -> None:
+    from ..evaluate.trial import CONVENTIONS
+
+    known = (
+        ("--set", command.kind, SETS),
+        ("--convention", command.convention, CONVENTIONS),
+        ("--half", command.half, HALVES),
+    )
+    for flag, given, choices in known:
+        if given not in choices:
+            raise ConfigError(f"{flag}: is {given!r}, want one of {', '.join(choices)}")
+    least = (("points", 1), ("seeds", 1), ("repeats", 1), ("workers", 1), ("first_seed", 0))
+    for name, lowest in least:
+        if getattr(command, name) < lowest:
+            raise ConfigError(
+                f"--{name.replace('_', '-')}: is {getattr(command, name)}, want at least {lowest}"
+            )
+    if command.limit is not None and command.limit < 1:
+        raise ConfigError(f"--limit: is {command.limit}, want at least 1")
+    if not command.timeout > 0.0:
+        raise ConfigError(f"--timeout: is {command.timeout:g} s, want more than 0")
+    if command.kind != "procedural" and command.data is None:
+        raise ConfigError(f"--data: not given; --set {command.kind} wants the folder of objects")
+    for flag, names in (
+        ("--method", command.method),
+        ("--pose", command.pose),
+        ("--yaw", command.yaw),
+    ):
+        if not names or len(set(names)) < len(names):
+            raise ConfigError(
+                f"{flag}: {' '.join(names) or 'nothing'}; want at least one, each once"
+            )
+
+
+def _require_writable(folder: Path) -> None:
+    """Make the folder now, as finding out after hours that it is not writable loses the results."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise ConfigError(
+            f"--output: {folder}: {error.strerror}; want a folder that can be written to"
+        ) from error
+
+
+def _requests(command: Evaluate) -> tuple[Request, ...]:
+    requests = _of_set(command)
+    if command.category:
+        known = sorted({request.category for request in requests})
+        unknown = [name for name in command.category if name not in known]
+        if unknown:
+            raise ConfigError(
+                f"--category: none of these objects is a {unknown[0]!r}; "
+                f"there are {', '.join(known)}"
+            )
+        requests = tuple(request for request in requests if request.category in command.category)
+    if not requests:
+        raise ConfigError("no object is left to evaluate; want another list or half")
+    if command.fused:
+        requests = tuple(request.as_fused() for request in requests)
+    return requests[: command.limit]
+
+
+def _of_set(command: Evaluate) -> tuple[Request, ...]:
+    from ..evaluate.cases import (
+        folder_requests,
+        procedural_requests,
+        real_requests,
+        skin_requests,
+    )
+    from ..evaluate.listing import read_list
+
+    if command.kind == "procedural" or command.data is None:
+        from ..objects import CATEGORIES
+
+        seeds = range(command.first_seed, command.first_seed + command.seeds)
+        return procedural_requests(CATEGORIES, seeds, command.pose, command.yaw)
+    if command.kind == "folder":
+        return folder_requests(command.data, command.pose, command.yaw)
+    if command.kind == "skins":
+        return skin_requests(command.data, command.pose, command.yaw)
+    half = None if command.half == "both" else command.half
+    return real_requests(command.data, read_list(command.listed), half, command.pose, command.yaw)
+
+
+def _methods(command: Evaluate) -> tuple[Method, ...]:
+    from asset_factory.factory.articulate.settings import require_usable
+    from asset_factory.factory.config import ParticulateConfig
+
+    from ..evaluate.methods import Method
+
+    config = ParticulateConfig(
+        checkpoint=command.checkpoint, features=command.features, device=command.device
+    )
+    if command.network_points is not None:
+        config = replace(config, points=command.network_points)
+    require_usable(config, needed="particulate" in command.method)
+    return tuple(Method(name, config, command.predictions) for name in command.method)
+
+
+def _settings(command: Evaluate, cases: int) -> dict[str, Any]:
+    """Return what the numbers depend on; nothing of this machine."""
+    told: dict[str, Any] = {"set": command.kind, "cases": cases, "convention": command.convention}
+    told |= {name: list(getattr(command, name)) for name in ("pose", "yaw", "method", "category")}
+    told |= {"repeats": command.repeats, "timeout_s": command.timeout}
+    if command.kind == "real":
+        told |= {"half": command.half, "list": _list_digest(command.listed)}
+    if command.fused:
+        told |= {"fused": True}
+    if command.kind == "procedural":
+        told |= {"seeds": command.seeds, "first_seed": command.first_seed}
+    if command.convention != "physical":
+        told |= {"points": command.points}
+    if command.network_points is not None:
+        told |= {"network_points": command.network_points}
+    for name in ("checkpoint", "features"):
+        if getattr(command, name) and {"auto", "particulate"} & set(command.method):
+            told |= {name: _weights(getattr(command, name))}
+    return told
+
+
+def _list_digest(path: Path | None) -> str:
+    from ..evaluate.listing import list_text
+
+    return digest_bytes(list_text(path).encode())
+
+
+def _weights(checkpoint: str) -> dict[str, str]:
+    from asset_factory.factory.particulate.weights.sources import fetch
+
+    file = fetch(checkpoint)
+    return {"file": file.name, "digest": digest_file(file)}
+
+
+def _write_meshes(folder: Path, requests: Sequence[Request], cache: Path | None) -> None:
+    from asset_factory.factory.runtime.store import Store
+
+    from ..evaluate.cases import make_case
+    from ..evaluate.files import write_obj
+
+    folder.mkdir(parents=True, exist_ok=True)
+    for request in requests:
+        case = make_case(request, None if cache is None else Store(cache))
+        write_obj(folder / f"{case.name}.obj", case.articulation.mesh)

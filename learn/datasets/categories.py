@@ -1,0 +1,63 @@
+"""What kind of thing an object is, as its dataset's inventory or its folder's name says."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Callable
+from pathlib import Path, PurePosixPath
+
+from asset_factory.factory.intake.sizes import normalised
+
+INVENTORY = "INVENTORY.csv"
+MAX_BYTES = 64 * 1024 * 1024
+
+
+def categories_of(root: Path) -> Callable[[str], str]:
+    """Category by object name: the inventory's, else its start (``box`` of ``box_101``).
+
+    The inventory is ``INVENTORY.csv`` in ``root``, with columns ``path`` and ``category``; a path
+    may begin with the folders that ``root`` lies in. An inventory that cannot be read is none.
+    Categories are written as the table of
+    sizes writes them: ``fridge`` for a refrigerator.
+    """
+    listed = _listed(root / INVENTORY)
+
+    def category(name: str) -> str:
+        stated = in_inventory(name)
+        return normalised(stated) if stated else ""
+
+    def in_inventory(name: str) -> str:
+        parts = PurePosixPath(name).parts
+        for known in (name, *(PurePosixPath(*tail).as_posix() for tail in _tails(root, parts))):
+            if known in listed:
+                return listed[known]
+        return prefix_of(parts[-1] if parts else name)
+
+    return category
+
+
+def prefix_of(name: str) -> str:
+    """Return the words before a number: ``wall_cabinet`` of ``wall_cabinet_07``; may be empty."""
+    match = re.match(r"[A-Za-z]+(?:[_-][A-Za-z]+)*", name)
+    return match.group().lower().replace("-", "_") if match else ""
+
+
+def _tails(root: Path, parts: tuple[str, ...]) -> list[tuple[str, ...]]:
+    above = root.resolve().parts[1:]
+    return [(*above[-count:], *parts) for count in range(1, len(above) + 1)]
+
+
+def _listed(path: Path) -> dict[str, str]:
+    try:
+        if path.stat().st_size > MAX_BYTES:
+            return {}
+        with path.open(newline="", encoding="utf-8") as file:
+            rows = [
+                (row.get("path") or "", row.get("category") or "") for row in csv.DictReader(file)
+            ]
+    except (OSError, UnicodeDecodeError, csv.Error):
+        return {}
+    return {
+        PurePosixPath(path).as_posix(): category for path, category in rows if path and category
+    }

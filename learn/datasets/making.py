@@ -1,0 +1,93 @@
+"""From an object's files to its sampled object in the cache, or to the reason why there is none."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.errors import AssetFactoryError, InputRejected
+from asset_factory.factory.geometry.posing import turned
+
+from ..samples.sampled_object import SampledObject, sampled_from, write_sampled
+from .catalog import source
+from .item import SourceItem
+from .refusal import ItemRefusal
+from .settings import FRONTS, SourceSettings
+from .turning import turned_sampled
+
+
+def make_sampled(
+    kind: str, item: SourceItem, settings: SourceSettings, key: str, path: Path
+) -> ItemRefusal | None:
+    """Read one object and keep it as points; made to be called in a process that may be killed.
+
+    Args:
+        kind: of dataset.
+        item: the object.
+        settings: of the reading.
+        key: of its sampled object; decides its points, too.
+        path: of its sampled object.
+    """
+    try:
+        sampled = sampled_item(kind, item, settings, seed=int(key[-16:], 16))
+    except InputRejected as error:
+        return ItemRefusal(error.code, error.message)
+    except FileNotFoundError as error:
+        return ItemRefusal(
+            "missing_file", f"{item.name}: {Path(str(error.filename)).name} is not there"
+        )
+    except (
+        OSError,
+        MemoryError,
+        AssetFactoryError,
+        ValueError,
+        ArithmeticError,
+        LookupError,
+        RuntimeError,
+    ) as error:
+        # Whatever a reader trips over is a fault of the object's: it costs that object, never the
+        # run.
+        return ItemRefusal("unreadable", f"{item.name}: {type(error).__name__}: {error}"[:400])
+    write_sampled(path, sampled)
+    return None
+
+
+def sampled_item(kind: str, item: SourceItem, settings: SourceSettings, seed: int) -> SampledObject:
+    """One object's sample, its front along -Y. Raises InputRejected, and any reader's errors."""
+    known = source(kind)
+    read = known.read(item, settings)
+    quarters = FRONTS[known.front if settings.front == "auto" else settings.front]
+    yaw = quarters * np.pi / 2.0
+    if isinstance(read, SampledObject):
+        sampled = replace(read if not quarters else turned_sampled(read, yaw), name=item.name)
+    else:
+        sampled = _drawn(read if not quarters else turned(read, yaw), kind, item, settings, seed)
+    if len(sampled.parents) > settings.max_parts:
+        count = len(sampled.parents)
+        raise InputRejected(
+            "too_many_parts",
+            f"{item.name}: has {count} parts, want at most {settings.max_parts}",
+            value=count,
+            limit=settings.max_parts,
+        )
+    return sampled
+
+
+def _drawn(
+    articulation: Articulation, kind: str, item: SourceItem, settings: SourceSettings, seed: int
+) -> SampledObject:
+    if settings.skin:
+        from ..surfaces import skin_like
+
+        articulation = skin_like(articulation, seed % 2**32)
+    return sampled_from(
+        articulation,
+        name=item.name,
+        category=item.category,
+        source=kind,
+        points=settings.points,
+        rng=np.random.default_rng([settings.seed, seed]),
+    )

@@ -1,0 +1,68 @@
+"""What became of a dataset's objects."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from asset_factory.factory.runtime.store import write_whole
+
+
+@dataclass(frozen=True)
+class SourceReport:
+    """One pass over a dataset.
+
+    Attributes:
+        kind: of dataset.
+        read: names of the objects that are sampled objects now.
+        skipped: why the others are not, by reason code: names, each with a sentence.
+        made: how many of ``read`` were not in the cache before.
+        gone: names that a former pass read and that are not among the dataset's objects any more.
+    """
+
+    kind: str
+    read: tuple[str, ...]
+    skipped: dict[str, dict[str, str]]
+    made: int
+    gone: tuple[str, ...] = ()
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """Skipped objects by reason, most frequent first."""
+        return dict(
+            Counter({reason: len(names) for reason, names in self.skipped.items()}).most_common()
+        )
+
+    def lines(self) -> list[str]:
+        """For people: what was read, and each reason with its first object."""
+        total = len(self.read) + sum(self.counts.values())
+        said = [f"{self.kind}: {len(self.read)} of {total} objects read, {self.made} of them new"]
+        for reason, count in self.counts.items():
+            name, message = next(iter(self.skipped[reason].items()))
+            said.append(f"  {count} skipped: {reason}; first {name}: {message}")
+        if self.gone:
+            said.append(f"  {len(self.gone)} gone since the last pass, e.g. {self.gone[0]}")
+        return said
+
+    def write(self, path: Path) -> None:
+        """As JSON, complete or not there."""
+        data: dict[str, Any] = {
+            "kind": self.kind,
+            "read": list(self.read),
+            "skipped": {
+                reason: dict(sorted(names.items()))
+                for reason, names in sorted(self.skipped.items())
+            },
+        }
+        write_whole(path, (json.dumps(data, indent=1) + "\n").encode())
+
+
+def names_read(path: Path) -> tuple[str, ...]:
+    """Return the names in an earlier report; none if there is no readable one."""
+    try:
+        return tuple(str(name) for name in json.loads(path.read_text(encoding="utf-8"))["read"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return ()

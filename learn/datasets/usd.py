@@ -1,0 +1,71 @@
+"""USD assets with rigid bodies and physics joints, as GRScenes and Lightwheel ship them.
+
+The schema: https://openusd.org/release/api/usd_physics_page_front.html. Geometry and joints are
+taken at the authored pose; what the physics engine would do with them afterwards (gravity, drives)
+does not matter here.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from asset_factory.factory.articulate.annotated import AnnotatedArticulator
+from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.errors import ConfigError, InputRejected
+from asset_factory.factory.intake.discover import MAIN_LAYERS
+from asset_factory.factory.intake.importers.usd import read_annotated
+from asset_factory.factory.intake.importers.usd_layers import require_own_layers
+from asset_factory.sim_checks.read.usd.layers import is_usd
+
+from .categories import categories_of
+from .item import SourceItem, find_items
+from .settings import SourceSettings
+
+
+def find_usd(root: Path) -> tuple[SourceItem, ...]:
+    """Return the objects of a folder of folders, or of a folder of files complete in themselves.
+
+    Raises:
+        ConfigError: the library that reads USD is not installed.
+    """
+    if importlib.util.find_spec("pxr") is None:
+        raise ConfigError("reading USD needs usd-core: pip install 'asset-factory[train]'")
+    return find_items(root, _mains, categories_of(root))
+
+
+def read_usd(item: SourceItem, settings: SourceSettings) -> Articulation:
+    """Return one object in metres, z up, lower = closed, bodies held by fixed joints one part.
+
+    Native code reads the file: call it where it may crash.
+
+    Raises:
+        InputRejected: ``external_reference``, ``missing_file``, ``too_large``, ``unreadable``,
+            ``empty``, ``not_a_tree``, ``unsupported_joint``, ``no_limits``, ``bad_axis``,
+            ``no_movable_joint``.
+    """
+    require_own_layers(item.main, item.folder, settings.max_bytes)
+    mesh, annotation, transform = read_annotated(item.main, settings.max_faces)
+    articulator = AnnotatedArticulator(annotation, transform, np.arange(len(mesh.faces)))
+    articulation = articulator.articulate(mesh)
+    if not articulation.movable_joints:
+        raise InputRejected(
+            "no_movable_joint", f"{item.name}: nothing moves; want a joint to learn from", value=0.0
+        )
+    return articulation
+
+
+def _mains(files: Sequence[Path]) -> list[Path]:
+    """Return the file called like its folder first, then the names that asset packs use."""
+
+    def rank(path: Path) -> tuple[bool, int, str]:
+        return (
+            path.stem != path.parent.name,
+            MAIN_LAYERS.index(path.stem) if path.stem in MAIN_LAYERS else len(MAIN_LAYERS),
+            path.name,
+        )
+
+    return sorted((path for path in files if is_usd(path)), key=rank)

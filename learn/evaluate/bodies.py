@@ -1,0 +1,129 @@
+"""What of an articulation is scored: the parts that have faces, and how each of them moves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind
+from asset_factory.factory.mesh import FloatArray, IntArray, Mesh, read_only
+from asset_factory.factory.particulate.prediction import MotionClass
+
+BoolArray = npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """The parts with faces; carriers without faces are merged into the part that they carry.
+
+    Attributes:
+        articulation: whose parts they are.
+        parts: index of each body's part, ascending, shape [body_count].
+        labels: body of each face, shape [face_count].
+        joints: movable joints between each body and the next body towards the root, the root's side
+            first.
+    """
+
+    articulation: Articulation
+    parts: IntArray
+    labels: IntArray
+    joints: tuple[tuple[Joint, ...], ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "parts", read_only(self.parts, np.int64))
+        object.__setattr__(self, "labels", read_only(self.labels, np.int64))
+
+    def __len__(self) -> int:
+        return len(self.parts)
+
+    @property
+    def moving(self) -> BoolArray:
+        """Return which bodies have a movable joint of their own, shape [body_count]."""
+        return np.array([bool(own) for own in self.joints])
+
+    @cached_property
+    def mobile(self) -> BoolArray:
+        """Which bodies move at all, be it because what carries them moves, shape [body_count]."""
+        carried = np.zeros(len(self.articulation.parts), dtype=bool)
+        for joint in self.articulation.joints:
+            carried[joint.child] = carried[joint.parent] or joint.movable
+        return np.asarray(carried[self.parts])
+
+    def kind(self, body: int) -> MotionClass:
+        """Return how a body moves relative to the one that holds it."""
+        turns = self.turn(body) is not None
+        slides = self.slide(body) is not None
+        if turns and slides:
+            return MotionClass.BOTH
+        if turns:
+            return MotionClass.REVOLUTE
+        return MotionClass.PRISMATIC if slides else MotionClass.FIXED
+
+    def turn(self, body: int) -> Joint | None:
+        """Return the turning joint nearest to a body, of its own; ``None`` if it has none."""
+        return next((joint for joint in reversed(self.joints[body]) if joint.turns), None)
+
+    def slide(self, body: int) -> Joint | None:
+        """Return the sliding joint nearest to a body, of its own; ``None`` if it has none."""
+        return next(
+            (joint for joint in reversed(self.joints[body]) if joint.kind is JointKind.PRISMATIC),
+            None,
+        )
+
+    def own_motion(self, body: int, share: float) -> FloatArray:
+        """Motion of a body by its own joints, opened by a share of range, at rest frame, [4, 4]."""
+        matrix = np.eye(4)
+        for joint in self.joints[body]:
+            matrix = matrix @ joint.motion(value_at(joint, share))
+        return matrix
+
+    def centres_at(self, share: float) -> FloatArray:
+        """Face centroids with every joint opened by a share of its range [m], [face_count, 3]."""
+        values = {joint.name: value_at(joint, share) for joint in self.articulation.movable_joints}
+        poses = self.articulation.poses(values)[self.parts][self.labels]
+        centres = face_centres(self.articulation.mesh)
+        return np.asarray(np.einsum("nij,nj->ni", poses[:, :3, :3], centres) + poses[:, :3, 3])
+
+
+def bodies_of(articulation: Articulation) -> Bodies:
+    """Return the bodies of an articulation, root first, parents before children."""
+    parts = [index for index, part in enumerate(articulation.parts) if len(part.faces)]
+    labels = np.zeros(len(articulation.mesh.faces), dtype=np.int64)
+    for body, part in enumerate(parts):
+        labels[articulation.parts[part].faces] = body
+    return Bodies(
+        articulation,
+        np.array(parts, np.int64),
+        labels,
+        tuple(_own(articulation, part) for part in parts),
+    )
+
+
+def _own(articulation: Articulation, part: int) -> tuple[Joint, ...]:
+    """Movable joints up to the next part with faces."""
+    found: list[Joint] = []
+    while (joint := articulation.parent_joint(part)) is not None:
+        if joint.movable:
+            found.insert(0, joint)
+        part = joint.parent
+        if len(articulation.parts[part].faces):
+            break
+    return tuple(found)
+
+
+def value_at(joint: Joint, share: float) -> float:
+    """Joint value with a share of the range opened [rad] or [m].
+
+    A joint without ends has no closed one: it starts where it is, and all its range is half a turn.
+    """
+    if joint.kind is JointKind.CONTINUOUS:
+        return share * np.pi
+    return joint.lower + share * joint.range
+
+
+def face_centres(mesh: Mesh) -> FloatArray:
+    """Centroid of every face [m], shape [face_count, 3]."""
+    return np.asarray(mesh.vertices[mesh.faces].mean(axis=1))

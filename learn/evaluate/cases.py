@@ -1,0 +1,307 @@
+"""Objects with the truth about them, posed and turned as an input might be."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+
+from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.config import IntakeConfig
+from asset_factory.factory.errors import ConfigError, InputRejected
+from asset_factory.factory.geometry.posing import closed, posed, turned
+from asset_factory.factory.intake.discover import find_inputs, is_description
+from asset_factory.factory.intake.files import InputFiles
+from asset_factory.factory.intake.sidecar import read_sidecar
+from asset_factory.factory.intake.sizes import guess_category
+from asset_factory.factory.runtime.store import Store, digest_file
+
+from .listing import Listed
+from .merging import merged
+from .stored import imported
+
+POSES = ("closed", "open")
+YAWS = ("front", "random")
+FULL_TURN = 2.0 * np.pi
+#: Of skins along their longest side, about as fine as image-to-3D tools give them.
+CELLS = 200
+
+
+@dataclass(frozen=True)
+class Case:
+    """One object in one pose, turned one way.
+
+    Attributes:
+        name: unique among cases; a file's name without suffix.
+        source: where the object is from.
+        category: what it is.
+        articulation: the truth, over the one mesh that articulators are shown.
+        pose: ``closed`` or ``open``.
+        yaw: ``front`` or ``random``.
+    """
+
+    name: str
+    source: str
+    category: str
+    articulation: Articulation
+    pose: str = "closed"
+    yaw: str = "front"
+
+
+@dataclass(frozen=True)
+class Request:
+    """What to make a case of: small, so that another process can make it.
+
+    Attributes:
+        name: of the case.
+        source: where the object is from.
+        category: what it is.
+        pose: ``closed``: every joint at its closed end; ``open``: every joint anywhere in its
+            range.
+        yaw: ``front``: the front towards -Y where there is one; ``random``: turned by any angle
+            about the vertical.
+        file: of its description, or its mesh with an annotation; ``None`` for a procedural object.
+        digest: of that file; empty if any will do, which is then not kept.
+        front_yaw: turn that brings its front to -Y [deg]; ``None`` where that is unknown.
+        seed: of a procedural object.
+        fused: made one closed skin with seams engraved, as image-to-3D tools give it; parts that
+            nothing is seen of are gone.
+    """
+
+    name: str
+    source: str
+    category: str
+    pose: str
+    yaw: str
+    file: Path | None = None
+    digest: str = ""
+    front_yaw: float | None = None
+    seed: int = 0
+    fused: bool = False
+
+    def as_fused(self) -> Request:
+        """Return the same object as image-to-3D tools would give it."""
+        return replace(self, name=f"{self.name}-fused", fused=True)
+
+
+def real_requests(
+    root: Path,
+    objects: Sequence[Listed],
+    half: str | None,
+    poses: Sequence[str],
+    yaws: Sequence[str],
+) -> tuple[Request, ...]:
+    """Return every object of a list in every pose and yaw asked for.
+
+    Args:
+        root: the folder of data that the list's paths start from.
+        objects: as :func:`~asset_factory.learn.evaluate.listing.read_list` gives them.
+        half: ``develop``, ``report``, or ``None`` for both.
+        poses: of ``POSES``.
+        yaws: of ``YAWS``.
+
+    Raises:
+        ConfigError: no such pose or yaw, or an object is not there.
+    """
+    _require_known(poses, yaws)
+    chosen = [listed for listed in objects if half in (None, listed.half)]
+    for listed in chosen:
+        if not (root / listed.path).is_file():
+            raise ConfigError(
+                f"{root / listed.path}: no such file; "
+                "want the folder of data that the list is about"
+            )
+    return tuple(
+        Request(
+            name=f"{listed.name}--{pose}-{yaw}",
+            source=listed.source,
+            category=listed.category,
+            pose=pose,
+            yaw=yaw,
+            file=root / listed.path,
+            digest=listed.digest,
+            front_yaw=listed.front_yaw,
+        )
+        for listed, pose, yaw in product(chosen, poses, yaws)
+    )
+
+
+def procedural_requests(
+    categories: Sequence[str],
+    seeds: Sequence[int],
+    poses: Sequence[str] = ("closed",),
+    yaws: Sequence[str] = ("front",),
+) -> tuple[Request, ...]:
+    """Procedural objects, one per category, seed, pose and yaw.
+
+    Raises ConfigError for an unknown pose or yaw.
+    """
+    _require_known(poses, yaws)
+    return tuple(
+        Request(
+            f"{category}_{seed}--{pose}-{yaw}",
+            "procedural",
+            category,
+            pose,
+            yaw,
+            front_yaw=0.0,
+            seed=seed,
+        )
+        for category, seed, pose, yaw in product(categories, seeds, poses, yaws)
+    )
+
+
+def folder_requests(
+    folder: Path, poses: Sequence[str] = ("closed",), yaws: Sequence[str] = ("front",)
+) -> tuple[Request, ...]:
+    """Every URDF, MJCF and annotated mesh (by its sidecar) in a folder; fronts look along -Y.
+
+    Raises:
+        ConfigError: there is none, or no such pose or yaw.
+    """
+    _require_known(poses, yaws)
+    config = IntakeConfig()
+    found = [
+        path
+        for path in find_inputs((folder,))
+        if is_description(path)
+        or read_sidecar(path, InputFiles(path.parent, config)).annotation is not None
+    ]
+    if not found:
+        raise ConfigError(
+            f"{folder}: holds no URDF, no MJCF and no mesh with an annotation; want at least one"
+        )
+    return tuple(
+        Request(
+            name=f"{_plain(path.relative_to(folder))}--{pose}-{yaw}",
+            source=folder.resolve().name,
+            category=guess_category(path.stem, path.parent.name) or "unknown",
+            pose=pose,
+            yaw=yaw,
+            file=path,
+            front_yaw=0.0,
+        )
+        for path, pose, yaw in product(found, poses, yaws)
+    )
+
+
+def skin_requests(
+    folder: Path, poses: Sequence[str] = ("closed",), yaws: Sequence[str] = ("front",)
+) -> tuple[Request, ...]:
+    """Return every annotated mesh in a folder that is one skin; fronts look along -Y.
+
+    Raises ConfigError as :func:`folder_requests`.
+    """
+    found = folder_requests(folder, poses, yaws)
+    skins = tuple(
+        replace(request, source="skins")
+        for request in found
+        if request.file is not None and not is_description(request.file)
+    )
+    if not skins:
+        raise ConfigError(f"{folder}: holds no mesh with an annotation; want at least one")
+    return skins
+
+
+def _plain(path: Path) -> str:
+    return path.with_suffix("").as_posix().replace("/", "__")
+
+
+def _require_known(poses: Sequence[str], yaws: Sequence[str]) -> None:
+    for what, given, known in (("pose", poses, POSES), ("yaw", yaws, YAWS)):
+        wrong = [name for name in given if name not in known]
+        if wrong:
+            raise ConfigError(f"no {what} {wrong[0]!r}; there are {', '.join(known)}")
+
+
+def make_case(request: Request, store: Store | None = None) -> Case:
+    """Read or generate an object, pose it, turn it, and melt it into one mesh.
+
+    Args:
+        request: which object, and how.
+        store: keeps what was read; ``None`` reads it every time.
+
+    Raises:
+        InputRejected: the description cannot be read, or nothing that moves is seen of the fused
+            object.
+        ConfigError: it is not the file that the list speaks of.
+    """
+    whole = closed(_original(request, store))
+    if request.pose == "open":
+        whole = _opened(whole, _rng(request, "pose"))
+    if request.yaw == "random":
+        whole = turned(whole, float(_rng(request, "yaw").uniform(0.0, FULL_TURN)))
+    elif request.front_yaw:
+        whole = turned(whole, float(np.radians(request.front_yaw)))
+    if request.fused:
+        whole = _fused(whole, int(_rng(request, "skin").integers(2**31)))
+    truth = merged(whole, _rng(request, "order"))
+    return Case(request.name, request.source, request.category, truth, request.pose, request.yaw)
+
+
+def cases(
+    root: Path,
+    objects: Sequence[Listed],
+    half: str | None = "develop",
+    poses: Sequence[str] = ("closed",),
+    yaws: Sequence[str] = ("front",),
+    store: Store | None = None,
+) -> Iterator[Case]:
+    """The cases of a list one by one; errors as for :func:`real_requests`, :func:`make_case`."""
+    for request in real_requests(root, objects, half, poses, yaws):
+        yield make_case(request, store)
+
+
+def procedural_cases(
+    categories: Sequence[str],
+    seeds: Sequence[int],
+    poses: Sequence[str] = ("closed",),
+    yaws: Sequence[str] = ("front",),
+) -> Iterator[Case]:
+    """Procedural objects one by one; arguments and errors as for :func:`procedural_requests`."""
+    for request in procedural_requests(categories, seeds, poses, yaws):
+        yield make_case(request)
+
+
+def _original(request: Request, store: Store | None) -> Articulation:
+    if request.file is None:
+        from ..objects import make_object
+
+        return make_object(request.category, request.seed)
+    if not request.digest:
+        return imported(request.file, "", None)
+    digest = digest_file(request.file)
+    if digest != request.digest:
+        said = f"has the SHA-256 {digest[:12]}..., the list says {request.digest[:12]}..."
+        raise ConfigError(f"{request.file}: {said}; want the file that was listed")
+    return imported(request.file, digest, store)
+
+
+def _fused(whole: Articulation, seed: int) -> Articulation:
+    from ..surfaces import skin_like
+
+    try:
+        return skin_like(whole, seed, cells=CELLS, engraved=1.0)
+    except ValueError as error:
+        raise InputRejected("nothing_seen", f"cannot be made one skin: {error}") from error
+
+
+def _opened(whole: Articulation, rng: np.random.Generator) -> Articulation:
+    return posed(
+        whole, {j.name: j.lower + j.range * float(rng.uniform()) for j in whole.movable_joints}
+    )
+
+
+def _rng(request: Request, purpose: str) -> np.random.Generator:
+    """Random numbers of this object, pose and yaw for one purpose, the same ever after."""
+    parts = {"pose": (), "skin": (), "yaw": (request.pose,), "order": (request.pose, request.yaw)}[
+        purpose
+    ]
+    text = "/".join((request.name.rpartition("--")[0], purpose, *parts))
+    return np.random.default_rng(
+        int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "little")
+    )

@@ -1,0 +1,90 @@
+"""What an evaluation writes: JSON of everything, CSV with a line per case; no times in either."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.runtime.store import write_json, write_whole
+
+from .comparing import compared
+from .summary import in_order, rounded, summarised
+from .trial import Row
+
+JSON_NAME = "evaluation.json"
+CSV_NAME = "cases.csv"
+
+
+def write_results(folder: Path, rows: Sequence[Row], settings: dict[str, Any]) -> dict[str, Any]:
+    """Write both files, the same bytes for the same numbers; returns what the JSON file holds.
+
+    Args:
+        folder: made if it is not there.
+        rows: in any order.
+        settings: what was evaluated, and how, without paths of this machine.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    lines = [_line(row) for row in in_order(rows)]
+    data = {
+        "settings": settings,
+        "summary": summarised(rows),
+        "paired": compared(rows),
+        "cases": lines,
+    }
+    write_json(folder / JSON_NAME, data)
+    write_whole(folder / CSV_NAME, _table(lines).encode())
+    return data
+
+
+def _line(row: Row) -> dict[str, Any]:
+    request = row.trial.request
+    score = row.score
+    return {
+        "method": row.trial.method.name,
+        "case": request.name,
+        "repeat": row.trial.repeat,
+        "source": request.source,
+        "category": request.category,
+        "pose": request.pose,
+        "yaw": request.yaw,
+        "failure": row.failure,
+        "values": {}
+        if score is None
+        else {name: rounded(value) for name, value in score.values.items()},
+        "parts": {}
+        if score is None
+        else {n: [rounded(v) for v in values] for n, values in score.pooled.items()},
+    }
+
+
+def _table(lines: Sequence[dict[str, Any]]) -> str:
+    """One column per value; per-part values become means over the parts, blank without any."""
+    fixed = ("method", "case", "repeat", "source", "category", "pose", "yaw", "failure")
+    values = list(dict.fromkeys(name for line in lines for name in line["values"]))
+    parts = list(dict.fromkeys(name for line in lines for name in line["parts"]))
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([*fixed, *values, *parts])
+    for line in lines:
+        means = [line["parts"].get(name, ()) for name in parts]
+        writer.writerow(
+            [
+                *(line[name] for name in fixed),
+                *(line["values"].get(name, "") for name in values),
+                *(rounded(np.mean(numbers)) if len(numbers) else "" for numbers in means),
+            ]
+        )
+    return text.getvalue()
+
+
+def write_obj(path: Path, mesh: Mesh) -> None:
+    """A mesh fit to be published: faces in its own order, numbers that read back exactly."""
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in mesh.vertices.tolist()]
+    lines += [f"f {a} {b} {c}" for a, b, c in (mesh.faces + 1).tolist()]
+    write_whole(path, ("\n".join(lines) + "\n").encode())

@@ -1,0 +1,84 @@
+"""Of all true moving parts, the share whose joint is right in one respect; missed is wrong."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from asset_factory.factory.articulation import Joint
+from asset_factory.factory.geometry.triangles import face_areas
+from asset_factory.factory.mesh import FloatArray
+
+from .bodies import Bodies, face_centres
+from .pairing import Pairing
+
+#: A match that covers a part by no more than this is of another part.
+FOUND_IOU = 0.5
+#: An axis within these is right: the angle [deg], and the distances as shares of the longest side.
+RIGHT_ANGLE_DEG = 5.0
+RIGHT_OFFSET = 0.05
+STRICT_OFFSET = 0.02
+
+
+def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[float, ...]]:
+    """Per true moving part 1 or 0, in the order of its bodies; unless it is found and moves, 0.
+
+    Args:
+        true: what is.
+        predicted: what was said, over the same mesh.
+        pairing: of the two.
+
+    Returns:
+        ``type_of_all``: the type is right. ``axis_of_all``: an axis that both have is there, and
+            all such are within 5
+        degrees. ``joint_right``: both of these, and the axis of the turn, if there is one, within 5
+            % of the longest
+        side. Of the true parts that turn: ``place_of_all``, ``place_of_all_strict``: the prediction
+        turns about an axis within 5 % and 2 % of the longest side of the true one; which way it
+        points is not asked.
+    """
+    names = ("type_of_all", "axis_of_all", "place_of_all", "place_of_all_strict", "joint_right")
+    found = {name: np.zeros(len(true)) for name in names}
+    size = float(true.articulation.mesh.extents.max())
+    for (real, guess), iou in zip(pairing.pairs, pairing.iou(), strict=True):
+        if not true.moving[real] or not predicted.moving[guess] or iou <= FOUND_IOU:
+            continue
+        alike = true.kind(real) == predicted.kind(guess)
+        parallel = max(angles(true, predicted, real, guess), default=np.inf) < RIGHT_ANGLE_DEG
+        place = offset(true, predicted, real, guess)
+        share = np.inf if place is None else place / size
+        found["type_of_all"][real] = alike
+        found["axis_of_all"][real] = parallel
+        found["place_of_all"][real] = share < RIGHT_OFFSET
+        found["place_of_all_strict"][real] = share < STRICT_OFFSET
+        found["joint_right"][real] = alike and parallel and (place is None or share < RIGHT_OFFSET)
+    turning = np.array([true.turn(body) is not None for body in range(len(true))])
+    asked = {
+        name: true.moving & turning if name.startswith("place") else true.moving for name in names
+    }
+    return {name: tuple(found[name][asked[name]].tolist()) for name in names}
+
+
+def angles(true: Bodies, predicted: Bodies, real: int, guess: int) -> list[float]:
+    """Between the two bodies' axes, of turns and of slides, whichever way they point [deg]."""
+    both = (true.turn(real), predicted.turn(guess)), (true.slide(real), predicted.slide(guess))
+    return [_angle(one, other) for one, other in both if one is not None and other is not None]
+
+
+def offset(true: Bodies, predicted: Bodies, real: int, guess: int) -> float | None:
+    """From the true turn axis, at its point nearest to the part's centroid, to the other's [m].
+
+    ``None`` unless both turn.
+    """
+    ours = true.turn(real)
+    theirs = predicted.turn(guess)
+    if ours is None or theirs is None:
+        return None
+    mesh = true.articulation.mesh
+    own = true.labels == real
+    middle: FloatArray = np.average(face_centres(mesh)[own], axis=0, weights=face_areas(mesh)[own])
+    at = ours.origin + ours.axis * float(ours.axis @ (middle - ours.origin)) - theirs.origin
+    return float(np.linalg.norm(at - theirs.axis * float(theirs.axis @ at)))
+
+
+def _angle(true: Joint, predicted: Joint) -> float:
+    return float(np.degrees(np.arccos(np.clip(abs(true.axis @ predicted.axis), 0.0, 1.0))))

@@ -1,0 +1,74 @@
+"""Which predicted part stands for which true one, by the area that they share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from asset_factory.factory.mesh import FloatArray, IntArray, read_only
+
+from .bodies import Bodies
+
+
+@dataclass(frozen=True)
+class Pairing:
+    """The assignment of bodies that maximises the sum of intersections over unions.
+
+    Attributes:
+        shared: area that a true and a predicted body have in common [m2], shape [true_count,
+            predicted_count].
+        true_area, predicted_area: of each body [m2].
+        pairs: rows of (true, predicted) body that share something, ascending, shape [pair_count,
+            2].
+    """
+
+    shared: FloatArray
+    true_area: FloatArray
+    predicted_area: FloatArray
+    pairs: IntArray
+
+    def __post_init__(self) -> None:
+        for name in ("shared", "true_area", "predicted_area"):
+            object.__setattr__(self, name, read_only(getattr(self, name)))
+        object.__setattr__(self, "pairs", read_only(self.pairs, np.int64))
+
+    def iou(self) -> FloatArray:
+        """Intersection over union of each pair, shape [pair_count]."""
+        true, predicted = self.pairs.T
+        return np.asarray(_iou(self.shared, self.true_area, self.predicted_area)[true, predicted])
+
+    def spread(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """One value per pair as one per true and per predicted body; 0 for an unmatched body."""
+        of_true = np.zeros(len(self.true_area))
+        of_predicted = np.zeros(len(self.predicted_area))
+        of_true[self.pairs[:, 0]] = values
+        of_predicted[self.pairs[:, 1]] = values
+        return of_true, of_predicted
+
+
+def paired(true: Bodies, predicted: Bodies, areas: FloatArray) -> Pairing:
+    """Match two labellings of the same faces.
+
+    Args:
+        true: what is.
+        predicted: what was said, over the same mesh.
+        areas: of its faces [m2], shape [face_count].
+    """
+    from scipy.optimize import linear_sum_assignment
+
+    shape = (len(true), len(predicted))
+    cells = np.bincount(
+        true.labels * shape[1] + predicted.labels, weights=areas, minlength=shape[0] * shape[1]
+    )
+    shared: FloatArray = np.asarray(cells.reshape(shape), dtype=np.float64)
+    true_area = shared.sum(axis=1)
+    predicted_area = shared.sum(axis=0)
+    rows, columns = linear_sum_assignment(-_iou(shared, true_area, predicted_area))
+    pairs = np.stack([rows, columns], axis=1)
+    return Pairing(shared, true_area, predicted_area, pairs[shared[rows, columns] > 0.0])
+
+
+def _iou(shared: FloatArray, true_area: FloatArray, predicted_area: FloatArray) -> FloatArray:
+    union = true_area[:, None] + predicted_area[None, :] - shared
+    return np.divide(shared, union, out=np.zeros_like(shared), where=union > 0.0)

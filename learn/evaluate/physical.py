@@ -1,0 +1,221 @@
+"""How much of the object moves as it truly does: faces weighted by area, nothing sampled.
+
+Parts are matched by the area that they share. ``found`` is a true moving part whose match covers it
+by more than half (intersection over union) and moves of itself; types, axes and ranges are compared
+where the match covers so much.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind
+from asset_factory.factory.geometry.triangles import face_areas
+from asset_factory.factory.mesh import FloatArray
+from asset_factory.factory.particulate.prediction import MotionClass
+
+from .bodies import Bodies, BoolArray, bodies_of, face_centres
+from .hits import FOUND_IOU, angles, hits, offset
+from .pairing import Pairing, paired
+from .score import Score
+
+#: Shares of their range by which joints are opened to compare where faces get to.
+STATES = (0.25, 0.5, 0.75, 1.0)
+#: Farthest that a face may be from where it truly is, as a share of the object's longest side.
+TOLERANCE = 0.05
+STRICT_TOLERANCE = 0.02
+#: And as a share of how far its part went, or else parts that move little could not be told from
+#: parts that do not.
+TRAVEL_TOLERANCE = 0.5
+#: A joint that turns so far [rad] comes back to where it was.
+WHOLE_TURN = 2.0 * np.pi - 0.01
+#: Share of the range after which the directions of opening are compared.
+FIRST_SHARE = 0.25
+
+
+def physical(true: Articulation, predicted: Articulation) -> Score:
+    """Compare two articulations of the same mesh.
+
+    Args:
+        true: what is.
+        predicted: what was said, faces in the same order and the same pose.
+
+    Returns:
+        Of the object: ``part_miou`` (mean of both directions, a part without match is 0),
+        ``part_miou_true``, ``part_miou_predicted``; ``articulated_iou`` of moving parts, where only
+        faces that get where they truly get are shared, ``articulated_iou_strict`` with a smaller
+        tolerance, and both over all parts; numbers of parts.
+        Of its parts: ``recall``, ``precision``, ``type_accuracy``, ``axis_angle_deg``,
+        ``axis_offset`` (share of the longest side), ``opens_right_way``, ``range_error_rad``,
+        ``range_error_size`` (share of the longest side), ``left_fixed``, ``still_moved``; and of
+        all true moving parts what is right of their joints, see :func:`.hits.hits`.
+
+    Raises:
+        ValueError: the two are over different meshes.
+    """
+    if len(true.mesh.faces) != len(predicted.mesh.faces):
+        raise ValueError(
+            f"{len(predicted.mesh.faces)} predicted faces for {len(true.mesh.faces)} true ones"
+        )
+    areas = face_areas(true.mesh)
+    real, guess = (bodies_of(_without_needless_ends(each)) for each in (true, predicted))
+    pairing = paired(real, guess, areas)
+    guess = _with_aligned_turns(real, guess, pairing)
+    of_true, of_predicted = pairing.spread(pairing.iou())
+    values = {
+        "part_miou": (of_true.mean() + of_predicted.mean()) / 2.0,
+        "part_miou_true": of_true.mean(),
+        "part_miou_predicted": of_predicted.mean(),
+        "true_parts": len(real),
+        "predicted_parts": len(guess),
+        "true_moving": real.moving.sum(),
+        "predicted_moving": guess.moving.sum(),
+    }
+    for suffix, tolerance in (("", TOLERANCE), ("_strict", STRICT_TOLERANCE)):
+        moved = _motion_aware(real, guess, pairing, areas, tolerance)
+        values[f"articulated_iou{suffix}"] = _both_ways(moved, real.moving, guess.moving)
+        everything = np.ones(len(real), bool), np.ones(len(guess), bool)
+        values[f"articulated_iou_all{suffix}"] = _both_ways(moved, *everything)
+    errors = _joint_errors(real, guess, pairing, areas)
+    return Score(values, {**_shares(real, guess, pairing), **errors, **hits(real, guess, pairing)})
+
+
+def _without_needless_ends(articulation: Articulation) -> Articulation:
+    """Joints that turn all the way round have no ends that matter, whatever the file calls them."""
+
+    def endless(joint: Joint) -> Joint:
+        if joint.kind is not JointKind.REVOLUTE or joint.range < WHOLE_TURN:
+            return joint
+        return replace(joint, kind=JointKind.CONTINUOUS, lower=-np.pi, upper=np.pi)
+
+    return replace(articulation, joints=tuple(endless(joint) for joint in articulation.joints))
+
+
+def _both_ways(of: tuple[FloatArray, FloatArray], true: BoolArray, predicted: BoolArray) -> float:
+    """Mean over the chosen true and over the chosen predicted bodies, averaged; none gives 0."""
+    chosen = of[0][true], of[1][predicted]
+    return sum(float(values.mean()) if len(values) else 0.0 for values in chosen) / 2.0
+
+
+def _motion_aware(
+    true: Bodies, predicted: Bodies, pairing: Pairing, areas: FloatArray, tolerance: float
+) -> tuple[FloatArray, FloatArray]:
+    """Mean over states of each body's intersection over union, true and predicted."""
+    size = float(true.articulation.mesh.extents.max())
+    closed = true.centres_at(0.0)
+    total = np.zeros(len(pairing.pairs))
+    for share in STATES:
+        at = true.centres_at(share)
+        guessed = predicted.centres_at(share)
+        travel = np.zeros(len(true))
+        np.maximum.at(travel, true.labels, np.linalg.norm(at - closed, axis=1))
+        allowed = np.where(
+            true.mobile, np.minimum(tolerance * size, TRAVEL_TOLERANCE * travel), tolerance * size
+        )
+        right = np.linalg.norm(at - guessed, axis=1) <= allowed[true.labels]
+        shape = pairing.shared.shape
+        cells = true.labels * shape[1] + predicted.labels
+        met = np.bincount(cells, weights=areas * right, minlength=shape[0] * shape[1]).reshape(
+            shape
+        )
+        for index, (real, guess) in enumerate(pairing.pairs):
+            if true.moving[real] == predicted.moving[guess]:
+                shared = met[real, guess]
+                total[index] += shared / (
+                    pairing.true_area[real] + pairing.predicted_area[guess] - shared
+                )
+    return pairing.spread(total / len(STATES))
+
+
+def _shares(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[float, ...]]:
+    """Per moving part, true or predicted: whether it was found, is right, was left, is still."""
+    pairs = pairing.pairs
+    iou = pairing.iou()
+    good = (iou > FOUND_IOU) & true.moving[pairs[:, 0]] & predicted.moving[pairs[:, 1]]
+    found, right = pairing.spread(good.astype(np.float64))
+    left = pairing.shared[:, ~predicted.mobile].sum(axis=1) > 0.5 * pairing.true_area
+    still = pairing.shared[~true.mobile].sum(axis=0) > 0.5 * pairing.predicted_area
+    return {
+        "recall": tuple(found[true.moving]),
+        "precision": tuple(right[predicted.moving]),
+        "left_fixed": tuple(left[true.moving].astype(float)),
+        "still_moved": tuple(still[predicted.moving].astype(float)),
+    }
+
+
+def _joint_errors(
+    true: Bodies, predicted: Bodies, pairing: Pairing, areas: FloatArray
+) -> dict[str, tuple[float, ...]]:
+    """Per matched true moving part: whether its type is right; errors of axis, sign, range."""
+    names = (
+        "type_accuracy",
+        "axis_angle_deg",
+        "axis_offset",
+        "opens_right_way",
+        "range_error_rad",
+        "range_error_size",
+    )
+    errors: dict[str, list[float]] = {name: [] for name in names}
+    mesh = true.articulation.mesh
+    size = float(mesh.extents.max())
+    centres = face_centres(mesh)
+    for (real, guess), iou in zip(pairing.pairs, pairing.iou(), strict=True):
+        if not true.moving[real] or iou <= FOUND_IOU:
+            continue
+        errors["type_accuracy"].append(float(true.kind(real) == predicted.kind(guess)))
+        if not predicted.moving[guess]:
+            continue
+        own = true.labels == real
+        turns = true.turn(real), predicted.turn(guess)
+        slides = true.slide(real), predicted.slide(guess)
+        between = angles(true, predicted, real, guess)
+        apart = offset(true, predicted, real, guess)
+        if between:
+            errors["axis_angle_deg"].append(max(between))
+        if turns[0] is not None and turns[1] is not None and apart is not None:
+            errors["axis_offset"].append(apart / size)
+            if turns[0].kind is not JointKind.CONTINUOUS:
+                errors["range_error_rad"].append(abs(turns[0].range - turns[1].range))
+        if slides[0] is not None and slides[1] is not None:
+            errors["range_error_size"].append(abs(slides[0].range - slides[1].range) / size)
+        if (
+            true.kind(real) is not MotionClass.REVOLUTE
+            or turns[0] is None
+            or turns[0].kind is JointKind.REVOLUTE
+        ):
+            ways = [
+                _opening(bodies, body, centres[own])
+                for bodies, body in ((true, real), (predicted, guess))
+            ]
+            along = float((areas[own] * np.einsum("ij,ij->i", *ways)).sum())
+            errors["opens_right_way"].append(float(along > 0.0))
+    return {name: tuple(values) for name, values in errors.items()}
+
+
+def _opening(bodies: Bodies, body: int, points: FloatArray) -> FloatArray:
+    """Return how points of a body begin to move by its own joints [m], shape [point_count, 3]."""
+    change = bodies.own_motion(body, FIRST_SHARE) - bodies.own_motion(body, 0.0)
+    return np.asarray(points @ change[:3, :3].T + change[:3, 3])
+
+
+def _with_aligned_turns(true: Bodies, predicted: Bodies, pairing: Pairing) -> Bodies:
+    """Axes of joints without ends turned to match their true ones, as their sign means nothing."""
+    flipped = set()
+    for real, guess in pairing.pairs:
+        ours = true.turn(real)
+        theirs = predicted.turn(guess)
+        endless = (
+            ours is not None
+            and theirs is not None
+            and ours.kind is theirs.kind is JointKind.CONTINUOUS
+        )
+        if endless and ours is not None and theirs is not None and ours.axis @ theirs.axis < 0.0:
+            flipped.add(theirs.name)
+    if not flipped:
+        return predicted
+    joints = tuple(
+        replace(j, axis=-j.axis) if j.name in flipped else j for j in predicted.articulation.joints
+    )
+    return bodies_of(replace(predicted.articulation, joints=joints))

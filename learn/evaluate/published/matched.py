@@ -1,0 +1,73 @@
+"""Parts matched by their centroids, and what is made of the parts without a partner."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from asset_factory.factory.mesh import FloatArray, IntArray
+
+from .cloud import ScoredCloud
+
+
+@dataclass(frozen=True)
+class Matching:
+    """Pairs of positions in the clouds' ``present`` lists.
+
+    Attributes:
+        pairs: rows of (predicted, true), shape [pair_count, 2].
+        predicted, true: how many parts there are.
+    """
+
+    pairs: IntArray
+    predicted: int
+    true: int
+
+    def scored(self, values: FloatArray, back: FloatArray, penalty: float | None) -> float:
+        """Mean over predicted and mean over true parts, averaged.
+
+        Args:
+            values: of each pair, seen from the predicted part, shape [pair_count].
+            back: of each pair, seen from the true part, shape [pair_count].
+            penalty: of a part without partner; ``None`` leaves such parts out.
+        """
+        if penalty is None:
+            return float(values.mean() + back.mean()) / 2.0
+        of_predicted = (values.sum() + penalty * (self.predicted - len(values))) / self.predicted
+        of_true = (back.sum() + penalty * (self.true - len(back))) / self.true
+        return float(of_predicted + of_true) / 2.0
+
+    def each(self, ask: Callable[[int, int], float]) -> FloatArray:
+        """Return a number for each pair of (predicted, true), shape [pair_count]."""
+        return np.array([ask(int(predicted), int(true)) for predicted, true in self.pairs])
+
+
+def matched(true: ScoredCloud, predicted: ScoredCloud) -> Matching:
+    """The assignment with the least sum of distances of part centroids (of points), at rest."""
+    from scipy.optimize import linear_sum_assignment
+    from scipy.spatial.distance import cdist
+
+    ours = _centres(predicted)
+    theirs = _centres(true)
+    rows, columns = linear_sum_assignment(cdist(ours, theirs))
+    return Matching(np.stack([rows, columns], axis=1), len(ours), len(theirs))
+
+
+def _centres(cloud: ScoredCloud) -> FloatArray:
+    return np.stack([part.mean(axis=0) for part in cloud.parts(cloud.points)])
+
+
+def chamfer(a: FloatArray, b: FloatArray) -> float:
+    """Mean squared distance to the nearest point of the other cloud, both ways, added."""
+    from scipy.spatial import cKDTree
+
+    there = cKDTree(b).query(a)[0]
+    back = cKDTree(a).query(b)[0]
+    return float(np.mean(there**2) + np.mean(back**2))
+
+
+def half_diagonal(cloud: ScoredCloud) -> float:
+    """Of the box of all points at rest: what a part without partner is said to be away."""
+    return float(np.linalg.norm(np.ptp(cloud.points, axis=0))) / 2.0

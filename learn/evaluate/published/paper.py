@@ -1,0 +1,25 @@
+"""The metrics as the paper words them: at rest, and with every part at its farthest."""
+
+from __future__ import annotations
+
+from ..score import Score
+from .cloud import ScoredCloud
+from .matched import matched
+from .state import compared
+
+
+def paper(true: ScoredCloud, predicted: ScoredCloud) -> Score:
+    """Compare a prediction with the truth at rest and fully articulated.
+
+    Boxes of the articulated state are around the articulated points. The paper does not say whether
+    distances are squared, nor what an intersection over union of parts is; both are taken from the
+    release: squared, and of boxes.
+
+    Returns:
+        Names as in :func:`~asset_factory.learn.evaluate.published.state.compared`, plain at
+        rest and with ``articulated_`` at the upper limits.
+    """
+    matching = matched(true, predicted)
+    rest = compared(true, predicted, (true.points, predicted.points), matching, "")
+    full = compared(true, predicted, (true.at(1.0), predicted.at(1.0)), matching, "articulated_")
+    return Score({**rest, **full})

@@ -1,0 +1,50 @@
+"""Two clouds in one state of their joints, compared part by part."""
+
+from __future__ import annotations
+
+from asset_factory.factory.mesh import FloatArray
+
+from .boxes import box_of, giou, iou
+from .cloud import ScoredCloud
+from .matched import Matching, chamfer, half_diagonal
+
+#: What a part without partner is given, by metric; Chamfer distances take half the diagonal.
+PENALTIES = {"giou": -1.0, "miou": 0.0}
+
+
+def compared(
+    true: ScoredCloud,
+    predicted: ScoredCloud,
+    at: tuple[FloatArray, FloatArray],
+    matching: Matching,
+    prefix: str,
+) -> dict[str, float]:
+    """Agreement of boxes and points of matched parts.
+
+    Args:
+        true: the truth.
+        predicted: the prediction.
+        at: true and predicted points in this state.
+        matching: of the parts at rest.
+        prefix: before each name.
+
+    Returns:
+        ``giou``, ``miou`` (of boxes along the axes), ``pc`` (Chamfer distance of parts), each also
+        with ``_matched``, which leaves parts without partner out; ``oc`` (Chamfer distance of the
+        whole).
+    """
+    theirs = true.parts(at[0])
+    ours = predicted.parts(at[1])
+    their_boxes = [box_of(part) for part in theirs]
+    our_boxes = [box_of(part) for part in ours]
+    values = {
+        "giou": matching.each(lambda i, j: giou(our_boxes[i], their_boxes[j])),
+        "miou": matching.each(lambda i, j: iou(our_boxes[i], their_boxes[j])),
+        "pc": matching.each(lambda i, j: chamfer(ours[i], theirs[j])),
+    }
+    penalties = {**PENALTIES, "pc": half_diagonal(predicted)}
+    scores = {f"{prefix}oc": chamfer(at[1], at[0])}
+    for name, of_pair in values.items():
+        scores[f"{prefix}{name}"] = matching.scored(of_pair, of_pair, penalties[name])
+        scores[f"{prefix}{name}_matched"] = matching.scored(of_pair, of_pair, None)
+    return scores

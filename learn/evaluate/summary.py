@@ -1,0 +1,105 @@
+"""Rows to tables: means over objects, pooled numbers over parts, by whatever groups are wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from .trial import Row
+
+#: Numbers of parts that have long tails: their median is told as well.
+ERRORS = ("axis_angle_deg", "axis_offset", "range_error_rad", "range_error_size")
+DIGITS = 6
+
+GROUPS: dict[str, Callable[[Row], str]] = {
+    "overall": lambda row: "all",
+    "setting": lambda row: f"{row.trial.request.pose}, {row.trial.request.yaw}",
+    "source": lambda row: row.trial.request.source,
+    "category": lambda row: row.trial.request.category,
+}
+
+
+def summarised(rows: Iterable[Row]) -> list[dict[str, Any]]:
+    """Return one entry per grouping, group and method, in that order.
+
+    Returns:
+        Dicts with ``by``, ``group``, ``method``, ``objects`` (cases), ``failures``, ``unscored``,
+        ``values``: means
+        over cases and repetitions, ``parts``: ``{name: {count, mean, of_objects, median}}``, pooled
+        over all parts but for ``of_objects``, the mean of the objects' means, in which a keyboard
+        does not outvote all cabinets, and
+        ``spread``: standard deviation over repetitions of ``values`` and ``of_objects``, where
+            there are several.
+    """
+    ordered = in_order(rows)
+    entries = []
+    for by, key in GROUPS.items():
+        methods = list(dict.fromkeys(row.trial.method.name for row in ordered))
+        for group in sorted({key(row) for row in ordered}):
+            for method in methods:
+                chosen = [
+                    row for row in ordered if key(row) == group and row.trial.method.name == method
+                ]
+                if chosen:
+                    entries.append({"by": by, "group": group, "method": method, **_figures(chosen)})
+    return entries
+
+
+def in_order(rows: Iterable[Row]) -> list[Row]:
+    """By method, case and repetition: however they came."""
+    return sorted(
+        rows, key=lambda row: (row.trial.method.name, row.trial.request.name, row.trial.repeat)
+    )
+
+
+def _figures(rows: Sequence[Row]) -> dict[str, Any]:
+    repeats = sorted({row.trial.repeat for row in rows})
+    figures: dict[str, Any] = {
+        "objects": len({row.trial.request.name for row in rows}),
+        "failures": sum(bool(row.failure) for row in rows),
+        "unscored": sum(row.score is None for row in rows),
+        "values": _means(rows),
+        "parts": _pooled(rows),
+    }
+    if len(repeats) > 1:
+        each = [[row for row in rows if row.trial.repeat == repeat] for repeat in repeats]
+        single = [
+            {**_means(one), **{name: part["of_objects"] for name, part in _pooled(one).items()}}
+            for one in each
+        ]
+        shared = sorted(set.intersection(*(set(one) for one in single)))
+        figures["spread"] = {
+            name: rounded(np.std([one[name] for one in single], ddof=1)) for name in shared
+        }
+    return figures
+
+
+def _means(rows: Sequence[Row]) -> dict[str, float]:
+    scores = [row.score for row in rows if row.score is not None]
+    names = scores[0].values if scores else {}
+    return {name: rounded(np.mean([score.values[name] for score in scores])) for name in names}
+
+
+def _pooled(rows: Sequence[Row]) -> dict[str, dict[str, float]]:
+    scores = [row.score for row in rows if row.score is not None]
+    found: dict[str, dict[str, float]] = {}
+    for name in scores[0].pooled if scores else ():
+        of_objects = [score.pooled[name] for score in scores if score.pooled[name]]
+        values = [value for numbers in of_objects for value in numbers]
+        if values:
+            mean = float(np.mean([np.mean(numbers) for numbers in of_objects]))
+            found[name] = {
+                "count": len(values),
+                "mean": rounded(np.mean(values)),
+                "of_objects": rounded(mean),
+            }
+            if name in ERRORS:
+                found[name]["median"] = rounded(np.median(values))
+    return found
+
+
+def rounded(value: float | np.floating[Any]) -> float:
+    """To ``DIGITS``, without a negative zero."""
+    return round(float(value), DIGITS) + 0.0

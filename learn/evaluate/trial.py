@@ -1,0 +1,175 @@
+"""One method on one case: what is asked of a child process, and the row that comes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
+from pathlib import Path
+from queue import SimpleQueue
+
+from asset_factory.factory.articulate.rigid import RigidArticulator
+from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.errors import ConfigError, InputRejected
+from asset_factory.factory.runtime.store import Store
+from asset_factory.sim_checks.processes.isolation import (
+    Failure,
+    Limits,
+    Outcome,
+    WarmChild,
+    preload,
+)
+
+from .cases import Case, Request, make_case
+from .methods import Method
+from .physical import physical
+from .published.cloud import POINTS, cloud_of
+from .published.paper import paper
+from .published.release import release
+from .score import Score
+from .transfer import on_mesh
+
+CONVENTIONS = ("physical", "paper", "release")
+#: Imported once per evaluation instead of once per child.
+COMMON_MODULES = ("scipy.optimize", "scipy.spatial", "asset_factory.learn.evaluate.trial")
+#: A child that holds more than this after an answer is replaced [bytes].
+RESIDENT_BYTES = 3 * 1024**3
+
+
+@dataclass(frozen=True)
+class Trial:
+    """What to do.
+
+    Attributes:
+        request: the case.
+        method: who answers.
+        repeat: which repetition this is.
+        convention: of ``CONVENTIONS``.
+        points: per object, for the published conventions.
+        kept: folder of objects read before; ``None`` to read them anew.
+    """
+
+    request: Request
+    method: Method
+    repeat: int = 0
+    convention: str = "physical"
+    points: int = POINTS
+    kept: Path | None = None
+
+
+@dataclass(frozen=True)
+class Row:
+    """What came of it.
+
+    Attributes:
+        trial: what was asked.
+        score: of the answer, or of the naive one where there was none; ``None`` if the case could
+            not be made, or a clock or somebody stopped the method.
+        failure: why there was no answer; empty if there was.
+    """
+
+    trial: Trial
+    score: Score | None
+    failure: str = ""
+
+
+def score_trial(trial: Trial) -> Score:
+    """Make the case, ask the method, compare.
+
+    Raises:
+        InputRejected: the method has no answer.
+        ConfigError: the case's file is another one, or the method's checkpoint cannot be used.
+    """
+    case = _case(trial)
+    answer = trial.method.seeded(trial.repeat).answer(case.articulation.mesh, case.name)
+    return _scored(trial, case, answer)
+
+
+def score_naively(trial: Trial) -> Score:
+    """Return the score of the answer that nothing moves."""
+    case = _case(trial)
+    return _scored(trial, case, RigidArticulator().articulate(case.articulation.mesh))
+
+
+def _case(trial: Trial) -> Case:
+    return make_case(trial.request, None if trial.kept is None else Store(trial.kept))
+
+
+def _scored(trial: Trial, case: Case, answer: Articulation) -> Score:
+    truth = on_mesh(case.articulation, answer.mesh)
+    if trial.convention == "physical":
+        return physical(truth, answer)
+    true = cloud_of(truth, 0, trial.points)
+    predicted = cloud_of(answer, 1, trial.points)
+    return paper(true, predicted) if trial.convention == "paper" else release(true, predicted)
+
+
+def run_trials(trials: Iterable[Trial], workers: int, limits: Limits) -> Iterator[Row]:
+    """Yield every trial in a child process that may crash or hang; rows as they come.
+
+    Args:
+        trials: any number.
+        workers: how many at once.
+        limits: of one trial.
+
+    Raises:
+        ConfigError: as :func:`score_trial`; that is nobody's failure but a wrong request.
+    """
+    preload(COMMON_MODULES)
+    with ExitStack() as stack, ThreadPoolExecutor(workers, thread_name_prefix="trial") as pool:
+        free: SimpleQueue[WarmChild] = SimpleQueue()
+        for _ in range(workers):
+            free.put(stack.enter_context(WarmChild(resident_bytes=RESIDENT_BYTES)))
+        pending = [pool.submit(_with_child, free, trial, limits) for trial in trials]
+        try:
+            for future in as_completed(pending):
+                yield future.result()
+        finally:
+            for future in pending:
+                future.cancel()
+
+
+def _with_child(free: SimpleQueue[WarmChild], trial: Trial, limits: Limits) -> Row:
+    child = free.get()
+    try:
+        outcome = child.call(score_trial, trial, limits=limits)
+        if outcome.failure is None:
+            return Row(trial, outcome.value)
+        if isinstance(outcome.error, ConfigError):
+            raise outcome.error
+        if outcome.failure is Failure.TIMEOUT or outcome.killed:
+            return Row(trial, None, _reason(outcome))
+        instead = child.call(score_naively, trial, limits=limits)
+        return Row(trial, instead.value, _reason(outcome))
+    finally:
+        free.put(child)
+
+
+def _reason(outcome: Outcome[Score]) -> str:
+    error = outcome.error
+    return (
+        f"{error.code}: {error}"
+        if isinstance(error, InputRejected)
+        else f"{outcome.failure}: {outcome.detail}"
+    )
+
+
+def trials_of(
+    requests: Iterable[Request], methods: Iterable[Method], repeats: int, template: Trial
+) -> tuple[Trial, ...]:
+    """Return all combinations; methods that are not random are asked once.
+
+    Args:
+        requests: the cases.
+        methods: who is asked.
+        repeats: how often each random method is asked, each time with another seed.
+        template: whose convention, points and folder are taken.
+    """
+    requests = tuple(requests)
+    return tuple(
+        replace(template, request=request, method=method, repeat=repeat)
+        for method in methods
+        for request in requests
+        for repeat in range(repeats if method.is_random else 1)
+    )

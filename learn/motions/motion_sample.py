@@ -1,0 +1,152 @@
+"""One part's sample: evidence and worth of every candidate, and the part's true range."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from asset_factory.factory.articulate.evidence.body import Body, body_of
+from asset_factory.factory.articulate.evidence.candidates import (
+    GUESSED,
+    Candidates,
+    find_candidates,
+)
+from asset_factory.factory.articulate.evidence.extent import single
+from asset_factory.factory.articulate.evidence.numbers import GUESS, measure
+from asset_factory.factory.articulate.evidence.setting import Setting, setting_of
+from asset_factory.factory.articulation import Articulation, Joint, JointKind
+from asset_factory.factory.mesh import FloatArray
+from asset_factory.factory.particulate.surface import BoolArray
+
+from .spoiling import spoilt
+from .truth import made_up_guess, truth_of
+
+#: Parts of one object that teach; the rest say the same again.
+MOST_PARTS = 5
+#: What turns so far has no way that is the wrong one [rad].
+ROUND = 6.0
+#: Errors that are no errors, and that halve what a candidate is worth by a factor e: of the axis
+#: [deg], of its place.
+ANGLE_FREE = 0.5
+ANGLE_WORTH = 4.0
+PLACE_FREE = 0.004
+PLACE_WORTH = 0.025
+#: Right is an axis to this angle [deg], and to this share of the object's longest side.
+RIGHT_ANGLE = 5.0
+RIGHT_PLACE = 0.05
+
+
+@dataclass(frozen=True)
+class MotionSample:
+    """Of one part.
+
+    Attributes:
+        name: of the object.
+        numbers: evidence of every candidate, a guess included, shape [n, len(NAMES)].
+        guessed: candidates there would not be without the guess, shape [n].
+        worth: how good each candidate is, 0 to 1, shape [n].
+        right: whether each is right but for the sense, shape [n].
+        alike: for each candidate, which others are the same motion but for the sense, shape [n, n].
+        setting: of the best candidate; ``None`` if none is right.
+        range: true range in the setting's unit, infinite if it has no end.
+    """
+
+    name: str
+    numbers: FloatArray
+    guessed: BoolArray
+    worth: FloatArray
+    right: BoolArray
+    alike: BoolArray
+    setting: Setting | None
+    range: float
+
+    def unguided(self) -> MotionSample:
+        """Return the same part if nobody had guessed."""
+        keep = ~self.guessed
+        numbers = self.numbers[keep].copy()
+        numbers[:, -len(GUESS) :] = 0.0
+        return MotionSample(
+            self.name, numbers, self.guessed[keep], self.worth[keep], self.right[keep],
+            self.alike[np.ix_(keep, keep)], self.setting, self.range,
+        )  # fmt: skip
+
+
+def motion_samples(
+    name: str, articulation: Articulation, rng: np.random.Generator
+) -> Iterator[MotionSample]:
+    """What an object teaches, closed, turned at random, and with some of its labels spoilt."""
+    truth = truth_of(articulation, float(rng.uniform(0.0, 2.0 * np.pi)))
+    partition = spoilt(truth.partition, rng)
+    parts = rng.permutation(sorted(truth.joints))[:MOST_PARTS]
+    for part in sorted(int(p) for p in parts):
+        body = body_of(partition, part)
+        joint = truth.joints[part]
+        if body is None:
+            continue
+        middle = (body.corners.min(axis=0) + body.corners.max(axis=0)) / 2.0
+        guess = made_up_guess(joint, middle, truth.size, rng)
+        candidates = find_candidates(body, guess)
+        numbers = measure(body, candidates, guess)
+        worth, right = _judged(candidates, joint, middle, truth.size)
+        setting, true_range = _range(body, candidates, numbers, worth, right, joint)
+        yield MotionSample(
+            name=name,
+            numbers=numbers.astype(np.float32),
+            guessed=candidates.source == GUESSED,
+            worth=worth,
+            right=right,
+            alike=_alike(candidates, truth.size),
+            setting=setting,
+            range=true_range,
+        )
+
+
+def _judged(
+    candidates: Candidates, joint: Joint, middle: FloatArray, size: float
+) -> tuple[FloatArray, BoolArray]:
+    """Return what each candidate is worth, and whether it is right but for the sense."""
+    cosine = candidates.axis @ joint.axis
+    angle = np.degrees(np.arccos(np.clip(np.abs(cosine), 0.0, 1.0)))
+    slides = joint.kind is JointKind.PRISMATIC
+    nearest = joint.origin + joint.axis * float(joint.axis @ (middle - joint.origin))
+    place = np.where(candidates.slides | slides, 0.0, _distance(nearest[None], candidates) / size)
+    same_kind = candidates.slides == slides
+    either_way = joint.kind is JointKind.CONTINUOUS or (
+        joint.turns and joint.upper - joint.lower > ROUND
+    )
+    worth = same_kind * ((cosine > 0.0) | either_way)
+    worth = worth * np.exp(-np.maximum(angle - ANGLE_FREE, 0.0) / ANGLE_WORTH)
+    worth = worth * np.exp(-np.maximum(place - PLACE_FREE, 0.0) / PLACE_WORTH)
+    return worth, same_kind & (angle < RIGHT_ANGLE) & (place < RIGHT_PLACE)
+
+
+def _distance(points: FloatArray, candidates: Candidates) -> FloatArray:
+    """Of points [m] from the candidates' axes [m], shape [n]."""
+    offset = points - candidates.origin
+    return np.asarray(np.linalg.norm(np.cross(offset, candidates.axis), axis=1))
+
+
+def _alike(candidates: Candidates, size: float) -> BoolArray:
+    aligned = np.abs(candidates.axis @ candidates.axis.T) > np.cos(np.radians(RIGHT_ANGLE))
+    alike = aligned & (candidates.slides[:, None] == candidates.slides[None])
+    offset = candidates.origin[None] - candidates.origin[:, None]
+    apart = np.linalg.norm(np.cross(offset, candidates.axis[None]), axis=2)
+    return np.asarray(alike & (candidates.slides[:, None] | (apart < RIGHT_PLACE * size)))
+
+
+def _range(
+    body: Body,
+    candidates: Candidates,
+    numbers: FloatArray,
+    worth: FloatArray,
+    right: BoolArray,
+    joint: Joint,
+) -> tuple[Setting | None, float]:
+    best = int(np.argmax(worth))
+    if not right[best]:
+        return None, 0.0
+    setting = setting_of(body, single(candidates, best), numbers[best])
+    endless = joint.kind is JointKind.CONTINUOUS
+    return setting, np.inf if endless else (joint.upper - joint.lower) / setting.unit

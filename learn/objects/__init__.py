@@ -1,0 +1,17 @@
+"""A procedural generator of household objects with exact ground truth."""
+
+from ..surfaces import artist_like, fused_like
+from .catalog import CATEGORIES, make_object
+from .mixture import MixtureSettings, sample_object, training_object
+from .sample_files import write_sample
+
+__all__ = [
+    "CATEGORIES",
+    "MixtureSettings",
+    "artist_like",
+    "fused_like",
+    "make_object",
+    "sample_object",
+    "training_object",
+    "write_sample",
+]

@@ -1,0 +1,54 @@
+"""Write a sample of training's kind with its ground truth.
+
+python -m asset_factory.learn.objects FOLDER --category oven --seed 3 --open 0.5
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from asset_factory.factory.articulation import Articulation, JointKind
+
+from .catalog import CATEGORIES, make_object
+from .mixture import CHARACTERS, in_character
+from .sample_files import write_sample
+
+
+def opening(articulation: Articulation, share: float) -> dict[str, float]:
+    """Joint values at this share of every joint's way from closed; one without ends turns to pi."""
+    closed = {
+        joint.name: 0.0 if joint.kind is JointKind.CONTINUOUS else joint.lower
+        for joint in articulation.movable_joints
+    }
+    return {
+        joint.name: closed[joint.name] + share * (joint.upper - closed[joint.name])
+        for joint in articulation.movable_joints
+    }
+
+
+def main() -> None:
+    """Parse, make, write."""
+    parser = argparse.ArgumentParser(
+        prog="python -m asset_factory.learn.objects",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    add("folder", type=Path, help="where to write")
+    add("--category", choices=CATEGORIES, required=True, help="kind of the object")
+    add("--seed", type=int, default=0, help="of the object and of its character")
+    add("--character", choices=CHARACTERS, default="artist", help="its surface")
+    add("--open", type=float, default=0.0, metavar="SHARE", help="0 closed to 1 open")
+    given = parser.parse_args()
+    if not 0.0 <= given.open <= 1.0:
+        parser.error(f"--open is {given.open}, want 0 to 1")
+    if given.seed < 0:
+        parser.error(f"--seed is {given.seed}, want at least 0")
+    made = make_object(given.category, given.seed)
+    articulation, _ = in_character(made, given.character, given.seed)
+    write_sample(articulation, given.folder, opening(articulation, given.open))
+
+
+if __name__ == "__main__":
+    main()

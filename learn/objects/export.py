@@ -1,0 +1,167 @@
+"""Objects as files: GLB, OBJ with MTL, sidecar and annotation. Same object, same bytes."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from asset_factory.factory.articulation import Articulation, JointKind
+from asset_factory.factory.mesh import FloatArray, IntArray, Mesh
+from asset_factory.factory.scene.gltf import DECIMALS, Buffer, gltf_materials, primitive
+
+_ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
+
+
+@dataclass(frozen=True)
+class FileFrame:
+    """From the object frame [m] to the frame and units of a file: ``file = matrix @ object``.
+
+    Attributes:
+        matrix: rotation and uniform scale, shape [4, 4].
+    """
+
+    matrix: FloatArray
+
+    @property
+    def scale(self) -> float:
+        """File units per metre."""
+        return float(np.cbrt(np.linalg.det(self.matrix[:3, :3])))
+
+
+def written_order(mesh: Mesh) -> IntArray:
+    """Faces in the order files hold them, material by material, shape [face_count]."""
+    return np.argsort(mesh.face_material, kind="stable")
+
+
+def write_glb(mesh: Mesh, frame: FileFrame, path: Path) -> None:
+    """One node, one primitive per material, images embedded; colours linear as glTF wants them."""
+    buffer = Buffer()
+    placed = mesh.transformed(frame.matrix)
+    primitives = [
+        {
+            **primitive(buffer, placed, np.flatnonzero(mesh.face_material == index)),
+            "material": index,
+        }
+        for index in range(len(mesh.materials))
+    ]
+    images = tuple(None if m.texture is None else m.texture.data for m in mesh.materials)
+    document: dict[str, Any] = {
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": primitives}],
+        **gltf_materials(buffer, mesh.materials, images),
+    }
+    if "textures" in document:
+        # Pixels stay pixels, and repeat.
+        document["samplers"] = [{"magFilter": 9728, "wrapS": 10497, "wrapT": 10497}]
+    path.write_bytes(buffer.glb(document))
+
+
+def write_obj(mesh: Mesh, frame: FileFrame, path: Path) -> None:
+    """An OBJ and, beside it, an MTL of the same stem; plain colours only.
+
+    Raises:
+        ValueError: a material has a texture.
+    """
+    if any(m.texture is not None for m in mesh.materials):
+        raise ValueError(f"{path.name}: a material has a texture, which only a GLB carries")
+    lines = [f"mtllib {path.stem}.mtl"]
+    placed = np.round(mesh.transformed(frame.matrix).vertices, DECIMALS) + 0.0
+    lines += [f"v {x:.6g} {y:.6g} {z:.6g}" for x, y, z in placed]
+    for index, material in enumerate(mesh.materials):
+        lines.append(f"usemtl {material.name}")
+        lines += [f"f {a} {b} {c}" for a, b, c in mesh.faces[mesh.face_material == index] + 1]
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8", newline="\n")
+    palette = []
+    for material in mesh.materials:
+        r, g, b, _ = material.color
+        palette += [f"newmtl {material.name}", f"Kd {r:g} {g:g} {b:g}", "Ks 0 0 0", "d 1", ""]
+    path.with_suffix(".mtl").write_text("\n".join(palette), encoding="utf-8", newline="\n")
+
+
+def write_sidecar(path: Path, values: dict[str, str | float]) -> None:
+    """A TOML file of strings and numbers, in the order given."""
+    lines = [f"{key} = {json.dumps(value)}" for key, value in values.items()]
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8", newline="\n")
+
+
+def write_annotation(articulation: Articulation, frame: FileFrame, path: Path) -> None:
+    """Ground truth as ``pred.npz``, in the frame, units and face order of the mesh file beside it.
+
+    A part on a carrier, a part without faces, is one part that turns and slides.
+
+    Fields: ``face_part_ids`` [face_count], ``motion_hierarchy`` [joint_count, 2] (parent, child),
+    ``is_part_revolute`` and ``is_part_prismatic`` [part_count], ``revolute_plucker`` [part_count,
+    6] (direction l, moment l x p of a point p on the axis), ``prismatic_axis`` [part_count, 3], and
+    the two ranges [part_count, 2] relative to the pose of the file [rad, file units].
+
+    Raises:
+        ValueError: a carrier does not carry exactly one part, or not by the other kind of joint.
+    """
+    number, carried = _numbers(articulation)
+    count = len(set(number))
+    label = np.zeros(len(articulation.mesh.faces), dtype=np.int32)
+    for index, part in enumerate(articulation.parts):
+        label[part.faces] = number[index]
+    edges = [
+        (number[j.parent], number[j.child]) for j in articulation.joints if j.child not in carried
+    ]
+    turns = np.zeros(count, dtype=bool)
+    slides = np.zeros(count, dtype=bool)
+    plucker = np.zeros((count, 6))
+    axis = np.zeros((count, 3))
+    turn_range = np.zeros((count, 2))
+    slide_range = np.zeros((count, 2))
+    for joint in articulation.movable_joints:
+        child = number[joint.child]
+        direction = frame.matrix[:3, :3] @ joint.axis / frame.scale
+        if joint.kind is JointKind.PRISMATIC:
+            slides[child] = True
+            axis[child] = direction
+            slide_range[child] = np.array([joint.lower, joint.upper]) * frame.scale
+        else:
+            point = frame.matrix[:3, :3] @ joint.origin + frame.matrix[:3, 3]
+            turns[child] = True
+            plucker[child] = np.concatenate([direction, np.cross(direction, point)])
+            turn_range[child] = joint.lower, joint.upper
+    arrays: dict[str, npt.NDArray[Any]] = {
+        "face_part_ids": label[written_order(articulation.mesh)],
+        "motion_hierarchy": np.array(edges, dtype=np.int64).reshape(-1, 2),
+        "is_part_revolute": turns,
+        "is_part_prismatic": slides,
+        "revolute_plucker": np.round(plucker, 9) + 0.0,
+        "revolute_range": np.round(turn_range, 9).astype(np.float32),
+        "prismatic_axis": (np.round(axis, 9) + 0.0).astype(np.float32),
+        "prismatic_range": np.round(slide_range, 9).astype(np.float32),
+    }
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as archive:
+        for name, array in arrays.items():
+            buffer = BytesIO()
+            np.save(buffer, array)
+            archive.writestr(zipfile.ZipInfo(f"{name}.npy", _ZIP_EPOCH), buffer.getvalue())
+
+
+def _numbers(articulation: Articulation) -> tuple[list[int], set[int]]:
+    """Number of each part, a carrier's that of what it carries; and the parts that are carried."""
+    carried: dict[int, int] = {}
+    for joint in articulation.joints:
+        carrier = articulation.parts[joint.parent]
+        if not joint.parent or len(carrier.faces):
+            continue
+        above = articulation.joints[joint.parent - 1]
+        both = above.movable and joint.movable and above.turns != joint.turns
+        if not both or joint.parent in carried.values():
+            wanted = "want it to carry one part that turns and slides by it"
+            raise ValueError(f"part {carrier.name!r}: has no faces, {wanted}")
+        carried[joint.child] = joint.parent
+    kept = [index for index in range(len(articulation.parts)) if index not in carried]
+    number = [kept.index(carried.get(index, index)) for index in range(len(articulation.parts))]
+    return number, set(carried)

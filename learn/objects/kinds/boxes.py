@@ -1,0 +1,222 @@
+"""Boxes with flaps, cases, suitcases, mailboxes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from asset_factory.factory.mesh import FloatArray, Material
+
+from ..kit.assembly import LEFT, RIGHT, UP, Assembly, named
+from ..kit.looks import BLACK, BLUE, BRASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
+from ..kit.outlines import arc, rounded
+from ..kit.shapes import Form, block, both, box, cylinder, pipe, ribbon, stack
+from ..kit.spans import Point, Span, X, Y, Z, about, centred, mid, span, within
+from ..kit.wheels import bracket, castor, wheel
+
+PLAY = 0.0008
+SQUARE = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)])
+
+
+def flap_box(a: Assembly) -> None:
+    """A carton with two to four flaps, or a lid with a tongue, closed or standing open at rest.
+
+    Flaps turn outwards. Where two pairs lie on each other, each is free on its own: who opens a
+    lower flap pushes the upper ones up.
+    """
+    half_x, half_y, high, wall = a.draws((0.06, 0.3), (0.06, 0.25), (0.06, 0.4), (0.0015, 0.005))
+    x, y = centred(half_x, half_y)
+    body = a.body(a.pick(OAK, WHITE, BLUE, BRASS))
+    outline = SQUARE * (half_x, half_y)
+    body.add(ribbon(outline, outline - wall * SQUARE, (0.0, high), looped=True))
+    body.add(box(within(x, wall), within(y, wall), (0.0, wall)))
+    style = a.pick("four", "four", "long", "short", "lid", "tuck")
+    z = span(high + PLAY, wall)
+    if style == "lid":
+        lid = a.hinge("lid", LEFT, (0, half_y, z[0]), a.degrees(90, 170))
+        lid.add(box(x, (y[0] - 0.001, y[1]), z))
+        return
+    least = min(half_x, half_y)
+    if style == "tuck":
+        _flap_pair(a, 0, half_x, half_y - wall, a.draw(0.5, 0.95) * least, z, True)
+        _tuck_lid(a, half_x, half_y, span(z[1] + PLAY, wall))
+        return
+    opened = a.happens(0.4)
+    if style != "long":
+        long = half_x - PLAY if style == "short" else a.draw(0.6, 1.0) * least
+        _flap_pair(a, 0, half_x, half_y - wall, long, z, opened)
+        z = span(z[1] + PLAY, wall)
+    if style != "short":
+        _flap_pair(a, 1, half_y, half_x, half_y - PLAY, z, opened)
+
+
+def _tuck_lid(a: Assembly, half_x: float, half_y: float, z: Span) -> None:
+    """The lid of a product box, standing open, with a tongue at its end."""
+    value = a.draw(1.65, 2.6)
+    at = (0.0, half_y + z[1] - z[0], z[0])
+    lid = a.hinge("lid", LEFT, at, value + a.draw(0.2, 1.0), rest=value)
+    lid.add(box(about(half_x), about(half_y), z))
+    edge = -half_y - PLAY
+    tongue = a.hinge("tongue", LEFT, (0.0, edge, z[0]), 0.1, -np.pi / 2, on=lid)
+    tongue.add(box(about(0.96 * half_x), span(edge, -a.draw(0.15, 0.5) * half_y), z))
+
+
+def _flap_pair(
+    a: Assembly, axis: int, edge: float, half: float, long: float, z: Span, opened: bool
+) -> None:
+    """Two flaps at ``+-edge`` along ``axis``, each reaching inwards by ``long`` [m]."""
+    upper = a.degrees(180, 250) if a.happens(0.6) else a.degrees(90, 170)
+    across = about(0.98 * half - 0.001)
+    for name, side in (("near", -1.0), ("far", 1.0)):
+        reach = span(side * edge, -side * long)
+        # A little outside the wall it hangs on, or the flap would cut into that.
+        pin = side * (edge + z[1] - z[0])
+        turn: Point = (0.0, side, 0.0) if axis == 0 else (-side, 0.0, 0.0)
+        at = (pin, 0.0, z[0]) if axis == 0 else (0.0, pin, z[0])
+        # All of them lean outwards, or one would stand in another's way.
+        rest = a.draw(1.62, 0.9 * upper) if opened and upper > 1.9 else 0.0
+        flap = a.hinge(f"flap_{'xy'[axis]}_{name}", turn, at, upper, rest=rest)
+        flap.add(box(reach, across, z) if axis == 0 else box(across, reach, z))
+
+
+def _half_shell(x: Span, y: Span, z: Span, radius: float, axis: int = Z) -> Form:
+    """Return an open tray with rounded corners; its floor lies at ``z[0]``, whichever end that is.
+
+    ``z`` runs along ``axis``, and ``x`` and ``y`` across it.
+    """
+    outer = rounded(x, y, radius)
+    inner = rounded(within(x, 0.004), within(y, 0.004), max(radius - 0.004, 0.001))
+    middle = (mid(x), mid(y))
+    soft = (outer - middle) * (0.99, 0.98) + middle
+    low, high = z
+    floor = low + (0.004 if high > low else -0.004)
+    shoulder = low + 0.2 * (high - low)
+    rows = [(soft, low), (outer, shoulder), (outer, high), (inner, high), (inner, floor)]
+    return stack(rows, axis)
+
+
+def case(a: Assembly) -> None:
+    """A briefcase, a tool case or a suitcase lying down: two shells, latches, a grip that folds."""
+    half_x, half_y, low, high = a.draws((0.15, 0.35), (0.11, 0.24), (0.03, 0.12), (0.025, 0.1))
+    skin, metal = a.picks((BLACK, WALNUT, BLUE, STEEL, RED), (BRASS, STEEL, BLACK))
+    x, y = centred(half_x, half_y)
+    radius = a.draw(0.006, 0.05)
+    seam = low + PLAY
+    pin = half_y + 0.004
+    body = a.body(skin)
+    body.add(_half_shell(x, y, (0.0, low), radius))
+    lid = a.hinge("lid", LEFT, (0, pin, seam), a.degrees(80, 120))
+    lid.add(_half_shell(x, y, (seam + high, seam), radius))
+    for part, side in ((body, -1.0), (lid, 1.0)):
+        for at in (-0.6 * half_x, 0.6 * half_x):
+            barrel = span(at + side * 0.001, side * 0.029)
+            plate = span(at + side * 0.003, side * 0.025)
+            part.add(cylinder(X, (pin, seam), 0.003, barrel, 8), look=metal)
+            tall = span(seam + side * 0.001, side * 0.011)
+            part.add(box(plate, (half_y - 0.002, pin), tall), look=metal)
+    front = y[0]
+    if a.happens(0.7):
+        for i, at in enumerate((-0.55 * half_x, 0.55 * half_x)):
+            tall = (seam - 0.012, seam + 0.008)
+            foot = (at, front - 0.006, tall[0])
+            latch = a.hinge(f"latch_{i}", RIGHT, foot, a.degrees(60, 120), look=metal)
+            latch.add(box(about(0.012, at), (front - 0.006, front - PLAY), tall))
+    half, reach = a.draws((0.045, 0.07), (0.025, 0.04))
+    z = min(0.6 * low, low - 0.016)
+    ear = box(about(0.003, half + 0.008), (front - 0.011, front + 0.002), about(0.005, z))
+    body.add(*both(ear), look=metal)
+    grip = body
+    if a.happens(0.7):
+        grip = a.hinge("grip", RIGHT, (0, front - 0.008, z), a.degrees(50, 75), -0.1)
+    bend = ((-half, 0.008), (-0.85 * half, reach), (0.85 * half, reach), (half, 0.008))
+    grip.add(pipe([(at, front - out, z) for at, out in bend], 0.004, 8), look=BLACK)
+
+
+def trolley_case(a: Assembly) -> None:
+    """An upright suitcase: a telescopic handle, two or four wheels, at times a front that opens."""
+    half_x, half_y, high = a.draws((0.17, 0.25), (0.1, 0.15), (0.45, 0.7))
+    radius, r, lift = a.draws((0.018, 0.03), (0.02, 0.06), (0.005, 0.04))
+    skin, metal = a.picks((BLACK, BLUE, RED, GREEN, STEEL), (STEEL, BLACK))
+    base = 2 * radius + 0.008
+    x = about(half_x)
+    y = (-half_y, half_y - 0.044)
+    z = span(base, high)
+    body = a.body(skin)
+    if a.happens(0.5):
+        split = y[0] + a.draw(0.3, 0.65) * (y[1] - y[0])
+        side = a.sign()
+        body.add(_half_shell(x, z, (y[1], split + PLAY), r, Y))
+        pin = (side * (half_x + 0.002), split, mid(z))
+        front = a.hinge("front", (0.0, 0.0, side), pin, a.degrees(80, 170))
+        front.add(_half_shell(x, z, (y[0], split), r, Y))
+    else:
+        body.add(block(x, y, z, r, 0.015, Y))
+    floor = box(within(x, r), span(y[1] - 0.003, 0.025), (base + 0.01, base + 0.05))
+    body.add(floor, look=metal)
+    rail = y[1] + 0.011
+    top = z[1] + lift
+    apart = a.draw(0.05, 0.5 * half_x)
+    handle = a.slider("handle", UP, (0, rail, top), a.draw(0.25, 0.8) * high, look=metal)
+    at = (apart, rail)
+    sleeve = (SQUARE * (0.011, 0.0105) + at, SQUARE * (0.006 + PLAY) + at)
+    body.add(*both(ribbon(*sleeve, (base + 0.051, z[1]), looped=True)), look=metal)
+    handle.add(*both(cylinder(Z, at, 0.006, (base + 0.055, top), 10)))
+    grip = block(about(apart + 0.012), about(0.011, rail), span(top, 0.022), 0.008, 0.004)
+    handle.add(grip, look=BLACK)
+    _luggage_wheels(a, half_x - r - 0.012, y, radius, base, metal)
+
+
+def _luggage_wheels(
+    a: Assembly, half: float, y: Span, radius: float, base: float, metal: Material
+) -> None:
+    four = a.happens(0.5)
+    rear = y[1] - (0.04 if four else 0.02)
+    for name, x in (("left", -half), ("right", half)):
+        if four:
+            castor(a, f"rear_{name}", (x, rear, base), radius, 0.012, 0.0, metal)
+            castor(a, f"front_{name}", (x, y[0] + 0.03, base), radius, 0.012, 0.0, metal)
+            continue
+        wheel(a, f"{name}_wheel", (x, rear, radius), radius, 0.02, metal)
+        foot = box(about(0.01, x), about(0.015, y[0] + 0.03), (0.0, base - 0.008))
+        a.root.add(foot, *bracket(x, rear, radius, 0.02, base + 0.002), look=metal)
+
+
+def mailbox(a: Assembly) -> None:
+    """An arched box with a door in front and a flag, on a post or on its own."""
+    half, long, tall, rise = a.draws((0.07, 0.12), (0.2, 0.28), (0.06, 0.16), (0.5, 1.0))
+    skin, metal = a.picks((BLACK, WHITE, BLUE, STEEL, RED), (OAK, STEEL))
+    post = a.draw(0.7, 1.0) if a.happens(0.5) else 0.0
+    body = a.body(skin)
+    outer = _arch(half, rise * half, tall, 0.0, post)
+    inner = _arch(half, rise * half, tall, 0.003, post)
+    body.add(ribbon(outer, inner, about(long), Y, looped=True))
+    body.add(stack([(inner, long - 0.003), (inner, long)], Y))
+    if post:
+        width = about(a.draw(0.03, 0.05))
+        body.add(box(width, width, (0.0, post)), look=metal)
+    y = span(-long - PLAY, -0.004)
+    door = a.hinge("door", RIGHT, (0, y[0], post), a.degrees(80, 120))
+    door.add(stack([(outer, y[0]), (outer, y[1])], Y))
+    knob = span(post + tall + 0.2 * half, 0.03)
+    door.add(block(about(0.01), span(y[0], -0.02), knob, 0.004, axis=Y), look=metal)
+    if a.happens(0.8):
+        x = half + PLAY
+        y0 = a.draw(-0.5, 0.3) * long
+        z = post + 0.7 * tall
+        reach = a.draw(0.08, 0.14)
+        flag = a.hinge("flag", RIGHT, (x, y0, z), np.pi / 2, look=a.pick(RED, BRASS))
+        flag.add(cylinder(X, (y0, z), 0.008, span(x, 0.006), 12), look=metal)
+        flag.add(box(span(x + 0.001, 0.003), span(y0, reach), about(0.006, z)))
+        cloth = span(y0 + reach, -0.3 * reach)
+        flag.add(box(span(x + 0.0012, 0.0026), cloth, span(z + 0.005, 0.03)))
+
+
+def _arch(half: float, rise: float, tall: float, inset: float, low: float) -> FloatArray:
+    """The outline of an arched box across, ``inset`` inside of it [m]; it stands on ``low``."""
+    curve = arc((0.0, 0.0), 1.0, 0.0, np.pi, 11) * (half - inset, rise - inset)
+    foot = np.array([(half - inset, inset - tall), (inset - half, inset - tall)])
+    outline = np.vstack([foot[:1], curve, foot[1:]])
+    outline[:, 1] += tall + low
+    return outline
+
+
+MAKERS = named(flap_box, case, trolley_case, mailbox)

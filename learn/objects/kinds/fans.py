@@ -1,0 +1,167 @@
+"""Fans and globes: what turns on a stand."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from asset_factory.factory.mesh import Material
+
+from ..kit.assembly import BACK, DOWN, FRONT, LEFT, UP, Assembly, PartDraft, facing_up, named
+from ..kit.controls import button, knob
+from ..kit.looks import BLACK, BLUE, BRASS, OAK, STEEL, WALNUT, WHITE
+from ..kit.outlines import arc, oval
+from ..kit.shapes import Form, ball, cylinder, lathe, loft, pipe
+from ..kit.spans import Point, Y, Z, about, span
+
+PLAY = 0.0015
+
+
+def _blades(
+    a: Assembly,
+    axis: Point,
+    at: Point,
+    count: int,
+    hub: float,
+    radius: float,
+    wide: float,
+    pitch: float,
+) -> list[Form]:
+    """Twisted blades around an axis, Y or Z, from the hub out to ``radius`` [m]."""
+    share = np.linspace(0.0, 1.0, 5)
+    half = 0.5 * wide * (0.45 + 0.55 * np.sin(np.pi * (0.25 + 0.55 * share)) ** 2)
+    sweep = a.draw(-0.3, 0.3) * wide * share
+    twist = pitch * (1.3 - 0.6 * share)
+    reach = 0.6 * hub + (radius - 0.6 * hub) * share
+    corners = []
+    for edge, face in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
+        across = sweep + edge * half * np.cos(twist)
+        along = edge * half * np.sin(twist) + face * 0.001
+        corners.append((reach, across, along) if axis[2] else (across, along, reach))
+    one = loft(np.transpose(corners, (2, 0, 1)) + at)
+    return [one.turned(axis, 2 * np.pi * i / count, at) for i in range(count)]
+
+
+def fan(a: Assembly) -> None:
+    """A desk or floor fan: a head that tilts, at times swings; blades in a cage, controls."""
+    radius, thick, pole, depth = a.draws((0.1, 0.2), (0.015, 0.04), (0.01, 0.018), (0.025, 0.04))
+    skin, metal = a.picks((WHITE, BLACK, BLUE, STEEL), (STEEL, BLACK))
+    wide = radius * a.draw(0.7, 1.0)
+    tall = a.pick(a.draw(0.05, 0.12), a.draw(0.6, 0.9))
+    height = thick + tall + radius + 0.03
+    neck = height - 0.045
+    body = a.body(skin)
+    body.add(lathe([(wide, 0.0), (wide, 0.5 * thick), (0.6 * wide, thick)], sides=32))
+    body.add(cylinder(Z, (0.0, 0.03), pole, (thick - 0.004, neck)), look=metal)
+    half = a.degrees(30, 60)
+    turret = a.hinge("turret", UP, (0, 0.03, neck), half, -half) if a.happens(0.4) else body
+    collar = [(1.3 * pole, neck + PLAY), (1.1 * pole, height - 0.022)]
+    turret.add(lathe(collar, (0, 0.03, 0), sides=16))
+    motor = min(max(0.3 * radius, 0.025), 0.05)
+    level = height + motor + 0.002
+    pin = (0.0, 0.03, height - 0.02)
+    head = a.hinge("head", LEFT, pin, a.degrees(10, 25), -a.degrees(3, 9), on=turret)
+    shell = [(0.6 * motor, 0.1), (motor, 0.08), (motor, 0.01), (0.7 * motor, -0.002)]
+    head.add(lathe(shell, (0, 0, level), Y))
+    head.add(cylinder(Y, (0.0, level), 0.004, (-0.012, 0.0), 8), look=metal)
+    if a.happens(0.85):
+        _cage(a, head, level, radius + 0.012, depth, metal)
+    center = (0.0, -0.012 - PLAY - 0.85 * depth, level)
+    hub = 0.3 * motor + 0.012
+    spinning = a.spin("blades", FRONT, center, on=head)
+    core = [(hub, 0.5 * depth), (hub, -0.2 * depth), (0.5 * hub, -0.45 * depth)]
+    spinning.add(lathe(core, center, Y, 20))
+    pitch = a.draw(0.25, 0.5)
+    broad = min(1.4 * depth / np.sin(1.3 * pitch), radius * a.draw(0.5, 0.9))
+    spinning.add(*_blades(a, BACK, center, a.count(3, 5), hub, 0.86 * radius, broad, pitch))
+    style = a.weighted({"none": 0.3, "knob": 0.28, "buttons": 0.42})
+    if style == "knob":
+        upper = a.degrees(120, 300)
+        knob(a, "knob", (0.0, -0.55 * wide), 0.014, metal, facing_up(thick), upper=upper)
+    elif style == "buttons":
+        count = a.count(2, 4)
+        for i in range(count):
+            x = about(0.008, (i - (count - 1) / 2) * 0.02)
+            y = about(0.006, -0.55 * wide)
+            button(a, f"button_{i}", x, y, metal, facing_up(thick), stroke=0.004, style=0.3)
+
+
+def _cage(
+    a: Assembly, head: PartDraft, level: float, radius: float, depth: float, metal: Material
+) -> None:
+    """Wire: three rims, spokes front and back, bent outwards."""
+    back = 0.002
+    front = -0.012 - 2.1 * depth
+    middle = (back + front) / 2
+    for share, y in ((1.0, middle), (0.6, front), (0.6, back)):
+        x, z = oval(share * radius, share * radius, 24).T
+        ring = np.stack([x, np.full(24, y), level + z], axis=1)
+        head.add(pipe(ring, 0.0018, 5, looped=True), look=metal)
+    bend = [(0.1, front), (0.85, front), (1.0, middle), (0.85, back), (0.25, back)]
+    spoke = pipe([(share * radius, y, level) for share, y in bend], 0.0012, 4)
+    count = a.pick(8, 12, 16)
+    turns = [2 * np.pi * (i + 0.5) / count for i in range(count)]
+    head.add(*(spoke.turned(BACK, angle, (0, 0, level)) for angle in turns), look=metal)
+    head.add(cylinder(Y, (0.0, level), 0.16 * radius, (front - 0.003, front)), look=metal)
+
+
+def ceiling_fan(a: Assembly) -> None:
+    """A canopy and a rod; below, a motor with blades, at times with a lamp and a pull cord."""
+    rod, radius, hub = a.draws((0.1, 0.4), (0.4, 0.65), (0.07, 0.11))
+    wide, pitch, long = a.draws((0.1, 0.15), (0.12, 0.3), (0.2, 0.3))
+    skin, metal = a.picks((OAK, WALNUT, WHITE, BLACK), (BRASS, STEEL, BLACK))
+    level = 0.4
+    top = level + 0.06 + rod
+    body = a.body(metal)
+    body.add(lathe([(0.03, top), (0.07, top + 0.04), (0.075, top + 0.05)]))
+    body.add(cylinder(Z, (0.0, 0.0), 0.011, (level - 0.05, top + 0.005), 12))
+    center = (0.0, 0.0, level)
+    spinning = a.spin("blades", UP, center, look=skin)
+    shell = [(0.5 * hub, -0.035), (hub, -0.02), (hub, 0.02), (0.6 * hub, 0.05)]
+    bore = [(0.013, 0.05), (0.013, -0.035)]
+    spinning.add(lathe([*shell, *bore], center, sides=32, looped=True), look=metal)
+    spinning.add(*_blades(a, UP, center, a.count(3, 6), 1.2 * hub, radius, wide, pitch))
+    low = level - 0.04
+    if a.happens(0.6):
+        lamp = ((0.6, -0.01), (0.8, -0.03), (0.7, -0.07), (0.3, -0.1))
+        body.add(lathe([(0.02, low), *((r * hub, low + z) for r, z in lamp)]), look=WHITE)
+    else:
+        body.add(lathe([(0.03, low), (0.025, low - 0.012)], sides=16))
+    if a.happens(0.5):
+        x = 0.9 * hub
+        end = level - long
+        body.add(pipe([(0.3 * hub, 0, level - 0.048), (x, 0, level - 0.052)], 0.002, 5))
+        cord = a.slider("cord", DOWN, (x, 0, level), a.draw(0.02, 0.04))
+        cord.add(cylinder(Z, (x, 0.0), 0.001, (end, level - 0.06), 5), ball((x, 0, end), 0.006, 8))
+
+
+def globe(a: Assembly) -> None:
+    """A ball on a tilted axis in a half ring on a foot; some half rings swivel."""
+    radius, high, gap, lean = a.draws((0.09, 0.18), (0.05, 0.12), (0.008, 0.02), (10, 30))
+    skin, metal, wood = a.picks((BLUE, OAK, STEEL), (BRASS, STEEL), (OAK, WALNUT, BLACK))
+    swivels = a.happens(0.35)
+    foot = radius * a.draw(0.5, 0.75)
+    ring = radius + gap
+    stem = high + (0.045 if swivels else 0.2 * foot + 0.004)
+    center = (0.0, 0.0, stem + ring)
+    body = a.body(wood)
+    body.add(lathe([(foot, 0.0), (foot, 0.012), (0.35 * foot, 0.03), (0.2 * foot, high)], sides=32))
+    body.add(ball((0, 0, high), 0.2 * foot + 0.002))
+    top = stem - 0.01 - PLAY if swivels else stem + 0.002
+    body.add(cylinder(Z, (0.0, 0.0), 0.004, (high, top), 8), look=metal)
+    frame = body
+    if swivels:
+        frame = a.spin("frame", UP, (0, 0, stem), look=metal)
+        frame.add(cylinder(Z, (0.0, 0.0), 0.006, (stem - 0.01, stem + 0.002), 12))
+    x, z = arc((0.0, center[2]), ring, -np.pi / 2 - 0.05, np.pi / 2 + 0.05, 21).T
+    forms = [pipe(np.stack([x, 0 * x, z], axis=1), 0.004, 4, flat=a.draw(0.8, 2.0))]
+    for way in (-1.0, 1.0):
+        pin = span(center[2] + way * ring, way * (radius + 0.001 - ring))
+        forms.append(cylinder(Z, (0.0, 0.0), 0.003, pin, 8))
+    tilt = np.radians(lean)
+    frame.add(*(form.turned(BACK, tilt, center) for form in forms), look=metal)
+    axis = (float(np.sin(tilt)), 0.0, float(np.cos(tilt)))
+    sphere = a.spin("ball", axis, center, on=frame, look=skin)
+    sphere.add(ball(center, radius, a.pick(16, 24, 32)).turned(BACK, tilt, center))
+
+
+MAKERS = named(fan, ceiling_fan, globe)

@@ -1,0 +1,262 @@
+"""Pots, kettles, bottles, dispensers, pepper mills: turned on a lathe, with a lid or a pump."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from asset_factory.factory.mesh import Material
+
+from ..kit.assembly import DOWN, LEFT, RIGHT, UP, Assembly, PartDraft, named
+from ..kit.looks import BLACK, BLUE, BRASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
+from ..kit.outlines import arc
+from ..kit.shapes import ball, block, both, box, cylinder, lathe, pipe
+from ..kit.spans import Profile, Z, about, span
+
+#: Between a lid or a cap and what it lies on [m].
+PLAY = 0.0006
+
+
+def _walled(outer: Profile, wall: float, floor: float) -> Profile:
+    """Up the outside and down the inside of a vessel, both [m]."""
+    inner = [(max(r - wall, 0.002), h) for r, h in reversed(outer) if h > floor]
+    return [*outer, *inner, (max(min(inner[-1][0], outer[0][0] - wall), 0.002), floor)]
+
+
+def _side_curve(a: Assembly, foot: float, belly: float, rim: float, high: float) -> Profile:
+    """From foot to rim through a belly, smooth [m]."""
+    top = a.draw(0.35, 0.7)
+    t = np.linspace(0.0, 1.0, a.count(4, 8))
+    phase = np.where(t < top, t / top, 1.0 + (t - top) / (1 - top))
+    base = np.where(t < top, foot, rim)
+    radius = base + (belly - base) * np.sin(np.pi / 2 * phase)
+    return list(zip(radius.tolist(), (high * t).tolist(), strict=True))
+
+
+def _round_knob(a: Assembly, part: PartDraft, z: float, size: float, look: Material) -> None:
+    style = a.weighted({"turned": 0.4, "ball": 0.3, "bow": 0.3})
+    if style == "turned":
+        shape = ((0.5, 0.0), (0.4, 0.5), (1.0, 1.0), (0.9, 1.6))
+        part.add(lathe([(r * size, z + h * size) for r, h in shape], sides=16), look=look)
+    elif style == "ball":
+        stem = cylinder(Z, (0.0, 0.0), 0.3 * size, span(z, 0.7 * size), 10)
+        part.add(stem, ball((0, 0, z + 1.2 * size), 0.8 * size), look=look)
+    else:
+        x, rise = arc((0.0, 0.0), 1.6 * size, np.pi, 0.0, 9).T
+        path = np.stack([x, 0 * x, z - 0.15 * size + 0.8 * rise], axis=1)
+        part.add(pipe(path, 0.25 * size, 8), look=look)
+
+
+def pot(a: Assembly) -> None:
+    """A pot or a pan with a lid that lifts, at times turns; two ears or one long handle."""
+    wide, wall = a.draws((0.08, 0.16), (0.002, 0.006))
+    skin, dark = a.picks((STEEL, RED, BLACK, GREEN, BLUE), (BLACK, STEEL, BRASS))
+    sides = a.pick(20, 32, 40)
+    high = wide * a.draw(0.45, 1.5)
+    outer: Profile = [(0.94 * wide, 0.0), (wide, 0.06 * high), (wide, high)]
+    if a.happens(0.4):
+        outer = _side_curve(a, a.draw(0.5, 0.8) * wide, wide * a.draw(1.0, 1.15), wide, high)
+    if a.happens(0.5):
+        outer += [(wide + 0.004, high + 0.0005), (wide + 0.004, high + 0.003)]
+    body = a.body(skin)
+    body.add(lathe(_walled(outer, wall, 0.05 * high + 0.002), sides=sides))
+    _handles(a, wide, high, dark)
+    rim, top = outer[-1]
+    low = top + PLAY
+    lid = a.screw("lid", UP, (0, 0, top), a.draw(0.3, 1.0) * high, 0.35)
+    angle = np.linspace(0.0, 1.5, 5)[1:]
+    radius = rim * np.cos(angle) + 0.006 * (1 - np.cos(angle))
+    level = low + 0.004 + a.draw(0.0, 0.35) * wide * np.sin(angle)
+    dome = zip(radius.tolist(), level.tolist(), strict=True)
+    lid.add(lathe([(rim, low), (rim, low + 0.003), *dome], sides=sides))
+    neck = wide - wall - 0.003
+    lid.add(lathe([(neck, top - 0.006), (neck, top + 0.0008)], sides=sides))
+    _round_knob(a, lid, float(level[-1]), a.draw(0.012, 0.022), dark)
+
+
+def _handles(a: Assembly, wide: float, high: float, look: Material) -> None:
+    style = a.weighted({"bent": 0.45, "block": 0.25, "long": 0.3})
+    z = (0.75 if style == "long" else 0.7) * high
+    if style == "long":
+        long, rise, start, end = a.draws((0.12, 0.22), (0.0, 0.05), (0.005, 0.009), (0.009, 0.013))
+        bar = [(0.97 * wide, 0.0), (wide + 0.3 * long, 0.5 * rise), (wide + long, rise)]
+        path = [(x, 0.0, z + up) for x, up in bar]
+        handle = pipe(path, [start, 0.009, end], a.pick(4, 10), up=UP, flat=a.draw(0.6, 1.0))
+        a.root.add(handle, look=look)
+        return
+    half, out, thick = a.draws((0.2 * wide, 0.4 * wide), (0.02, 0.045), (0.004, 0.008))
+    far = wide + out
+    if style == "bent":
+        line = [(0.96 * wide, -half), (far, -half), (far, half), (0.96 * wide, half)]
+        ear = pipe([(x, y, z) for x, y in line], thick, 8)
+    else:
+        ear = block((0.95 * wide, far), about(half), about(thick, z), 0.4 * out, 0.3 * thick)
+    a.root.add(*both(ear), look=look)
+
+
+def kettle(a: Assembly) -> None:
+    """A body with a spout and a handle; a lid that lifts off or turns; at times electric."""
+    rim, belly, high, foot = a.draws((0.04, 0.065), (0.07, 0.1), (0.12, 0.22), (0.06, 0.085))
+    skin, dark = a.picks((STEEL, WHITE, RED, BLACK), (BLACK, WALNUT, STEEL))
+    electric, hinged, switched = a.happen(0.5, 0.4, 0.8)
+    lift = a.draw(0.015, 0.025) if electric else 0.0
+    outer = [(r, h + lift) for r, h in _side_curve(a, foot, belly, rim, high)]
+    body = a.body(skin)
+    body.add(lathe(_walled(outer, 0.002, lift + 0.01), sides=32))
+    if electric:
+        plate = [(belly * 0.95, 0.0), (belly, 0.4 * lift), (0.85 * belly, lift - 0.001)]
+        body.add(lathe(plate, sides=32), look=dark)
+    _spout(a, outer, lift, high)
+    top = high + lift
+    over = not electric and a.happens(0.5)
+    if over:
+        y, rise = arc((0.0, 0.0), 1.0, 0.1, np.pi - 0.1, 11).T
+        level = top - 0.04 + rise * a.draw(0.14, 0.18)
+        path = np.stack([0 * y, y * max(0.85 * belly, 0.085), level], axis=1)
+        body.add(pipe(path, a.draw(0.005, 0.008), 8), look=dark)
+    else:
+        _back_handle(a, outer, lift, high, dark)
+    z = top + PLAY
+    if hinged and not over:
+        # Its pin lies beside the handle, behind the rim.
+        pin = rim + 0.006
+        lid = a.hinge("lid", LEFT, (0, pin, z + 0.004), a.degrees(50, 85))
+        lid.add(box(about(0.008), (0.8 * rim, pin + 0.003), (z + 0.0002, z + 0.003)))
+    else:
+        # A bail leaves less room.
+        reach = a.draw(0.02, 0.035) if over else a.draw(0.03, 0.12)
+        lid = a.screw("lid", UP, (0, 0, z), reach, 0.3)
+    middle, peak = a.draws((z + 0.006, z + 0.02), (z + 0.02, z + 0.022))
+    dome = [(rim, z), (0.97 * rim, z + 0.004), (0.5 * rim, middle), (0.2 * rim, peak)]
+    lid.add(lathe(dome, sides=32))
+    _round_knob(a, lid, z + 0.018, a.draw(0.008, 0.013), dark)
+    if electric and switched:
+        y = belly + 0.012
+        low = lift + 0.03
+        body.add(box(about(0.013), (outer[0][0] - 0.01, y - PLAY), about(0.012, low)), look=dark)
+        look = a.pick(RED, BLACK)
+        switch = a.hinge("switch", RIGHT, (0, y, low + 0.003), a.degrees(15, 30), look=look)
+        switch.add(box(about(0.01), span(y + 0.003, 0.02), span(low, 0.006)))
+
+
+def _radius_at(outer: Profile, height: float) -> float:
+    radius, level = np.array(outer).T
+    return float(np.interp(height, level, radius))
+
+
+def _spout(a: Assembly, outer: Profile, lift: float, high: float) -> None:
+    """A tapered tube towards -Y, straight or in an S."""
+    share, out, wide, up = a.draws((0.35, 0.75), (0.05, 0.1), (0.014, 0.022), (0.7, 1.1))
+    low = lift + share * high
+    rise = (1.0 - share) * high * up
+    start = 0.9 * _radius_at(outer, low)
+    swing = 0.25 * out if a.happens(0.5) else 0.0
+    bend = ((0.0, 0.0, 0.0), (0.4, swing, 0.25), (0.7, 0.0, 0.65), (1.0, swing, 1.0))
+    path = [(0.0, -start - f * out - shift, low + up * rise) for f, shift, up in bend]
+    a.root.add(pipe(path, wide * np.array((1.0, 0.8, 0.6, 0.5)), 12, up=RIGHT))
+
+
+def _back_handle(a: Assembly, outer: Profile, lift: float, high: float, look: Material) -> None:
+    upper, out, thick, flat = a.draws((0.8, 0.93), (0.035, 0.05), (0.007, 0.011), (0.7, 1.3))
+    low = lift + 0.2 * high + 0.03
+    top = lift + upper * high
+    far = max(r for r, _ in outer) + out
+    head = [(0.97 * _radius_at(outer, top), top), (far - 0.01, top + 0.004)]
+    bend = [(far, lift + 0.9 * upper * high), (far - 0.005, low + 0.02)]
+    line = [*head, *bend, (0.97 * _radius_at(outer, low), low + 0.03)]
+    path = [(0.0, y, z) for y, z in line]
+    a.root.add(pipe(path, thick, 8, up=RIGHT, flat=flat), look=look)
+
+
+def bottle(a: Assembly) -> None:
+    """A bottle or a jar with a screw cap that turns and comes off; at times a cap on a hinge."""
+    wide, high, neck_h, power = a.draws((0.025, 0.06), (0.07, 0.3), (0.015, 0.03), (0.6, 1.4))
+    skin, cap_skin = a.picks((GREEN, BLUE, WHITE, STEEL, RED), (RED, WHITE, BLACK, BLUE))
+    neck = wide * a.draw(0.28, 0.5)
+    shoulder = a.draw(0.1, 0.35) * high
+    if a.happens(0.4):
+        neck = wide * a.draw(0.7, 0.9)
+        shoulder = 0.05 * high
+    start = high - neck_h
+    t = np.linspace(0.0, 0.75, 4)
+    slope = neck + (wide - neck) * np.cos(np.pi / 2 * t) ** power
+    curve = list(zip(slope.tolist(), (start - shoulder * (1 - t)).tolist(), strict=True))
+    low: Profile = [(0.85 * wide, 0.0), (wide, 0.06 * high)]
+    if a.happens(0.4):
+        waist = (a.draw(0.8, 0.95) * wide, 0.4 * high)
+        low += [(1.001 * wide, 0.3 * high), waist, (wide, 0.5 * high)]
+    low = [p for p in low if p[1] < curve[0][1] - 0.003]
+    sides = a.pick(4, 6, 24, 32) if a.happens(0.3) else 28
+    deep = a.draw(0.5, 1.0) if a.happens(0.3) else 1.0
+    core = 0.86 * neck * deep
+    body = a.body(skin)
+    body.add(lathe([*low, *curve, (neck, start)], sides=sides, stretch=(1.0, deep)))
+    body.add(lathe([(core, start - 0.004), (core, high)]))
+    # Its flats, not its corners, keep clear of the neck.
+    ridges = a.pick(12, 24, 32)
+    inner = core / np.cos(np.pi / ridges) + PLAY
+    grip = max(neck * a.draw(0.95, 1.15), inner + 0.0015)
+    base = start + PLAY
+    seat = high + PLAY
+    top = seat + a.draw(0.002, 0.02)
+    if a.happens(0.2):
+        # A flip top: a disc on the neck, its pin behind.
+        cap = a.hinge("cap", LEFT, (0, grip + 0.002, seat), a.degrees(90, 150), look=cap_skin)
+        cap.add(lathe([(grip, seat), (grip, top), (0.9 * grip, top + 0.001)], sides=ridges))
+        tab = span(seat + 0.0001, 0.0019)
+        cap.add(box(about(0.004), span(0.9 * grip, 0.1 * grip + 0.003), tab))
+        cap.add(box(about(0.006), span(-0.9 * grip, -0.1 * grip - 0.003), tab))
+        return
+    cap = a.screw("cap", UP, (0, 0, base), a.draw(1.2, 3.0) * neck_h, 0.8, look=cap_skin)
+    shape = [(inner, seat), (inner, base), (grip, base), (grip, top - 0.001), (0.9 * grip, top)]
+    cap.add(lathe(shape, sides=ridges))
+
+
+def dispenser(a: Assembly) -> None:
+    """A soap or lotion bottle with a pump that goes down and turns."""
+    wide, high, collar, stroke = a.draws(
+        (0.025, 0.045), (0.09, 0.18), (0.011, 0.016), (0.012, 0.025)
+    )
+    skin, pump_skin = a.picks((WHITE, BLUE, GREEN, STEEL), (BLACK, WHITE, STEEL))
+    outer = _side_curve(a, 0.9 * wide, wide * a.draw(1.0, 1.2), 0.45 * wide, high)
+    body = a.body(skin)
+    body.add(lathe(outer, sides=a.pick(4, 24, 32)))
+    well = high + 0.014
+    hole = 0.004 + 2 * PLAY
+    socket = [(collar, high + 0.0005), (collar, well), (hole, well), (hole, high + 0.002)]
+    body.add(lathe(socket, sides=20), look=pump_skin)
+    low = well + stroke + PLAY
+    down = min(stroke, 0.0115)
+    pump = a.screw("pump", DOWN, (0, 0, low), down, 0.5, look=pump_skin)
+    pump.add(cylinder(Z, (0.0, 0.0), 0.004, (high + 0.0025 + down, low + 0.001), 12))
+    pump.add(lathe([(0.009, low), (0.01, low + 0.006), (0.008, low + 0.012)], sides=16))
+    reach = a.draw(0.03, 0.05)
+    spout = [(0, 0, low + 0.007), (0, -0.7 * reach, low + 0.008), (0, -reach, low + 0.002)]
+    pump.add(pipe(spout, [0.006, 0.005, 0.003], 8))
+
+
+def pepper_mill(a: Assembly) -> None:
+    """A turned body under a head, or a crank, that turns without end."""
+    wide, high, thin = a.draws((0.022, 0.032), (0.07, 0.18), (0.05, 0.45))
+    skin, metal = a.picks((OAK, WALNUT, BLACK, STEEL, WHITE), (STEEL, BRASS))
+    body = a.body(skin)
+    z = high + PLAY
+    t = np.linspace(0.0, 1.0, 7)
+    waist = wide * (1.0 - thin * np.abs(np.sin(np.pi * t)) ** 1.5)
+    body.add(lathe(np.stack([waist, t * high], axis=1), sides=28))
+    head = a.spin("head", UP, (0, 0, z), look=skin)
+    if a.happens(0.6):
+        top = a.draw(0.9, 1.15) * wide
+        angle = np.linspace(-0.9, 1.3, 7)
+        dome = np.stack([np.cos(angle), np.sin(angle) + np.sin(0.9)], axis=1) * top
+        head.add(lathe(dome, (0, 0, z), sides=28))
+        head.add(ball((0, 0, z + 1.85 * top), 0.25 * top, 10), look=metal)
+        return
+    reach = a.draw(0.04, 0.07)
+    level = z + 0.5 * wide + 0.003
+    head.add(lathe([(0.9 * wide, z), (0.5 * wide, z + 0.5 * wide)]), look=metal)
+    head.add(pipe([(0, -0.004, level), (0, -reach, level + 0.008)], 0.004, 4, flat=0.6), look=metal)
+    grip = [(0.005, level + 0.007), (0.008, level + 0.019), (0.006, level + 0.027)]
+    head.add(lathe(grip, (0, 0.006 - reach, 0), sides=12))
+
+
+MAKERS = named(pot, kettle, bottle, dispenser, pepper_mill)

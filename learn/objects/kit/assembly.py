@@ -1,0 +1,292 @@
+"""An object under construction: a body, the parts that move on it, and the joints between them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TypedDict, Unpack
+
+import numpy as np
+import numpy.typing as npt
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, rotation_about
+from asset_factory.factory.mesh import FloatArray, IntArray, Material, Mesh
+
+from .chance import Chance
+from .looks import WHITE, laid_over
+from .shapes import Form
+from .spans import Point
+
+#: Directions of axes; what hangs at the back of its lid opens about LEFT.
+LEFT = (-1.0, 0.0, 0.0)
+RIGHT = (1.0, 0.0, 0.0)
+FRONT = (0.0, -1.0, 0.0)
+BACK = (0.0, 1.0, 0.0)
+DOWN = (0.0, 0.0, -1.0)
+UP = (0.0, 0.0, 1.0)
+
+#: A face on which something is built as if the face were the plane y = 0, seen from -Y: from there
+#: to the object, shape [4, 4].
+Place = FloatArray
+
+
+def _placed(right: Point, inwards: Point, up: Point, origin: Point) -> Place:
+    matrix = np.eye(4)
+    matrix[:3] = np.stack([right, inwards, up, origin], axis=1)
+    return matrix
+
+
+def facing_front(y: float) -> Place:
+    """Return the face at ``y`` that looks towards -Y."""
+    return _placed(RIGHT, BACK, UP, (0.0, y, 0.0))
+
+
+def facing_up(z: float) -> Place:
+    """Return the face at ``z`` that looks up; what is up on it is the object's +Y."""
+    return _placed(RIGHT, DOWN, BACK, (0.0, 0.0, z))
+
+
+def facing_side(x: float) -> Place:
+    """Return the face at ``x`` that looks away from the middle, to the right for ``x`` above 0."""
+    if x > 0.0:
+        return _placed(BACK, LEFT, UP, (x, 0.0, 0.0))
+    return _placed(FRONT, RIGHT, UP, (x, 0.0, 0.0))
+
+
+@dataclass(eq=False)
+class PartDraft:
+    """A part and the joint that moves it, while it is built.
+
+    Attributes:
+        name: of the part; its joint is called ``<name>_joint``.
+        look: of what is added without one.
+        parent: the part that it hangs on; ``None`` for the body.
+        kind: of its joint.
+        axis: unit vector at rest; positive values open.
+        origin: a point on the axis at rest [m].
+        lower: closed [rad] or [m].
+        upper: fully open; neither is used where it turns without end.
+        slide: how far the part also slides along its axis [m]; above 0, it hangs on a carrier
+            without faces that turns, and slides in it.
+        pose: from the object with everything at value 0 to how it is left, shape [4, 4]; ``None``
+            if that is the same.
+        carry: the same from the face that the part is described on.
+        forms: what it consists of, as it is left, each with its look.
+    """
+
+    name: str
+    look: Material
+    parent: PartDraft | None = None
+    kind: JointKind = JointKind.FIXED
+    axis: FloatArray = field(default_factory=lambda: np.array(UP))
+    origin: FloatArray = field(default_factory=lambda: np.zeros(3))
+    lower: float = 0.0
+    upper: float = 0.0
+    slide: float = 0.0
+    pose: FloatArray | None = None
+    carry: FloatArray | None = None
+    forms: list[tuple[Form, Material]] = field(default_factory=list)
+
+    def add(self, *forms: Form, look: Material | None = None) -> None:
+        """Add forms to the part, in its own look or another."""
+        seen = look or self.look
+        for form in forms:
+            self.forms.append((form if self.carry is None else form.moved(self.carry), seen))
+
+
+class Hanging(TypedDict, total=False):
+    """How a part hangs: ``on`` which other one, in which ``look`` (its parent's), on which face."""
+
+    on: PartDraft | None
+    look: Material | None
+    place: Place | None
+
+
+class Assembly(Chance):
+    """A body and what moves on it; every kind of object is described by adding to one.
+
+    Attributes:
+        root: the part that does not move, ``body``.
+        parts: the others, parents before children.
+        hairline: every form ends this far short of what was said [m], so that forms that meet share
+            no corner.
+    """
+
+    def __init__(self, rng: np.random.Generator, hairline: float = 0.0) -> None:
+        super().__init__(rng)
+        self.root = PartDraft("body", WHITE)
+        self.parts: list[PartDraft] = []
+        self.hairline = hairline
+
+    def body(self, look: Material) -> PartDraft:
+        """Return the part that does not move, from now on in this look."""
+        self.root.look = look
+        return self.root
+
+    def hinge(
+        self,
+        name: str,
+        axis: npt.ArrayLike,
+        at: npt.ArrayLike,
+        upper: float,
+        lower: float = 0.0,
+        slide: float = 0.0,
+        rest: float = 0.0,
+        **how: Unpack[Hanging],
+    ) -> PartDraft:
+        """A part that turns between ``lower`` and ``upper`` [rad] and is left at ``rest``."""
+        part = self._hung(name, JointKind.REVOLUTE, axis, at, **how)
+        part.lower = lower - rest
+        part.upper = upper - rest
+        part.slide = slide
+        if rest:
+            turn = np.eye(4)
+            turn[:3, :3] = rotation_about(part.axis, rest)
+            turn[:3, 3] = part.origin - turn[:3, :3] @ part.origin
+            part.pose = _after(turn, part.pose)
+            part.carry = _after(turn, part.carry)
+        return part
+
+    def spin(
+        self,
+        name: str,
+        axis: npt.ArrayLike,
+        at: npt.ArrayLike,
+        slide: float = 0.0,
+        **how: Unpack[Hanging],
+    ) -> PartDraft:
+        """A part that turns without end, and slides along its axis by up to ``slide`` [m]."""
+        part = self._hung(name, JointKind.CONTINUOUS, axis, at, **how)
+        part.lower = -np.pi
+        part.upper = np.pi
+        part.slide = slide
+        return part
+
+    def slider(
+        self,
+        name: str,
+        axis: npt.ArrayLike,
+        at: npt.ArrayLike,
+        upper: float,
+        **how: Unpack[Hanging],
+    ) -> PartDraft:
+        """Return a part that slides by up to ``upper`` [m]."""
+        part = self._hung(name, JointKind.PRISMATIC, axis, at, **how)
+        part.upper = upper
+        return part
+
+    def screw(
+        self,
+        name: str,
+        axis: npt.ArrayLike,
+        at: npt.ArrayLike,
+        reach: float,
+        turns: float,
+        **how: Unpack[Hanging],
+    ) -> PartDraft:
+        """A part that slides by up to ``reach`` [m], and in this share of cases turns as well."""
+        if self.happens(turns):
+            return self.spin(name, axis, at, reach, **how)
+        return self.slider(name, axis, at, reach, **how)
+
+    def _hung(
+        self,
+        name: str,
+        kind: JointKind,
+        axis: npt.ArrayLike,
+        at: npt.ArrayLike,
+        on: PartDraft | None = None,
+        look: Material | None = None,
+        place: Place | None = None,
+    ) -> PartDraft:
+        parent = on or self.root
+        part = PartDraft(name, look or parent.look, parent, kind)
+        part.axis = np.asarray(axis, dtype=np.float64)
+        part.origin = np.asarray(at, dtype=np.float64)
+        part.pose = parent.pose
+        part.carry = parent.pose if place is None else _after(parent.pose, place)
+        if part.carry is not None:
+            part.axis = part.carry[:3, :3] @ part.axis
+            part.origin = part.carry[:3, :3] @ part.origin + part.carry[:3, 3]
+        self.parts.append(part)
+        return part
+
+    def articulation(self) -> Articulation:
+        """The object; it comes to stand on z = 0, centred over the origin, everything at rest."""
+        drafts = [self.root, *self.parts]
+        vertices, faces, look, materials = _joined(drafts, self.hairline)
+        low = vertices.min(axis=0)
+        middle = (low + vertices.max(axis=0)) / 2
+        offset = -np.array([middle[0], middle[1], low[2]])
+        uv = laid_over(vertices[faces], look, materials)
+        mesh = Mesh(vertices + offset, faces, uv, None, look, materials)
+        parts: list[Part] = []
+        joints: list[Joint] = []
+        number: dict[int, int] = {}
+        start = 0
+        for draft in drafts:
+            if draft.parent:
+                joints += _joints(draft, number[id(draft.parent)], len(parts), offset)
+            if draft.slide > 0.0:
+                parts.append(Part(f"{draft.name}_carrier", np.zeros(0, dtype=np.int64)))
+            number[id(draft)] = len(parts)
+            end = start + sum(len(form.faces) for form, _ in draft.forms)
+            parts.append(Part(draft.name, np.arange(start, end)))
+            start = end
+        return Articulation(mesh, tuple(parts), tuple(joints), "procedural")
+
+
+#: Describes one object of a kind, by adding to an empty assembly.
+Maker = Callable[[Assembly], None]
+
+
+def named(*makers: Maker) -> dict[str, Maker]:
+    """Kinds of object by the names of what describes them."""
+    return {getattr(maker, "__name__", ""): maker for maker in makers}
+
+
+def _after(second: FloatArray | None, first: FloatArray | None) -> FloatArray | None:
+    """Return one motion after another, where ``None`` is no motion."""
+    if first is None or second is None:
+        return second if first is None else first
+    return second @ first
+
+
+def _joints(draft: PartDraft, parent: int, child: int, offset: FloatArray) -> list[Joint]:
+    """The joint of a part, or that of its carrier and its own; ``child`` is the first one's."""
+    name = f"{draft.name}_joint"
+    line = (draft.axis, draft.origin + offset)
+    if draft.slide <= 0.0:
+        return [Joint(name, draft.kind, parent, child, *line, draft.lower, draft.upper)]
+    return [
+        Joint(f"{name}_turn", draft.kind, parent, child, *line, draft.lower, draft.upper),
+        Joint(name, JointKind.PRISMATIC, child, child + 1, *line, 0.0, draft.slide),
+    ]
+
+
+def _joined(
+    drafts: list[PartDraft], hairline: float
+) -> tuple[FloatArray, IntArray, IntArray, tuple[Material, ...]]:
+    """Vertices, faces, the material of each face, and materials; parts in order."""
+    vertices: list[FloatArray] = []
+    faces: list[IntArray] = []
+    looks: list[int] = []
+    materials: dict[str, tuple[int, Material]] = {}
+    count = 0
+    for form, material in (form for draft in drafts for form in draft.forms):
+        corners = _shrunk(form.vertices, hairline) if hairline else form.vertices
+        looks.append(materials.setdefault(material.name, (len(materials), material))[0])
+        vertices.append(corners)
+        faces.append(form.faces + count)
+        count += len(corners)
+    look = np.repeat(looks, [len(each) for each in faces])
+    different = tuple(material for _, material in materials.values())
+    return np.concatenate(vertices), np.concatenate(faces), look, different
+
+
+def _shrunk(corners: FloatArray, reach: float) -> FloatArray:
+    """Return a form that ends ``reach`` short of its box on every side [m]."""
+    low = corners.min(axis=0)
+    half = (corners.max(axis=0) - low) / 2
+    middle = low + half
+    return np.asarray(middle + (corners - middle) * np.maximum(1.0 - reach / half, 0.5))

@@ -1,0 +1,185 @@
+"""How a front is divided into cells.
+
+A cell holds a ``drawer``, a ``pullout`` (a tall drawer with shelves), a ``door``, a ``double``
+door, a ``lift`` (hinged at its top), a ``flap`` (at its bottom), two ``sliding`` doors, a ``fixed``
+panel, or is ``open``. Written as ``flap:door``, the part that moves in it is called ``door``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from .chance import Chance
+from .spans import Span
+
+#: What fills a cell (a name), or how it is cut: ``h`` left to right, ``v`` bottom to top, with
+#: shares.
+Node = str | tuple[str, tuple[tuple[float, "Node"], ...]]
+#: Half the space left where two drawers have no board between them [m].
+BARE = 0.001
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A rectangle of the front; what is given per edge comes left, right, bottom, top.
+
+    Attributes:
+        kind: what fills it.
+        name: of what moves in it; made up if empty.
+        x, z: up to the middle of the boards around it, or to the outside of the case [m].
+        walls: how much of each edge is board [m].
+        outer: whether each edge is the case's own.
+    """
+
+    kind: str
+    name: str
+    x: Span
+    z: Span
+    walls: tuple[float, ...]
+    outer: tuple[bool, ...]
+
+    @property
+    def inner(self) -> tuple[Span, Span]:
+        """Free spans between the boards, x and z [m]."""
+        left, right, bottom, top = self.walls
+        return (self.x[0] + left, self.x[1] - right), (self.z[0] + bottom, self.z[1] - top)
+
+    def halves(self, seam: float, apart: float) -> tuple[Cell, Cell]:
+        """Return what lies left and right of x = ``seam``, each ``apart`` from it [m]."""
+        left, right, *ends = self.walls
+        first, last, *others = self.outer
+        near = replace(
+            self, x=(self.x[0], seam), walls=(left, apart, *ends), outer=(first, False, *others)
+        )
+        far = replace(
+            self, x=(seam, self.x[1]), walls=(apart, right, *ends), outer=(False, last, *others)
+        )
+        return near, far
+
+
+@dataclass(frozen=True)
+class Divider:
+    """A board between cells: upright at x = ``at`` or lying at z = ``at``, over ``span`` [m]."""
+
+    upright: bool
+    at: float
+    span: Span
+
+
+def divided(
+    node: Node, x: Span, z: Span, board: float, bare: bool
+) -> tuple[list[Cell], list[Divider]]:
+    """Return the cells of a front and the boards between them.
+
+    Spans are the outer ones of the case [m]; ``board`` is the thickness of every board [m]. Stacked
+    drawers of a ``bare`` case do without boards between them.
+    """
+    cells: list[Cell] = []
+    dividers: list[Divider] = []
+
+    def cut(
+        node: Node, spans: tuple[Span, Span], walls: tuple[float, ...], outer: tuple[bool, ...]
+    ) -> None:
+        if isinstance(node, str):
+            kind, _, name = node.partition(":")
+            cells.append(Cell(kind, name, *spans, walls, outer))
+            return
+        way, children = node
+        along = 0 if way == "h" else 1
+        span = spans[along]
+        other = spans[1 - along]
+        parts = np.cumsum([0.0, *(share for share, _ in children)])
+        ends = (span[0] + (span[1] - span[0]) * parts / parts[-1]).tolist()
+        thin = [bare and way == "v" and a == b == "drawer" for (_, a), (_, b) in pairwise(children)]
+        for i, (_, child) in enumerate(children):
+            edges = list(walls)
+            mine = list(outer)
+            for edge, seam in ((2 * along, i - 1), (2 * along + 1, i)):
+                if 0 <= seam < len(thin):
+                    edges[edge] = BARE if thin[seam] else board / 2
+                    mine[edge] = False
+            if i and not thin[i - 1]:
+                dividers.append(Divider(way == "h", ends[i], other))
+            own = (ends[i], ends[i + 1])
+            cut(child, (own, other) if way == "h" else (other, own), tuple(edges), tuple(mine))
+
+    cut(node, (x, z), (board,) * 4, (True,) * 4)
+    return cells, dividers
+
+
+def column(*children: tuple[float, Node]) -> Node:
+    """Cells upon each other, bottom first, with their shares."""
+    return children[0][1] if len(children) == 1 else ("v", children)
+
+
+def row(*children: tuple[float, Node]) -> Node:
+    """Cells beside each other, left first, with their shares."""
+    return children[0][1] if len(children) == 1 else ("h", children)
+
+
+def drawers(chance: Chance, count: int) -> Node:
+    """Drawers upon each other: equal, or lower ones taller."""
+    taper = chance.pick(0.0, 0.0, chance.draw(0.03, 0.3))
+    heights = [max(0.35, 1.0 - taper * i) for i in range(count)]
+    if count > 1 and chance.happens(0.2):
+        heights[-1] *= 0.6
+    return column(*((height, "drawer") for height in heights))
+
+
+def grid(chance: Chance, columns: int, rows: int, kind: str = "drawer") -> Node:
+    """Equal cells in rows and columns; the cuts are upright first or lying first."""
+    if chance.happens(0.5):
+        return row(*((1.0, column(*((1.0, kind),) * rows)),) * columns)
+    return column(*((1.0, row(*((1.0, kind),) * columns)),) * rows)
+
+
+def filling(chance: Chance, width: float, height: float, mix: Mapping[str, float]) -> Node:
+    """Return what a cell of that size [m] holds, drawn by the weights of ``mix`` where it fits."""
+    fits = {
+        "drawer": 0.06 < height < 0.5 and 0.12 < width < 1.3,
+        "drawers": 0.24 < height < 1.1 and 0.2 < width < 1.2,
+        "door": height > 0.22 and 0.15 < width < 0.75,
+        "double": height > 0.22 and 0.42 < width < 1.5,
+        "lift": 0.15 < height < 0.6 and width > 0.25,
+        "flap": 0.15 < height < 0.6 and width > 0.25,
+        "sliding": height > 0.25 and width > 0.5,
+        "pullout": height > 0.4 and 0.14 < width < 0.45,
+    }
+    fitting = {kind: weight for kind, weight in mix.items() if fits.get(kind, True) and weight}
+    kind = chance.weighted(fitting or {"open": 1.0})
+    if kind != "drawers":
+        return kind
+    return drawers(
+        chance, chance.count(2 if height < 0.7 else 3, max(2, min(6, int(height / 0.1))))
+    )
+
+
+def leaves(node: Node) -> int:
+    """Return how many cells a front is divided into."""
+    return 1 if isinstance(node, str) else sum(leaves(child) for _, child in node[1])
+
+
+def random_node(
+    chance: Chance, width: float, height: float, mix: Mapping[str, float], depth: int = 3
+) -> Node:
+    """Return a front of some width and height [m], cut until its cells have a handy size."""
+    stop = 0.25 if width > 0.65 or height > 0.75 else 0.75
+    if depth == 0 or max(width, height) < 0.36 or chance.happens(stop):
+        return filling(chance, width, height, mix)
+    across = width * chance.draw(0.6, 1.6) > height
+    count = min(4, max(2, round((width if across else height) / chance.draw(0.3, 0.6))))
+    even = chance.happens(0.6)
+    cuts = [1.0 if even else chance.draw(0.5, 1.5) for _ in range(count)]
+
+    def child(share: float) -> Node:
+        part = share / sum(cuts)
+        wide, tall = (width * part, height) if across else (width, height * part)
+        return random_node(chance, wide, tall, mix, depth - 1)
+
+    alike = child(1.0) if even and chance.happens(0.35) else None
+    children = [(share, alike or child(share)) for share in cuts]
+    return row(*children) if across else column(*children)

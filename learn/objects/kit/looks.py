@@ -1,0 +1,91 @@
+"""Colours and a wood texture, the same bytes everywhere."""
+
+from __future__ import annotations
+
+import struct
+import zlib
+
+import numpy as np
+import numpy.typing as npt
+
+from asset_factory.factory.mesh import FloatArray, IntArray, Material, Texture
+
+WHITE = Material("white", (0.85, 0.85, 0.83, 1.0))
+BLACK = Material("black", (0.03, 0.03, 0.035, 1.0))
+STEEL = Material("steel", (0.55, 0.56, 0.58, 1.0))
+GLASS = Material("glass", (0.08, 0.1, 0.12, 1.0))
+OAK = Material("oak", (0.55, 0.36, 0.19, 1.0))
+WALNUT = Material("walnut", (0.24, 0.13, 0.07, 1.0))
+GREEN = Material("green", (0.2, 0.33, 0.24, 1.0))
+BLUE = Material("blue", (0.13, 0.2, 0.36, 1.0))
+RED = Material("red", (0.5, 0.08, 0.06, 1.0))
+BRASS = Material("brass", (0.62, 0.45, 0.17, 1.0))
+
+#: Largest block of a deflate stream that is not compressed [bytes].
+STORED_BLOCK = 65535
+#: A texture repeats after this length [m].
+TEXTURE_PERIOD_M = 0.5
+
+
+def wood(seed: int, size: int = 64) -> Material:
+    """Return a wood-grained material; the image tiles and its grain runs along u.
+
+    Args:
+        seed: of the grain.
+        size: side of the square image [pixels].
+    """
+    rng = np.random.default_rng(seed)
+    u, v = np.meshgrid(np.arange(size) / size, np.arange(size) / size)
+    phase = rng.uniform(0.0, 2.0 * np.pi, 3)
+    bend = 0.04 * np.sin(2.0 * np.pi * u + phase[0]) + 0.02 * np.sin(4.0 * np.pi * u + phase[1])
+    rings = 0.5 + 0.5 * np.sin(2.0 * np.pi * 7.0 * (v + bend) + phase[2])
+    tone = 0.75 + 0.18 * rings + 0.05 * rng.uniform(-1.0, 1.0, (size, 1))
+    colors = np.clip(tone[..., None] * np.array([190.0, 140.0, 88.0]), 0.0, 255.0)
+    return Material(
+        "wood", (1.0, 1.0, 1.0, 1.0), Texture(png(np.round(colors).astype(np.uint8)), ".png")
+    )
+
+
+def laid_over(
+    corners: FloatArray, face_material: IntArray, materials: tuple[Material, ...]
+) -> FloatArray | None:
+    """Texture coordinates, shape [face_count, 3, 2], NaN on plain faces; ``None`` if all are.
+
+    Args:
+        corners: of every face [m], shape [face_count, 3, 3].
+        face_material: of every face, shape [face_count].
+        materials: that those numbers stand for.
+    """
+    textured = np.array([material.texture is not None for material in materials])
+    if not textured.any():
+        return None
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    # The grain runs along u: along z on upright faces, along x on lying ones.
+    across = np.array([[2, 1], [2, 0], [0, 1]])[np.abs(normal).argmax(axis=1)]
+    uv = np.take_along_axis(corners, across[:, None], axis=2) / TEXTURE_PERIOD_M
+    return np.asarray(np.where(textured[face_material][:, None, None], uv, np.nan))
+
+
+def png(pixels: npt.NDArray[np.uint8]) -> bytes:
+    """Return an RGB image as a PNG file.
+
+    The stream is stored, not compressed: compressors differ between machines, and the bytes must
+        not.
+
+    Args:
+        pixels: top row first, shape [height, width, 3].
+    """
+    height, width = pixels.shape[:2]
+    raw = b"".join(b"\0" + row.tobytes() for row in pixels)
+    blocks = [raw[i : i + STORED_BLOCK] for i in range(0, len(raw), STORED_BLOCK)]
+    stream = b"\x78\x01"
+    for i, block in enumerate(blocks):
+        stream += struct.pack("<BHH", i == len(blocks) - 1, len(block), len(block) ^ 0xFFFF) + block
+    stream += struct.pack(">I", zlib.adler32(raw))
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    chunks = ((b"IHDR", header), (b"IDAT", stream), (b"IEND", b""))
+    return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(kind, data) for kind, data in chunks)
+
+
+def _chunk(kind: bytes, data: bytes) -> bytes:
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))

@@ -1,0 +1,46 @@
+"""Lines in a plane [m], shape [count, 2]: arcs, ovals, rectangles with round corners."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from asset_factory.factory.mesh import FloatArray
+
+from .spans import Flat, Span, size, within
+
+
+@lru_cache(maxsize=64)
+def circle(sides: int) -> FloatArray:
+    """Cosines and sines of a regular polygon's corners, shape [2, sides]."""
+    # Half a step makes a square of four corners upright.
+    angle = 2.0 * np.pi * (np.arange(sides) + 0.5) / sides
+    return np.stack([np.cos(angle), np.sin(angle)])
+
+
+def arc(center: Flat, radius: float, start: float, stop: float, count: int) -> FloatArray:
+    """Points on a circle, shape [count, 2], from one angle to another [rad], both included."""
+    angle = np.linspace(start, stop, count)
+    return np.stack([np.cos(angle), np.sin(angle)], axis=1) * radius + center
+
+
+def oval(half_x: float, half_y: float, count: int = 28) -> FloatArray:
+    """Points on an ellipse about the origin, shape [count, 2]."""
+    return circle(count).T * (half_x, half_y)
+
+
+@lru_cache(maxsize=16)
+def _quarters(steps: int) -> FloatArray:
+    return np.concatenate(
+        [arc((0.0, 0.0), 1.0, k * np.pi / 2, (k + 1) * np.pi / 2, steps) for k in range(4)]
+    )
+
+
+def rounded(x: Span, y: Span, radius: float, steps: int = 4) -> FloatArray:
+    """Return a rectangle with rounded corners, counter-clockwise, shape [4 steps, 2]."""
+    r = min(radius, 0.499 * size(x), 0.499 * size(y))
+    left, right = within(x, r)
+    near, far = within(y, r)
+    centers = np.array(((right, far), (left, far), (left, near), (right, near)))
+    return np.repeat(centers, steps, axis=0) + r * _quarters(steps)

@@ -1,0 +1,88 @@
+"""Wheels on fixed axles, and wheels in forks that swivel."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from asset_factory.factory.articulation import rotation_about
+from asset_factory.factory.mesh import Material
+
+from .assembly import RIGHT, UP, Assembly, PartDraft
+from .looks import BLACK
+from .shapes import Form, box, lathe
+from .spans import Point, X, about, ends
+
+#: Between a wheel and its fork, and between a fork and what it swivels under [m].
+PLAY = 0.0012
+#: How far a hub stands out of its tyre [m].
+_HUB = 0.0008
+
+
+def tyre(center: Point, radius: float, wide: float) -> tuple[Form, Form]:
+    """A tyre with rounded shoulders about an axis along x, and a hub that stands out a little."""
+    half = wide / 2
+    soft = min(0.25 * wide, 0.2 * radius)
+    round_off = radius - soft
+    rim = [(round_off, -half), (radius, soft - half), (radius, half - soft), (round_off, half)]
+    hub = [(0.35 * radius, -half - _HUB), (0.35 * radius, half + _HUB)]
+    return lathe(rim, center, X), lathe(hub, center, X, 12)
+
+
+def wheel(
+    a: Assembly, name: str, at: Point, radius: float, wide: float, metal: Material,
+    rim: Material = BLACK, on: PartDraft | None = None,
+) -> PartDraft:  # fmt: skip
+    """Return a wheel about an axis along x through ``at`` [m], that turns without end."""
+    part = a.spin(name, RIGHT, at, on=on, look=rim)
+    outside, hub = tyre(at, radius, wide)
+    part.add(outside)
+    part.add(hub, look=metal)
+    return part
+
+
+def bracket(
+    x: float, y: float, radius: float, wide: float, top: float, thick: float = 0.003
+) -> list[Form]:
+    """Return two plates that hold a wheel at ``(x, y, radius)`` under ``top`` [m]."""
+    plates = ends(about(wide / 2 + _HUB + PLAY + thick, x), thick)
+    return [box(plate, about(0.3 * radius, y), (0.7 * radius, top)) for plate in plates]
+
+
+def castor(
+    a: Assembly,
+    name: str,
+    at: tuple[float, float, float],
+    radius: float,
+    wide: float,
+    heading: float,
+    metal: Material,
+    twin: bool = False,
+) -> None:
+    """A fork that swivels under a body, and ``<name>_wheel`` in it; both turn without end.
+
+    The swivel's axis meets what it is mounted on at ``at`` [m], the wheel stands on z = 0; the
+    fork trails towards ``heading`` [rad]. ``twin`` wheels turn around a middle plate, as under
+    office chairs, others between two.
+    """
+    x, y, top = at
+    trail = 0.6 * radius
+    half = wide / 2
+    apart = half + _HUB + PLAY + 0.001
+    crown = (2 * radius + 0.003, top - PLAY)
+    reach = 0.006 if twin else apart + 0.005
+    forms = [box(about(reach, x), (y - 0.011, y + trail + 0.004), crown)]
+    deep = about(0.3 * radius, y + trail)
+    for side in (0.0,) if twin else (-apart, apart):
+        forms.append(box(about(0.001, x + side), deep, (0.6 * radius, crown[0])))
+    # Described as it rolls straight ahead, on a face that heads elsewhere.
+    ahead = np.eye(4)
+    ahead[:3, :3] = rotation_about(UP, heading)
+    ahead[:3, 3] = (x, y, 0.0) - ahead[:3, :3] @ (x, y, 0.0)
+    fork = a.spin(name, UP, at, look=metal, place=ahead)
+    fork.add(*forms)
+    hub = (x, y + trail, radius)
+    rolling = a.spin(f"{name}_wheel", RIGHT, hub, on=fork, look=BLACK, place=ahead)
+    for shift in (-half / 2 - 0.003, half / 2 + 0.003) if twin else (0.0,):
+        outside, core = tyre((x + shift, y + trail, radius), radius, half if twin else wide)
+        rolling.add(outside)
+        rolling.add(core, look=metal)

@@ -1,0 +1,125 @@
+"""What training sees: objects of all kinds, as artists, CAD and image-to-3D tools give them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.errors import ConfigError
+
+from ..surfaces import artist_like, fused_like, skin_like
+from .catalog import CATEGORIES, make_object
+
+#: Seeds of objects, of which training may use all; whoever tests on others makes them from seeds
+#: below this.
+FIRST_SEED = 1_000_000
+_LARGEST_SEED = 2**31 - 1
+#: Whose surface an object has: the generator's, an artist's, an early image-to-3D tool's, a recent
+#: one's.
+CHARACTERS = ("plain", "artist", "generated", "skin")
+#: Objects made in search of one with few enough parts.
+TRIES = 200
+
+
+@dataclass(frozen=True)
+class MixtureSettings:
+    """Which objects, and in which shares.
+
+    Attributes:
+        categories: to draw from, each as often; empty: all there are.
+        artist: weight of objects as artists and CAD programs leave them.
+        generated: weight of objects as early image-to-3D tools gave them: coarse and bumpy.
+        skin: weight of objects as recent ones give them.
+        plain: share of the first kind that stays as the generator made it, closed solids side by
+            side.
+        most_parts: others are not used: the network cannot answer for more.
+    """
+
+    categories: tuple[str, ...] = ()
+    artist: float = 0.7
+    generated: float = 0.3
+    skin: float = 0.0
+    plain: float = 0.15
+    most_parts: int = 16
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "categories", tuple(self.categories))
+        unknown = sorted(set(self.categories) - set(CATEGORIES))
+        if unknown:
+            names = ", ".join(CATEGORIES)
+            raise ConfigError(f"categories: there is no {unknown}, want some of {names}")
+        if min(self.weights) < 0.0 or sum(self.weights) <= 0.0:
+            artist, generated, skin = self.weights
+            weights = f"artist {artist}, generated {generated}, skin {skin}"
+            raise ConfigError(f"{weights}: want at least 0, one of them above")
+        if not 0.0 <= self.plain <= 1.0:
+            raise ConfigError(f"plain is {self.plain}, want 0 to 1")
+        if self.most_parts < 2:
+            raise ConfigError(f"most_parts is {self.most_parts}, want at least 2")
+
+    @property
+    def weights(self) -> tuple[float, float, float]:
+        """Of what artists, early and recent image-to-3D tools make."""
+        return self.artist, self.generated, self.skin
+
+
+def training_object(seed: int, settings: MixtureSettings | None = None) -> Articulation:
+    """Return a labelled object, closed; same seed and settings, same bytes."""
+    return sample_object(np.random.default_rng(seed), settings)[1]
+
+
+def sample_object(
+    rng: np.random.Generator, settings: MixtureSettings | None = None
+) -> tuple[str, Articulation]:
+    """A labelled object and its name, ``category-seed-character-seed``, by which to make it again.
+
+    Joint values 0 are closed, the front looks towards -Y.
+
+    Raises:
+        ConfigError: hardly any object of these categories has as few parts as wanted.
+    """
+    chosen = settings or MixtureSettings()
+    kinds = chosen.categories or CATEGORIES
+    for _ in range(TRIES):
+        category = kinds[int(rng.integers(len(kinds)))]
+        made, look = (int(seed) for seed in rng.integers(FIRST_SEED, _LARGEST_SEED, 2))
+        bound = rng.random() * sum(chosen.weights)
+        generated = bound >= chosen.artist
+        recent = bound >= chosen.artist + chosen.generated
+        plain = rng.random() < chosen.plain
+        articulation = make_object(category, made)
+        if sum(joint.movable for joint in articulation.joints) < chosen.most_parts:
+            modelled = "plain" if plain else "artist"
+            character = "skin" if recent else "generated" if generated else modelled
+            changed, character = in_character(articulation, character, look)
+            return f"{category}-{made}-{character}-{look}", changed
+    wanted = f"most_parts is {chosen.most_parts}, too few for {', '.join(kinds)}"
+    raise ConfigError(f"{wanted}; want more, or other kinds")
+
+
+def in_character(articulation: Articulation, character: str, seed: int) -> tuple[Articulation, str]:
+    """Return the object with the surface of a certain origin, and which that is.
+
+    Args:
+        articulation: as ``make_object`` gives it.
+        character: one of :data:`CHARACTERS`. What has a part that nobody sees from outside cannot
+            come from an image, and becomes ``artist``.
+        seed: of the change.
+
+    Raises:
+        ValueError: no such character.
+    """
+    if character == "plain":
+        return articulation, character
+    if character in ("generated", "skin"):
+        made = fused_like if character == "generated" else skin_like
+        try:
+            return made(articulation, seed), character
+        except ValueError:
+            character = "artist"
+    if character != "artist":
+        wanted = "want plain, artist, generated or skin"
+        raise ValueError(f"character {character!r}: there is none of that name, {wanted}")
+    return artist_like(articulation, seed), character

@@ -1,0 +1,1 @@
+"""Training samples: surfaces with their parts and joints, drawn from objects and datasets."""

@@ -1,0 +1,292 @@
+"""One training example: a sampled object in a random state, somewhere in the network's box."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from asset_factory.factory.articulation import rotation_about
+from asset_factory.factory.mesh import FloatArray, IntArray
+from asset_factory.factory.particulate.components import component_features
+from asset_factory.factory.particulate.prediction import Float32Array, MotionClass
+
+from .sampled_object import SampledObject
+
+QUARTER = np.pi / 2.0
+
+
+@dataclass(frozen=True)
+class DrawSettings:
+    """How examples are drawn; scale, shift and points are the paper's.
+
+    Attributes:
+        points: per example.
+        context: further points of the object, from which its box and what its components look like
+            are measured.
+        sharp_share: of them on sharp edges, where there are any.
+        scale: lower and upper factor of the size.
+        shift: standard deviation of the place, per axis.
+        closed_share: of the examples have every joint closed; in the others each joint is closed as
+            often again, else anywhere in its range.
+        turned_share: of the examples face anywhere; the others face one of the four sides.
+        facing_share: of those others face -Y, as the sampled objects do.
+        mirrored_share: of the examples are mirrored left to right.
+        stretch: largest factor by which one axis is longer than another, as a natural logarithm.
+        fused_share: of the examples are told nothing of their components, as if the mesh were one
+            piece.
+        merged_share: of the remaining examples have some of their components taken for one.
+        components: whether points carry what their components look like.
+    """
+
+    points: int = 2048
+    context: int = 3072
+    sharp_share: float = 0.5
+    scale: tuple[float, float] = (0.95, 1.05)
+    shift: float = 0.02
+    closed_share: float = 0.4
+    turned_share: float = 0.0
+    facing_share: float = 1.0
+    mirrored_share: float = 0.0
+    stretch: float = 0.0
+    fused_share: float = 0.0
+    merged_share: float = 0.0
+    components: bool = False
+
+
+@dataclass(frozen=True)
+class Sample:
+    """What the network sees and should answer, in its frame: centred, longest side 1, z up.
+
+    Attributes:
+        points: shape [point_count, 3].
+        normals: shape [point_count, 3].
+        features: shape [point_count, channels]; ``None`` without.
+        part_ids: shape [point_count]; 0 is the root.
+        parents: shape [part_count]; -1 for the root.
+        motion: :class:`MotionClass` per part, shape [part_count].
+        revolute_direction: unit, zero for parts that do not turn, shape [part_count, 3].
+        revolute_range: [rad], from this pose, shape [part_count, 2].
+        prismatic_direction: unit, zero for parts that do not slide, shape [part_count, 3].
+        prismatic_range: from this pose, shape [part_count, 2].
+        closest_points: nearest to each point on its part's axis, zero where that does not turn,
+            shape [point_count, 3].
+    """
+
+    points: Float32Array
+    normals: Float32Array
+    features: Float32Array | None = field(repr=False)
+    part_ids: IntArray
+    parents: IntArray
+    motion: IntArray
+    revolute_direction: Float32Array
+    revolute_range: Float32Array
+    prismatic_direction: Float32Array
+    prismatic_range: Float32Array
+    closest_points: Float32Array
+
+
+@dataclass(frozen=True)
+class _Body:
+    """As much of a sampled object as an example looks at, while it is moved; float64.
+
+    ``rows`` says which of its points: those of the example first, then those that only stand for
+        the object.
+    """
+
+    rows: IntArray
+    points: FloatArray
+    normals: FloatArray
+    axis: FloatArray
+    origin: FloatArray
+    slide: FloatArray
+    reach: FloatArray
+
+
+def draw(sampled: SampledObject, rng: np.random.Generator, settings: DrawSettings) -> Sample:
+    """A sample by the paper's recipe: a random state, the unit box, then jitter in size, place."""
+    rows = _chosen(sampled, rng, settings)
+    seen = np.concatenate([rows, rng.integers(0, len(sampled.points), settings.context)])
+    body = _shaped(sampled, seen, rng, settings)
+    turns, slides = _state(sampled, rng, settings.closed_share)
+    body = _moved(sampled, body, turns, slides * body.reach)
+    body = _placed(body, _facing(rng, settings), rng, settings)
+    points = body.points[: len(rows)]
+    part_ids = sampled.part_ids[rows].astype(np.int64)
+    along = body.axis[part_ids]
+    off = points - body.origin[part_ids]
+    closest = body.origin[part_ids] + along * np.einsum("ij,ij->i", off, along)[:, None]
+    turning = (sampled.motion == MotionClass.REVOLUTE) | (sampled.motion == MotionClass.BOTH)
+    features = None
+    if settings.components:
+        components = _components(sampled, rng, settings)[seen]
+        features = component_features(body.points, body.normals, components)[: len(rows)]
+    limits = np.where(sampled.endless[:, None], sampled.turn, sampled.turn - turns[:, None])
+    return Sample(
+        points=points.astype(np.float32),
+        normals=body.normals[: len(rows)].astype(np.float32),
+        features=features,
+        part_ids=part_ids,
+        parents=sampled.parents.astype(np.int64),
+        motion=sampled.motion.astype(np.int64),
+        revolute_direction=body.axis.astype(np.float32),
+        revolute_range=limits.astype(np.float32),
+        prismatic_direction=body.slide.astype(np.float32),
+        prismatic_range=((sampled.slide - slides[:, None]) * body.reach[:, None]).astype(
+            np.float32
+        ),
+        closest_points=np.where(turning[part_ids][:, None], closest, 0.0).astype(np.float32),
+    )
+
+
+def _shaped(
+    sampled: SampledObject, rows: IntArray, rng: np.random.Generator, settings: DrawSettings
+) -> _Body:
+    """Mirrored and stretched at joint values 0, where any stretch keeps a valid jointed object."""
+    factor = np.exp(rng.uniform(-0.5, 0.5, 3) * settings.stretch)
+    mirrored = rng.random() < settings.mirrored_share
+    factor[0] *= -1.0 if mirrored else 1.0
+    # A turn by the right-hand rule is mirrored into one by the left hand.
+    axis = sampled.axis * factor * (-1.0 if mirrored else 1.0)
+    slide = sampled.slide_direction * factor
+    reach = np.linalg.norm(slide, axis=1)
+    normals = sampled.normals[rows].astype(np.float64)
+    if settings.stretch:
+        lengths = np.sqrt(np.einsum("ij,ij->i", normals, normals))[:, None]
+        normals = _unit(normals / factor) * lengths
+    else:
+        normals *= np.sign(factor)
+    return _Body(
+        rows=rows,
+        points=sampled.points[rows] * factor,
+        normals=normals,
+        axis=_unit(axis),
+        origin=sampled.origin * factor,
+        slide=_unit(slide),
+        reach=np.where(reach > 0.0, reach, 1.0),
+    )
+
+
+def _state(
+    sampled: SampledObject, rng: np.random.Generator, closed_share: float
+) -> tuple[FloatArray, FloatArray]:
+    """Turn [rad] and slide [m] of every part."""
+    count = len(sampled.parents)
+    share = (
+        rng.random((2, count))
+        * (rng.random((2, count)) >= closed_share)
+        * (rng.random() >= closed_share)
+    )
+    low, high = np.stack([sampled.turn, sampled.slide]).transpose(2, 0, 1).astype(np.float64)
+    value = low + share * (high - low)
+    value[0, sampled.endless] = rng.uniform(-np.pi, np.pi, int(sampled.endless.sum()))
+    return value[0], value[1]
+
+
+def _moved(sampled: SampledObject, body: _Body, turns: FloatArray, slides: FloatArray) -> _Body:
+    """Every part where its own and its ancestors' joints carry it; axes where its parent does."""
+    count = len(sampled.parents)
+    rotation = np.tile(np.eye(3), (count, 1, 1))
+    shift = np.zeros((count, 3))
+    axis = body.axis.copy()
+    origin = body.origin.copy()
+    slide = body.slide.copy()
+    for part in _parents_first(sampled.parents):
+        parent = sampled.parents[part]
+        if parent < 0:
+            continue
+        own = rotation_about(body.axis[part], float(turns[part]))
+        rotation[part] = rotation[parent] @ own
+        offset = body.origin[part] - own @ body.origin[part] + own @ body.slide[part] * slides[part]
+        shift[part] = rotation[parent] @ offset + shift[parent]
+        axis[part] = rotation[parent] @ body.axis[part]
+        origin[part] = rotation[parent] @ body.origin[part] + shift[parent]
+        slide[part] = rotation[part] @ body.slide[part]
+    of_point = sampled.part_ids[body.rows]
+    points = body.points.copy()
+    normals = body.normals.copy()
+    for part in range(count):
+        if turns[part] or slides[part] or (sampled.parents[part] > 0):
+            mine = of_point == part
+            points[mine] = points[mine] @ rotation[part].T + shift[part]
+            normals[mine] = normals[mine] @ rotation[part].T
+    return _Body(body.rows, points, normals, axis, origin, slide, body.reach.copy())
+
+
+def _facing(rng: np.random.Generator, settings: DrawSettings) -> float:
+    """Turn about the vertical [rad]."""
+    anywhere = rng.random()
+    ahead = rng.random()
+    quarter = int(rng.integers(4))
+    if anywhere < settings.turned_share:
+        return float(rng.uniform(0.0, 2.0 * np.pi))
+    return 0.0 if ahead < settings.facing_share else quarter * QUARTER
+
+
+def _placed(body: _Body, yaw: float, rng: np.random.Generator, settings: DrawSettings) -> _Body:
+    """In the network's box, but for a little size and place; slide lengths are in ``reach``."""
+    turn = rotation_about(np.array([0.0, 0.0, 1.0]), yaw).T
+    points = body.points @ turn
+    # Along rows of memory; along columns it takes ten times as long.
+    columns = np.ascontiguousarray(points.T)
+    low = columns.min(axis=1)
+    high = columns.max(axis=1)
+    scale = rng.uniform(*settings.scale) / max(float((high - low).max()), 1e-9)
+    shift = rng.normal(0.0, settings.shift, 3)
+    middle = (low + high) / 2.0
+    return _Body(
+        rows=body.rows,
+        points=(points - middle) * scale + shift,
+        normals=body.normals @ turn,
+        axis=body.axis @ turn,
+        origin=(body.origin @ turn - middle) * scale + shift,
+        slide=body.slide @ turn,
+        reach=body.reach * scale,
+    )
+
+
+def _chosen(sampled: SampledObject, rng: np.random.Generator, settings: DrawSettings) -> IntArray:
+    """Rows of the pool: some on sharp edges, the rest on faces; repeated only if too few."""
+    on_edge = np.flatnonzero(sampled.sharp)
+    on_face = np.flatnonzero(~sampled.sharp)
+    wanted = int(settings.sharp_share * settings.points) if len(on_edge) else 0
+    picked = [
+        rng.choice(pool, count, replace=count > len(pool))
+        for pool, count in ((on_edge, wanted), (on_face, settings.points - wanted))
+        if count
+    ]
+    return np.concatenate(picked)
+
+
+def _components(
+    sampled: SampledObject, rng: np.random.Generator, settings: DrawSettings
+) -> IntArray:
+    """Components as this example tells them: all, none, or some taken for one."""
+    fused, merged = rng.random(2)
+    if fused < settings.fused_share:
+        return np.zeros(len(sampled.components), dtype=np.int64)
+    if merged >= settings.merged_share:
+        return sampled.components.astype(np.int64)
+    count = int(sampled.components.max()) + 1
+    target = np.arange(count)
+    loose = rng.random(count) < 0.3
+    target[loose] = rng.integers(0, max(1, count // 4), int(loose.sum()))
+    return np.asarray(target[sampled.components])
+
+
+def _parents_first(parents: IntArray) -> list[int]:
+    """Parts ordered so that each comes after what it hangs on."""
+    placed: list[int] = []
+    waiting = list(range(len(parents)))
+    while waiting:
+        ready = [part for part in waiting if parents[part] < 0 or int(parents[part]) in placed]
+        if not ready:
+            raise ValueError(f"parents {parents.tolist()}: hang on one another in a circle")
+        placed += ready
+        waiting = [part for part in waiting if part not in ready]
+    return placed
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    length = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))[:, None]
+    return np.asarray(vectors / np.where(length > 0.0, length, 1.0))

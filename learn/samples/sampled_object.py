@@ -1,0 +1,281 @@
+"""A labelled object that training draws samples from: surface points, parts and motions."""
+
+from __future__ import annotations
+
+import zipfile
+import zlib
+from dataclasses import dataclass, fields
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asset_factory.factory.articulation import Articulation, Joint
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.geometry.posing import face_parts
+from asset_factory.factory.intake.limits import require_at_most
+from asset_factory.factory.mesh import FloatArray, IntArray, read_only
+from asset_factory.factory.particulate.prediction import MotionClass
+from asset_factory.factory.particulate.sampling import draw
+from asset_factory.factory.particulate.sharp import sharp_edges
+from asset_factory.factory.particulate.surface import BoolArray, Surface
+from asset_factory.factory.runtime.store import write_whole
+
+MOST_PARTS = 16
+"""Part queries of the network."""
+COVERED = 0.25
+"""Share of the points that go to the largest faces first, so small components are seen."""
+MOST_BYTES = 512 * 1024 * 1024
+"""Of a sampled object's arrays; a thousandth is usual."""
+_MOST_COMPONENTS = 10_000_000
+_TEXTS = ("name", "category", "source")
+_DAMAGED = (zipfile.BadZipFile, zlib.error)
+
+
+@dataclass(frozen=True)
+class SampledObject:
+    """One object at joint values 0: points in its object frame [m], parts root first.
+
+    Attributes:
+        name: unique within its source.
+        category: of household object, or empty.
+        source: where it came from.
+        points: shape [point_count, 3], float32.
+        normals: shape [point_count, 3], float32; the mean of two, shorter than 1, at sharp edges.
+        part_ids: part of each point, shape [point_count], int16.
+        sharp: whether it lies on a sharp edge, shape [point_count].
+        components: connected component of the mesh, shape [point_count], int32.
+        parents: part each part hangs on, -1 for the root, shape [part_count].
+        motion: :class:`MotionClass` of each part, shape [part_count].
+        axis: unit direction a part turns about, zero where it does not, shape [part_count, 3].
+        origin: a point on that axis [m], shape [part_count, 3].
+        turn: limits [rad], shape [part_count, 2].
+        endless: whether it turns without limits, shape [part_count].
+        slide_direction: unit, zero where it does not slide, shape [part_count, 3].
+        slide: limits [m], shape [part_count, 2].
+    """
+
+    name: str
+    category: str
+    source: str
+    points: FloatArray
+    normals: FloatArray
+    part_ids: IntArray
+    sharp: BoolArray
+    components: IntArray
+    parents: IntArray
+    motion: IntArray
+    axis: FloatArray
+    origin: FloatArray
+    turn: FloatArray
+    endless: BoolArray
+    slide_direction: FloatArray
+    slide: FloatArray
+
+    def __post_init__(self) -> None:
+        kinds = {
+            "part_ids": np.int16,
+            "components": np.int32,
+            "sharp": np.bool_,
+            "endless": np.bool_,
+        }
+        kinds |= {"parents": np.int16, "motion": np.int16}
+        for each in fields(self):
+            if each.name not in _TEXTS:
+                dtype = kinds.get(each.name, np.float32)
+                object.__setattr__(self, each.name, read_only(getattr(self, each.name), dtype))
+        _check(self)
+
+
+def sampled_from(
+    articulation: Articulation,
+    *,
+    name: str,
+    category: str,
+    source: str,
+    points: int,
+    rng: np.random.Generator,
+) -> SampledObject:
+    """Return the training view of an object.
+
+    A part that does not move is one with its parent: nobody could tell them apart. A part behind a
+    carrier turns *and* slides.
+
+    Args:
+        articulation: any; joint values 0 need not be closed.
+        name: of the object.
+        category: of it.
+        source: where it came from.
+        points: how many, half of them on sharp edges.
+        rng: source of chance.
+
+    Raises:
+        InputRejected: ``too_many_parts``, ``no_movable_joint``, ``unsupported_joint``,
+            ``zero_size``.
+    """
+    chains, group = _moving_parts(articulation)
+    if not chains:
+        raise InputRejected(
+            "no_movable_joint", f"{name}: nothing moves; want a joint to learn from", value=0.0
+        )
+    if len(chains) >= MOST_PARTS:
+        count = len(chains) + 1
+        raise InputRejected(
+            "too_many_parts",
+            f"{name}: has {count} parts, want at most {MOST_PARTS}",
+            value=count,
+            limit=MOST_PARTS,
+        )
+    number = {0: 0} | {part: index for index, part in enumerate(chains, start=1)}
+    of_part = np.array([number.get(group[part], 0) for part in range(len(group))])
+    surface = Surface.of(articulation.mesh.vertices, articulation.mesh.faces)
+    cloud = draw(surface, sharp_edges(surface), points, rng, most_covered=int(COVERED * points))
+    return SampledObject(
+        name=name,
+        category=category,
+        source=source,
+        points=cloud.points,
+        normals=cloud.normals,
+        part_ids=of_part[face_parts(articulation)[cloud.faces]],
+        sharp=cloud.sharp,
+        components=cloud.components,
+        **_motions(
+            chains, {part: number[group[chain[0].parent]] for part, chain in chains.items()}
+        ),
+    )
+
+
+def _motions(chains: dict[int, tuple[Joint, ...]], parent: dict[int, int]) -> dict[str, Any]:
+    """Return what a sample says of its parts' motions, the root first; movers as in ``chains``."""
+    count = 1 + len(chains)
+    parents = np.full(count, -1)
+    motion = np.zeros(count, dtype=np.int64)
+    axis, origin, slide_direction = (np.zeros((count, 3)) for _ in range(3))
+    turn = np.zeros((count, 2))
+    slide = np.zeros((count, 2))
+    endless = np.zeros(count, dtype=np.bool_)
+    for row, (part, chain) in enumerate(chains.items(), start=1):
+        parents[row] = parent[part]
+        for joint in chain:
+            if joint.turns:
+                axis[row] = joint.axis
+                origin[row] = joint.origin
+                turn[row] = (joint.lower, joint.upper)
+                endless[row] = joint.kind == "continuous"
+            else:
+                slide_direction[row] = joint.axis
+                slide[row] = (joint.lower, joint.upper)
+        motion[row] = sum(1 if joint.turns else 2 for joint in chain)
+    return {
+        "parents": parents,
+        "motion": motion,
+        "axis": axis,
+        "origin": origin,
+        "turn": turn,
+        "endless": endless,
+        "slide_direction": slide_direction,
+        "slide": slide,
+    }
+
+
+def _moving_parts(articulation: Articulation) -> tuple[dict[int, tuple[Joint, ...]], list[int]]:
+    """Joints by which each moving part hangs on the one before; each part's representative."""
+    group = list(range(len(articulation.parts)))
+    chains: dict[int, tuple[Joint, ...]] = {}
+    waiting: dict[int, Joint] = {}
+    for joint in articulation.joints:
+        if not joint.movable:
+            group[joint.child] = group[joint.parent]
+        elif not len(articulation.parts[joint.child].faces):
+            waiting[joint.child] = joint
+        else:
+            above = waiting.get(joint.parent)
+            chains[joint.child] = (joint,) if above is None else (above, joint)
+            first = chains[joint.child][0]
+            if (above is not None and above.turns == joint.turns) or group[first.parent] in waiting:
+                name = articulation.parts[joint.child].name
+                raise InputRejected(
+                    "unsupported_joint", f"part {name!r}: want at most one turn and one slide"
+                )
+    return chains, group
+
+
+def write_sampled(path: Path, sampled: SampledObject) -> None:
+    """One uncompressed npz file, complete or not there."""
+    buffer = BytesIO()
+    np.savez(
+        buffer,
+        allow_pickle=False,
+        **{each.name: getattr(sampled, each.name) for each in fields(sampled)},
+    )
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(path, buffer.getvalue())
+
+
+def read_sampled(path: Path) -> SampledObject:
+    """Return a sampled object from its file.
+
+    Raises:
+        InputRejected: ``bad_sample``: not such a file, or damaged; ``too_large``.
+    """
+    try:
+        with path.open("rb") as file, zipfile.ZipFile(file) as archive:
+            require_at_most(
+                path.name, sum(entry.file_size for entry in archive.infolist()), MOST_BYTES, "bytes"
+            )
+            file.seek(0)
+            stored = np.load(file, allow_pickle=False)
+            found: dict[str, Any] = {each.name: stored[each.name] for each in fields(SampledObject)}
+        found |= {name: str(found[name]) for name in _TEXTS}
+        return SampledObject(**found)
+    except InputRejected:
+        raise
+    except (OSError, ValueError, KeyError, EOFError, MemoryError, RuntimeError, *_DAMAGED) as error:
+        raise InputRejected(
+            "bad_sample", f"{path}: cannot be read as a sampled object: {error}"
+        ) from error
+
+
+def _check(sampled: SampledObject) -> None:
+    points = len(sampled.points)
+    parts = len(sampled.parents)
+    wanted: dict[str, tuple[int, ...]] = {
+        **dict.fromkeys(("points", "normals"), (points, 3)),
+        **dict.fromkeys(("part_ids", "sharp", "components"), (points,)),
+        **dict.fromkeys(("axis", "origin", "slide_direction"), (parts, 3)),
+        **dict.fromkeys(("turn", "slide"), (parts, 2)),
+        **dict.fromkeys(("parents", "motion", "endless"), (parts,)),
+    }
+    for name, shape in wanted.items():
+        value = getattr(sampled, name)
+        if value.shape != shape:
+            raise ValueError(f"{name}: shape {value.shape}, want {shape}")
+        if not np.isfinite(value).all():
+            raise ValueError(f"{name}: holds numbers that are not finite")
+    if not points or not 1 <= parts <= MOST_PARTS:
+        raise ValueError(
+            f"{points} points and {parts} parts: want points, and 1 to {MOST_PARTS} parts"
+        )
+    if not 0 <= int(sampled.part_ids.min()) <= int(sampled.part_ids.max()) < parts:
+        raise ValueError(f"part_ids: want 0 to {parts - 1}")
+    if not 0 <= int(sampled.components.min()) <= int(sampled.components.max()) < _MOST_COMPONENTS:
+        raise ValueError(f"components: want 0 to {_MOST_COMPONENTS - 1}")
+    if not np.ptp(sampled.points, axis=0).max() > 0.0:
+        raise ValueError("points: all at one place, want some size")
+    _check_tree(sampled.parents.tolist(), sampled.motion.tolist())
+
+
+def _check_tree(parents: list[int], motion: list[int]) -> None:
+    if parents[0] != -1 or not all(0 <= parent < len(parents) for parent in parents[1:]):
+        raise ValueError(f"parents {parents}: want -1 for the first part alone")
+    for part in range(1, len(parents)):
+        steps = 0
+        above = part
+        while above > 0 and steps <= len(parents):
+            steps = steps + 1
+            above = parents[above]
+        if above > 0:
+            raise ValueError(f"parents {parents}: part {part} does not hang on the root")
+    if not all(kind in tuple(MotionClass) for kind in motion):
+        raise ValueError(f"motion {motion}: want {', '.join(f'{kind:d}' for kind in MotionClass)}")

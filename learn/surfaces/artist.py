@@ -1,0 +1,164 @@
+"""An object as artists and CAD programs leave it: boards, shells, sheets, little that is closed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import numpy.typing as npt
+
+from asset_factory.factory.articulation import Articulation, Joint
+from asset_factory.factory.mesh import FloatArray
+
+from .details import lettered, without_handles, without_hidden, without_hidden_pieces
+from .labelled import Labelled
+from .surfaces import (
+    bevelled,
+    curved,
+    doubled,
+    exploded,
+    flattened,
+    flipped,
+    opened,
+    patched,
+    snapped,
+    subdivided,
+    without_sides,
+)
+from .united import all_united, grown, parts_united
+
+Pass = Callable[[Labelled, np.random.Generator], Labelled]
+
+
+def _spaced(mesh: Labelled, rng: np.random.Generator) -> Labelled:
+    """Pieces shrunk, so that hairlines open between them, or grown into one another, to 2 mm."""
+    return grown(mesh, float(rng.uniform(-1.0, 1.0)) * min(0.002, 0.004 * mesh.longest))
+
+
+def _merged(mesh: Labelled, rng: np.random.Generator) -> Labelled:
+    """Return the solids of most parts united; in one object of ten all parts are one skin."""
+    if rng.random() < 0.1:
+        return all_united(mesh, rng)
+    return parts_united(mesh, rng, float(rng.choice([0.4, 0.7, 1.0])))
+
+
+#: What is done to an object, in this order, and in which share of those
+#: - of separate solids, most of them closed: CAD exports and other generators;
+#: - of one skin a part, cut open where nobody looks, every face twice: artists' models;
+#: - in which nothing has a thickness: game assets.
+PASSES: tuple[tuple[Pass, tuple[float, float, float]], ...] = (
+    (without_hidden_pieces, (0.25, 0.35, 0.4)),
+    (without_handles, (0.1, 0.1, 0.2)),
+    (lettered, (0.12, 0.15, 0.15)),
+    (snapped, (0.5, 0.4, 0.3)),
+    (bevelled, (0.35, 0.0, 0.0)),
+    (partial(bevelled, share=0.5), (0.0, 0.5, 0.0)),
+    (partial(flattened, share=0.2), (0.0, 0.15, 0.0)),
+    (partial(flattened, share=0.8), (0.0, 0.0, 0.9)),
+    (_spaced, (0.2, 0.0, 0.0)),
+    (_merged, (0.2, 0.75, 0.0)),
+    (without_hidden, (0.0, 0.4, 0.2)),
+    (without_sides, (0.0, 0.3, 0.0)),
+    (partial(opened, share=0.2), (0.0, 0.15, 0.0)),
+    (partial(opened, share=0.7), (0.0, 0.0, 0.7)),
+    (partial(exploded, share=0.2), (0.0, 0.1, 0.0)),
+    (partial(exploded, share=0.5), (0.0, 0.0, 0.4)),
+    (patched, (0.1, 0.35, 0.3)),
+    (subdivided, (0.3, 0.3, 0.3)),
+    (curved, (0.3, 0.4, 0.2)),
+    (partial(flipped, share=0.15), (0.1, 0.0, 0.0)),
+    (flipped, (0.0, 0.0, 0.3)),
+    (partial(doubled, share=0.2), (0.15, 0.0, 0.0)),
+    (doubled, (0.0, 0.85, 0.6)),
+)
+#: How often an object is one of boards, of shells and of sheets.
+STYLES = (0.4, 0.5, 0.1)
+#: Standard deviation of the logarithm of each axis' factor, where an object is stretched; twice
+#: that is the most.
+STRETCH = 0.2
+#: A wider range [rad] is that of a knob or a wheel.
+ALL_ROUND = 3.5
+#: An axis this much off a coordinate axis still counts as along it.
+ALONG = 1e-6
+
+
+def artist_like(articulation: Articulation, seed: int) -> Articulation:
+    """Return the object as an artist's file might hold it; parts and joints mean the same.
+
+    Args:
+        articulation: labelled, best of closed solids that share no vertices, as ``make_object``
+            gives it; pieces that are not closed are carried along.
+        seed: same object and seed, same bytes.
+
+    Returns:
+        Parts and joints of the same names and tree. The whole may be stretched along its axes, and
+        mirrored left for right; joints follow. Plain colours stand for textures. Every part that
+        had faces still has some.
+    """
+    rng = np.random.default_rng([seed, 0xA2])
+    if rng.random() < 0.5:
+        articulation = stretched(articulation, _factors(articulation, rng))
+    if rng.random() < 0.5:
+        articulation = mirrored(articulation)
+    style = int(rng.choice(len(STYLES), p=STYLES))
+    mesh = Labelled.of(articulation)
+    for change, often in PASSES:
+        if rng.random() < often[style]:
+            mesh = change(mesh, rng)
+    return mesh.articulation(articulation, "surface changed to look like an artist's model")
+
+
+def _factors(articulation: Articulation, rng: np.random.Generator) -> FloatArray:
+    """Of the three axes; alike across the axis of what turns all round: wheels stay round."""
+    logarithms = np.clip(rng.normal(0.0, STRETCH, 3), -2.0 * STRETCH, 2.0 * STRETCH)
+    for joint in articulation.joints:
+        if joint.turns and joint.range > ALL_ROUND:
+            across = np.arange(3) != np.abs(joint.axis).argmax()
+            logarithms[across] = logarithms[across].mean()
+    return np.asarray(np.exp(logarithms))
+
+
+def stretched(articulation: Articulation, factors: npt.ArrayLike) -> Articulation:
+    """The object scaled by a factor per axis; by their geometric mean where a joint lies aslant.
+
+    A part turns as rigidly after stretching as before, but two of its sides may come to meet what
+    they missed.
+
+    Args:
+        articulation: any.
+        factors: along x, y and z, all above 0, shape [3].
+    """
+    wanted = np.asarray(factors, dtype=np.float64)
+    if wanted.shape != (3,) or not (wanted > 0.0).all():
+        raise ValueError(f"factors are {wanted.tolist()}, want three above 0")
+    if any(np.abs(joint.axis).max() < 1.0 - ALONG for joint in articulation.movable_joints):
+        wanted = np.full(3, float(np.prod(wanted)) ** (1.0 / 3.0))
+    joints = tuple(_stretched(joint, wanted) for joint in articulation.joints)
+    return replace(
+        articulation, mesh=articulation.mesh.transformed(np.diag([*wanted, 1.0])), joints=joints
+    )
+
+
+def mirrored(articulation: Articulation) -> Articulation:
+    """Return the object as its mirror image, left for right (x negated); opening stays positive."""
+    flip = np.array([-1.0, 1.0, 1.0])
+    joints = tuple(
+        replace(
+            joint,
+            axis=(-1.0 if joint.turns else 1.0) * flip * joint.axis,
+            origin=flip * joint.origin,
+        )
+        for joint in articulation.joints
+    )
+    return replace(
+        articulation, mesh=articulation.mesh.transformed(np.diag([*flip, 1.0])), joints=joints
+    )
+
+
+def _stretched(joint: Joint, factors: FloatArray) -> Joint:
+    along = 1.0 if joint.turns else float(factors[np.abs(joint.axis).argmax()])
+    return replace(
+        joint, origin=factors * joint.origin, lower=joint.lower * along, upper=joint.upper * along
+    )

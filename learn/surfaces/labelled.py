@@ -1,0 +1,193 @@
+"""A labelled mesh that passes work on: which part and which piece every face belongs to."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.geometry.posing import face_parts
+from asset_factory.factory.mesh import FloatArray, IntArray, Material, Mesh
+
+BoolArray = npt.NDArray[np.bool_]
+
+#: A part keeps at least this share of its surface, whatever a pass drops.
+KEPT_SHARE = 0.15
+#: What stands for a texture, which no longer fits: linear RGBA.
+WOOD = (0.5, 0.36, 0.22, 1.0)
+
+
+@dataclass(frozen=True)
+class Labelled:
+    """Triangles and what they belong to; passes take one and give another.
+
+    Attributes:
+        vertices: object frame [m], shape [vertex_count, 3].
+        faces: vertex indices, shape [face_count, 3].
+        label: part, piece and material of each face, shape [face_count, 3]; pieces, the solids that
+            faces belong to, are numbered 0, 1, ... without gaps.
+    """
+
+    vertices: FloatArray
+    faces: IntArray
+    label: IntArray
+
+    @classmethod
+    def of(cls, articulation: Articulation) -> Labelled:
+        """The mesh of an articulation; faces of one part that share vertices are one piece."""
+        mesh = articulation.mesh
+        part = face_parts(articulation)
+        key = part[:, None] * len(mesh.vertices) + mesh.faces
+        used, corners = np.unique(key, return_inverse=True)
+        faces = np.asarray(corners.reshape(-1, 3), dtype=np.int64)
+        edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]]])
+        weight = np.ones(len(edges), dtype=np.int8)
+        graph = coo_matrix((weight, edges.T), shape=(len(used), len(used)))
+        piece = connected_components(graph, directed=False)[1][faces[:, 0]]
+        label = np.stack([part, piece, mesh.face_material], axis=1)
+        return cls(mesh.vertices[used % len(mesh.vertices)], faces, _numbered(label))
+
+    def articulation(self, original: Articulation, character: str) -> Articulation:
+        """These faces with the parts and joints of ``original``, and one sentence about them."""
+        used, corners = np.unique(self.faces, return_inverse=True)
+        looks = tuple(plain(material) for material in original.mesh.materials)
+        faces = corners.reshape(-1, 3)
+        mesh = Mesh(self.vertices[used], faces, None, None, self.label[:, 2], looks)
+        parts = tuple(
+            replace(part, faces=np.flatnonzero(self.part == i))
+            for i, part in enumerate(original.parts)
+        )
+        return replace(original, mesh=mesh, parts=parts, notes=(*original.notes, character))
+
+    @property
+    def part(self) -> IntArray:
+        """Of every face, shape [face_count]."""
+        return np.asarray(self.label[:, 0])
+
+    @property
+    def piece(self) -> IntArray:
+        """Of every face, shape [face_count]."""
+        return np.asarray(self.label[:, 1])
+
+    @property
+    def piece_count(self) -> int:
+        """Return how many pieces there are."""
+        return int(self.piece.max(initial=-1)) + 1
+
+    @property
+    def piece_labels(self) -> IntArray:
+        """Part, piece and material of every piece, shape [piece_count, 3]."""
+        return self.label[np.unique(self.piece, return_index=True)[1]]
+
+    @property
+    def corners(self) -> FloatArray:
+        """Of every face [m], shape [face_count, 3, 3]."""
+        return np.asarray(self.vertices[self.faces])
+
+    @property
+    def crosses(self) -> FloatArray:
+        """Normal of every face, as long as twice its area [m2], shape [face_count, 3]."""
+        corners = self.corners
+        return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+
+    @property
+    def areas(self) -> FloatArray:
+        """Of every face [m2], shape [face_count]."""
+        return np.asarray(np.linalg.norm(self.crosses, axis=1) / 2.0)
+
+    @property
+    def bounds(self) -> tuple[FloatArray, FloatArray]:
+        """Lower and upper corner of the box of all faces [m], each of shape [3]."""
+        used = self.vertices[self.faces.reshape(-1)]
+        return used.min(axis=0), used.max(axis=0)
+
+    @property
+    def longest(self) -> float:
+        """Longest side of the box of all faces [m]."""
+        low, high = self.bounds
+        return float((high - low).max())
+
+    def boxes(self) -> tuple[FloatArray, FloatArray]:
+        """Lower and upper corner of every piece's box [m], each of shape [piece_count, 3]."""
+        order = np.argsort(self.piece, kind="stable")
+        start = np.searchsorted(self.piece[order], np.arange(self.piece_count))
+        corners = self.corners[order]
+        low = np.minimum.reduceat(corners.min(axis=1), start)
+        return low, np.maximum.reduceat(corners.max(axis=1), start)
+
+    def chosen(self, faces: BoolArray) -> Labelled:
+        """Only these faces."""
+        return Labelled(self.vertices, self.faces[faces], _numbered(self.label[faces]))
+
+    def without(self, faces: BoolArray) -> Labelled:
+        """All but these faces; a part that would lose too much of its surface loses nothing."""
+        areas = self.areas
+        whole = np.bincount(self.part, areas)
+        left = np.bincount(self.part, np.where(faces, 0.0, areas))
+        kept = ~(faces & (left >= KEPT_SHARE * whole)[self.part])
+        return self if kept.all() else self.chosen(kept)
+
+    def with_own_vertices(self) -> Labelled:
+        """Pieces share no vertices."""
+        key = self.piece[:, None] * len(self.vertices) + self.faces
+        used, faces = np.unique(key, return_inverse=True)
+        vertices = self.vertices[used % len(self.vertices)]
+        return replace(self, vertices=vertices, faces=faces.reshape(-1, 3))
+
+    def grown(self, reach: float, least: float) -> Labelled:
+        """Every piece stretched by ``reach`` at either end [m], to no less than a share of it."""
+        own = self.with_own_vertices()
+        low, high = own.boxes()
+        half = np.maximum((high - low) / 2.0, 1e-9)
+        piece = np.zeros(len(own.vertices), dtype=np.int64)
+        piece[own.faces] = own.piece[:, None]
+        middle = (low + half)[piece]
+        factor = np.maximum(1.0 + reach / half, least)[piece]
+        return replace(own, vertices=middle + (own.vertices - middle) * factor)
+
+    def sampled(self, shares: FloatArray, rng: np.random.Generator) -> tuple[FloatArray, IntArray]:
+        """Points on each face, and on those at these shares of all area; and their faces [m]."""
+        areas = self.areas
+        far = np.searchsorted(np.cumsum(areas / areas.sum()), shares)
+        face = np.concatenate([np.arange(len(areas)), np.minimum(far, len(areas) - 1)])
+        u, v = rng.random((2, len(face)))
+        root = np.sqrt(u)
+        weights = np.stack([1.0 - root, root * (1.0 - v), root * v], axis=1)
+        return np.einsum("ni,nij->nj", weights, self.corners[face]), face
+
+
+def joined(several: Sequence[Labelled]) -> Labelled:
+    """All faces of several meshes, in order; no vertices and no pieces are shared between them."""
+    faces: list[IntArray] = []
+    label: list[IntArray] = []
+    vertex = 0
+    piece = 0
+    for each in several:
+        faces.append(each.faces + vertex)
+        label.append(each.label + np.array((0, piece, 0)))
+        vertex += len(each.vertices)
+        piece += each.piece_count
+    vertices = np.concatenate([each.vertices for each in several])
+    return Labelled(vertices, np.concatenate(faces), np.concatenate(label))
+
+
+def plain(material: Material) -> Material:
+    """Return the material without its texture."""
+    return material if material.texture is None else Material(material.name, WOOD)
+
+
+def some(rng: np.random.Generator, count: int, share: float) -> BoolArray:
+    """Return each of ``count`` things with probability ``share``."""
+    return np.asarray(rng.random(count) < share)
+
+
+def _numbered(label: IntArray) -> IntArray:
+    """Return the same labels, pieces numbered without gaps."""
+    numbered = np.array(label, dtype=np.int64)
+    numbered[:, 1] = np.unique(label[:, 1], return_inverse=True)[1].reshape(-1)
+    return numbered

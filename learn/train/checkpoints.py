@@ -1,0 +1,134 @@
+"""Everything that a run needs to go on as if it had never stopped."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.particulate.weights.checkpoint import load_tensors, open_checkpoint
+from asset_factory.factory.runtime.store import writing
+
+Tensor = Any
+LAST = "last.pt"
+BEST = "best.pt"
+_FORMAT = 1
+
+
+@dataclass(frozen=True)
+class State:
+    """A run after some steps, without random state.
+
+    All chance of a step follows from the seed and its number.
+
+    Attributes:
+        step: steps done.
+        weights: of the network.
+        mean: running mean of the weights.
+        optimiser: its state.
+        best: the highest score of a validation so far, and its step; ``None`` before the first.
+        recipe: the configuration, as TOML.
+        data: digest of the data.
+        seconds: spent so far.
+    """
+
+    step: int
+    weights: dict[str, Tensor]
+    mean: dict[str, Tensor]
+    optimiser: dict[str, Any]
+    best: tuple[float, int] | None
+    recipe: str
+    data: str
+    seconds: float
+
+
+def write_state(path: Path, state: State) -> None:
+    """Write a checkpoint such that the file is always the old one or the new one, complete."""
+    import torch
+
+    stored = {
+        "format": _FORMAT,
+        "step": state.step,
+        "weights": state.weights,
+        "mean": state.mean,
+        "optimiser": state.optimiser,
+        "best": None if state.best is None else list(state.best),
+        "recipe": state.recipe,
+        "data": state.data,
+        "seconds": state.seconds,
+    }
+    with writing(path, lasting=True) as stream:
+        torch.save(stored, stream)
+
+
+def read_state(path: Path) -> State:
+    """Return a checkpoint; nothing in the file is run.
+
+    Raises:
+        ConfigError: no such file, or not a checkpoint of a training.
+    """
+    import torch
+
+    try:
+        stored = torch.load(path, map_location="cpu", weights_only=True)
+        if stored["format"] != _FORMAT:
+            raise ConfigError(f"{path}: a checkpoint of format {stored['format']}, want {_FORMAT}")
+        best = stored["best"]
+        return State(
+            step=int(stored["step"]),
+            weights=stored["weights"],
+            mean=stored["mean"],
+            optimiser=stored["optimiser"],
+            best=None if best is None else (float(best[0]), int(best[1])),
+            recipe=stored["recipe"],
+            data=stored["data"],
+            seconds=float(stored["seconds"]),
+        )
+    except FileNotFoundError as error:
+        raise ConfigError(f"{path}: no such file; there is no run to go on with") from error
+    except ConfigError:
+        raise
+    except Exception as error:  # torch names many reasons, with as many types
+        raise ConfigError(
+            f"{path}: not a checkpoint of a training, or damaged: {error}; "
+            f"another run can begin --from {BEST} or from "
+            "the weights beside it"
+        ) from error
+
+
+def read_weights(path: Path) -> dict[str, Tensor]:
+    """Return the weights to start from: a checkpoint's running mean, or another file's weights.
+
+    Raises:
+        ConfigError: no such file, or no file of weights.
+    """
+    if path.suffix == ".pt":
+        try:
+            return read_state(path).mean
+        except ConfigError:
+            if not path.is_file():
+                raise
+    return load_tensors(open_checkpoint(path))
+
+
+def fill(network: Any, weights: dict[str, Tensor], path: Path) -> None:
+    """Give a network weights, all of them and no others.
+
+    Raises:
+        ConfigError: they are of another network; says all that differs.
+    """
+    wanted = {name: tuple(tensor.shape) for name, tensor in network.state_dict().items()}
+    found = {name: tuple(tensor.shape) for name, tensor in weights.items()}
+    missing = [f"{name}: missing" for name in wanted if name not in found]
+    extra = [f"{name}: not in the network" for name in found if name not in wanted]
+    other = [
+        f"{name}: shape {list(found[name])}, want {list(wanted[name])}"
+        for name in wanted
+        if name in found and found[name] != wanted[name]
+    ]
+    differences = other + missing + extra
+    if differences:
+        more = f"; and {len(differences) - 8} more" if len(differences) > 8 else ""
+        raise ConfigError(f"{path}: weights of another network: {'; '.join(differences[:8])}{more}")
+    network.load_state_dict(weights)

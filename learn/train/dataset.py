@@ -1,0 +1,344 @@
+"""Which sample is the n-th of a step: a function of seed, step and number, nothing else.
+
+So nothing about the sources has to be stored to go on with a run, and the number of workers changes
+no sample.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from dataclasses import dataclass, fields
+from hashlib import sha256
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from asset_factory.factory.errors import AssetFactoryError, ConfigError, InputRejected
+from asset_factory.factory.presets import overlay
+
+from ..objects.mixture import MixtureSettings, sample_object
+from ..samples.sample import DrawSettings, Sample, draw
+from ..samples.sampled_object import SampledObject, read_sampled, sampled_from
+from .settings import DataSource, TrainConfig
+
+if TYPE_CHECKING:
+    from ..datasets import SourceReport
+
+_TRAINING, _HELD_OUT, _OBJECT, _ORDER = range(4)
+_TRIES = 20
+
+
+@dataclass(frozen=True)
+class Files:
+    """Sampled objects in files.
+
+    Attributes:
+        paths: sorted.
+        weight: how often they are drawn, relative to the other pools.
+        report: what became of the objects that they were made of; ``None`` where they are sampled
+            objects by themselves.
+    """
+
+    paths: tuple[Path, ...]
+    weight: float
+    report: SourceReport | None = None
+
+
+@dataclass(frozen=True)
+class Generator:
+    """Sampled objects that are made when they are wanted.
+
+    Attributes:
+        source: how they are used.
+        style: what they are like.
+        weight: how often they are drawn, relative to the other pools.
+    """
+
+    source: DataSource
+    style: MixtureSettings
+    weight: float
+
+
+Pool = Files | Generator
+
+
+def find_pools(sources: Iterable[DataSource], cache: Path) -> tuple[Pool, ...]:
+    """Return the samples behind sources; other formats are converted into ``cache`` first.
+
+    Raises:
+        ConfigError: a source has nothing to give.
+    """
+    pools: list[Pool] = []
+    for source in sources:
+        if source.kind == "procedural":
+            style = overlay(MixtureSettings(), source.style, "procedural: style")
+            pools.append(Generator(source, style, source.weight))
+            continue
+        pools.append(
+            _sampled_files(source) if source.kind == "sampled" else _converted(source, cache)
+        )
+    return tuple(pools)
+
+
+def source_lines(pools: Iterable[Pool]) -> list[str]:
+    """For people: what became of the objects of every source that had to be converted."""
+    return [
+        line
+        for pool in pools
+        if isinstance(pool, Files) and pool.report is not None
+        for line in pool.report.lines()
+    ]
+
+
+def source_counts(pools: Iterable[Pool]) -> list[dict[str, Any]]:
+    """Return what each source gives: its kind, sample count, and skipped objects by reason."""
+    counts: list[dict[str, Any]] = []
+    for pool in pools:
+        if isinstance(pool, Generator):
+            counts.append(
+                {"kind": "procedural", "sampled": pool.source.objects or None, "skipped": {}}
+            )
+            continue
+        report = pool.report
+        kind, skipped = ("sampled", {}) if report is None else (report.kind, report.counts)
+        counts.append({"kind": kind, "sampled": len(pool.paths), "skipped": skipped})
+    return counts
+
+
+def _converted(source: DataSource, cache: Path) -> Files:
+    from ..datasets import SourceSettings, prepare
+
+    settings = overlay(SourceSettings(), source.options, f"{source.kind}: options")
+    split = Path(source.split) if source.split else None
+    prepared = prepare(source.kind, Path(source.path), cache, split=split, settings=settings)
+    if not prepared.sampled_objects:
+        said = "\n".join(prepared.report.lines())
+        raise ConfigError(f"{source.path}: no object in it can be used; want at least one\n{said}")
+    return Files(tuple(sorted(prepared.sampled_objects)), source.weight, prepared.report)
+
+
+def _sampled_files(source: DataSource) -> Files:
+    from ..datasets.split import read_split
+
+    folder = Path(source.path)
+    if not folder.is_dir():
+        raise ConfigError(f"{folder}: no such folder; want one with .npz sampled objects")
+    paths = sorted(
+        path for path in folder.rglob("*.npz") if path.is_file() and not path.name.startswith(".")
+    )
+    if not paths:
+        raise ConfigError(f"{folder}: no sampled objects in it; want .npz files")
+    if source.split:
+        names = read_split(Path(source.split))
+        first = paths[0].stem
+        paths = [path for path in paths if path.stem in names or path.name in names]
+        if not paths:
+            raise ConfigError(
+                f"split {source.split}: names none of the objects, which are called e.g. {first}"
+            )
+    return Files(tuple(paths), source.weight)
+
+
+def digest(pools: Iterable[Pool]) -> str:
+    """Of which data there is: file names and generator settings, as a hexadecimal number."""
+    hashed = sha256()
+    for pool in pools:
+        named = (
+            [path.name for path in pool.paths]
+            if isinstance(pool, Files)
+            else [repr((pool.source, pool.style))]
+        )
+        hashed.update("\n".join([f"{pool.weight:g}", *named, ""]).encode())
+    return hashed.hexdigest()
+
+
+class Dataset:
+    """Draws the samples of a run.
+
+    Args:
+        config: of the run.
+        pools: of its data.
+    """
+
+    def __init__(self, config: TrainConfig, pools: tuple[Pool, ...]) -> None:
+        self._config = config
+        self._pools = pools
+        weights = np.array([pool.weight for pool in pools])
+        self._shares = np.cumsum(weights / weights.sum())
+        self._kept = _Kept(config.run.cache_mb * 1_000_000)
+
+    def sample(self, step: int, number: int) -> Sample:
+        """Return the sample at a place of a step.
+
+        Raises:
+            ConfigError: several sampled objects in a row cannot be read or have too many parts.
+        """
+        config = self._config
+        rng = np.random.default_rng([config.seed, _TRAINING, step, number])
+        refused = ""
+        for attempt in range(_TRIES):
+            which = min(
+                int(np.searchsorted(self._shares, rng.random(), side="right")), len(self._pools) - 1
+            )
+            pool = self._pools[which]
+            try:
+                if isinstance(pool, Files):
+                    sampled = self._kept.read(pool.paths[int(rng.integers(len(pool.paths)))])
+                else:
+                    sampled = self._kept.make(pool, self._object_seed(which, step, number, attempt))
+            except AssetFactoryError as error:
+                refused = str(error)
+                continue
+            if len(sampled.parents) <= config.network.max_parts:
+                return draw(sampled, rng, config.draw_at(step))
+            refused = (
+                f"{sampled.name}: has {len(sampled.parents)} parts, "
+                f"want at most {config.network.max_parts}"
+            )
+        raise ConfigError(
+            f"step {step}: {_TRIES} sampled objects in a row cannot be used; the last: {refused}"
+        )
+
+    def _object_seed(self, which: int, step: int, number: int, attempt: int) -> tuple[int, ...]:
+        """Seed of the procedural object behind a sample.
+
+        Each lane has its own stream of objects, of which ``reuse`` samples are drawn from each, in
+        an order in which objects from a window of steps are mixed; a worker that takes a whole lane
+        makes each object once.
+        """
+        config = self._config
+        pool = self._pools[which]
+        source = pool.source if isinstance(pool, Generator) else DataSource()
+        lane = number % config.lanes
+        row = number // config.lanes
+        in_lane = len(range(lane, config.batch, config.lanes))
+        share = pool.weight / sum(each.weight for each in self._pools)
+        reuse = max(1, round(source.reuse / share))
+        block, place = divmod(step * in_lane + row, reuse * _WINDOW)
+        order = np.random.default_rng([config.seed, _ORDER, which, lane, block]).permutation(
+            reuse * _WINDOW
+        )
+        thing = block * _WINDOW + int(order[place]) // reuse
+        if source.objects:
+            return (
+                config.seed,
+                _OBJECT,
+                which,
+                (thing * config.lanes + lane) % source.objects,
+                attempt,
+            )
+        return (config.seed, _OBJECT, which, lane, thing, attempt)
+
+
+_WINDOW = 8
+"""Objects of a lane that are drawn from at a time."""
+
+
+def held_out_samples(config: TrainConfig, pools: tuple[Pool, ...]) -> list[Sample]:
+    """Return the validation examples of a run: always the same ones.
+
+    Raises:
+        ConfigError: there are sources of them, and none gives one that can be used.
+    """
+    samples = []
+    kept = _Kept(0)
+    settings: DrawSettings = config.validation_draw
+    per_pool = max(1, config.validation.objects // max(1, len(pools)))
+    for which, pool in enumerate(pools):
+        for number, sampled in _some(pool, per_pool, which, config.seed, kept):
+            if len(sampled.parents) <= config.network.max_parts:
+                rng = np.random.default_rng([config.seed, _HELD_OUT, which, number])
+                samples.append(draw(sampled, rng, settings))
+    if pools and not samples:
+        most = config.network.max_parts
+        raise ConfigError(
+            f"held_out: none of its objects can be read and has at most {most} parts; "
+            "want some that do"
+        )
+    return samples
+
+
+def _some(
+    pool: Pool, wanted: int, which: int, seed: int, kept: _Kept
+) -> Iterable[tuple[int, SampledObject]]:
+    """Sampled objects with their numbers; those that cannot be used leave out theirs."""
+    if isinstance(pool, Files):
+        rows = np.unique(np.linspace(0, len(pool.paths) - 1, wanted).round().astype(int))
+        for number, row in enumerate(rows):
+            with suppress(AssetFactoryError):
+                yield number, kept.read(pool.paths[row])
+        return
+    given = 0
+    tried = 0
+    while given < wanted and tried < _TRIES * wanted:
+        tried += 1
+        with suppress(AssetFactoryError):
+            yield given, kept.make(pool, (seed, _HELD_OUT, which, tried))
+            given += 1
+
+
+class _Kept:
+    """Sampled objects used last.
+
+    Args:
+        most: bytes of them.
+    """
+
+    def __init__(self, most: int) -> None:
+        self._most = most
+        self._bytes = 0
+        self._sampled_objects: OrderedDict[object, SampledObject | AssetFactoryError] = (
+            OrderedDict()
+        )
+
+    def read(self, path: Path) -> SampledObject:
+        return self._get(path, lambda: read_sampled(path))
+
+    def make(self, pool: Generator, seed: tuple[int, ...]) -> SampledObject:
+        return self._get(seed, lambda: _made(pool, seed))
+
+    def _get(self, key: object, get: Callable[[], SampledObject]) -> SampledObject:
+        found = self._sampled_objects.pop(key, None)
+        if found is None:
+            try:
+                found = get()
+            except AssetFactoryError as error:
+                # Without the frames it came through, which hold all that they had made.
+                found = error.with_traceback(None)
+            self._bytes += _size(found)
+        self._sampled_objects[key] = found
+        while self._bytes > self._most and len(self._sampled_objects) > 1:
+            self._bytes -= _size(self._sampled_objects.popitem(last=False)[1])
+        if isinstance(found, AssetFactoryError):
+            raise found.with_traceback(None)
+        return found
+
+
+def _size(sampled: SampledObject | AssetFactoryError) -> int:
+    if isinstance(sampled, AssetFactoryError):
+        return 1000
+    return sum(getattr(getattr(sampled, each.name), "nbytes", 100) for each in fields(sampled))
+
+
+def _made(pool: Generator, seed: tuple[int, ...]) -> SampledObject:
+    rng = np.random.default_rng(seed)
+    try:
+        name, articulation = sample_object(rng, pool.style)
+        return sampled_from(
+            articulation,
+            name=name,
+            category=name.partition("-")[0],
+            source="procedural",
+            points=pool.source.points,
+            rng=rng,
+        )
+    except (ValueError, ArithmeticError, LookupError, RuntimeError) as error:
+        if isinstance(error, AssetFactoryError):
+            raise
+        # One odd object in a million must not end a run; when all are odd, the run says so.
+        raise InputRejected(
+            "not_made", f"procedural object {seed}: {type(error).__name__}: {error}"
+        ) from None

@@ -1,0 +1,110 @@
+"""Several processes that train one network: started by ``torchrun``, which numbers them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+Tensor = Any
+
+
+@dataclass(frozen=True)
+class ProcessGroup:
+    """The processes of a run.
+
+    Attributes:
+        rank: number of this one.
+        world: how many there are.
+        device: where this one computes, as torch names it.
+    """
+
+    rank: int
+    world: int
+    device: str
+
+    @property
+    def first(self) -> bool:
+        """Return whether this process writes the files."""
+        return self.rank == 0
+
+    def sums(self, numbers: Sequence[float]) -> list[float]:
+        """Sums over the processes."""
+        import torch
+
+        if self.world == 1:
+            return list(numbers)
+        tensor = torch.tensor(numbers, dtype=torch.float64, device=self.device)
+        torch.distributed.all_reduce(tensor)
+        return [float(number) for number in tensor.tolist()]
+
+    def add_gradients(self, parameters: Sequence[Tensor]) -> None:
+        """Replace every gradient by its sum over the processes; losses share the step's mean."""
+        import torch
+
+        if self.world == 1:
+            return
+        for each in parameters:
+            if each.grad is None:
+                each.grad = torch.zeros_like(each)
+        gradients = [each.grad for each in parameters]
+        flat = torch.cat([gradient.flatten() for gradient in gradients])
+        torch.distributed.all_reduce(flat)
+        at = 0
+        for gradient in gradients:
+            gradient.copy_(flat[at : at + gradient.numel()].view_as(gradient))
+            at += gradient.numel()
+
+    def add(self, tensor: Tensor) -> Tensor:
+        """Return a tensor's sum over the processes."""
+        import torch
+
+        if self.world > 1:
+            torch.distributed.all_reduce(tensor)
+        return tensor
+
+    @contextmanager
+    def first_alone(self) -> Iterator[None]:
+        """Yield the first process goes through a block before the others do."""
+        if not self.first:
+            self.wait()
+        yield
+        if self.first:
+            self.wait()
+
+    def wait(self) -> None:
+        """Until every process is here."""
+        import torch
+
+        if self.world > 1:
+            torch.distributed.barrier()
+
+
+@contextmanager
+def joined(device: str) -> Iterator[ProcessGroup]:
+    """Yield the group that this process belongs to; alone where ``torchrun`` did not start it.
+
+    Args:
+        device: as in ``RunSettings``.
+    """
+    import torch
+
+    world = int(os.environ.get("WORLD_SIZE", "1"))
+    rank = int(os.environ.get("RANK", "0"))
+    local = int(os.environ.get("LOCAL_RANK", "0"))
+    if device == "auto":
+        device = "cuda" if torch.cuda.is_available() else "cpu"
+    if device == "cuda":
+        device = f"cuda:{local}"
+    if device.startswith("cuda"):
+        torch.cuda.set_device(device)
+    if world == 1:
+        yield ProcessGroup(0, 1, device)
+        return
+    torch.distributed.init_process_group("nccl" if device.startswith("cuda") else "gloo")
+    try:
+        yield ProcessGroup(rank, world, device)
+    finally:
+        torch.distributed.destroy_process_group()

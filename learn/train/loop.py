@@ -1,0 +1,348 @@
+"""A run from its first step, or from where it was cut off, to its last."""
+
+from __future__ import annotations
+
+import ctypes
+import json
+import signal
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import torch  # noqa: TID253 - this module is only imported to train
+
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.particulate.network.shape import expected_tensors, parameter_count
+from asset_factory.factory.particulate.weights.safetensors import write_safetensors
+from asset_factory.factory.runtime.store import write_whole
+
+from ..samples.sample import Sample
+from ..train.data_loader import DataLoader
+from ..train.dataset import digest, find_pools, held_out_samples, source_counts, source_lines
+from .checkpoints import BEST, LAST, State, fill, read_state, read_weights, write_state
+from .curves import Curve, draw_curves, require_plotting
+from .distributed import ProcessGroup, joined
+from .folder import held
+from .progress import Watch, watching
+from .recipes import parse_train_config
+from .settings import TrainConfig
+from .trainer import COLUMNS, Trainer
+from .validation import Scores, validate
+
+RECIPE = "config.toml"
+CURVE = "curves.csv"
+VALIDATION = "validation.csv"
+MODEL = "model.safetensors"
+PICTURE = "curves.png"
+CARD = "card.json"
+_FREE = ("run", "held_out", "validation")
+"""Settings that may change when a run goes on: they do not change what it learns."""
+
+
+@dataclass(frozen=True)
+class RunOutcome:
+    """How a run ended.
+
+    Attributes:
+        output: its folder.
+        step: steps done.
+        finished: whether those are all; otherwise it was asked to stop and can go on.
+        scores: the last ones on held-out examples; ``None`` without any.
+    """
+
+    output: Path
+    step: int
+    finished: bool
+    scores: Scores | None
+
+
+def run_training(
+    config: TrainConfig,
+    recipe: str,
+    output: Path,
+    *,
+    resume: bool = False,
+    start: Path | None = None,
+) -> RunOutcome:
+    """Train a network, and leave everything about it in a folder.
+
+    Args:
+        config: of the run.
+        recipe: the TOML it was read from.
+        output: the folder: weights, checkpoints, curves, a card with figures, and a copy of the
+            recipe.
+        resume: go on with the run that is there.
+        start: weights to begin with, for a run on other data.
+
+    Raises:
+        ConfigError: the folder holds a run and ``resume`` is not asked for, or the other way round;
+            the run there has another recipe; another process trains there; the data cannot be read;
+            or the network learns nothing any more, as its gradients are not finite.
+        OSError: the folder cannot be written to.
+    """
+    if config.run.threads:
+        torch.set_num_threads(config.run.threads)
+    _keep_freed_memory()
+    with joined(config.run.device) as group, ExitStack() as stack:
+        state = _prepare(config, output, resume, group, stack)
+        return _Run(config, recipe, output, group).go(state, start)
+
+
+class _Run:
+    """What a run needs beside its trainer."""
+
+    def __init__(self, config: TrainConfig, recipe: str, output: Path, group: ProcessGroup) -> None:
+        self._config = config
+        self._recipe = recipe
+        self._output = output
+        self._group = group
+        cache = Path(config.run.cache) if config.run.cache else output / "sampled"
+        # The first process converts what needs it; the others then find it converted.
+        with group.first_alone():
+            pools = find_pools(config.data, cache)
+            held_out = find_pools(config.held_out, cache)
+        self._pools = pools
+        self._held_out_pools = held_out
+        self._data = digest(pools)
+        self._held_out: list[Sample] = held_out_samples(config, held_out) if group.first else []
+        self._trainer = Trainer(config, group)
+        self._best: tuple[float, int] | None = None
+        self._scores: Scores | None = None
+        self._seconds = 0.0
+        self._since = time.monotonic()
+
+    def go(self, state: State | None, start: Path | None) -> RunOutcome:
+        config = self._config
+        group = self._group
+        if state is not None:
+            self._trainer.restore(state, self._output / LAST)
+            self._best = state.best
+            self._seconds = state.seconds
+        elif start is not None:
+            weights = read_weights(start)
+            fill(self._trainer.network, weights, start)
+            self._trainer.start_from(weights)
+            if group.first:
+                # Resumed before its first checkpoint, a run would otherwise begin with random
+                # weights.
+                write_state(self._output / LAST, self._state(0))
+        if group.first and not (self._output / RECIPE).is_file():
+            # Not before data and weights are found: what could not begin leaves no run to go on
+            # with.
+            write_whole(self._output / RECIPE, self._recipe.encode())
+        first = 0 if state is None else state.step
+        steps = config.schedule.steps
+        if group.first:
+            self._curve = Curve(self._output / CURVE, COLUMNS, first)
+            self._table = Curve(
+                self._output / VALIDATION, [each.name for each in fields(Scores)], first
+            )
+        with watching(steps, first, quiet=not group.first) as watch:
+            for line in source_lines((*self._pools, *self._held_out_pools)):
+                watch.say(line)
+            if state is not None and state.data != self._data:
+                watch.say(
+                    "the data are not those that this run began with: "
+                    "its curve will not repeat exactly"
+                )
+            step = first
+            stopped = False
+            if first < steps:
+                step, stopped = self._steps(first, watch)
+            if not stopped and group.first:
+                self._finish(watch)
+        group.wait()
+        return RunOutcome(self._output, step, not stopped, self._scores)
+
+    def _steps(self, first: int, watch: Watch) -> tuple[int, bool]:
+        """Steps until the last or until stopped; returns how many are done, and if stopped."""
+        config = self._config
+        group = self._group
+        pending: list[tuple[int, Any]] = []
+        with _asked_to_stop() as asked, self._feed(first, watch) as loader:
+            for step in range(first, config.schedule.steps):
+                began = time.monotonic()
+                batch = loader.batch(step)
+                watch.waited(time.monotonic() - began, config.batch)
+                values, stop = self._trainer.step(step, batch, bool(asked))
+                done = step + 1
+                pending.append((done, values))
+                last = done == config.schedule.steps
+                saving = last or stop or done % config.run.checkpoint_every == 0
+                every = config.run.validate_every
+                scoring = last or (every > 0 and done % every == 0)
+                if saving or scoring or done % config.run.log_every == 0:
+                    self._log(pending, watch)
+                    pending = []
+                if saving or scoring:
+                    self._trainer.require_finite(done)
+                if scoring and group.first:
+                    self._score(done, watch)
+                if (saving or scoring) and group.first:
+                    self._save(done)
+                if stop and not last:
+                    watch.say(f"stopped after step {done}; --resume goes on")
+                    return done, True
+        return config.schedule.steps, False
+
+    def _feed(self, first: int, watch: Watch) -> DataLoader:
+        return DataLoader(
+            self._config, self._pools, first, self._group.rank, self._group.world, watch.say
+        )
+
+    def _log(self, pending: list[tuple[int, Any]], watch: Watch) -> None:
+        values = self._group.add(torch.stack([each for _, each in pending])).tolist()
+        if self._group.first:
+            self._curve.add([(step, row) for (step, _), row in zip(pending, values, strict=True)])
+        loss = sum(row[0] for row in values) / len(values)
+        watch.stepped(pending[-1][0], loss, values[-1][COLUMNS.index("rate")])
+
+    def _score(self, step: int, watch: Watch) -> None:
+        if not self._held_out:
+            return
+        scores = validate(
+            self._trainer.mean_network, self._held_out, self._config, self._group.device
+        )
+        self._scores = scores
+        self._table.add([(step, list(scores.to_dict().values()))])
+        watch.say(
+            f"step {step}  held out: "
+            f"{', '.join(f'{name} {v:.3f}' for name, v in scores.to_dict().items())}"
+        )
+        if self._best is None or scores.part_iou > self._best[0]:
+            self._best = (scores.part_iou, step)
+            write_state(self._output / BEST, self._state(step))
+
+    def _save(self, step: int) -> None:
+        half = self._config.half
+        weights = self._trainer.mean.weights
+        kept = {name: each.half() if half else each.float() for name, each in weights.items()}
+        # The checkpoint last: cut off in between, the run goes on from the one before and writes
+        # both again.
+        write_safetensors(self._output / MODEL, kept, self._about(step))
+        write_state(self._output / LAST, self._state(step))
+
+    def _state(self, step: int) -> State:
+        seconds = self._seconds + time.monotonic() - self._since
+        return self._trainer.state(step, self._best, self._recipe, self._data, seconds)
+
+    def _about(self, step: int) -> dict[str, str]:
+        config = self._config
+        return {
+            "network": "Part Articulation Transformer",
+            "recipe": config.recipe,
+            "features": config.network.features,
+            "max_parts": str(config.network.max_parts),
+            "axes": "upright" if config.loss.upright_axes else "opening",
+            "terms": config.terms,
+            "data": self._data,
+            "seed": str(config.seed),
+            "steps": str(step),
+        }
+
+    def _finish(self, watch: Watch) -> None:
+        """The picture and the card, of a run that is at its end."""
+        config = self._config
+        output = self._output
+        if self._scores is None and self._held_out:
+            self._scores = validate(
+                self._trainer.mean_network, self._held_out, config, self._group.device
+            )
+        draw_curves(output / CURVE, output / VALIDATION, output / PICTURE)
+        card = {
+            **self._about(config.schedule.steps),
+            "parameters": parameter_count(expected_tensors(config.network.shape)),
+            "samples": config.schedule.steps * config.batch,
+            "sources": source_counts(self._pools),
+            "seconds": round(self._state(config.schedule.steps).seconds),
+            "processes": self._group.world,
+            "device": self._group.device,
+            "held_out_examples": len(self._held_out),
+            "held_out": None if self._scores is None else self._scores.to_dict(),
+            "best": None
+            if self._best is None
+            else {"part_iou": self._best[0], "step": self._best[1]},
+        }
+        write_whole(output / CARD, (json.dumps(card, indent=2) + "\n").encode())
+        watch.say(f"the weights are in {output / MODEL}")
+
+
+def _prepare(
+    config: TrainConfig, output: Path, resume: bool, group: ProcessGroup, stack: ExitStack
+) -> State | None:
+    """Make the folder, or find the run in it, and lock it; returns the state to go on from."""
+    require_plotting()
+    # Every process looks before the first one writes.
+    there = (output / LAST).is_file()
+    begun = (output / RECIPE).is_file()
+    group.wait()
+    if begun and not resume:
+        raise ConfigError(
+            f"{output}: holds a run already; go on with --resume, or name another folder"
+        )
+    if not begun and resume:
+        raise ConfigError(f"{output}: holds no run to go on with; leave --resume out to begin one")
+    if group.first:
+        output.mkdir(parents=True, exist_ok=True)
+        stack.enter_context(held(output))
+        for left in output.glob(".writing-*"):
+            left.unlink()
+    group.wait()
+    if not begun:
+        return None
+    _require_same(config, (output / RECIPE).read_text(encoding="utf-8"), output)
+    return read_state(output / LAST) if there else None
+
+
+def _require_same(config: TrainConfig, stored: str, output: Path) -> None:
+    before = parse_train_config(stored, str(output / RECIPE))
+    for each in fields(TrainConfig):
+        old = getattr(before, each.name)
+        new = getattr(config, each.name)
+        if each.name in _FREE or old == new:
+            continue
+        changed = each.name
+        if hasattr(old, "__dataclass_fields__"):
+            olds = asdict(old)
+            news = asdict(new)
+            changed = ", ".join(f"{each.name}.{name}" for name in olds if olds[name] != news[name])
+        raise ConfigError(
+            f"{output}: the run there has another {changed}; go on with its own {RECIPE}, "
+            "or begin another run from its weights with --from"
+        )
+
+
+@contextmanager
+def _asked_to_stop() -> Iterator[list[int]]:
+    """A list that fills when somebody interrupts or ends the process; a second time is at once."""
+    asked: list[int] = []
+
+    def note(number: int, _frame: Any) -> None:
+        asked.append(number)
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+    before = {number: signal.signal(number, note) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield asked
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _keep_freed_memory() -> None:
+    """Have the C library keep the arrays of a step for the next one.
+
+    By default glibc gives large ones back at once, and the system clears every page anew: a tenth
+        of a step on a CPU.
+    """
+    try:
+        adjust = ctypes.CDLL(None).mallopt
+    except (AttributeError, OSError, TypeError):
+        return
+    trim_threshold = -1
+    mmap_threshold = -3
+    adjust(mmap_threshold, 1 << 30)
+    adjust(trim_threshold, (1 << 31) - 1)

@@ -1,0 +1,325 @@
+"""What the network is taught: the paper's losses, each a mean over what it applies to.
+
+Every loss is a sum divided by a number that only the labels decide. The numbers are counted for a
+whole step first, over all its micro-batches and processes, so that however a step is divided its
+losses and gradients are the same.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+from asset_factory.factory.particulate.network.shape import AxisForm
+
+from ..samples.batches import Batch
+from .matching import arranged, arranged_columns, match
+
+Tensor = Any
+NAMES = (
+    "mask",
+    "dice",
+    "hierarchy",
+    "motion",
+    "revolute_direction",
+    "prismatic_direction",
+    "revolute_range",
+    "prismatic_range",
+    "closest_points",
+    "auxiliary",
+)
+_DICE_EPS = 1e-6
+_SYMMETRIC = 0.02
+"""A range whose middle is this near to 0, as a share of its width, reads the same both ways."""
+
+
+@dataclass(frozen=True)
+class LossSettings:
+    """Weights of the losses, and what they apply to; the paper's where it names them.
+
+    It names neither Dice nor auxiliary losses.
+
+    Attributes:
+        mask: cross-entropy of each point's part.
+        dice: soft overlap of points and parts.
+        hierarchy: binary cross-entropy of who is whose parent.
+        motion: cross-entropy of the motion class.
+        revolute_direction, prismatic_direction: distance of directions, not normalised.
+        revolute_range, prismatic_range: distance of limits.
+        closest_points: distance of the nearest points on the axes; of a network that says axes by
+            their moments, distance of those.
+        auxiliary: cross-entropy of each point's part after every block but the last.
+        auxiliary_points: one in so many points takes part in it.
+        root_first: the base always answers to query 0.
+        sign_free: where a range reads the same from both ends, the opposite direction is as good.
+        unseen_parts: parts of which no point was drawn teach too.
+        upright_axes: every axis of rotation is taught by the one of its two directions whose
+            largest coordinate is positive, and its limits to suit: the same joint. Which way a door
+            opens is then for the limits alone to say; where it cannot be told, a direction would be
+            torn between two opposite ones, and learnt as neither.
+    """
+
+    mask: float = 1.0
+    dice: float = 0.0
+    hierarchy: float = 1.0
+    motion: float = 1.0
+    revolute_direction: float = 1.0
+    prismatic_direction: float = 1.0
+    revolute_range: float = 0.1
+    prismatic_range: float = 1.0
+    closest_points: float = 1.0
+    auxiliary: float = 0.0
+    auxiliary_points: int = 4
+    root_first: bool = False
+    sign_free: bool = False
+    unseen_parts: bool = True
+    upright_axes: bool = False
+
+    def weight(self, name: str) -> float:
+        """Of one of ``NAMES``."""
+        return float(getattr(self, name))
+
+
+def taught(batch: Batch, settings: LossSettings) -> Batch:
+    """Return a batch of tensors with its axes of rotation as the settings want them taught."""
+    import torch
+
+    if not settings.upright_axes:
+        return batch
+    direction = batch.revolute_direction
+    limits = batch.revolute_range
+    largest = direction.gather(-1, direction.abs().argmax(-1, keepdim=True))
+    turned = largest < 0.0
+    return replace(
+        batch,
+        revolute_direction=torch.where(turned, -direction, direction),
+        revolute_range=torch.where(turned, -limits.flip(-1), limits),
+    )
+
+
+@dataclass(frozen=True)
+class LossTargets:
+    """Which rows of a batch each loss applies to, as booleans.
+
+    Attributes:
+        parts: shape [batch, parts].
+        pairs: pairs of those parts, shape [batch, parts, parts].
+        edges: row is parent of column, shape [batch, parts, parts].
+        revolute_direction, prismatic_direction, revolute_range, prismatic_range: shape [batch,
+            parts].
+        closest_points: shape [batch, n].
+    """
+
+    parts: Tensor
+    pairs: Tensor
+    edges: Tensor
+    revolute_direction: Tensor
+    prismatic_direction: Tensor
+    revolute_range: Tensor
+    prismatic_range: Tensor
+    closest_points: Tensor
+
+
+def targets_of(batch: Batch, settings: LossSettings) -> LossTargets:
+    """Return what of a batch of tensors the losses apply to."""
+    import torch
+
+    numbers = torch.arange(batch.parts, device=batch.parents.device)
+    parts = numbers < batch.counts[:, None]
+    if not settings.unseen_parts:
+        seen = torch.zeros_like(batch.parents).scatter_(1, batch.part_ids, 1)
+        parts = parts & (seen > 0)
+    pairs = parts[:, :, None] & parts[:, None, :]
+    turns = (batch.motion == 1) | (batch.motion == 3)
+    return LossTargets(
+        parts=parts,
+        pairs=pairs,
+        edges=(batch.parents[:, None, :] == numbers[:, None]) & pairs,
+        revolute_direction=(batch.revolute_direction != 0).any(-1) & parts,
+        prismatic_direction=(batch.prismatic_direction != 0).any(-1) & parts,
+        revolute_range=(batch.revolute_range != 0).any(-1) & parts,
+        prismatic_range=(batch.prismatic_range != 0).any(-1) & parts,
+        closest_points=turns.gather(1, batch.part_ids),
+    )
+
+
+@dataclass(frozen=True)
+class Counts:
+    """How many of each there are in a step, all its parts together."""
+
+    points: float
+    auxiliary: float
+    parts: float
+    pairs: float
+    edges: float
+    revolute_direction: float
+    prismatic_direction: float
+    revolute_range: float
+    prismatic_range: float
+    closest_points: float
+
+    @property
+    def edge_weight(self) -> float:
+        """Pairs that are no edge, per edge; 1 without any edge."""
+        return (self.pairs - self.edges) / self.edges if self.edges else 1.0
+
+
+def count(batch: Batch, targets: LossTargets, settings: LossSettings) -> list[float]:
+    """Return the fields of :class:`Counts` for one micro-batch; those of a step are their sums."""
+    found: list[float] = []
+    for each in fields(Counts):
+        if each.name == "points":
+            found.append(float(batch.part_ids.numel()))
+        elif each.name == "auxiliary":
+            found.append(
+                float(len(batch) * math.ceil(batch.part_ids.shape[1] / settings.auxiliary_points))
+            )
+        else:
+            found.append(float(getattr(targets, each.name).sum()))
+    return found
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What the network said, parts matched.
+
+    Attributes:
+        queries: see :func:`..matching.match`.
+        mask_logits: before they are put in the parts' order, shape [batch, n, parts].
+        parts: of the part heads, in the parts' order, by the names of ``PartOutputs``.
+        closest_points: shape [batch, n, 3]; ``None`` of a network that says axes by their moments.
+    """
+
+    queries: Tensor
+    mask_logits: Tensor
+    parts: Any
+    closest_points: Tensor | None
+
+
+def forward(network: Any, batch: Batch, settings: LossSettings) -> tuple[Answers, list[Tensor]]:
+    """Run the network on a batch, and match its queries with the true parts.
+
+    Returns:
+        Its answers, and the mask logits of some of the points after every block but the last, where
+        those teach.
+    """
+    hidden = network.embed(batch.points, batch.normals, batch.features)
+    queries = network.first_queries().expand(len(batch), -1, -1)
+    early: list[Tensor] = []
+    for number, block in enumerate(network.blocks, start=1):
+        hidden, queries = block(hidden, queries)
+        if settings.auxiliary and number < len(network.blocks):
+            early.append(network.mask_logits(hidden[:, :: settings.auxiliary_points], queries))
+    masks = network.mask_logits(hidden, queries)
+    found = match(masks, batch.part_ids, batch.counts, root_first=settings.root_first)
+    queries = arranged(queries, found)
+    votes = network.shape.axis_form is AxisForm.CLOSEST_POINTS
+    closest = network.closest_points(hidden, queries, batch.part_ids) if votes else None
+    return Answers(found, masks, network.part_outputs(queries), closest), early
+
+
+def losses(
+    answers: Answers,
+    early: list[Tensor],
+    batch: Batch,
+    targets: LossTargets,
+    counts: Counts,
+    settings: LossSettings,
+) -> dict[str, Tensor]:
+    """Every loss by its name in ``NAMES``, not weighted: this batch's share of the step's mean.
+
+    A loss that applies to nothing is 0, and so is its gradient.
+    """
+    import torch
+    from torch.nn import functional
+
+    parts = answers.parts
+    masks = arranged_columns(answers.mask_logits, answers.queries).float()
+    found = {"mask": _cross_entropy(masks, batch.part_ids) / counts.points}
+    zero = masks.new_zeros(())
+    found["dice"] = _dice(masks, batch, targets) / max(counts.parts, 1.0) if settings.dice else zero
+    edges = targets.edges.float()
+    weight = torch.as_tensor(counts.edge_weight, dtype=torch.float32, device=edges.device)
+    pairs = functional.binary_cross_entropy_with_logits(
+        parts.hierarchy_logits.float(), edges, pos_weight=weight, reduction="none"
+    )
+    found["hierarchy"] = _sum(pairs, targets.pairs) / max(counts.pairs, 1.0)
+    motion = functional.cross_entropy(
+        parts.motion_logits.float().transpose(1, 2), batch.motion, reduction="none"
+    )
+    found["motion"] = _sum(motion, targets.parts) / max(counts.parts, 1.0)
+    for kind in ("revolute", "prismatic"):
+        name = f"{kind}_direction"
+        limits = getattr(batch, f"{kind}_range")
+        error = _direction_error(
+            getattr(parts, name), getattr(batch, name), limits, settings.sign_free
+        )
+        found[name] = _sum(error, getattr(targets, name)) / max(getattr(counts, name), 1.0)
+    for name in ("revolute_range", "prismatic_range"):
+        error = (getattr(parts, name).float() - getattr(batch, name)).abs().mean(-1)
+        found[name] = _sum(error, getattr(targets, name)) / max(getattr(counts, name), 1.0)
+    error = _place_error(answers, batch)
+    found["closest_points"] = _sum(error, targets.closest_points) / max(counts.closest_points, 1.0)
+    found["auxiliary"] = (
+        _auxiliary(early, answers.queries, batch, counts, settings) if early else zero
+    )
+    return found
+
+
+def total(found: dict[str, Tensor], settings: LossSettings) -> Tensor:
+    """Return the weighted sum that is minimised."""
+    return sum(settings.weight(name) * found[name] for name in NAMES if settings.weight(name))
+
+
+def _cross_entropy(masks: Tensor, part_ids: Tensor) -> Tensor:
+    from torch.nn import functional
+
+    return functional.cross_entropy(masks.flatten(0, 1), part_ids.flatten(), reduction="sum")
+
+
+def _auxiliary(
+    early: list[Tensor], queries: Tensor, batch: Batch, counts: Counts, settings: LossSettings
+) -> Tensor:
+    part_ids = batch.part_ids[:, :: settings.auxiliary_points]
+    sums = [_cross_entropy(arranged_columns(each, queries).float(), part_ids) for each in early]
+    return sum(sums) / (len(sums) * counts.auxiliary)
+
+
+def _dice(masks: Tensor, batch: Batch, targets: LossTargets) -> Tensor:
+    from torch.nn import functional
+
+    shares = masks.softmax(-1)
+    true = functional.one_hot(batch.part_ids, masks.shape[-1]).to(shares.dtype)
+    both = 2.0 * (shares * true).sum(1) + _DICE_EPS
+    return _sum(1.0 - both / (shares.sum(1) + true.sum(1) + _DICE_EPS), targets.parts)
+
+
+def _direction_error(said: Tensor, true: Tensor, limits: Tensor, sign_free: bool) -> Tensor:
+    """Mean distance per coordinate, shape [batch, parts]."""
+    import torch
+
+    straight = (said.float() - true).abs().mean(-1)
+    if not sign_free:
+        return straight
+    width = limits[..., 1] - limits[..., 0]
+    either = (limits.sum(-1).abs() <= 2.0 * _SYMMETRIC * width) | (
+        width >= 2.0 * math.pi - _SYMMETRIC
+    )
+    return torch.where(
+        either, torch.minimum(straight, (said.float() + true).abs().mean(-1)), straight
+    )
+
+
+def _place_error(answers: Answers, batch: Batch) -> Tensor:
+    """How far each point's axis is off: its nearest point, or its moment; shape [batch, n]."""
+    if answers.closest_points is not None:
+        return (answers.closest_points.float() - batch.closest_points).abs().mean(-1)
+    part = batch.part_ids[..., None].expand(-1, -1, 3)
+    moment = batch.revolute_direction.gather(1, part).cross(batch.closest_points, dim=-1)
+    return (answers.parts.revolute_moment.float().gather(1, part) - moment).abs().mean(-1)
+
+
+def _sum(values: Tensor, where: Tensor) -> Tensor:
+    """Over the rows a loss applies to; other rows, even infinite, do not reach the gradient."""
+    return values.masked_fill(~where, 0.0).sum()

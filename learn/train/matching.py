@@ -1,0 +1,77 @@
+"""Which query answers for which true part: the assignment that explains the points best."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+Tensor = Any
+
+
+def match(
+    mask_logits: Tensor, part_ids: Tensor, counts: Tensor, *, root_first: bool = False
+) -> Tensor:
+    """Return the query of every part, then the queries that are left.
+
+    The assignment has the greatest sum over points of the logarithm of the probability that the
+    point belongs to the query of its part (the paper, "Matching predicted parts with
+    ground-truth"), found by the Hungarian method.
+
+    Args:
+        mask_logits: which query each point belongs to, shape [batch, n, parts].
+        part_ids: true part of each point, int64, shape [batch, n].
+        counts: true parts of each sample, at most ``parts``, shape [batch].
+        root_first: part 0, the base, always answers to query 0.
+
+    Returns:
+        int64, shape [batch, parts]: a permutation of the queries per sample; row ``k`` is the query
+        of part ``k``, for ``k`` below the sample's count, and after those come the others in
+        ascending order.
+    """
+    import torch
+
+    # In full precision: the sums over points are long.
+    with torch.no_grad(), torch.autocast(mask_logits.device.type, enabled=False):
+        # An answer that overflowed is matched anyhow: its loss is no number, which whoever takes
+        # the step sees.
+        costs = np.nan_to_num(assignment_costs(mask_logits.detach(), part_ids).cpu().numpy())
+    queries = [
+        _permutation(cost[:count], root_first)
+        for cost, count in zip(costs, counts.cpu().tolist(), strict=True)
+    ]
+    return torch.from_numpy(np.stack(queries)).to(mask_logits.device)
+
+
+def assignment_costs(mask_logits: Tensor, part_ids: Tensor) -> Tensor:
+    """Cost of giving a part to a query, [batch, part, query]: minus log-probability over points."""
+    import torch
+    from torch.nn import functional
+
+    log_shares = functional.log_softmax(mask_logits.float(), dim=-1)
+    of_part = functional.one_hot(part_ids, mask_logits.shape[-1]).to(log_shares.dtype)
+    return -torch.matmul(of_part.transpose(1, 2), log_shares)
+
+
+def _permutation(cost: Any, root_first: bool) -> Any:
+    queries = np.arange(cost.shape[1])
+    if root_first:
+        _, rest = linear_sum_assignment(cost[1:, 1:])
+        chosen = np.concatenate([[0], rest + 1])
+    else:
+        _, chosen = linear_sum_assignment(cost)
+    return np.concatenate([chosen, np.setdiff1d(queries, chosen)]).astype(np.int64)
+
+
+def arranged(tensor: Tensor, queries: Tensor) -> Tensor:
+    """Rows of [batch, parts, ...] in the order that :func:`match` found."""
+    index = queries.reshape(*queries.shape, *[1] * (tensor.dim() - 2)).expand(
+        *queries.shape, *tensor.shape[2:]
+    )
+    return tensor.gather(1, index)
+
+
+def arranged_columns(tensor: Tensor, queries: Tensor) -> Tensor:
+    """Columns of [batch, n, parts] in the order that :func:`match` found."""
+    return tensor.gather(2, queries[:, None].expand(-1, tensor.shape[1], -1))

@@ -1,0 +1,213 @@
+"""What a training run does: its settings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from asset_factory.factory.particulate.components import COMPONENT_FEATURES
+from asset_factory.factory.particulate.network.shape import AxisForm, NetworkShape
+
+from ..samples.sample import DrawSettings
+from .losses import LossSettings
+from .schedule import ScheduleSettings
+
+KINDS = (
+    "procedural",
+    "sampled",
+    "description",
+    "partnet",
+    "particulate",
+    "predictions",
+    "registry",
+    "usd",
+)
+FEATURES = ("none", "components")
+PRECISIONS = ("float32", "bfloat16")
+
+
+@dataclass(frozen=True)
+class DataSource:
+    """Where examples come from.
+
+    Attributes:
+        kind: one of ``KINDS``; ``sampled``: a folder of npz files; ``procedural``: made on the fly.
+        path: the folder, for every kind but ``procedural``; a relative one is taken from the
+            working folder.
+        split: file with the names to take, one per line; empty: all of them.
+        weight: how often it is drawn from, relative to the other sources.
+        objects: procedural: how many different ones; 0: ever new ones.
+        reuse: procedural: examples drawn from each object before a new one is made.
+        points: procedural: pooled per object, of which each example takes some.
+        style: procedural: what differs from the defaults of ``MixtureSettings``.
+        options: other kinds: what differs from the defaults of ``SourceSettings``.
+    """
+
+    kind: str = "sampled"
+    path: str = ""
+    split: str = ""
+    weight: float = 1.0
+    objects: int = 0
+    reuse: int = 8
+    points: int = 8192
+    style: dict[str, Any] = field(default_factory=dict)
+    options: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class NetworkSettings:
+    """Sizes of the network.
+
+    Attributes:
+        hidden, blocks, heads, mlp_ratio, raw_coords, max_parts: see ``NetworkShape``.
+        features: of a point beside place and normal: ``none``, or ``components``, what its
+            connected component looks like.
+        axes: ``per_point_closest``: every point votes for where its part's axis is; or
+            ``per_part_plucker``: its part says so once, by a moment. See ``AxisForm``.
+        dropout: in training.
+        quiet_start: weights on the fast sinusoids, those that turn by more than ``quiet_below`` per
+            unit of length, start the smaller the faster they are: a short training has no use for
+            them.
+        quiet_below: [rad per unit of length].
+    """
+
+    hidden: int = 768
+    blocks: int = 6
+    heads: int = 12
+    mlp_ratio: int = 4
+    raw_coords: bool = True
+    max_parts: int = 16
+    features: str = "none"
+    axes: str = AxisForm.CLOSEST_POINTS.value
+    dropout: float = 0.0
+    quiet_start: bool = False
+    quiet_below: float = 30.0
+
+    @property
+    def shape(self) -> NetworkShape:
+        """As the network wants them."""
+        return NetworkShape(
+            hidden=self.hidden,
+            blocks=self.blocks,
+            heads=self.heads,
+            mlp_ratio=self.mlp_ratio,
+            raw_coords=self.raw_coords,
+            max_parts=self.max_parts,
+            features=COMPONENT_FEATURES if self.features == "components" else 0,
+            axis_form=AxisForm(self.axes),
+        )
+
+
+@dataclass(frozen=True)
+class OptimiserSettings:
+    """AdamW and what is around it.
+
+    Attributes:
+        betas: decay of its two means.
+        weight_decay: of matrices; norms and biases are left alone.
+        clip: largest norm of the gradient; 0: any.
+        ema: decay of the running mean of the weights, which is what is shipped; less in the first
+            steps.
+    """
+
+    betas: tuple[float, float] = (0.9, 0.98)
+    weight_decay: float = 0.02
+    clip: float = 1.0
+    ema: float = 0.999
+
+
+@dataclass(frozen=True)
+class RunSettings:
+    """How the work is done, which the result does not depend on, but for rounding.
+
+    Attributes:
+        micro_batch: samples that go through the network at once; gradients of a step's add up. 0:
+            all of them.
+        workers: processes per trainer that draw samples; 0: none, samples are drawn between the
+            steps.
+        threads: of a trainer on the CPU; 0: as torch decides.
+        device: ``auto``, ``cpu``, ``cuda`` or ``cuda:<n>``.
+        precision: of the products on a GPU: ``float32`` or ``bfloat16``.
+        compile: have torch compile the blocks, on a GPU.
+        ahead: steps whose samples wait drawn.
+        cache_mb: memory that each worker keeps sampled objects in [MB].
+        cache: folder that other formats are converted into, once for all runs; empty: the run's
+            own.
+        log_every: steps per line of the log.
+        checkpoint_every: steps per checkpoint.
+        validate_every: steps per validation; 0: only at the end.
+    """
+
+    micro_batch: int = 0
+    workers: int = 1
+    threads: int = 0
+    device: str = "auto"
+    precision: str = "bfloat16"
+    compile: bool = False
+    ahead: int = 4
+    cache_mb: int = 1024
+    cache: str = ""
+    log_every: int = 50
+    checkpoint_every: int = 500
+    validate_every: int = 1000
+
+
+@dataclass(frozen=True)
+class ValidationSettings:
+    """The held-out examples.
+
+    Attributes:
+        objects: at most so many, evenly spread over those there are.
+        points: of each.
+        batch: samples at once.
+    """
+
+    objects: int = 64
+    points: int = 1024
+    batch: int = 16
+
+
+@dataclass(frozen=True)
+class TrainConfig:
+    """A training run.
+
+    Attributes:
+        data: sources of examples.
+        held_out: sources of validation examples; none: no validation.
+        seed: of everything; a sample depends on it, the step and its place in the step alone.
+        batch: samples per step, over all processes.
+        lanes: streams of procedural objects; a worker takes whole ones, so at least as many as
+            workers.
+        half: write the weights as float16.
+        recipe: a name for the run.
+        terms: under which the weights may be used, with the sources of the data; written into the
+            file.
+    """
+
+    data: tuple[DataSource, ...] = ()
+    held_out: tuple[DataSource, ...] = ()
+    seed: int = 0
+    batch: int = 128
+    lanes: int = 16
+    half: bool = False
+    recipe: str = "paper"
+    terms: str = ""
+    draw: DrawSettings = field(default_factory=DrawSettings)
+    network: NetworkSettings = field(default_factory=NetworkSettings)
+    loss: LossSettings = field(default_factory=LossSettings)
+    schedule: ScheduleSettings = field(default_factory=ScheduleSettings)
+    optimiser: OptimiserSettings = field(default_factory=OptimiserSettings)
+    validation: ValidationSettings = field(default_factory=ValidationSettings)
+    run: RunSettings = field(default_factory=RunSettings)
+
+    def draw_at(self, step: int) -> DrawSettings:
+        """Return how the samples of a step are drawn."""
+        points = self.schedule.points_at(step, self.draw.points)
+        return replace(self.draw, points=points, components=self.network.features == "components")
+
+    @property
+    def validation_draw(self) -> DrawSettings:
+        """How validation samples are drawn: as training's, but upright, whole, not stretched."""
+        return replace(
+            self.draw_at(0), points=self.validation.points, fused_share=0.0, merged_share=0.0
+        )

@@ -1,0 +1,223 @@
+"""A network in training: one step of it, and its state between steps."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch  # noqa: TID253 - this module is only imported to train
+
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.particulate.network.shape import FREQUENCIES
+from asset_factory.factory.particulate.network.transformer import PartArticulationTransformer
+
+from ..samples.batches import Batch
+from .checkpoints import State, fill
+from .distributed import ProcessGroup
+from .ema import RunningMean
+from .losses import NAMES, Counts, count, forward, losses, targets_of, taught, total
+from .settings import TrainConfig
+
+Tensor = Any
+COLUMNS = ("total", *NAMES, "rate", "gradient")
+_DROPOUT = 4
+_MOST_MISSED = 20
+"""Steps in a row whose gradients are not finite, after which a run ends."""
+_SPREAD = 1000.0
+_BASE = 10000.0
+
+
+class Trainer:
+    """A network, its optimiser and the running mean of its weights.
+
+    Args:
+        config: of the run.
+        group: of processes; every one holds the same weights.
+    """
+
+    def __init__(self, config: TrainConfig, group: ProcessGroup) -> None:
+        self._config = config
+        self._group = group
+        self._missed = 0
+        torch.manual_seed(config.seed)
+        network = PartArticulationTransformer(config.network.shape, config.network.dropout)
+        if config.network.quiet_start:
+            quieten(network, config.network.quiet_below)
+        self.network = network.to(group.device).train()
+        self.mean = RunningMean(self.network, config.optimiser.ema)
+        self._parameters = list(self.network.parameters())
+        self.optimiser = _optimiser(self.network, config)
+        with torch.device("meta"):
+            self.mean_network = PartArticulationTransformer(config.network.shape)
+        # It shares the running mean's tensors, so it always has the weights of the last step.
+        self.mean_network.load_state_dict(self.mean.weights, assign=True)
+        self.mean_network.requires_grad_(False).eval()
+        if group.device.startswith("cuda"):
+            torch.set_float32_matmul_precision("high")
+            if config.run.compile:
+                for block in self.network.blocks:
+                    block.compile()
+
+    def start_from(self, weights: dict[str, Tensor]) -> None:
+        """Begin with given weights instead of random ones."""
+        self.network.load_state_dict(weights)
+        self.mean.load(weights)
+
+    def state(
+        self, step: int, best: tuple[float, int] | None, recipe: str, data: str, seconds: float
+    ) -> State:
+        """Everything there is after ``step`` steps."""
+        return State(
+            step=step,
+            weights=self.network.state_dict(),
+            mean=self.mean.weights,
+            optimiser=self.optimiser.state_dict(),
+            best=best,
+            recipe=recipe,
+            data=data,
+            seconds=seconds,
+        )
+
+    def restore(self, state: State, path: Path) -> None:
+        """Go back to a stored state.
+
+        Raises:
+            ConfigError: it is another network's; says that of the file at ``path``.
+        """
+        for weights in (state.mean, state.weights):
+            fill(self.network, weights, path)
+        self.mean.load(state.mean)
+        try:
+            self.optimiser.load_state_dict(state.optimiser)
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            raise ConfigError(f"{path}: its optimiser's state does not fit: {error}") from error
+
+    def require_finite(self, step: int) -> None:
+        """See to it that no weights are kept that are not numbers.
+
+        Raises:
+            ConfigError: some are not.
+        """
+        for weights in (self.network.state_dict(), self.mean.weights):
+            bad = [name for name, each in weights.items() if not bool(torch.isfinite(each).all())]
+            if bad:
+                raise ConfigError(
+                    f"step {step}: {bad[0]} is not finite any more, nothing of it is kept; "
+                    "want a lower schedule.rate"
+                )
+
+    def step(self, step: int, batch: Batch, stop: bool = False) -> tuple[Tensor, bool]:
+        """Learn from this process's share of a step's samples.
+
+        Args:
+            step: its number, from 0.
+            batch: arrays.
+            stop: whether this process was asked to stop.
+
+        Returns:
+            ``COLUMNS`` of this process's share, the sum of which over the processes is the step's,
+            but for the last two, which only the first process fills; and whether any process was
+            asked to stop.
+        """
+        config = self._config
+        group = self._group
+        if config.network.dropout:
+            self._seed_dropout(step)
+        rate = config.schedule.rate_at(step)
+        for each in self.optimiser.param_groups:
+            each["lr"] = rate
+        host = [
+            taught(each.to("cpu"), config.loss)
+            for each in batch.split(config.run.micro_batch or len(batch))
+        ]
+        # Counted before anything is sent to a GPU: to ask one for a number is to wait for it.
+        counted = [count(each, targets_of(each, config.loss), config.loss) for each in host]
+        micro = [each.to(group.device) for each in host]
+        *sums, stops = group.sums(
+            [*(sum(column) for column in zip(*counted, strict=True)), float(stop)]
+        )
+        counts = Counts(*sums)
+        self.optimiser.zero_grad(set_to_none=True)
+        values = torch.zeros(len(NAMES) + 1, device=group.device)
+        for each in micro:
+            with self._precision():
+                answers, early = forward(self.network, each, config.loss)
+            targets = targets_of(each, config.loss)
+            found = losses(answers, early, each, targets, counts, config.loss)
+            weighted = total(found, config.loss)
+            weighted.backward()
+            values += torch.stack([weighted.detach(), *(found[name].detach() for name in NAMES)])
+        norm = self._update(step)
+        last = [torch.full_like(norm, rate), norm] if group.first else [torch.zeros_like(norm)] * 2
+        return torch.cat([values, torch.stack(last)]), stops > 0
+
+    def _update(self, step: int) -> Tensor:
+        """Move the weights along the gradient, unless it is not finite; returns its norm.
+
+        Raises:
+            ConfigError: it has not been finite for many steps.
+        """
+        self._group.add_gradients(self._parameters)
+        limit = self._config.optimiser.clip or math.inf
+        norm = torch.nn.utils.clip_grad_norm_(self._parameters, limit)
+        # One bad step must not end the run: a sample may be so odd that it overflows.
+        if bool(torch.isfinite(norm)):
+            self.optimiser.step()
+            self.mean.update(self.network, step)
+            self._missed = 0
+        else:
+            self._missed += 1
+        if self._missed >= _MOST_MISSED:
+            raise ConfigError(
+                f"step {step}: the gradients of {_MOST_MISSED} steps in a row are not finite, "
+                "so nothing is learnt; "
+                "the checkpoint is from before; want a lower schedule.rate, or look at the data"
+            )
+        return norm.detach()
+
+    def _precision(self) -> AbstractContextManager[Any]:
+        device = self._group.device
+        lowered = self._config.run.precision == "bfloat16"
+        autocast: AbstractContextManager[Any]
+        autocast = torch.autocast(
+            "cuda", torch.bfloat16, enabled=lowered and device.startswith("cuda")
+        )
+        return autocast
+
+    def _seed_dropout(self, step: int) -> None:
+        seed = np.random.SeedSequence([self._config.seed, _DROPOUT, step, self._group.rank])
+        torch.manual_seed(int(seed.generate_state(1, np.uint64)[0] >> np.uint64(1)))
+
+
+def quieten(network: Any, below: float) -> None:
+    """Make fast sinusoids' weights start small: ``below`` over angular frequency, if less.
+
+    Coordinates are expanded into sines and cosines of up to 1000 rad per unit of length. At first
+    the fastest tell neighbouring points nothing in common; their weights would have to be unlearnt.
+
+    Args:
+        network: a Part Articulation Transformer.
+        below: [rad per unit of length].
+    """
+    frequencies = _SPREAD * torch.exp(-math.log(_BASE) * torch.arange(FREQUENCIES) / FREQUENCIES)
+    factors = (below / frequencies).clamp(max=1.0)
+    embeddings = [network.pos_embed, *([network.normal_embed] if network.shape.normals else [])]
+    with torch.no_grad():
+        for embedding in embeddings:
+            # Per coordinate all sines, then all cosines; then perhaps the plain coordinates.
+            embedding.mlp[0].weight[:, : 6 * FREQUENCIES] *= factors.repeat(6)
+
+
+def _optimiser(network: Any, config: TrainConfig) -> Any:
+    settings = config.optimiser
+    matrices = [each for each in network.parameters() if each.dim() > 1]
+    others = [each for each in network.parameters() if each.dim() <= 1]
+    groups: Sequence[dict[str, Any]] = (
+        {"params": matrices, "weight_decay": settings.weight_decay},
+        {"params": others, "weight_decay": 0.0},
+    )
+    return torch.optim.AdamW(groups, lr=config.schedule.rate, betas=settings.betas, fused=True)

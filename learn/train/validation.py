@@ -1,0 +1,142 @@
+"""How good a network is on held-out examples: always the same ones, drawn the same way."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from asset_factory.factory.mesh import IntArray
+
+from ..samples.batches import Batch, collate
+from ..samples.sample import Sample
+from .losses import NAMES, Counts, count, forward, losses, targets_of, taught
+from .matching import arranged_columns
+from .settings import TrainConfig
+
+
+@dataclass(frozen=True)
+class Scores:
+    """Figures over the held-out examples.
+
+    Attributes:
+        loss: weighted sum of the losses.
+        point_accuracy: share of the points whose part is right, parts matched as in training.
+        part_iou: mean over true parts of the overlap with the predicted part that the best
+            assignment gives them.
+        class_accuracy: share of the parts whose motion class is right, parts matched as in
+            training.
+        revolute_angle, prismatic_angle: median angle between true and predicted direction, either
+            sign [deg].
+    """
+
+    loss: float
+    point_accuracy: float
+    part_iou: float
+    class_accuracy: float
+    revolute_angle: float
+    prismatic_angle: float
+
+    def to_dict(self) -> dict[str, float]:
+        """As plain numbers."""
+        return {name: float(value) for name, value in asdict(self).items()}
+
+
+def validate(network: Any, samples: Sequence[Sample], config: TrainConfig, device: str) -> Scores:
+    """Score a network; it is left in the mode it was in."""
+    import torch
+
+    training = network.training
+    network.eval()
+    found = _Sums()
+    with torch.no_grad():
+        for start in range(0, len(samples), config.validation.batch):
+            chunk = samples[start : start + config.validation.batch]
+            batch = collate(chunk, config.network.max_parts).to(device)
+            _add(found, network, taught(batch, config.loss), config)
+    network.train(training)
+    return found.scores()
+
+
+class _Sums:
+    def __init__(self) -> None:
+        self.loss: list[float] = []
+        self.samples = 0
+        self.right = 0
+        self.points = 0
+        self.ious: list[float] = []
+        self.classes: list[bool] = []
+        self.angles: dict[str, list[float]] = {"revolute": [], "prismatic": []}
+
+    def scores(self) -> Scores:
+        return Scores(
+            loss=sum(self.loss) / max(1, self.samples),
+            point_accuracy=self.right / max(1, self.points),
+            part_iou=_mean(self.ious),
+            class_accuracy=_mean(self.classes),
+            revolute_angle=_median(self.angles["revolute"]),
+            prismatic_angle=_median(self.angles["prismatic"]),
+        )
+
+
+def _add(sums: _Sums, network: Any, batch: Batch, config: TrainConfig) -> None:
+    settings = config.loss
+    targets = targets_of(batch, settings)
+    answers, early = forward(network, batch, settings)
+    found = losses(
+        answers, early, batch, targets, Counts(*count(batch, targets, settings)), settings
+    )
+    sums.loss.append(len(batch) * sum(settings.weight(name) * float(found[name]) for name in NAMES))
+    sums.samples += len(batch)
+    labels = arranged_columns(answers.mask_logits, answers.queries).argmax(-1)
+    sums.right += int((labels == batch.part_ids).sum())
+    sums.points += batch.part_ids.numel()
+    right = answers.parts.motion_logits.argmax(-1) == batch.motion
+    sums.classes += right[targets.parts].tolist()
+    for kind in sums.angles:
+        rows = getattr(targets, f"{kind}_direction")
+        said = getattr(answers.parts, f"{kind}_direction")[rows].cpu().numpy()
+        true = getattr(batch, f"{kind}_direction")[rows].cpu().numpy()
+        sums.angles[kind] += _angles(said, true)
+    for said, true in zip(labels.cpu().numpy(), batch.part_ids.cpu().numpy(), strict=True):
+        sums.ious += part_ious(said, true)
+
+
+def part_ious(said: IntArray, true: IntArray) -> list[float]:
+    """Overlap of every true part with its predicted one, by the best total assignment.
+
+    Args:
+        said: any label of each point, shape [n].
+        true: its part, shape [n].
+
+    Returns:
+        Points in both over points in either, for every part that has points; 0 for one that is
+        given none.
+    """
+    _, rows = np.unique(true, return_inverse=True)
+    _, columns = np.unique(said, return_inverse=True)
+    both = np.zeros((rows.max() + 1, columns.max() + 1))
+    np.add.at(both, (rows, columns), 1.0)
+    either = both.sum(1)[:, None] + both.sum(0)[None] - both
+    overlap = both / either
+    row, column = linear_sum_assignment(-overlap)
+    found = np.zeros(len(overlap))
+    found[row] = overlap[row, column]
+    return [float(value) for value in found]
+
+
+def _angles(said: Any, true: Any) -> list[float]:
+    length = np.linalg.norm(said, axis=1) * np.linalg.norm(true, axis=1)
+    cosine = np.abs(np.einsum("ij,ij->i", said, true)) / np.maximum(length, 1e-9)
+    return [float(angle) for angle in np.degrees(np.arccos(np.clip(cosine, 0.0, 1.0)))]
+
+
+def _mean(values: Sequence[float]) -> float:
+    return sum(values) / len(values) if values else 0.0
+
+
+def _median(values: Sequence[float]) -> float:
+    return float(np.median(values)) if values else 0.0

@@ -1,0 +1,238 @@
+import csv
+import json
+import time
+
+import numpy as np
+import pytest
+from boxy_urdf import write_cabinets
+
+from asset_factory.factory.cli.commands import run
+from asset_factory.factory.config import ParticulateConfig
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.geometry.posing import face_parts
+from asset_factory.learn.evaluate import trial as trials
+from asset_factory.learn.evaluate.cases import cases, folder_requests, procedural_requests
+from asset_factory.learn.evaluate.listing import read_list
+from asset_factory.learn.evaluate.methods import Method
+from asset_factory.learn.evaluate.score import Score
+from asset_factory.learn.evaluate.summary import summarised
+from asset_factory.sim_checks.processes.isolation import Limits
+
+
+@pytest.fixture(scope="module")
+def cabinets(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("cabinets")
+    write_cabinets(folder)
+    return folder
+
+
+def evaluate(cabinets, output, *flags):
+    given = [
+        "evaluate",
+        "--data",
+        str(cabinets),
+        "--list",
+        str(cabinets / "list.csv"),
+        "--half",
+        "both",
+    ]
+    return run([*given, "--output", str(output), *flags])
+
+
+def load(output):
+    return json.loads((output / "evaluation.json").read_text())
+
+
+def test_the_same_evaluation_leaves_the_same_bytes(cabinets, tmp_path, capsys):
+    for name, workers in (("first", "1"), ("second", "2")):
+        assert (
+            evaluate(cabinets, tmp_path / name, "--pose", "closed", "open", "--workers", workers)
+            == 0
+        )
+    for file in ("evaluation.json", "cases.csv"):
+        assert (tmp_path / "first" / file).read_bytes() == (tmp_path / "second" / file).read_bytes()
+    assert str(tmp_path) not in (tmp_path / "first" / "evaluation.json").read_text()
+    assert "part mIoU" in capsys.readouterr().out
+    with (tmp_path / "first" / "cases.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 8
+    naive = [row for row in rows if row["method"] == "naive"]
+    assert all(float(row["articulated_iou"]) == 0.0 and row["precision"] == "" for row in naive)
+    overall = load(tmp_path / "first")["summary"][:2]
+    assert [entry["method"] for entry in overall] == ["geometric", "naive"]
+    assert overall[0]["objects"] == 4
+    mean = np.mean([float(row["part_miou"]) for row in naive])
+    assert overall[1]["values"]["part_miou"] == pytest.approx(mean, abs=1e-6)
+
+
+def test_an_output_that_cannot_be_written_is_refused_at_once(
+    cabinets, tmp_path, capsys, monkeypatch
+):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setattr(trials, "run_trials", None)
+    assert evaluate(cabinets, tmp_path / "file") == 2
+    assert "--output: " in capsys.readouterr().err
+
+
+def write_truth(case, path):
+    """The truth as the published model would write it."""
+    truth = case.articulation
+    count = len(case.articulation.parts)
+    fields = {
+        "face_part_ids": face_parts(truth),
+        "motion_hierarchy": np.array([[joint.parent, joint.child] for joint in truth.joints]),
+        "is_part_revolute": np.zeros(count, bool),
+        "is_part_prismatic": np.zeros(count, bool),
+        "revolute_plucker": np.zeros((count, 6)),
+        "revolute_range": np.zeros((count, 2)),
+        "prismatic_axis": np.zeros((count, 3)),
+        "prismatic_range": np.zeros((count, 2)),
+    }
+    for joint in truth.joints:
+        if joint.turns:
+            fields["is_part_revolute"][joint.child] = True
+            fields["revolute_plucker"][joint.child] = [
+                *joint.axis,
+                *np.cross(joint.axis, joint.origin),
+            ]
+            fields["revolute_range"][joint.child] = joint.lower, joint.upper
+        else:
+            fields["is_part_prismatic"][joint.child] = True
+            fields["prismatic_axis"][joint.child] = joint.axis
+            fields["prismatic_range"][joint.child] = joint.lower, joint.upper
+    np.savez(path, **fields)
+
+
+def test_predictions_are_read_from_files_and_missing_ones_are_scored_as_naive(
+    cabinets, tmp_path, capsys
+):
+    first = next(cases(cabinets, read_list(cabinets / "list.csv"), None))
+    given = tmp_path / "given"
+    given.mkdir()
+    write_truth(first, given / f"{first.name}.npz")
+    flags = ("--method", "naive", "predictions", "--predictions", str(given))
+    assert evaluate(cabinets, tmp_path / "out", *flags) == 0
+    lines = {(line["method"], line["case"]): line for line in load(tmp_path / "out")["cases"]}
+    read = lines["predictions", "made__one__one--closed-front"]
+    assert read["failure"] == ""
+    assert read["values"]["articulated_iou"] == read["values"]["part_miou"] == 1.0
+    lost = lines["predictions", "made__two__two--closed-front"]
+    assert lost["failure"].startswith("missing_file: ")
+    assert lost["values"] == lines["naive", "made__two__two--closed-front"]["values"]
+    assert "missing_file" in capsys.readouterr().err
+    overall = {
+        entry["method"]: entry
+        for entry in load(tmp_path / "out")["summary"]
+        if entry["by"] == "overall"
+    }
+    assert overall["predictions"]["failures"] == 1
+
+
+def test_meshes_are_written_in_the_order_that_predictions_speak_of(cabinets, tmp_path):
+    assert evaluate(cabinets, tmp_path / "unused", "--meshes", str(tmp_path / "meshes")) == 0
+    first = next(cases(cabinets, read_list(cabinets / "list.csv"), None))
+    lines = (tmp_path / "meshes" / f"{first.name}.obj").read_text().split("\n")
+    vertices = np.array([line.split()[1:] for line in lines if line.startswith("v ")], float)
+    faces = np.array([line.split()[1:] for line in lines if line.startswith("f ")], int) - 1
+    assert np.array_equal(vertices, first.articulation.mesh.vertices)
+    assert np.array_equal(faces, first.articulation.mesh.faces)
+    assert not (tmp_path / "unused").exists()
+
+
+def test_the_published_conventions_and_procedural_objects(tmp_path):
+    flags = (
+        "--set",
+        "procedural",
+        "--category",
+        "cabinet",
+        "--seeds",
+        "1",
+        "--convention",
+        "release",
+    )
+    assert (
+        run(["evaluate", "--output", str(tmp_path), *flags, "--points", "500", "--method", "naive"])
+        == 0
+    )
+    data = load(tmp_path)
+    assert data["settings"]["points"] == 500
+    assert -1.0 <= data["summary"][0]["values"]["articulated_giou"] <= 1.0
+
+
+@pytest.mark.parametrize(
+    ("flags", "message"),
+    [
+        (("--set", "imagined"), "--set: is 'imagined', want one of real, procedural, folder"),
+        (("--method", "oracle"), "no method 'oracle'"),
+        (("--method", "predictions"), "want the folder of <case>.npz files"),
+        (
+            ("--method", "particulate", "--checkpoint", "nowhere.safetensors"),
+            "nowhere.safetensors: no such file",
+        ),
+        (("--pose", "ajar"), "no pose 'ajar'"),
+        (("--category", "spaceship"), "none of these objects is a 'spaceship'"),
+        (("--timeout", "0"), "--timeout: is 0 s"),
+        (("--repeats", "0"), "--repeats: is 0, want at least 1"),
+    ],
+)
+def test_wrong_usage_says_what_would_be_right(cabinets, tmp_path, capsys, flags, message):
+    assert evaluate(cabinets, tmp_path / "out", *flags) == 2
+    assert message in capsys.readouterr().err
+
+
+def hangs(trial):
+    time.sleep(60.0)
+
+
+def one_trial(repeat=0):
+    request = procedural_requests(("cabinet",), (0,))[0]
+    return trials.Trial(request, Method("naive", ParticulateConfig()), repeat)
+
+
+def test_a_method_that_hangs_is_cut_off_and_not_scored(monkeypatch):
+    monkeypatch.setattr(trials, "score_trial", hangs)
+    row = next(trials.run_trials([one_trial()], 1, Limits(wall_s=8.0)))
+    assert row.failure == "timeout: no answer within 8 s"
+    assert row.score is None
+
+
+def refuses(trial):
+    raise InputRejected("no_movable_joint", "nothing on it moves")
+
+
+def test_a_method_without_an_answer_is_scored_as_if_nothing_moved(monkeypatch):
+    monkeypatch.setattr(trials, "score_trial", refuses)
+    row = next(trials.run_trials([one_trial()], 1, Limits(wall_s=120.0)))
+    assert row.failure.startswith("no_movable_joint")
+    assert row.score.values["articulated_iou"] == 0.0
+
+
+def test_repetitions_are_told_apart_and_their_spread_is_told():
+    rows = [
+        trials.Row(one_trial(repeat), Score({"a": value}, {"b": (value,)}))
+        for repeat, value in ((0, 1.0), (1, 3.0))
+    ]
+    overall = summarised(rows)[0]
+    assert overall["objects"] == 1
+    assert overall["values"]["a"] == 2.0
+    assert overall["spread"] == {
+        "a": pytest.approx(np.sqrt(2.0), abs=1e-6),
+        "b": pytest.approx(np.sqrt(2.0), abs=1e-6),
+    }
+
+
+def test_one_object_of_many_parts_does_not_outvote_the_others():
+    rows = [
+        trials.Row(one_trial(0), Score({}, {"b": (0.0,) * 9})),
+        trials.Row(one_trial(0), Score({}, {"b": (1.0,)})),
+    ]
+    assert summarised(rows)[0]["parts"]["b"] == {"count": 10, "mean": 0.1, "of_objects": 0.5}
+
+
+def test_folders_are_evaluated_without_a_list(cabinets, tmp_path):
+    assert len(folder_requests(cabinets)) == 2
+    assert (
+        run(["evaluate", "--set", "folder", "--data", str(cabinets), "--output", str(tmp_path)])
+        == 0
+    )
+    assert load(tmp_path)["settings"]["set"] == "folder"

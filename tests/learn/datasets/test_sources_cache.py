@@ -1,0 +1,213 @@
+"""Datasets are brought into the cache once; what is broken is passed over with its reason."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from registry_samples import BAD_REPORT, REPORT
+from usda import CABINET, stage, write
+
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.registry import Entry, Registry
+from asset_factory.learn.datasets import Prepared, SourceSettings, prepare
+from asset_factory.learn.datasets.__main__ import main
+from asset_factory.learn.datasets.description import find_descriptions
+from asset_factory.learn.datasets.fronts import front_advice
+from asset_factory.learn.datasets.making import sampled_item
+from asset_factory.learn.datasets.turning import turned_sampled
+from asset_factory.learn.samples.sampled_object import read_sampled
+
+SETTINGS = SourceSettings(points=64, wall_s=60.0)
+BOX = (
+    '<link name="{}"><visual><origin xyz="{}"/><geometry><box size="{}"/></geometry>'
+    "</visual></link>"
+)
+HINGE = (
+    '<joint name="hinge" type="{}"><parent link="base"/><child link="door"/>'
+    '<origin xyz="-0.5 -0.31 0"/>'
+    '<axis xyz="0 0 1"/><limit lower="-1.5" upper="0"/></joint>'
+)
+
+
+def cabinet(folder: Path, kind: str = "revolute", depth: float = 0.6) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    body = BOX.format("base", "0 0 0", f"1 {depth} 0.8") + BOX.format(
+        "door", "0.5 0 0", "1 0.02 0.8"
+    )
+    path = folder / "cabinet.urdf"
+    path.write_text(f'<robot name="cabinet">{body}{HINGE.format(kind)}</robot>', encoding="utf-8")
+    return path
+
+
+def bring(tmp_path: Path, **changes: object) -> Prepared:
+    return prepare(
+        "description",
+        tmp_path / "data",
+        tmp_path / "cache",
+        settings=SETTINGS,
+        workers=1,
+        **changes,
+    )  # type: ignore[arg-type]
+
+
+@pytest.fixture
+def dataset(tmp_path):
+    data = tmp_path / "data"
+    for name in ("cabinet_1", "cabinet_2"):
+        cabinet(data / name)
+    cabinet(data / "still_1", kind="fixed")
+    (cabinet(data / "torn_1")).write_text("<robot name='x'><link")
+    return tmp_path
+
+
+def test_good_objects_are_read_and_bad_ones_counted(dataset):
+    prepared = bring(dataset)
+    assert prepared.report.read == ("cabinet_1", "cabinet_2")
+    assert prepared.report.counts == {"no_movable_joint": 1, "unreadable": 1}
+    assert prepared.report.made == 2
+    sampled = read_sampled(prepared.sampled_objects[0])
+    assert (sampled.name, sampled.category, sampled.source) == (
+        "cabinet_1",
+        "cabinet",
+        "description",
+    )
+    assert sampled.points.shape == (64, 3)
+    said = json.loads((prepared.sampled_objects[0].parent / "data.json").read_text())
+    assert said["read"] == ["cabinet_1", "cabinet_2"]
+    assert list(said["skipped"]["unreadable"]) == ["torn_1"]
+    assert "still_1" in "\n".join(prepared.report.lines())
+
+
+def test_again_does_nothing_and_notices_what_changed(dataset):
+    first = bring(dataset)
+    stamps = [path.stat().st_mtime_ns for path in first.sampled_objects]
+    again = bring(dataset)
+    assert again.sampled_objects == first.sampled_objects
+    assert again.report.made == 0
+    assert [path.stat().st_mtime_ns for path in again.sampled_objects] == stamps
+    cabinet(dataset / "data" / "cabinet_1", depth=0.4)
+    altered = bring(dataset)
+    assert altered.report.made == 1
+    assert altered.sampled_objects[0] != first.sampled_objects[0]
+    assert altered.sampled_objects[1] == first.sampled_objects[1]
+    (dataset / "data" / "cabinet_2" / "cabinet.urdf").unlink()
+    fewer = bring(dataset)
+    assert fewer.report.read == ("cabinet_1",)
+    assert fewer.report.gone == ("cabinet_2",)
+    first.sampled_objects[1].unlink()
+    cabinet(dataset / "data" / "cabinet_2")
+    assert bring(dataset).report.made == 1
+
+
+def test_same_object_same_bytes_anywhere(dataset, tmp_path):
+    one = bring(dataset).sampled_objects
+    other = prepare(
+        "description", dataset / "data", tmp_path / "elsewhere", settings=SETTINGS, workers=2
+    ).sampled_objects
+    assert [path.name for path in one] == [path.name for path in other]
+    assert [path.read_bytes() for path in one] == [path.read_bytes() for path in other]
+
+
+def test_object_that_takes_too_long_is_passed_over_and_tried_again(dataset):
+    hasty = replace(SETTINGS, wall_s=0.001)
+    slow = prepare("description", dataset / "data", dataset / "cache", settings=hasty, workers=1)
+    assert slow.report.counts == {"timeout": 4}
+    assert bring(dataset).report.read == ("cabinet_1", "cabinet_2")
+
+
+def test_split_chooses_by_name(dataset):
+    split = dataset / "train.txt"
+    split.write_text("# for training\ncabinet_2   # a good one\n\nnot_there\n")
+    assert bring(dataset, split=split).report.read == ("cabinet_2",)
+    split.write_text("# nothing\n")
+    with pytest.raises(ConfigError, match="names no object"):
+        bring(dataset, split=split)
+    split.write_text("nobody\n")
+    with pytest.raises(ConfigError, match="names none"):
+        bring(dataset, split=split)
+
+
+def test_what_cannot_be_asked_is_said(dataset):
+    with pytest.raises(ConfigError, match="there are description"):
+        prepare("nonsense", dataset / "data", dataset / "cache")
+    with pytest.raises(ConfigError, match="is no folder"):
+        prepare("description", dataset / "nowhere", dataset / "cache")
+    with pytest.raises(ConfigError, match="holds no object"):
+        prepare("partnet", dataset / "data", dataset / "cache")
+    with pytest.raises(ConfigError, match="factory build"):
+        prepare("registry", dataset / "data", dataset / "cache")
+
+
+@pytest.mark.parametrize(
+    ("front", "origin"),
+    [("-y", (-0.5, -0.31)), ("x", (-0.31, 0.5)), ("y", (0.5, 0.31)), ("-x", (0.31, -0.5))],
+)
+def test_front_turns_to_minus_y(dataset, front, origin):
+    item = find_descriptions(dataset / "data")[0]
+    sampled = sampled_item("description", item, SourceSettings(points=64, front=front), seed=1)
+    np.testing.assert_allclose(sampled.origin[1, :2], origin, atol=1e-6)
+    turned = turned_sampled(sampled, np.pi)
+    np.testing.assert_allclose(turned.origin[1, :2], -np.asarray(origin), atol=1e-6)
+    np.testing.assert_allclose(turned.points * [-1, -1, 1], sampled.points, atol=1e-6)
+
+
+@pytest.mark.parametrize("front", ["-y", "x", "y", "-x"])
+def test_wrong_front_is_noticed_and_the_right_one_named(dataset, front):
+    prepared = prepare(
+        "description",
+        dataset / "data",
+        dataset / "cache",
+        settings=replace(SETTINGS, front=front),
+        workers=1,
+    )
+    advice = front_advice(prepared.sampled_objects, front)
+    assert advice.endswith("as they should" if front == "-y" else "want -y: try --front -y")
+
+
+def test_usd_is_read_in_a_process_of_its_own(tmp_path):
+    pytest.importorskip("pxr")
+    write(tmp_path / "data" / "cabinet_1", stage(CABINET))
+    write(tmp_path / "data" / "cabinet_2", "PXR-USDC" + "\1" * 500, "asset.usdc")
+    prepared = prepare("usd", tmp_path / "data", tmp_path / "cache", settings=SETTINGS, workers=1)
+    assert prepared.report.read == ("cabinet_1",)
+    assert sum(prepared.report.counts.values()) == 1
+
+
+def test_usd_without_its_library_says_what_to_install(dataset, monkeypatch):
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+    with pytest.raises(ConfigError, match=r"asset-factory\[train\]"):
+        prepare("usd", dataset / "data", dataset / "cache")
+
+
+def test_registered_assets_are_objects(tmp_path):
+    registry = Registry(tmp_path / "data", create=True)
+    for name, status in (("cabinet-1", "passed"), ("cabinet-2", "rejected")):
+        entry = Entry(name, name, "cabinet", status, "", 2, 1, 2)
+        if status == "passed":
+            with registry.staging_folder() as staging:
+                cabinet(staging / name).rename(staging / name / "asset.urdf")
+                registry.publish(entry, staging / name, REPORT)
+        else:
+            registry.reject(entry, BAD_REPORT)
+    prepared = prepare(
+        "registry", tmp_path / "data", tmp_path / "cache", settings=SETTINGS, workers=1
+    )
+    assert prepared.report.read == ("cabinet-1",)
+    assert read_sampled(prepared.sampled_objects[0]).category == "cabinet"
+
+
+def test_command_prints_the_report_and_writes_splits(dataset, capsys):
+    asked = ["--kind", "description", "--path", str(dataset / "data")]
+    assert (
+        main([*asked, "--cache", str(dataset / "cache"), "--points", "64", "--workers", "1"]) == 0
+    )
+    assert "2 of 4 objects read" in capsys.readouterr().out
+    assert main([*asked, "--write-split", str(dataset / "lists"), "--held-out", "0.5"]) == 0
+    lists = [(dataset / f"lists.{part}.txt").read_text().split() for part in ("train", "held_out")]
+    assert sorted([*lists[0], *lists[1]]) == ["cabinet_1", "cabinet_2", "still_1", "torn_1"]
+    assert main(["--kind", "description", "--path", str(dataset / "nowhere")]) == 2

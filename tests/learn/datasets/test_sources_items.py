@@ -1,0 +1,173 @@
+"""What counts as an object of a dataset, what it is called, and what it consists of."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from asset_factory.factory.articulation import Articulation, Joint, Part
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.intake.importers import primitives
+from asset_factory.factory.mesh import Material, concatenate
+from asset_factory.learn.datasets.categories import categories_of, prefix_of
+from asset_factory.learn.datasets.description import find_descriptions
+from asset_factory.learn.datasets.partnet import find_partnet, words
+from asset_factory.learn.datasets.predictions import (
+    find_predictions,
+    read_prediction_item,
+)
+from asset_factory.learn.datasets.settings import SourceSettings
+from asset_factory.learn.datasets.split import is_held_out
+from asset_factory.learn.objects.export import (
+    FileFrame,
+    write_annotation,
+    write_obj,
+    write_sidecar,
+)
+
+
+def touch(path: Path, text: str = "<robot/>") -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_folder_with_a_description_is_one_object(tmp_path):
+    touch(tmp_path / "kitchen" / "fridge_1" / "a.urdf")
+    touch(tmp_path / "kitchen" / "fridge_1" / "fridge_1.urdf")
+    touch(tmp_path / "kitchen" / "fridge_1" / "parts" / "door.urdf")
+    touch(tmp_path / "lamp-2" / "lamp.xml", "<mujoco/>")
+    touch(tmp_path / "lamp-2" / "notes.xml", "<notes/>")
+    touch(tmp_path / ".hidden" / "x.urdf")
+    items = find_descriptions(tmp_path)
+    assert [(item.name, item.main.name) for item in items] == [
+        ("kitchen/fridge_1", "fridge_1.urdf"),
+        ("lamp-2", "lamp.xml"),
+    ]
+    assert [item.category for item in items] == ["fridge", "lamp"]
+    assert {path.name for path in items[0].files} == {"a.urdf", "fridge_1.urdf", "door.urdf"}
+
+
+def test_files_in_the_datasets_own_folder_are_an_object_each(tmp_path):
+    for name in ("b", "a"):
+        touch(tmp_path / f"{name}.urdf")
+    assert [item.name for item in find_descriptions(tmp_path)] == ["a", "b"]
+
+
+def test_links_out_of_the_dataset_do_not_exist(tmp_path):
+    inside = tmp_path / "data" / "box_1"
+    touch(inside / "box.urdf")
+    (inside / "secret.obj").symlink_to(touch(tmp_path / "secret.obj"))
+    (tmp_path / "data" / "box_2").mkdir()
+    (tmp_path / "data" / "box_2" / "box.urdf").symlink_to(touch(tmp_path / "box.urdf"))
+    (item,) = find_descriptions(tmp_path / "data")
+    assert [path.name for path in item.files] == ["box.urdf"]
+
+
+def test_digest_is_of_contents_and_not_of_looks(tmp_path):
+    main = touch(tmp_path / "data" / "box_1" / "box.urdf")
+    image = touch(main.parent / "wood.png", "a")
+    mesh = touch(main.parent / "box.obj", "v 0 0 0")
+    before = find_descriptions(tmp_path / "data")[0].digest()
+    image.write_text("b")
+    assert find_descriptions(tmp_path / "data")[0].digest() == before
+    mesh.write_text("v 0 0 1")
+    assert find_descriptions(tmp_path / "data")[0].digest() != before
+
+
+def test_category_from_inventory_prefix_or_metadata(tmp_path):
+    touch(
+        tmp_path / "data" / "INVENTORY.csv", "path,category\ndata/a_1,Refrigerator\nb_2,lamp\n,\n"
+    )
+    category = categories_of(tmp_path / "data")
+    assert [category(name) for name in ("a_1", "b_2", "wall_cabinet_07", "123")] == [
+        "fridge",
+        "lamp",
+        "wall_cabinet",
+        "",
+    ]
+    touch(tmp_path / "data" / "INVENTORY.csv", "\0nonsense")
+    assert categories_of(tmp_path / "data")("b_2") == "b"
+    assert prefix_of("TrashCan_3") == "trashcan"
+    touch(tmp_path / "partnet" / "123" / "mobility.urdf")
+    touch(tmp_path / "partnet" / "123" / "meta.json", json.dumps({"model_cat": "StorageFurniture"}))
+    touch(tmp_path / "partnet" / "124" / "mobility.urdf")
+    touch(tmp_path / "partnet" / "124" / "meta.json", "{")
+    touch(tmp_path / "partnet" / "125" / "other.urdf")
+    assert [(item.name, item.category != "") for item in find_partnet(tmp_path / "partnet")] == [
+        ("123", True),
+        ("124", False),
+    ]
+    assert [words(name) for name in ("StorageFurniture", "USB", "Box")] == [
+        "Storage Furniture",
+        "USB",
+        "Box",
+    ]
+
+
+def chest() -> Articulation:
+    material = Material("wood")
+    lid = np.eye(4)
+    lid[:3, 3] = 0.0, 0.0, 0.55
+    mesh = concatenate(
+        [
+            primitives.box([1, 1, 1], material),
+            primitives.box([1, 1, 0.1], material).transformed(lid),
+        ]
+    )
+    hinge = Joint(
+        "lid", "revolute", 0, 1, np.array([-1.0, 0, 0]), np.array([0, 0.5, 0.5]), 0.0, 1.5
+    )  # type: ignore[arg-type]
+    return Articulation(
+        mesh, (Part("base", np.arange(12)), Part("lid", np.arange(12, 24))), (hinge,), "made"
+    )
+
+
+@pytest.mark.parametrize("named", ["sidecar", "stem", "alone"])
+def test_labels_beside_a_mesh(tmp_path, named):
+    folder = tmp_path / "chest_1"
+    folder.mkdir()
+    frame = FileFrame(np.eye(4))
+    write_obj(chest().mesh, frame, folder / "chest.obj")
+    labels = {"sidecar": "truth.npz", "stem": "chest.pred.npz", "alone": "pred.npz"}[named]
+    write_annotation(chest(), frame, folder / labels)
+    if named == "sidecar":
+        write_sidecar(folder / "chest.toml", {"scale": 1.0, "annotation": labels})
+    (item,) = find_predictions(tmp_path)
+    assert (item.name, item.category) == ("chest_1", "chest")
+    read = read_prediction_item(item, SourceSettings())
+    assert [len(part.faces) for part in read.parts] == [12, 12]
+    np.testing.assert_allclose(np.abs(read.joints[0].axis), [1, 0, 0], atol=1e-9)
+    (folder / labels).write_bytes(b"torn")
+    with pytest.raises(InputRejected):
+        read_prediction_item(item, SourceSettings())
+
+
+def test_generated_meshes_in_one_folder_do_not_share_files(tmp_path):
+    for name in ("chest_a", "chest_b"):
+        write_obj(chest().mesh, FileFrame(np.eye(4)), tmp_path / f"{name}.obj")
+        write_annotation(chest(), FileFrame(np.eye(4)), tmp_path / f"{name}.pred.npz")
+    items = find_predictions(tmp_path)
+    assert [item.name for item in items] == ["chest_a", "chest_b"]
+    assert {path.name for path in items[0].files} == {
+        "chest_a.obj",
+        "chest_a.mtl",
+        "chest_a.pred.npz",
+    }
+
+
+@given(st.sets(st.text(min_size=1), min_size=1), st.floats(0.0, 1.0))
+def test_growth_moves_no_object_between_lists(names, share):
+    assert all(is_held_out(name, 1.0) and not is_held_out(name, 0.0) for name in names)
+    kept = {name for name in names if not is_held_out(name, share)}
+    assert {name for name in kept if is_held_out(name, share / 2.0)} == set()
+
+
+def test_about_the_share_is_held_out():
+    held = sum(is_held_out(f"box_{number}", 0.2) for number in range(5000))
+    assert held == pytest.approx(1000, abs=120)

@@ -1,0 +1,183 @@
+"""USD: joints, bodies and units as the physics schema means them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("pxr")
+from usda import BASE, CABINET, DOOR, HINGE, body, joint, mesh, stage, write
+
+from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.geometry.posing import posed
+from asset_factory.learn.datasets.settings import SourceSettings
+from asset_factory.learn.datasets.usd import find_usd, read_usd
+
+
+def read(folder: Path, text: str) -> Articulation:
+    write(folder / "thing", text)
+    (item,) = find_usd(folder)
+    return read_usd(item, SourceSettings())
+
+
+def refused(folder: Path, text: str) -> str:
+    with pytest.raises(InputRejected) as caught:
+        read(folder, text)
+    return caught.value.code
+
+
+def test_door_opens_to_the_front_with_positive_values(tmp_path):
+    cabinet = read(tmp_path, stage(CABINET))
+    assert [part.name for part in cabinet.parts] == ["base", "door"]
+    assert [len(part.faces) for part in cabinet.parts] == [12, 12]
+    (hinge,) = cabinet.joints
+    np.testing.assert_allclose([hinge.lower, hinge.upper], [0.0, np.pi / 2.0], atol=1e-6)
+    opened = posed(cabinet, {hinge.name: hinge.upper})
+    np.testing.assert_allclose(opened.part_mesh(1).bounds[0], [-0.51, -1.31, -0.4], atol=1e-6)
+
+
+def test_units_and_up_axis_of_the_stage(tmp_path):
+    header = 'metersPerUnit = 0.01\nupAxis = "Y"'
+    turned = read(tmp_path, stage(CABINET, header))
+    np.testing.assert_allclose(turned.mesh.extents, [0.01, 0.008, 0.0062], atol=1e-7)
+    np.testing.assert_allclose(np.abs(turned.joints[0].axis), [0.0, 1.0, 0.0], atol=1e-6)
+
+
+def test_lengths_on_a_scaled_body_are_scaled(tmp_path):
+    base = body("base", (0, 0, 0), mesh("box", (0.5, 0.3, 0.4)), scale=2.0)
+    hinge = HINGE.replace("(-0.5, -0.31, 0)", "(-0.25, -0.155, 0)")
+    scaled = read(
+        tmp_path, stage(base + DOOR + joint("hinge", "Revolute", "/obj/base", "/obj/door", hinge))
+    )
+    np.testing.assert_allclose(scaled.joints[0].origin[:2], [-0.5, -0.31], atol=1e-6)
+
+
+def test_joint_named_from_the_door_to_the_base_is_the_same_joint(tmp_path):
+    limits = (
+        'uniform token physics:axis = "Z"\npoint3f physics:localPos0 = (-0.5, 0, 0)\n'
+        "float physics:lowerLimit = 0\nfloat physics:upperLimit = 90\n"
+    )
+    held = joint("held", "Fixed", "", "/obj/base")
+    text = stage(BASE + DOOR + held + joint("hinge", "Revolute", "/obj/door", "/obj/base", limits))
+    cabinet = read(tmp_path, text)
+    assert [part.name for part in cabinet.parts] == ["base", "door"]
+    np.testing.assert_allclose(cabinet.joints[0].axis, [0.0, 0.0, -1.0], atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("value", "second"), [(-0.2, "(0, 0, -0.2)"), (0.1, "(0, 0, 0.1)"), (0.0, "(0, 0.3, 0)")]
+)
+def test_value_at_the_authored_pose_is_taken_off_the_limits(tmp_path, value, second):
+    inside = (
+        'uniform token physics:axis = "Z"\npoint3f physics:localPos0 = (0, -0.31, 0)\n'
+        f"point3f physics:localPos1 = {second}\n"
+        "quatf physics:localRot1 = (1, 0, 0, 0)\nfloat physics:lowerLimit = -0.2\n"
+        "float physics:upperLimit = 0.3\n"
+    )
+    slide = read(
+        tmp_path, stage(BASE + DOOR + joint("slide", "Prismatic", "/obj/base", "/obj/door", inside))
+    ).joints[0]
+    ends = sorted(abs(value) for value in (slide.lower, slide.upper))
+    np.testing.assert_allclose(ends, sorted((abs(-0.2 - value), abs(0.3 - value))), atol=1e-6)
+
+
+def test_turned_joint_frames_shift_a_hinge(tmp_path):
+    half = np.radians(15.0)
+    inside = HINGE.replace("-90", "-60") + (
+        "point3f physics:localPos1 = (-0.5, 0, 0)\n"
+        f"quatf physics:localRot1 = ({np.cos(half):.8f}, 0, 0, {-np.sin(half):.8f})\n"
+    )
+    hinge = read(
+        tmp_path, stage(BASE + DOOR + joint("hinge", "Revolute", "/obj/base", "/obj/door", inside))
+    ).joints[0]
+    ends = sorted(abs(value) for value in (hinge.lower, hinge.upper))
+    np.testing.assert_allclose(ends, np.radians([30.0, 30.0]), atol=1e-5)
+
+
+def test_hinge_without_limits_is_continuous_and_a_slide_without_them_is_refused(tmp_path):
+    free = joint("hinge", "Revolute", "/obj/base", "/obj/door")
+    assert read(tmp_path / "a", stage(BASE + DOOR + free)).joints[0].kind == "continuous"
+    assert (
+        refused(
+            tmp_path / "b",
+            stage(BASE + DOOR + joint("slide", "Prismatic", "/obj/base", "/obj/door")),
+        )
+        == "no_limits"
+    )
+
+
+def test_fixed_bodies_are_one_part_and_loose_ones_stand_still(tmp_path):
+    handle = body("handle", (0.4, -0.34, 0), mesh("grip", (0.02, 0.04, 0.2)))
+    foot = body("foot", (0, 0, -0.45), mesh("block", (0.2, 0.2, 0.1)))
+    fixed = joint("screw", "Fixed", "/obj/door", "/obj/handle")
+    cabinet = read(tmp_path, stage(CABINET + handle + foot + fixed))
+    assert [len(part.faces) for part in cabinet.parts] == [24, 24]
+
+
+def test_bodies_in_bodies_and_surfaces_that_are_no_body(tmp_path):
+    inner = body("door", (0, -0.31, 0), mesh("panel", (1.0, 0.02, 0.8)))
+    outer = body("base", (0, 0, 0), mesh("box", (1.0, 0.6, 0.8)) + inner)
+    hinge = joint("hinge", "Revolute", "/obj/base", "/obj/base/door", HINGE)
+    nested = read(tmp_path / "a", stage(outer + hinge))
+    assert [len(part.faces) for part in nested.parts] == [12, 12]
+    shelf = mesh("shelf", (1.0, 0.6, 0.02))
+    static = read(
+        tmp_path / "b", stage(shelf + DOOR + joint("hinge", "Revolute", "", "/obj/door", HINGE))
+    )
+    assert [part.name for part in static.parts] == ["base", "door"]
+
+
+def test_colliders_guides_and_hidden_surfaces_are_not_seen(tmp_path):
+    extra = (
+        mesh("guide", (2, 2, 2), 'uniform token purpose = "guide"')
+        + mesh("hidden", (2, 2, 2), 'token visibility = "invisible"')
+        + 'def Xform "collisions"\n{\n'
+        + mesh("hull", (2, 2, 2))
+        + "}\n"
+    )
+    base = body("base", (0, 0, 0), mesh("box", (1.0, 0.6, 0.8)) + extra)
+    hinge = joint("hinge", "Revolute", "/obj/base", "/obj/door", HINGE)
+    assert [len(part.faces) for part in read(tmp_path, stage(base + DOOR + hinge)).parts] == [
+        12,
+        12,
+    ]
+
+
+def test_instances_and_primitives(tmp_path):
+    shape = '\nclass Xform "_shape"\n{\n' + mesh("panel", (1.0, 0.02, 0.8)) + "}\n"
+    door = body(
+        "door",
+        (0, -0.31, 0),
+        'def Xform "made" (instanceable = true\n references = </_shape>)\n{\n}\n',
+    )
+    base = body("base", (0, 0, 0), 'def Cube "box"\n{\ndouble size = 0.6\n}\n')
+    hinge = joint("hinge", "Revolute", "/obj/base", "/obj/door", HINGE)
+    read_back = read(tmp_path, stage(base + door + hinge) + shape)
+    assert [len(part.faces) for part in read_back.parts] == [12, 12]
+
+
+def test_loops_and_other_joints_are_refused(tmp_path):
+    back = joint("again", "Revolute", "/obj/base", "/obj/door", HINGE)
+    assert refused(tmp_path / "a", stage(CABINET + back)) == "not_a_tree"
+    switched_off = back.replace(
+        "rel physics:body1", "bool physics:excludeFromArticulation = true\nrel physics:body1"
+    )
+    assert len(read(tmp_path / "b", stage(CABINET + switched_off)).joints) == 1
+    ball = joint("ball", "Spherical", "/obj/base", "/obj/door")
+    assert refused(tmp_path / "c", stage(BASE + DOOR + ball)) == "unsupported_joint"
+
+
+def test_broken_surfaces_and_still_objects_are_refused(tmp_path):
+    assert (
+        refused(tmp_path / "a", stage(CABINET.replace("[4, 4, 4, 4, 4, 4]", "[4, 4, 4, 4, 4, 9]")))
+        == "unreadable"
+    )
+    assert (
+        refused(tmp_path / "b", stage(CABINET.replace("[0, 1, 3, 2", "[0, 1, 99, 2")))
+        == "unreadable"
+    )
+    assert refused(tmp_path / "c", stage(BASE + DOOR)) == "no_movable_joint"
+    assert refused(tmp_path / "d", stage("")) == "empty"

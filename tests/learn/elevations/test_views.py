@@ -1,0 +1,89 @@
+"""Single sides, as the picture network learns from them, and that it does learn."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from asset_factory.factory.articulate.seams.sight import CUES
+from asset_factory.factory.articulate.seams.ways import OpensBy
+from asset_factory.learn.elevations.views import (
+    UNKNOWN,
+    SideView,
+    read_views,
+    views_of,
+    write_views,
+)
+from asset_factory.learn.objects import make_object
+
+
+@pytest.fixture(scope="module")
+def fridge() -> SideView:
+    return views_of(make_object("fridge", 1), np.random.default_rng(2))[0]
+
+
+def test_a_view_knows_what_opens_and_how(fridge: SideView) -> None:
+    panel, lid, level, upright = fridge.wanted
+    assert 0.5 < panel[fridge.cues[0, ::2, ::2] > 0.0].mean() <= 1.0
+    assert not lid.any()
+    assert level.any()
+    assert upright.any()
+    hinged = {list(OpensBy).index(OpensBy.LEFT), list(OpensBy).index(OpensBy.RIGHT)}
+    assert set(fridge.way[panel].tolist()) <= {*hinged, UNKNOWN}
+    assert (fridge.way[~panel] == UNKNOWN).mean() > 0.95
+
+
+def test_a_lid_is_seen_from_the_front() -> None:
+    chest = views_of(make_object("chest", 1), np.random.default_rng(2))[0]
+    assert chest.wanted[1].any()
+    assert not chest.wanted[0].any()
+
+
+def test_a_mirrored_view_is_hinged_on_the_other_side(fridge: SideView) -> None:
+    mirrored = fridge.mirrored()
+    left = list(OpensBy).index(OpensBy.LEFT)
+    right = list(OpensBy).index(OpensBy.RIGHT)
+    assert (mirrored.way == left).sum() == (fridge.way == right).sum()
+    slope = CUES.index("slope_right")
+    assert np.array_equal(mirrored.cues[slope], -fridge.cues[slope][:, ::-1])
+    back = mirrored.mirrored()
+    assert np.array_equal(back.cues, fridge.cues)
+    assert np.array_equal(back.way, fridge.way)
+
+
+def test_views_come_back_from_their_file(fridge: SideView, tmp_path: Path) -> None:
+    write_views(tmp_path / "one.npz", (fridge, fridge.mirrored()))
+    first, second = read_views(tmp_path / "one.npz")
+    assert first.cues == pytest.approx(fridge.cues, abs=2e-3)
+    assert np.array_equal(first.wanted, fridge.wanted)
+    assert np.array_equal(second.way, fridge.mirrored().way)
+
+
+def test_the_network_learns_and_goes_on_from_where_it_was(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    torch = pytest.importorskip("torch")
+    from asset_factory.learn.elevations import seeing
+
+    monkeypatch.setattr(seeing, "WARM_UP", 1)
+    views = tmp_path / "views"
+    views.mkdir()
+    for number, kind in enumerate(("fridge", "oven")):
+        made = views_of(make_object(kind, 5), np.random.default_rng(number))
+        write_views(views / f"{number}.npz", made[:1])
+    state = tmp_path / "state.pt"
+    output = tmp_path / "seams.npz"
+    seeing.learn_to_see(views, state, output, rounds=15, seed=0)
+    with np.load(output, allow_pickle=False) as kept:
+        first = {name: kept[name] for name in kept.files}
+    network = seeing.PictureNetwork()
+    batch = next(seeing._batches([views / "1.npz"], None))
+    before = float(seeing._loss(network.train(), *batch).detach())
+    network.load_state_dict(torch.load(state, weights_only=True))
+    after = float(seeing._loss(network.train(), *batch).detach())
+    assert after < 0.8 * before
+    seeing.learn_to_see(views, state, output, rounds=1, seed=0)
+    with np.load(output, allow_pickle=False) as kept:
+        assert kept.files == list(first)

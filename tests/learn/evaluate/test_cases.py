@@ -1,0 +1,224 @@
+import hashlib
+import re
+
+import numpy as np
+import pytest
+from boxy_urdf import write_cabinets
+from cupboards import cupboard, hinge
+
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.geometry.components import connected_components
+from asset_factory.factory.geometry.posing import face_parts
+from asset_factory.factory.geometry.triangles import face_areas
+from asset_factory.factory.runtime.store import Store
+from asset_factory.learn.evaluate.bodies import bodies_of, face_centres
+from asset_factory.learn.evaluate.cases import (
+    cases,
+    folder_requests,
+    make_case,
+    procedural_cases,
+    procedural_requests,
+    skin_requests,
+)
+from asset_factory.learn.evaluate.listing import COLUMNS, HALVES, half_of, read_list
+from asset_factory.learn.evaluate.merging import merged
+from asset_factory.learn.evaluate.physical import physical
+from asset_factory.learn.objects.sample_files import write_sample
+
+
+def same(first, second):
+    """Whether two articulations are equal to the last bit."""
+    meshes = first.mesh, second.mesh
+    arrays = all(
+        np.array_equal(getattr(meshes[0], n), getattr(meshes[1], n)) for n in ("vertices", "faces")
+    )
+    limits = [
+        [(j.name, j.lower, j.upper, *j.axis, *j.origin) for j in a.joints] for a in (first, second)
+    ]
+    return (
+        arrays and np.array_equal(face_parts(first), face_parts(second)) and limits[0] == limits[1]
+    )
+
+
+def test_the_packages_list_is_sound_and_halved_by_its_rule():
+    objects = read_list()
+    assert len(objects) == len({listed.name for listed in objects}) == 259
+    assert {listed.half for listed in objects} == set(HALVES)
+    for listed in objects:
+        assert re.fullmatch(r"[0-9a-f]{64}", listed.digest)
+        assert listed.front_yaw in (None, -90.0, 0.0, 90.0, 180.0)
+        assert listed.category == listed.category.lower() != ""
+    share = np.mean([listed.half == "develop" for listed in objects])
+    assert 0.4 < share < 0.6
+
+
+def test_objects_of_one_shape_are_in_one_half():
+    by_shape = {}
+    for listed in read_list():
+        by_shape.setdefault(listed.shape, set()).add(listed.half)
+    assert len(by_shape) < len(read_list())
+    assert all(len(halves) == 1 for halves in by_shape.values())
+
+
+def test_the_half_is_the_parity_of_a_hash():
+    for path in ("a", "b/c.urdf"):
+        assert half_of(path) == HALVES[hashlib.sha256(path.encode()).digest()[0] % 2]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("path,source\n", "no column 'category'"),
+        (
+            f"{','.join(COLUMNS)}\na,s,c,d,a,{HALVES[half_of('a') == HALVES[0]]},\n",
+            "line 2: half is",
+        ),
+        (f"{','.join(COLUMNS)}\n,s,c,d,a,{half_of('a')},\n", "line 2: want a path"),
+        (f"{','.join(COLUMNS)}\na,s,c,d,a,{half_of('a')},left\n", "front_yaw is 'left'"),
+    ],
+)
+def test_a_bad_list_is_refused(tmp_path, text, message):
+    (tmp_path / "list.csv").write_text(text)
+    with pytest.raises(ConfigError, match=message):
+        read_list(tmp_path / "list.csv")
+
+
+def test_nothing_but_the_surface_is_left_of_how_a_mesh_was_put_together():
+    """In whatever order parts and faces come, the same surface gives the same places."""
+    door = cupboard(hinge())
+    one, other = (merged(door, np.random.default_rng(seed)) for seed in (1, 2))
+    assert not np.array_equal(one.mesh.faces, other.mesh.faces)
+    parts = face_parts(one)
+    # Runs of faces of one part are as short as chance makes them.
+    assert np.count_nonzero(np.diff(parts)) == pytest.approx(len(parts) / 2, rel=0.1)
+    assert len(one.mesh.materials) == 1
+    for part in range(2):
+        areas = [face_areas(a.mesh)[face_parts(a) == part].sum() for a in (door, one, other)]
+        assert areas == pytest.approx([1.0] * 3)
+    # Vertices are numbered as the faces use them.
+    flat = one.mesh.faces.ravel()
+    first_uses = flat[np.sort(np.unique(flat, return_index=True)[1])]
+    assert np.array_equal(first_uses, np.arange(len(one.mesh.vertices)))
+
+
+def test_vertices_are_welded_across_parts():
+    touching = cupboard(hinge())
+    lowered = touching.mesh.vertices.copy()
+    lowered[:, 1] = 0.0  # the front lies in the wall
+    mesh = type(touching.mesh).from_triangles(lowered, touching.mesh.faces)
+    whole = merged(
+        type(touching)(mesh, touching.parts, touching.joints, "true"), np.random.default_rng(0)
+    )
+    assert len(whole.mesh.vertices) == len(lowered) / 2
+    assert len(whole.mesh.faces) == len(touching.mesh.faces)
+
+
+def test_a_case_is_closed_with_its_front_towards_minus_y(tmp_path):
+    objects = read_list(write_cabinets(tmp_path))
+    found = list(cases(tmp_path, objects, None, ("closed",), ("front",)))
+    assert [case.name for case in found] == [
+        "made__one__one--closed-front",
+        "made__two__two--closed-front",
+    ]
+    truth = found[0].articulation
+    assert found[0].category == "cabinet"
+    assert [joint.lower for joint in truth.joints] == [0.0, 0.0]
+    bodies = bodies_of(truth)
+    centres = face_centres(truth.mesh)
+    assert len(bodies) == 3
+    for body in (1, 2):
+        moved = bodies.centres_at(0.25)[bodies.labels == body] - centres[bodies.labels == body]
+        assert moved.mean(axis=0)[1] < -0.01
+        assert centres[bodies.labels == body].mean(axis=0)[1] < -0.19
+
+
+def test_open_cases_are_in_range_and_the_truth_still_fits_them(tmp_path):
+    objects = read_list(write_cabinets(tmp_path))
+    shut, wide = (
+        next(cases(tmp_path, objects, None, (pose,), ("random",))).articulation
+        for pose in ("closed", "open")
+    )
+    for before, after in zip(shut.joints, wide.joints, strict=True):
+        assert after.lower < 0.0 < after.upper
+        assert after.range == pytest.approx(before.range)
+    assert physical(wide, wide).values["articulated_iou"] == pytest.approx(1.0)
+
+
+def test_a_case_is_the_same_again_with_and_without_what_was_kept(tmp_path):
+    objects = read_list(write_cabinets(tmp_path))
+    store = Store(tmp_path / "kept")
+    read, kept, anew = (
+        [
+            case.articulation
+            for case in cases(tmp_path, objects, None, ("closed", "open"), ("front", "random"), s)
+        ]
+        for s in (store, store, None)
+    )
+    assert len(read) == 8
+    assert all(same(a, b) and same(a, c) for a, b, c in zip(read, kept, anew, strict=True))
+    yaws = {tuple(a.joints[1].axis.round(6)) for a in read}
+    assert len(yaws) == 5  # two objects of one front; four different random ones
+
+
+def test_another_file_than_the_listed_one_is_refused(tmp_path):
+    objects = read_list(write_cabinets(tmp_path))
+    file = tmp_path / objects[0].path
+    file.write_text(file.read_text() + "\n")
+    with pytest.raises(ConfigError, match="want the file that was listed"):
+        next(cases(tmp_path, objects, None))
+    file.unlink()
+    with pytest.raises(ConfigError, match="no such file"):
+        next(cases(tmp_path, objects, None))
+
+
+def test_procedural_objects_are_cases_too():
+    case, again = (next(procedural_cases(("cabinet",), (7,))) for _ in range(2))
+    assert (case.name, case.source) == ("cabinet_7--closed-front", "procedural")
+    assert same(case.articulation, again.articulation)
+    assert case.articulation.movable_joints
+
+
+def test_unknown_poses_and_yaws_are_named(tmp_path):
+    with pytest.raises(ConfigError, match="no pose 'ajar'; there are closed, open"):
+        next(procedural_cases(("cabinet",), (7,), poses=("ajar",)))
+
+
+def test_a_folder_of_objects_with_joints(tmp_path):
+    write_cabinets(tmp_path / "things")
+    requests = folder_requests(tmp_path / "things")
+    assert [request.name for request in requests] == [
+        "made__one__one--closed-front",
+        "made__two__two--closed-front",
+    ]
+    assert len(make_case(requests[0]).articulation.movable_joints) == 2
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(ConfigError, match="holds no URDF"):
+        folder_requests(tmp_path / "empty")
+
+
+def test_skins_are_the_annotated_meshes_of_a_folder(tmp_path):
+    write_cabinets(tmp_path / "described")
+    with pytest.raises(ConfigError, match="holds no mesh with an annotation"):
+        skin_requests(tmp_path)
+    fused = make_case(procedural_requests(("fridge",), (3,))[0].as_fused()).articulation
+    write_sample(fused, tmp_path / "fridge_3")
+    # What lies with a description belongs to it.
+    (tmp_path / "fridge_3" / "object.urdf").unlink()
+    (request,) = skin_requests(tmp_path)
+    assert (request.source, request.category) == ("skins", "fridge")
+    made = make_case(request).articulation
+    assert len(made.movable_joints) == len(fused.movable_joints)
+
+
+def test_a_fused_case_is_one_skin_whose_truth_is_the_objects_own():
+    (request,) = procedural_requests(("fridge",), (3,))
+    plain = make_case(request)
+    fused = make_case(request.as_fused())
+    assert fused.name == f"{plain.name}-fused"
+    assert len(np.unique(connected_components(fused.articulation.mesh))) < 5
+    assert len(np.unique(connected_components(plain.articulation.mesh))) > 10
+    for one, other in zip(plain.articulation.joints, fused.articulation.joints, strict=False):
+        assert abs(one.axis @ other.axis) > 0.999
+    np.testing.assert_allclose(
+        fused.articulation.mesh.extents, plain.articulation.mesh.extents, rtol=0.1
+    )

@@ -1,0 +1,80 @@
+"""What proved right is trusted: labels in closed form, weights that recover what decides."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from asset_factory.factory.articulate.auto.proposal import Proposal
+from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, signs_of
+from asset_factory.factory.articulate.evidence import SeenMotion
+from asset_factory.factory.articulation import JointKind
+from asset_factory.factory.geometry.triangles import face_areas
+from asset_factory.learn.evaluate.trust import (
+    TrustTrial,
+    described,
+    fitted,
+    is_right,
+    procedural,
+    text_of,
+)
+from asset_factory.learn.objects import make_object
+
+FRIDGE = make_object("fridge", 0)
+AREAS = face_areas(FRIDGE.mesh)
+DOOR = next(joint for joint in FRIDGE.joints if joint.turns)
+
+
+def proposal(**changes):
+    """The fridge's door as it is, but for what is changed of its motion."""
+    faces = np.zeros(len(AREAS), dtype=bool)
+    faces[FRIDGE.parts[DOOR.child].faces] = True
+    motion = SeenMotion(DOOR.kind, DOOR.axis, DOOR.origin, DOOR.lower, DOOR.upper)
+    return Proposal("door", faces, replace(motion, **changes), signs_of({}))
+
+
+def test_the_door_itself_is_right_whichever_way_its_axis_points_and_however_far_it_goes():
+    assert is_right(proposal(), FRIDGE, AREAS)
+    assert is_right(proposal(axis=-DOOR.axis, upper=0.3), FRIDGE, AREAS)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"kind": JointKind.PRISMATIC},
+        {"axis": np.array([1.0, 0.0, 0.0])},
+        {"origin": DOOR.origin + np.array([0.3, 0.0, 0.0])},
+    ],
+)
+def test_another_kind_axis_or_place_is_wrong(change):
+    assert not is_right(proposal(**change), FRIDGE, AREAS)
+
+
+def test_another_part_is_wrong():
+    whole = replace(proposal(), faces=np.ones(len(AREAS), dtype=bool))
+    assert not is_right(whole, FRIDGE, AREAS)
+
+
+def test_weights_recover_the_sign_that_decides():
+    rng = np.random.default_rng(0)
+    trials = []
+    for _ in range(60):
+        signs = rng.normal(size=(5, len(SIGNS)))
+        right = rng.random(5) < 1.0 / (1.0 + np.exp(-2.0 * signs[:, SIGNS.index("evidence")]))
+        given = tuple(replace(proposal(), signs=row) for row in signs)
+        trials.append(TrustTrial(FRIDGE, given, right.astype(float)))
+    weights = dict(zip(SIGNS, fitted(trials), strict=True))
+    assert weights.pop("evidence") == pytest.approx(2.0, abs=0.5)
+    assert max(abs(weight) for weight in weights.values()) < 0.5
+
+
+def test_objects_to_fit_on_are_the_same_every_time_and_none_of_the_trainings(tmp_path):
+    first, again = (next(iter(procedural([3]))) for _ in range(2))
+    assert np.array_equal(first.mesh.vertices, again.mesh.vertices)
+    assert list(described(tmp_path, ["nothing"])) == []
+
+
+def test_the_file_says_what_was_fitted():
+    text = text_of(Trust(np.arange(len(SIGNS), dtype=float), 0.35))
+    assert "least = 0.35" in text
+    assert "learned = 1.0000" in text

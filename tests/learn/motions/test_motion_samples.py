@@ -1,0 +1,80 @@
+"""Samples name the right candidates for any labels; the command writes a file that can be read."""
+
+from __future__ import annotations
+
+import tomllib
+
+import numpy as np
+import pytest
+
+from asset_factory.factory.articulate.evidence.numbers import GUESS, NAMES
+from asset_factory.factory.errors import ConfigError
+from asset_factory.learn.motions import __main__ as command
+from asset_factory.learn.motions import motion_samples
+from asset_factory.learn.motions.objects import described, generated
+from asset_factory.learn.motions.spoiling import spoilt
+from asset_factory.learn.motions.truth import made_up_guess, truth_of
+from asset_factory.learn.objects.catalog import make_object
+
+
+@pytest.mark.parametrize("category", ["cabinet", "oven", "office_chair"])
+def test_truth_has_one_joint_per_part_and_no_empty_parts(category):
+    truth = truth_of(make_object(category, 3), 0.4)
+    counts = np.bincount(truth.partition.face_part, minlength=len(truth.partition.parents))
+    assert (counts[1:] > 0).all()
+    assert truth.joints
+    assert all(joint.lower == 0.0 or joint.kind == "continuous" for joint in truth.joints.values())
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_spoilt_labels_keep_every_part(seed):
+    whole = truth_of(make_object("cabinet", 1), 0.0).partition
+    other = spoilt(whole, np.random.default_rng(seed))
+    assert set(np.unique(other.face_part)) == set(np.unique(whole.face_part))
+    assert (other.face_part != whole.face_part).mean() < 0.5
+    assert (spoilt(whole, np.random.default_rng(seed)).face_part == other.face_part).all()
+
+
+def test_motion_samples_know_what_is_right():
+    found = list(motion_samples("chest", make_object("chest", 7), np.random.default_rng(0)))
+    assert found
+    for one in found:
+        assert one.numbers.shape == (len(one.worth), len(NAMES))
+        assert one.right[int(np.argmax(one.worth))]
+        assert one.range > 0.0
+        blind = one.unguided()
+        assert not blind.guessed.any()
+        assert (blind.numbers[:, -len(GUESS) :] == 0.0).all()
+        assert blind.alike.shape == (len(blind.worth),) * 2
+
+
+def test_guesses_are_rough_but_not_wild():
+    joint = make_object("oven", 0).movable_joints[0]
+    rng = np.random.default_rng(1)
+    guesses = [made_up_guess(joint, joint.origin, 1.0, rng) for _ in range(200)]
+    cosine = np.array([guess.direction @ joint.axis for guess in guesses])
+    assert np.median(np.degrees(np.arccos(np.abs(cosine)))) < 20.0
+    assert 0.5 < (cosine > 0.0).mean() < 0.9
+
+
+def test_generated_objects_are_named_and_the_same_again():
+    first, again = (list(generated([1], ["laptop"])) for _ in range(2))
+    assert first[0][0] == "generated/laptop_1"
+    assert (first[0][1].mesh.vertices == again[0][1].mesh.vertices).all()
+
+
+def test_a_folder_without_objects_is_refused(tmp_path):
+    with pytest.raises(ConfigError, match="holds no URDF"):
+        list(described(tmp_path))
+
+
+def test_the_command_writes_what_the_evidence_reads(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(
+        command, "generated", lambda seeds: generated(seeds, ["chest", "nightstand", "laptop"])
+    )
+    output = tmp_path / "evidence.toml"
+    assert command.main(["--output", str(output), "--seeds", "1", "--steps", "3"]) == 0
+    assert "objects; weights in" in capsys.readouterr().out
+    assert {"guided", "blind", "turn_range", "slide_range"} == set(
+        tomllib.loads(output.read_text())
+    )

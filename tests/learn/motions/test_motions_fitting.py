@@ -1,0 +1,93 @@
+"""Obvious preferences are recovered from few samples; the file that is written is read back."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from asset_factory.factory.articulate.evidence.numbers import GUESS, NAMES
+from asset_factory.factory.articulate.evidence.rating import rating_of
+from asset_factory.factory.articulate.evidence.setting import SLIDE_SETTING, TURN_SETTING, Setting
+from asset_factory.factory.articulate.evidence.usual import likelihood, usual_of, worth
+from asset_factory.factory.errors import ConfigError
+from asset_factory.learn.motions import MotionSample, fit_motions, motions_text
+
+COUNT = 12
+
+
+def motion_sample(seed: int) -> MotionSample:
+    """The largest ``turn_free`` is right; ``tall`` turns by 2 or slides by 1, else by half."""
+    rng = np.random.default_rng(seed)
+    numbers = np.zeros((COUNT, len(NAMES)), dtype=np.float32)
+    numbers[:, : -len(GUESS)] = rng.uniform(-0.3, 0.3, (COUNT, len(NAMES) - len(GUESS)))
+    best = int(np.argmax(numbers[:, NAMES.index("turn_free")]))
+    right = np.arange(COUNT) == best
+    slides = bool(seed % 2)
+    tall = float(seed % 3 == 0)
+    names = SLIDE_SETTING if slides else TURN_SETTING
+    about = rng.uniform(-0.2, 0.2, len(names))
+    about[names.index("tall")] = tall
+    far = (1.0 if slides else 2.0) * (1.0 if tall else 0.5)
+    return MotionSample(
+        name=str(seed), numbers=numbers, guessed=np.zeros(COUNT, dtype=bool),
+        worth=right.astype(float), right=right,
+        alike=np.eye(COUNT, dtype=bool), setting=Setting(slides, 1.0, np.inf, about), range=far,
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def motion_samples():
+    return [motion_sample(seed) for seed in range(240)]
+
+
+@pytest.fixture(scope="module")
+def table(motion_samples):
+    return tomllib.loads(motions_text(fit_motions(motion_samples, steps=60)))
+
+
+def test_a_preference_is_recovered_for_parts_never_seen(table):
+    rating = rating_of(table["guided"], "fitted")
+    unseen = [motion_sample(seed) for seed in range(1000, 1060)]
+    hits = [one.right[int(np.argmax(rating.scores(one.numbers)))] for one in unseen]
+    assert np.mean(hits) > 0.8
+    assert rating.confidence(0.99) > rating.confidence(0.3)
+
+
+@pytest.mark.parametrize("slides", [False, True])
+def test_a_usual_range_is_recovered(table, slides):
+    usual = usual_of(table["slide_range" if slides else "turn_range"], slides, "fitted")
+    unseen = [one for one in map(motion_sample, range(1000, 1060)) if one.setting.slides == slides]
+    assert (
+        np.mean(
+            [usual.range(one.setting, None) == pytest.approx(one.range, rel=1e-3) for one in unseen]
+        )
+        > 0.9
+    )
+
+
+def test_a_guess_decides_between_usual_ranges(table):
+    usual = usual_of(table["turn_range"], False, "fitted")
+    doubtful = replace(motion_sample(0).setting, numbers=0.5 * (np.array(TURN_SETTING) == "tall"))
+    assert usual.range(doubtful, 2.2) == pytest.approx(2.0, rel=1e-3)
+    assert usual.range(doubtful, 0.9) == pytest.approx(1.0, rel=1e-3)
+
+
+def test_the_same_motion_samples_give_the_same_file(motion_samples):
+    few = motion_samples[:30]
+    assert motions_text(fit_motions(few, steps=5)) == motions_text(fit_motions(few, steps=5))
+
+
+def test_a_kind_that_nothing_has_is_refused(motion_samples):
+    with pytest.raises(ConfigError, match="nothing slides"):
+        fit_motions([one for one in motion_samples[:20] if not one.setting.slides], steps=2)
+
+
+def test_no_end_is_like_no_end_only():
+    values = np.array([1.0, 2.0 * np.pi, np.inf])
+    assert likelihood(2.0 * np.pi, values)[0] < likelihood(2.0 * np.pi, values)[2]
+    assert likelihood(1.1, values).argmax() == 0
+    assert worth(values)[0, 2] < 1e-6
+    assert np.allclose(np.diag(worth(values)), 1.0)

@@ -1,0 +1,192 @@
+"""Furniture, appliances, doors, windows: closed pieces, exact motion, nothing in the way."""
+
+from __future__ import annotations
+
+import time
+
+import manifold3d
+import numpy as np
+import numpy.typing as npt
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from asset_factory.factory.articulation import Articulation, JointKind
+from asset_factory.factory.mesh import Mesh
+from asset_factory.learn.objects import make_object
+from asset_factory.learn.objects.catalog import CATEGORIES, DEMO_CATEGORIES
+from asset_factory.learn.objects.kinds import (
+    cooking,
+    cooling,
+    kitchens,
+    laundry,
+    lidded,
+    openings,
+    storage,
+    tables,
+)
+
+FILES = (storage, cooling, cooking, laundry, openings, tables, lidded, kitchens)
+LARGE = [name for file in FILES for name in file.MAKERS if name not in DEMO_CATEGORIES]
+SEEDS = (0, 1, 2, 3)
+#: What the objects promise at most [m].
+OVERLAP_M = 0.0005
+
+
+def pieces(mesh: Mesh) -> list[manifold3d.Manifold]:
+    links = np.concatenate([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]]])
+    graph = coo_matrix((np.ones(len(links)), links.T), shape=(len(mesh.vertices),) * 2)
+    label = connected_components(graph, directed=False)[1][mesh.faces[:, 0]]
+    solids = []
+    for value in np.unique(label):
+        piece = mesh.submesh(np.flatnonzero(label == value))
+        solids.append(
+            manifold3d.Manifold(
+                manifold3d.Mesh64(np.array(piece.vertices), piece.faces.astype(np.uint64))
+            )
+        )
+    return solids
+
+
+def depth(overlap: manifold3d.Manifold) -> float:
+    """How thick an overlap is: a plate of thickness t has 2 V / A of nearly t."""
+    return max(
+        (2 * p.volume() / p.surface_area() for p in overlap.decompose() if p.surface_area() > 0),
+        default=0.0,
+    )
+
+
+def descendants(articulation: Articulation, part: int) -> set[int]:
+    found = {part}
+    for joint in articulation.joints:
+        if joint.parent in found:
+            found.add(joint.child)
+    return found
+
+
+def apart(one: manifold3d.Manifold, other: manifold3d.Manifold) -> bool:
+    a = one.bounding_box()
+    b = other.bounding_box()
+    return any(a[k] > b[k + 3] or b[k] > a[k + 3] for k in range(3))
+
+
+def rest_of_others(articulation: Articulation, name: str) -> dict[str, float]:
+    """Everything closed; for what lies behind a door, the doors open."""
+    if not name.startswith("inner_"):
+        return {}
+    return {j.name: j.upper for j in articulation.joints if "door" in j.name or "flap" in j.name}
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("category", LARGE)
+def test_parts_never_meet_anywhere_along_a_joint(category: str, seed: int) -> None:
+    articulation = make_object(category, seed)
+    solids = []
+    for i in range(len(articulation.parts)):
+        closed = pieces(articulation.part_mesh(i))
+        assert all(s.status() == manifold3d.Error.NoError and s.volume() > 0.0 for s in closed)
+        solids.append(manifold3d.Manifold.batch_boolean(closed, manifold3d.OpType.Add))
+    for joint in articulation.movable_joints:
+        moving = descendants(articulation, joint.child)
+        others = rest_of_others(articulation, joint.name) | {joint.name: 0.0}
+        for value in np.linspace(joint.lower, joint.upper, 9):
+            poses = articulation.poses(others | {joint.name: float(value)})
+            placed = [solid.transform(pose[:3]) for solid, pose in zip(solids, poses, strict=True)]
+            for i in moving:
+                for k in set(range(len(solids))) - moving:
+                    if not apart(placed[i], placed[k]):
+                        where = (joint.name, float(value), articulation.parts[k].name)
+                        assert depth(placed[i] ^ placed[k]) < OVERLAP_M, where
+
+
+@pytest.mark.parametrize("category", LARGE)
+def test_objects_stand_closed_and_centred_on_the_ground(category: str) -> None:
+    for seed in range(8):
+        articulation = make_object(category, seed)
+        low, high = articulation.mesh.bounds
+        np.testing.assert_allclose([low[2], *(low + high)[:2]], 0.0, atol=1e-9)
+        assert 0.2 < (high - low).max() < 4.5
+        assert len(articulation.parts) >= 2
+        for joint in articulation.joints:
+            assert joint.lower == 0.0 < joint.upper
+            assert len(articulation.parts[joint.child].faces) >= 12
+
+
+@pytest.mark.parametrize("category", LARGE)
+def test_doors_flaps_and_drawers_open_towards_the_front(category: str) -> None:
+    for seed in range(8):
+        articulation = make_object(category, seed)
+        for joint in articulation.joints:
+            if not joint.name.startswith(("door_", "flap_", "drawer_", "inner_")) or category in (
+                "sliding_door",
+                "window",
+            ):
+                continue
+            if joint.name.count("handle"):
+                continue
+            rest: npt.NDArray[np.float64] = articulation.part_mesh(joint.child).vertices
+            motion = joint.motion(0.5 * joint.upper)
+            moved = rest @ motion[:3, :3].T + motion[:3, 3]
+            assert moved[:, 1].min() < rest[:, 1].min() - 0.01, (category, seed, joint.name)
+
+
+def test_same_seed_same_object_and_other_seed_another() -> None:
+    for category in LARGE:
+        one, again, other = (make_object(category, seed) for seed in (3, 3, 4))
+        np.testing.assert_array_equal(one.mesh.vertices, again.mesh.vertices)
+        np.testing.assert_array_equal(one.mesh.faces, again.mesh.faces)
+        assert (
+            one.mesh.vertices.shape != other.mesh.vertices.shape
+            or (one.mesh.vertices != other.mesh.vertices).any()
+        )
+
+
+@given(st.integers(0, 2**31), st.sampled_from(LARGE))
+@settings(max_examples=150, deadline=None)
+def test_any_seed_gives_an_object_without_a_face_of_no_area(seed: int, category: str) -> None:
+    articulation = make_object(category, seed)
+    corners = articulation.mesh.vertices[articulation.mesh.faces]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert np.linalg.norm(normal, axis=1).min() > 1e-10
+    assert articulation.movable_joints
+
+
+def test_large_objects_are_varied() -> None:
+    made = [make_object("storage_unit", seed) for seed in range(40)]
+    assert len({len(a.parts) for a in made}) > 8
+    sides = {
+        tuple(np.round(j.axis).astype(int))
+        for a in made
+        for j in a.joints
+        if j.kind is JointKind.REVOLUTE
+    }
+    assert {(0, 0, 1), (0, 0, -1), (1, 0, 0), (-1, 0, 0)} <= sides
+    assert any(a.joints[0].kind is JointKind.PRISMATIC for a in made)
+
+
+@pytest.mark.parametrize(("category", "part"), [("safe", "door"), ("door", "door_0")])
+def test_what_sits_on_a_door_moves_with_it(category: str, part: str) -> None:
+    nested = 0
+    for seed in range(10):
+        articulation = make_object(category, seed)
+        names = [p.name for p in articulation.parts]
+        nested += sum(joint.parent == names.index(part) for joint in articulation.joints)
+    assert nested >= 5
+
+
+def test_every_name_is_made_by_one_file_and_the_demo_comes_first() -> None:
+    assert len(set(LARGE)) == len(LARGE)
+    assert set(LARGE) <= set(CATEGORIES)
+    assert CATEGORIES[:8] == DEMO_CATEGORIES
+
+
+def test_an_object_takes_milliseconds() -> None:
+    took = []
+    for seed in range(3):
+        for category in LARGE:
+            start = time.process_time()
+            make_object(category, seed)
+            took.append(time.process_time() - start)
+    assert np.median(took) < 0.015

@@ -1,0 +1,88 @@
+"""Cells tile the front, and doors are trimmed to what passes."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from asset_factory.learn.objects.kit.chance import Chance
+from asset_factory.learn.objects.kit.hinges import SLACK, swing
+from asset_factory.learn.objects.kit.layouts import (
+    column,
+    divided,
+    drawers,
+    random_node,
+    row,
+)
+
+MIX = {
+    "drawer": 1.0,
+    "drawers": 1.0,
+    "door": 1.0,
+    "double": 1.0,
+    "open": 1.0,
+    "lift": 1.0,
+    "flap": 1.0,
+}
+
+
+@given(st.integers(0, 10**6), st.floats(0.3, 2.5), st.floats(0.3, 2.2), st.booleans())
+@settings(max_examples=50, deadline=None)
+def test_cells_tile_the_front_and_their_insides_lie_within(
+    seed: int, width: float, height: float, bare: bool
+) -> None:
+    node = random_node(Chance(np.random.default_rng(seed)), width, height, MIX)
+    cells, dividers = divided(node, (0.0, width), (0.0, height), 0.018, bare)
+    area = sum((c.x[1] - c.x[0]) * (c.z[1] - c.z[0]) for c in cells)
+    np.testing.assert_allclose(area, width * height, rtol=1e-9)
+    for cell in cells:
+        (left, right), (low, high) = cell.inner
+        assert cell.x[0] < left < right < cell.x[1]
+        assert cell.z[0] < low < high < cell.z[1]
+        assert cell.outer == tuple(
+            abs(a - b) < 1e-9
+            for a, b in zip((*cell.x, *cell.z), (0.0, width, 0.0, height), strict=True)
+        )
+    assert len(dividers) <= len(cells) - 1
+
+
+def test_shares_are_heights_and_bare_drawers_have_no_boards_between_them() -> None:
+    node = column((1.0, "drawer"), (3.0, row((1.0, "door"), (1.0, "open"))), (1.0, "drawer"))
+    cells, dividers = divided(node, (0.0, 1.0), (0.0, 1.0), 0.02, True)
+    assert [(c.kind, round(c.z[0], 6), round(c.z[1], 6)) for c in cells] == [
+        ("drawer", 0.0, 0.2), ("door", 0.2, 0.8), ("open", 0.2, 0.8), ("drawer", 0.8, 1.0),
+    ]  # fmt: skip
+    assert sorted((d.upright, round(d.at, 6)) for d in dividers) == [
+        (False, 0.2),
+        (False, 0.8),
+        (True, 0.5),
+    ]
+    pile = drawers(Chance(np.random.default_rng(0)), 4)
+    assert divided(pile, (0.0, 1.0), (0.0, 1.0), 0.02, True)[1] == []
+    assert len(divided(pile, (0.0, 1.0), (0.0, 1.0), 0.02, False)[1]) == 3
+
+
+@given(
+    st.integers(0, 10**6),
+    st.floats(0.01, 0.08),
+    st.floats(0.1, 1.0),
+    st.floats(0.0005, 0.01),
+    st.floats(-0.3, 1.0),
+)
+@settings(max_examples=100, deadline=None)
+def test_a_trimmed_front_turns_past_its_neighbours(
+    seed: int, thickness: float, width: float, gap: float, taste: float
+) -> None:
+    made = swing(Chance(np.random.default_rng(seed)), thickness, width, (gap, gap), taste, 92.0)
+    angle = np.linspace(0.0, made.upper, 50)
+    corners = [
+        (x, y) for x in (0.0, width - made.trim) for y in (-made.setback, thickness - made.setback)
+    ]
+    for x, y in corners:
+        across = x * np.cos(angle) + y * np.sin(angle)
+        away = -x * np.sin(angle) + y * np.cos(angle)
+        beside = (away > -made.setback) & (away < thickness - made.setback)
+        assert (across[beside] < width + gap + SLACK + 1e-9).all()
+        assert (across[beside] > -gap - SLACK - 1e-9).all()
+    assert np.radians(60) < made.upper <= np.radians(92)

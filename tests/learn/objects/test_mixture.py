@@ -1,0 +1,75 @@
+"""Training's objects: any seed gives one, the same one again, and shares are kept."""
+
+from __future__ import annotations
+
+import collections
+
+import numpy as np
+import pytest
+
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.geometry.components import connected_components
+from asset_factory.learn.objects import (
+    MixtureSettings,
+    make_object,
+    sample_object,
+    training_object,
+)
+from asset_factory.learn.objects.mixture import in_character
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_any_seed_gives_a_closed_object_with_a_joint_and_the_same_one_again(seed: int) -> None:
+    one = training_object(seed)
+    again = training_object(seed)
+    assert one.movable_joints
+    assert len(one.movable_joints) < 16
+    assert all(joint.lower <= 0.0 for joint in one.joints)
+    assert one.mesh.vertices.tobytes() == again.mesh.vertices.tobytes()
+    np.testing.assert_array_equal(
+        np.sort(np.concatenate([p.faces for p in one.parts])), np.arange(len(one.mesh.faces))
+    )
+
+
+def test_a_name_says_how_to_make_the_object_again() -> None:
+    settings = MixtureSettings(categories=("laptop", "chest"))
+    for seed in range(4):
+        name, articulation = sample_object(np.random.default_rng(seed), settings)
+        category, made, character, look = name.split("-")
+        again, became = in_character(make_object(category, int(made)), character, int(look))
+        assert became == character
+        assert again.mesh.vertices.tobytes() == articulation.mesh.vertices.tobytes()
+
+
+def test_characters_come_in_their_shares() -> None:
+    settings = MixtureSettings(categories=("trash_can",), artist=0.5, generated=0.5, plain=0.5)
+    drawn = [
+        sample_object(np.random.default_rng(seed), settings)[0].split("-")[2] for seed in range(60)
+    ]
+    found = collections.Counter(drawn)
+    assert 20 <= found["generated"] <= 40
+    assert 6 <= found["plain"] <= 25
+    assert 6 <= found["artist"] <= 25
+
+
+def test_skins_are_drawn_by_their_weight() -> None:
+    settings = MixtureSettings(categories=("trash_can",), artist=0.0, generated=0.0, skin=1.0)
+    name, made = sample_object(np.random.default_rng(0), settings)
+    assert "-skin-" in name
+    assert len(np.unique(connected_components(made.mesh))) < 5
+
+
+def test_settings_from_a_file_are_checked() -> None:
+    assert MixtureSettings(categories=["oven"]).categories == ("oven",)  # type: ignore[arg-type]
+    with pytest.raises(ConfigError, match="there is no \\['sofa'\\]"):
+        MixtureSettings(categories=("sofa",))
+    with pytest.raises(ConfigError, match="one of them above"):
+        MixtureSettings(artist=0.0, generated=0.0)
+    with pytest.raises(ConfigError, match="plain is 2"):
+        MixtureSettings(plain=2.0)
+    with pytest.raises(ConfigError, match="most_parts"):
+        MixtureSettings(most_parts=1)
+    with pytest.raises(ConfigError, match="too few for oven"):
+        training_object(0, MixtureSettings(categories=("oven",), most_parts=2))
+    with pytest.raises(ValueError, match="want plain, artist, generated or skin"):
+        in_character(make_object("chest", 0), "shiny", 0)

@@ -1,0 +1,177 @@
+"""What is written reads back as the same object: joints to a micrometre, parts by face."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from plain_solids import box
+
+from asset_factory.factory.articulate.catalog import choose
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.config import BuildConfig, IntakeConfig
+from asset_factory.factory.geometry.posing import posed
+from asset_factory.factory.intake.load import load
+from asset_factory.factory.mesh import Material, concatenate
+from asset_factory.learn.objects import (
+    artist_like,
+    fused_like,
+    make_object,
+    write_sample,
+)
+
+
+def read(path: Path) -> Articulation:
+    intake = load(path, IntakeConfig())
+    return choose(intake, BuildConfig(articulator="annotated")).articulate(intake.mesh)
+
+
+def same_joint(read_joint: Joint, joint: Joint) -> None:
+    assert read_joint.kind == joint.kind
+    np.testing.assert_allclose(read_joint.axis, joint.axis, atol=1e-6)
+    np.testing.assert_allclose(
+        [read_joint.lower, read_joint.upper], [joint.lower, joint.upper], atol=1e-6
+    )
+    if joint.turns:
+        # Readers put the origin elsewhere on the same line.
+        off = np.cross(read_joint.origin - joint.origin, joint.axis)
+        np.testing.assert_allclose(off, 0.0, atol=1e-6)
+
+
+def same_object(found: Articulation, wanted: Articulation, names: bool) -> None:
+    """Parts may come in another order: they are matched by where they are."""
+    assert len(found.parts) == len(wanted.parts)
+
+    def place(articulation: Articulation, part: int) -> np.ndarray:
+        mesh = articulation.part_mesh(part)
+        return np.concatenate([*mesh.bounds, [len(mesh.faces) * 1e-3]])
+
+    order = {}
+    for part in range(len(found.parts)):
+        far = [
+            np.abs(place(found, part) - place(wanted, other)).max()
+            for other in range(len(wanted.parts))
+        ]
+        order[part] = int(np.argmin(far))
+        assert min(far) < 1e-5
+    assert sorted(order.values()) == list(range(len(wanted.parts)))
+    for joint in found.joints:
+        match = wanted.joints[order[joint.child] - 1]
+        assert order[joint.parent] == match.parent
+        assert not names or (joint.name, found.parts[joint.child].name) == (
+            match.name,
+            wanted.parts[match.child].name,
+        )
+        same_joint(joint, match)
+
+
+@pytest.mark.parametrize("category", ["cabinet", "laptop", "oven"])
+def test_both_files_of_an_open_sample_read_back_as_the_object(
+    category: str, tmp_path: Path
+) -> None:
+    original = make_object(category, 1)
+    values = {joint.name: 0.4 * joint.upper for joint in original.joints[::2]}
+    write_sample(original, tmp_path, values)
+    wanted = posed(original, values)
+    same_object(read(tmp_path / "object.urdf"), wanted, names=True)
+    same_object(read(tmp_path / "object.glb"), wanted, names=False)
+
+
+@pytest.mark.parametrize("change", [artist_like, fused_like])
+def test_a_sample_of_any_character_keeps_its_parts_face_by_face(change, tmp_path: Path) -> None:
+    sample = change(make_object("microwave", 2), 4)
+    write_sample(sample, tmp_path)
+    for file in ("object.urdf", "object.glb"):
+        found = read(tmp_path / file)
+        areas = {}
+        for key, articulation in (("found", found), ("wanted", sample)):
+            corners = articulation.mesh.vertices[articulation.mesh.faces]
+            area = (
+                np.linalg.norm(
+                    np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+                )
+                / 2
+            )
+            areas[key] = sorted(float(area[part.faces].sum()) for part in articulation.parts)
+        np.testing.assert_allclose(areas["found"], areas["wanted"], rtol=1e-3)
+        for joint, match in zip(found.joints, sample.joints, strict=True):
+            same_joint(joint, match)
+
+
+def turning_slider() -> Articulation:
+    grey = Material("grey")
+    mesh = concatenate(
+        [box((0, 1), (0, 1), (0, 1), grey), box((0.2, 0.8), (-0.1, 0), (0.2, 0.8), grey)]
+    )
+    parts = (Part("body", np.arange(12)), Part("carrier", []), Part("knob", np.arange(12, 24)))
+    axis = np.array([0.0, -1.0, 0.0])
+    turn = Joint("turn", JointKind.REVOLUTE, 0, 1, axis, np.array([0.5, 0.0, 0.5]), 0.0, 2.0)
+    slide = Joint("slide", JointKind.PRISMATIC, 1, 2, axis, np.array([0.5, 0.0, 0.5]), 0.0, 0.05)
+    return Articulation(mesh, parts, (turn, slide), "procedural")
+
+
+def test_a_part_that_turns_and_slides_is_one_row_of_the_annotation(tmp_path: Path) -> None:
+    write_sample(turning_slider(), tmp_path, {"slide": 0.02})
+    truth = np.load(tmp_path / "pred.npz")
+    np.testing.assert_array_equal(truth["motion_hierarchy"], [[0, 1]])
+    assert (
+        truth["is_part_revolute"].tolist() == truth["is_part_prismatic"].tolist() == [False, True]
+    )
+    np.testing.assert_allclose(truth["prismatic_range"][1], [-0.02, 0.03], atol=1e-7)
+    for file in ("object.urdf", "object.glb"):
+        found = read(tmp_path / file)
+        assert [joint.kind for joint in found.joints] == [JointKind.REVOLUTE, JointKind.PRISMATIC]
+        assert len(found.parts[1].faces) == 0
+        np.testing.assert_allclose(found.joints[0].upper, 2.0, atol=1e-6)
+        np.testing.assert_allclose(
+            [found.joints[1].lower, found.joints[1].upper], [-0.02, 0.03], atol=1e-6
+        )
+
+
+def test_a_carrier_of_two_parts_is_refused(tmp_path: Path) -> None:
+    from dataclasses import replace
+
+    one = turning_slider()
+    parts = (
+        *one.parts[:2],
+        replace(one.parts[2], faces=np.arange(12, 18)),
+        Part("cap", np.arange(18, 24)),
+    )
+    second = replace(one.joints[1], name="other", child=3)
+    with pytest.raises(ValueError, match="carry one part"):
+        write_sample(replace(one, parts=parts, joints=(*one.joints, second)), tmp_path)
+
+
+def test_a_value_beyond_its_limits_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="outside"):
+        write_sample(turning_slider(), tmp_path, {"slide": 0.2})
+    with pytest.raises(KeyError, match="no joint"):
+        write_sample(turning_slider(), tmp_path, {"push": 0.0})
+
+
+def test_the_command_writes_the_same_files_for_the_same_options(tmp_path: Path) -> None:
+    module = "asset_factory.learn.objects"
+    options = ["--category", "chest", "--seed", "2", "--character", "artist", "--open", "0.5"]
+    for name in ("one", "two"):
+        subprocess.run([sys.executable, "-m", module, tmp_path / name, *options], check=True)
+    files = sorted(
+        path.relative_to(tmp_path / "one")
+        for path in (tmp_path / "one").rglob("*")
+        if path.is_file()
+    )
+    assert {"object.glb", "object.toml", "object.urdf", "pred.npz"} <= {str(file) for file in files}
+    for file in files:
+        assert (tmp_path / "one" / file).read_bytes() == (tmp_path / "two" / file).read_bytes()
+    joint = read(tmp_path / "one" / "object.urdf").joints[0]
+    assert joint.lower == pytest.approx(-joint.upper)
+    wrong = subprocess.run(
+        [sys.executable, "-m", module, tmp_path / "no", "--category", "chest", "--open", "2"],
+        check=False,
+        capture_output=True,
+        text=True,
+    )
+    assert wrong.returncode == 2
+    assert "want 0 to 1" in wrong.stderr

@@ -1,0 +1,258 @@
+"""Losses and the matcher: the original's numbers, and what they promise whatever the numbers."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import torch  # noqa: TID253
+from box_sampled_objects import box_sampled
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.optimize import linear_sum_assignment
+
+from asset_factory.factory.particulate.model import load_model
+from asset_factory.factory.particulate.network.shape import AxisForm, NetworkShape
+from asset_factory.factory.particulate.network.transformer import PartArticulationTransformer
+from asset_factory.learn.samples.batches import Batch, collate
+from asset_factory.learn.samples.sample import DrawSettings, draw
+from asset_factory.learn.train.losses import (
+    NAMES,
+    Answers,
+    Counts,
+    LossSettings,
+    count,
+    forward,
+    losses,
+    targets_of,
+    taught,
+    total,
+)
+from asset_factory.learn.train.matching import arranged_columns, assignment_costs, match
+
+ORIGINAL = {
+    "mask": "point_mask_loss",
+    "dice": "dice_loss",
+    "hierarchy": "motion_hierarchy_loss",
+    "motion": "part_motion_classification_loss",
+    "revolute_direction": "part_motion_axis_loss_revolute",
+    "prismatic_direction": "part_motion_axis_loss_prismatic",
+    "revolute_range": "part_motion_range_loss_revolute",
+    "prismatic_range": "part_motion_range_loss_prismatic",
+    "closest_points": "point_closest_point_on_axis_loss",
+}
+SHAPE = NetworkShape(hidden=16, blocks=2, heads=2, features=0, max_parts=6, mlp_ratio=2)
+
+torch.set_num_threads(1)
+
+
+@pytest.fixture
+def network():
+    torch.manual_seed(0)
+    return PartArticulationTransformer(SHAPE)
+
+
+def boxes(count, points=40):
+    rng = np.random.default_rng(0)
+    return collate(
+        [draw(box_sampled(seed), rng, DrawSettings(points=points)) for seed in range(count)], 6
+    ).to("cpu")
+
+
+def found_losses(network, batch, settings, counts=None):
+    targets = targets_of(batch, settings)
+    answers, early = forward(network, batch, settings)
+    counts = counts or Counts(*count(batch, targets, settings))
+    return losses(answers, early, batch, targets, counts, settings)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_losses_and_the_matcher_are_the_originals(fixtures, seed):
+    folder = fixtures / "pat_tiny"
+    network = load_model(str(folder / f"weights_seed{seed}.safetensors"))._network
+    with np.load(folder / f"losses_seed{seed}.npz") as stored:
+        wanted = {name: stored[name] for name in stored.files}
+    structure = wanted["part_structure_matrix"]
+    arrays = {
+        "points": wanted["xyz"],
+        "normals": wanted["normals"],
+        "features": wanted["feats"],
+        "part_ids": wanted["part_ids"],
+        "counts": wanted["num_valid_parts"],
+        "parents": np.where(structure.any(1), structure.argmax(1), -1),
+        "motion": wanted["gt_part_motion_class"],
+        "revolute_direction": np.ascontiguousarray(wanted["gt_revolute_plucker"][..., :3]),
+        "revolute_range": wanted["gt_revolute_range"],
+        "prismatic_direction": wanted["gt_prismatic_axis"],
+        "prismatic_range": wanted["gt_prismatic_range"],
+        "closest_points": wanted["gt_closest_point_on_axis"],
+    }
+    batch = Batch(**arrays).to("cpu")
+    settings = LossSettings(dice=1.0)
+    found = found_losses(network, batch, settings)
+    for name, original in ORIGINAL.items():
+        np.testing.assert_allclose(
+            found[name].item(), wanted[f"loss_matched_{original}"], rtol=1e-4, err_msg=name
+        )
+    queries = match(
+        torch.from_numpy(wanted["matcher_logits"]), batch.part_ids, batch.counts
+    ).numpy()
+    for row, chosen, columns in zip(
+        queries, batch.counts.tolist(), wanted["matcher_sorted_columns"], strict=True
+    ):
+        np.testing.assert_array_equal(row[:chosen], columns[:chosen])
+
+
+@given(st.integers(0, 1000), st.integers(1, 6), st.booleans())
+def test_the_match_is_the_best_assignment_and_a_permutation(seed, parts, root_first):
+    rng = np.random.default_rng(seed)
+    logits = torch.tensor(rng.normal(size=(1, 20, 6)), dtype=torch.float32)
+    part_ids = torch.tensor(rng.integers(0, parts, (1, 20)))
+    queries = match(logits, part_ids, torch.tensor([parts]), root_first=root_first)[0].numpy()
+    np.testing.assert_array_equal(np.sort(queries), np.arange(6))
+    cost = assignment_costs(logits, part_ids)[0, :parts].numpy()
+    if root_first:
+        assert queries[0] == 0
+        cost = cost.copy()
+        cost[0, 1:] = 1e6
+        cost[1:, 0] = 1e6
+    best = cost[linear_sum_assignment(cost)].sum()
+    assert cost[np.arange(parts), queries[:parts]].sum() == pytest.approx(best, rel=1e-5)
+
+
+def test_columns_follow_the_match():
+    logits = torch.arange(12.0).view(1, 2, 6)
+    assert arranged_columns(logits, torch.tensor([[3, 1, 0, 2, 4, 5]]))[0, 1].tolist() == [
+        9,
+        7,
+        6,
+        8,
+        10,
+        11,
+    ]
+
+
+def test_nothing_that_moves_and_no_edge_teach_nothing_wrong(network):
+    batch = boxes(2)
+    still = replace(
+        batch,
+        part_ids=torch.zeros_like(batch.part_ids),
+        counts=torch.ones_like(batch.counts),
+        parents=torch.full_like(batch.parents, -1),
+        motion=torch.zeros_like(batch.motion),
+        **{
+            name: torch.zeros_like(getattr(batch, name))
+            for name in (
+                "revolute_direction",
+                "revolute_range",
+                "prismatic_direction",
+                "prismatic_range",
+            )
+        },
+    )
+    settings = LossSettings(dice=1.0, auxiliary=1.0, sign_free=True)
+    found = found_losses(network, still, settings)
+    total(found, settings).backward()
+    assert all(np.isfinite(found[name].item()) for name in NAMES)
+    for name in (
+        "revolute_direction",
+        "prismatic_direction",
+        "revolute_range",
+        "prismatic_range",
+        "closest_points",
+    ):
+        assert found[name].item() == 0.0
+    assert all(
+        torch.isfinite(each.grad).all() for each in network.parameters() if each.grad is not None
+    )
+
+
+def test_micro_batches_add_up_to_the_whole_step(network):
+    batch = boxes(5)
+    settings = LossSettings(dice=1.0, auxiliary=0.5)
+    whole = found_losses(network, batch, settings)
+    micro = list(batch.split(2))
+    counts = Counts(
+        *(
+            sum(c)
+            for c in zip(*(count(m, targets_of(m, settings), settings) for m in micro), strict=True)
+        )
+    )
+    shares = [found_losses(network, each, settings, counts) for each in micro]
+    for name in NAMES:
+        assert sum(share[name].item() for share in shares) == pytest.approx(
+            whole[name].item(), rel=1e-5
+        ), name
+
+
+def test_an_opposite_direction_is_as_good_where_the_range_reads_the_same_from_both_ends(network):
+    batch = boxes(1)
+    direction = torch.tensor([0.0, 0.0, 1.0]).expand(1, 6, 3)
+    limits = torch.tensor(
+        [[-1.0, 1.0], [0.0, 1.0], [-3.2, 3.2], [-1.0, 0.5], [0.0, 6.3], [-0.1, 0.1]]
+    )[None]
+    batch = replace(
+        batch,
+        counts=torch.tensor([6]),
+        motion=torch.ones(1, 6, dtype=torch.long),
+        revolute_direction=direction,
+    )
+    batch = replace(batch, revolute_range=limits)
+    answers, _ = forward(network, batch, LossSettings())
+    said = replace(answers.parts, revolute_direction=-direction)
+    answers = Answers(answers.queries, answers.mask_logits, said, answers.closest_points)
+    for settings, wrong in ((LossSettings(), 6), (LossSettings(sign_free=True), 2)):
+        targets = targets_of(batch, settings)
+        counts = Counts(*count(batch, targets, settings))
+        found = losses(answers, [], batch, targets, counts, settings)
+        # Opposite unit vectors along a coordinate differ by 2 in one coordinate of three.
+        assert found["revolute_direction"].item() == pytest.approx(wrong / 6 * 2 / 3)
+
+
+def test_parts_without_a_point_teach_only_if_asked():
+    batch = boxes(1)
+    batch = replace(batch, part_ids=torch.zeros_like(batch.part_ids))
+    assert targets_of(batch, LossSettings()).parts.sum() == batch.counts[0]
+    assert targets_of(batch, LossSettings(unseen_parts=False)).parts.sum() == 1
+
+
+def test_an_upright_axis_is_the_same_joint_turned_about():
+    batch = boxes(3)
+    upright = taught(batch, LossSettings(upright_axes=True))
+    direction = upright.revolute_direction
+    limits = upright.revolute_range
+    assert (direction.gather(-1, direction.abs().argmax(-1, keepdim=True)) >= 0).all()
+    # Turning by a limit about an axis is one rotation vector, whichever way the axis points.
+    for low, high in ((0, 1), (1, 0)):
+        was = batch.revolute_direction * batch.revolute_range[..., low, None]
+        same = direction * limits[..., low, None]
+        other = direction * limits[..., high, None]
+        assert torch.where((same - was).abs() < 1e-6, same, other).allclose(was, atol=1e-6)
+    assert (limits[..., 0] <= limits[..., 1]).all()
+    assert taught(batch, LossSettings()) is batch
+
+
+def test_a_network_that_says_axes_by_moments_is_taught_those_of_the_annotated_axes():
+    shape = replace(SHAPE, axis_form=AxisForm.PLUCKER)
+    torch.manual_seed(0)
+    network = PartArticulationTransformer(shape)
+    batch = boxes(6)
+    settings = LossSettings()
+    targets = targets_of(batch, settings)
+    counts = Counts(*count(batch, targets, settings))
+    assert counts.closest_points > 0
+    answers, early = forward(network, batch, settings)
+    assert answers.closest_points is None
+    # The moment of the axis through any of its points, as a part says it.
+    moment = torch.zeros_like(answers.parts.revolute_moment)
+    for row in range(len(batch)):
+        for part in range(int(batch.counts[row])):
+            points = batch.closest_points[row][batch.part_ids[row] == part]
+            if len(points):
+                direction = batch.revolute_direction[row, part]
+                moment[row, part] = torch.linalg.cross(direction, points[0])
+    told = replace(answers, parts=replace(answers.parts, revolute_moment=moment))
+    right = losses(told, early, batch, targets, counts, settings)["closest_points"]
+    assert right.item() == pytest.approx(0.0, abs=1e-5)
+    wrong = replace(told, parts=replace(answers.parts, revolute_moment=moment + 0.5))
+    found = losses(wrong, early, batch, targets, counts, settings)["closest_points"]
+    assert found.item() == pytest.approx(0.5, abs=1e-5)

@@ -1,0 +1,308 @@
+"""Whole runs: what they leave, and that one cut off at any moment goes on as if it had not been."""
+
+import errno
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+import torch  # noqa: TID253
+from box_sampled_objects import write_boxes
+from tiny_recipe import recipe
+
+from asset_factory.factory.cli.commands import run
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.particulate.model import load_model
+from asset_factory.factory.particulate.weights.checkpoint import open_checkpoint
+from asset_factory.learn.commands.train import Train, train
+from asset_factory.learn.train import loop
+from asset_factory.learn.train import trainer as training
+from asset_factory.learn.train.checkpoints import fill, read_state, read_weights
+from asset_factory.learn.train.curves import read_curve
+from asset_factory.learn.train.folder import held
+from asset_factory.learn.train.matching import match
+from asset_factory.learn.train.recipes import load_train_config, parse_train_config
+
+SAME = ("curves.csv", "validation.csv", "model.safetensors")
+
+torch.set_num_threads(1)
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """A recipe, and the folder of an undisturbed run of it."""
+    folder = tmp_path_factory.mktemp("training")
+    path = folder / "tiny.toml"
+    path.write_text(recipe(write_boxes(folder / "data", 6)))
+    assert train(Train(str(path), folder / "run"))
+    return path, folder / "run"
+
+
+def test_a_run_leaves_weights_that_load_and_figures(written):
+    _, output = written
+    model = load_model(str(output / "model.safetensors"), max_parts=6)
+    assert (model.shape.hidden, model.shape.features) == (16, 27)
+    about = open_checkpoint(output / "model.safetensors").metadata
+    assert (about["features"], about["max_parts"], about["terms"], about["steps"]) == (
+        "components",
+        "6",
+        "for tests",
+        "12",
+    )
+    card = json.loads((output / "card.json").read_text())
+    assert card["samples"] == 72
+    assert 0.0 <= card["held_out"]["part_iou"] <= 1.0
+    curve = read_curve(output / "curves.csv")
+    assert curve["step"] == list(range(1, 13))
+    assert np.mean(curve["total"][-3:]) < curve["total"][0]
+    assert read_curve(output / "validation.csv")["step"] == [5, 10, 12]
+    assert (output / "curves.png").is_file()
+    assert read_state(output / "last.pt").step == 12
+    assert read_state(output / "best.pt").step in (5, 10, 12)
+
+
+def test_the_same_recipe_gives_the_same_bytes_and_workers_change_nothing(written, tmp_path):
+    path, output = written
+    assert train(Train(str(path), tmp_path / "again", workers=2))
+    for name in SAME:
+        assert (tmp_path / "again" / name).read_bytes() == (output / name).read_bytes(), name
+
+
+def test_a_killed_run_goes_on_as_if_it_had_not_been(written, tmp_path):
+    path, output = written
+    other = tmp_path / "run"
+    command = [
+        sys.executable,
+        "-m",
+        "asset_factory.factory.cli",
+        "train",
+        str(path),
+        "--output",
+        str(other),
+    ]
+    process = subprocess.Popen(
+        command, stderr=subprocess.DEVNULL, env={**os.environ, "OMP_NUM_THREADS": "1"}
+    )
+    deadline = time.monotonic() + 120.0
+    while (
+        not (other / "last.pt").is_file() and time.monotonic() < deadline and process.poll() is None
+    ):
+        time.sleep(0.005)
+    process.kill()
+    process.wait()
+    assert read_state(other / "last.pt").step >= 3
+    assert train(Train(str(path), other, resume=True))
+    for name in SAME:
+        assert (other / name).read_bytes() == (output / name).read_bytes(), name
+
+
+def test_asked_to_end_it_writes_a_checkpoint_and_goes_on_later(written, tmp_path, monkeypatch):
+    from asset_factory.learn.train.trainer import Trainer
+
+    path, output = written
+    step = Trainer.step
+
+    def interrupted(self, number, batch, stop=False):
+        if number == 4:
+            os.kill(os.getpid(), signal.SIGTERM)
+        return step(self, number, batch, stop)
+
+    monkeypatch.setattr(Trainer, "step", interrupted)
+    assert run(["train", str(path), "--output", str(tmp_path / "run")]) == 130
+    monkeypatch.undo()
+    assert read_state(tmp_path / "run" / "last.pt").step == 6
+    assert run(["train", str(path), "--output", str(tmp_path / "run"), "--resume"]) == 0
+    for name in SAME:
+        assert (tmp_path / "run" / name).read_bytes() == (output / name).read_bytes(), name
+
+
+def test_a_run_goes_on_by_its_own_recipe_alone(written, tmp_path):
+    path, output = written
+    with pytest.raises(ConfigError, match="--resume"):
+        train(Train(str(path), output))
+    with pytest.raises(ConfigError, match="holds no run"):
+        train(Train(str(path), tmp_path / "none", resume=True))
+    changed = tmp_path / "changed.toml"
+    changed.write_text(
+        path.read_text().replace("3e-3", "4e-3").replace("log_every = 4", "log_every = 5")
+    )
+    with pytest.raises(ConfigError, match=r"another schedule\.rate"):
+        train(Train(str(changed), output, resume=True))
+
+
+def test_other_data_start_from_the_weights_of_a_run(written, tmp_path):
+    path, output = written
+    recipe_text = (
+        path.read_text().replace("steps = 12", "steps = 1").replace("rate = 3e-3", "rate = 1e-12")
+    )
+    (tmp_path / "more.toml").write_text(recipe_text)
+    assert train(Train(str(tmp_path / "more.toml"), tmp_path / "run", start=output / "last.pt"))
+    before = read_weights(output / "model.safetensors")
+    after = read_weights(tmp_path / "run" / "model.safetensors")
+    for name, tensor in before.items():
+        torch.testing.assert_close(after[name], tensor, rtol=0.0, atol=1e-6)
+
+
+def test_weights_of_another_network_are_refused_with_what_differs(written):
+    _, output = written
+    network = torch.nn.Sequential(torch.nn.Linear(2, 2))
+    with pytest.raises(ConfigError, match=r"0\.weight: missing.*not in the network.*more"):
+        fill(network, read_weights(output / "last.pt"), output / "last.pt")
+    weights = {"0.weight": torch.zeros(3, 2), "0.bias": torch.zeros(2)}
+    with pytest.raises(ConfigError, match=r"0\.weight: shape \[3, 2\], want \[2, 2\]"):
+        fill(network, weights, output)
+
+
+def test_without_an_output_the_recipe_is_printed_to_edit(capsys):
+    assert run(["train", "paper"]) == 0
+    assert parse_train_config(capsys.readouterr().out, "printed") == load_train_config("paper")
+    assert run(["train", "paper", "--resume"]) == 2
+    assert "--output: missing" in capsys.readouterr().err
+
+
+def test_damaged_checkpoints_are_refused(tmp_path):
+    (tmp_path / "last.pt").write_bytes(b"PK nothing")
+    with pytest.raises(ConfigError, match="not a checkpoint"):
+        read_state(tmp_path / "last.pt")
+
+
+def test_weights_that_are_no_numbers_are_never_written(written, tmp_path, monkeypatch):
+    from asset_factory.learn.train.trainer import Trainer
+
+    path, _ = written
+    step = Trainer.step
+
+    def poisoned(self, number, batch, stop=False):
+        if number == 4:
+            with torch.no_grad():
+                next(self.network.parameters()).fill_(float("nan"))
+        return step(self, number, batch, stop)
+
+    monkeypatch.setattr(Trainer, "step", poisoned)
+    with pytest.raises(ConfigError, match=r"step 5: .* is not finite any more"):
+        train(Train(str(path), tmp_path / "run"))
+    assert read_state(tmp_path / "run" / "last.pt").step == 3
+    for weights in (
+        read_state(tmp_path / "run" / "last.pt").weights,
+        read_weights(tmp_path / "run" / "model.safetensors"),
+    ):
+        assert all(bool(torch.isfinite(each).all()) for each in weights.values())
+
+
+def test_a_run_whose_gradients_stay_infinite_ends(written, tmp_path, monkeypatch):
+    path, _ = written
+    (tmp_path / "nan.toml").write_text(path.read_text().replace("steps = 12", "steps = 40"))
+    monkeypatch.setattr(training, "total", lambda found, settings: found["mask"] * float("nan"))
+    with pytest.raises(
+        ConfigError, match="step 19: the gradients of 20 steps in a row are not finite"
+    ):
+        train(Train(str(tmp_path / "nan.toml"), tmp_path / "run"))
+
+
+def test_an_answer_that_overflowed_is_matched_anyhow():
+    logits = torch.full((1, 4, 3), float("nan"))
+    queries = match(logits, torch.tensor([[0, 1, 2, 0]]), torch.tensor([3]))
+    assert sorted(queries[0].tolist()) == [0, 1, 2]
+
+
+def test_a_folder_belongs_to_one_run_at_a_time(written, tmp_path):
+    path, output = written
+    with held(output), pytest.raises(ConfigError, match="another process is training there"):
+        train(Train(str(path), output, resume=True))
+    with held(output):
+        pass
+
+
+def test_a_run_that_could_not_begin_leaves_none_to_go_on_with(written, tmp_path):
+    path, _ = written
+    (tmp_path / "bad.toml").write_text(path.read_text().replace('path = "', 'path = "/none'))
+    with pytest.raises(ConfigError, match="no such folder"):
+        train(Train(str(tmp_path / "bad.toml"), tmp_path / "run"))
+    with pytest.raises(ConfigError, match="No such file"):
+        train(Train(str(path), tmp_path / "run", start=tmp_path / "none.safetensors"))
+    with pytest.raises(ConfigError, match="holds no run to go on with"):
+        train(Train(str(path), tmp_path / "run", resume=True))
+
+
+def test_killed_before_its_first_checkpoint_a_tuned_run_goes_on_from_its_weights(
+    written, tmp_path, monkeypatch
+):
+    from asset_factory.learn.train.trainer import Trainer
+
+    path, output = written
+
+    def killed(self, number, batch, stop=False):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Trainer, "step", killed)
+    with pytest.raises(KeyboardInterrupt):
+        train(Train(str(path), tmp_path / "run", start=output / "model.safetensors"))
+    found = read_state(tmp_path / "run" / "last.pt")
+    wanted = read_weights(output / "model.safetensors")
+    assert found.step == 0
+    for name, tensor in found.weights.items():
+        torch.testing.assert_close(tensor, wanted[name])
+
+
+def test_a_checkpoint_of_another_network_is_refused(written, tmp_path):
+    path, output = written
+    shutil.copytree(output, tmp_path / "run")
+    state = torch.load(output / "last.pt", weights_only=True)
+    state["weights"].popitem()
+    torch.save(state, tmp_path / "run" / "last.pt")
+    with pytest.raises(ConfigError, match=r"last\.pt: weights of another network: .*: missing"):
+        train(Train(str(path), tmp_path / "run", resume=True))
+
+
+def test_a_full_disk_ends_the_run_with_a_sentence_and_leaves_what_was_there(
+    written, tmp_path, monkeypatch
+):
+    path, _ = written
+    write = loop.write_state
+    written_so_far = []
+
+    def full(target, state):
+        written_so_far.append(state.step)
+        if state.step > 3:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        write(target, state)
+
+    monkeypatch.setattr(loop, "write_state", full)
+    with pytest.raises(
+        ConfigError, match="No space left on device; what was stored before is whole, and --resume"
+    ):
+        train(Train(str(path), tmp_path / "run"))
+    assert read_state(tmp_path / "run" / "last.pt").step == 3
+    assert not list((tmp_path / "run").glob(".writing-*"))
+
+
+def test_the_card_names_the_sources(written):
+    _, output = written
+    card = json.loads((output / "card.json").read_text())
+    assert card["sources"] == [{"kind": "sampled", "sampled": 6, "skipped": {}}]
+
+
+@pytest.mark.full
+def test_two_processes_learn_the_same_as_one(tmp_path):
+    path = tmp_path / "tiny.toml"
+    path.write_text(recipe(write_boxes(tmp_path / "data", 6), dropout=0.0, steps=8))
+    assert train(Train(str(path), tmp_path / "one"))
+    launch = [sys.executable, "-m", "torch.distributed.run", "--standalone", "--nproc-per-node=2"]
+    command = [
+        *launch,
+        "-m",
+        "asset_factory.factory.cli",
+        "train",
+        str(path),
+        "--output",
+        str(tmp_path / "two"),
+    ]
+    subprocess.run(command, check=True, timeout=300, env={**os.environ, "OMP_NUM_THREADS": "1"})
+    one, two = (read_curve(tmp_path / name / "curves.csv") for name in ("one", "two"))
+    for name, values in one.items():
+        np.testing.assert_allclose(two[name], values, rtol=1e-3, atol=1e-5, err_msg=name)

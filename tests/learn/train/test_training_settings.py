@@ -1,0 +1,92 @@
+"""Recipes: those that come with the package can be read, and mistakes are named."""
+
+import pytest
+
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.particulate.network.shape import SIZES
+from asset_factory.learn.train.recipes import (
+    load_train_config,
+    parse_train_config,
+    recipe_names,
+)
+
+DATA = '[[data]]\nkind = "procedural"\n'
+
+
+def test_every_shipped_recipe_can_be_read():
+    assert {"laptop", "small", "paper"} <= set(recipe_names())
+    for name in recipe_names():
+        assert load_train_config(name).recipe == name
+
+
+def test_the_papers_recipe_is_the_papers():
+    config = load_train_config("paper")
+    assert (config.schedule.steps, config.batch, config.draw_at(0).points) == (100_000, 128, 2048)
+    assert (config.draw.sharp_share, config.draw.scale, config.draw.shift) == (
+        0.5,
+        (0.95, 1.05),
+        0.02,
+    )
+    size = SIZES["B"]
+    shape = config.network.shape
+    assert (shape.hidden, shape.blocks, shape.heads, shape.mlp, shape.max_parts) == (
+        size.hidden,
+        size.blocks,
+        size.heads,
+        size.mlp,
+        size.max_parts,
+    )
+    loss = config.loss
+    assert (loss.revolute_range, loss.dice, loss.auxiliary, loss.unseen_parts) == (
+        0.1,
+        0.0,
+        0.0,
+        True,
+    )
+
+
+def test_components_bring_their_channels():
+    config = parse_train_config(f'[network]\nfeatures = "components"\n{DATA}', "here")
+    assert config.network.shape.features == 27
+    assert config.draw_at(0).components
+    assert not parse_train_config(DATA, "here").draw_at(0).components
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("", "no \\[\\[data\\]\\]"),
+        ('[[data]]\nkind = "pictures"\n', "there are procedural"),
+        ('[[data]]\npath = "x"\n', "kind is None"),
+        ('[[data]]\nkind = "sampled"\n', "wants a path"),
+        (f'[network]\nfeatures = "partfield"\n{DATA}', "PartField is not computed while training"),
+        (f"[network]\nheads = 5\n{DATA}", "do not divide the width 768"),
+        (f"[network]\ndepth = 5\n{DATA}", "no setting 'depth'; there are axes, blocks"),
+        (f"[loss]\nmask = -1.0\n{DATA}", "loss.mask: is -1.0, want 0 or more"),
+        (f"[schedule]\nsteps = 0\n{DATA}", "schedule.steps: is 0, want 1 or more"),
+        (f'[run]\nprecision = "float8"\n{DATA}', "'float32' or 'bfloat16'"),
+        ("batch = \n", "here"),
+        (f"seed = -1\n{DATA}", "seed: is -1, want 0 to"),
+        (f"[run]\nworkers = -1\n{DATA}", "run.workers: is -1, want 0 or more"),
+        (f"[run]\nmicro_batch = -2\n{DATA}", "run.micro_batch: is -2"),
+        (f"[draw]\nscale = [1.0]\n{DATA}", r"draw.scale: is \[1.0\], want two numbers"),
+        (f"[draw]\nscale = [1.1, 0.9]\n{DATA}", "the lower one first"),
+        (f"[draw]\nscale = 1.0\n{DATA}", "draw: scale: is 1.0, want tuple"),
+        (f"[draw]\nclosed_share = 5\n{DATA}", "draw.closed_share: is 5.0, want 0 to 1"),
+        (f"[draw]\nshift = inf\n{DATA}", "draw.shift: is inf, want 0 or more"),
+        (f'[optimiser]\nbetas = ["a", "b"]\n{DATA}', "optimiser.betas: is 'a', want 0 to"),
+        (f"[optimiser]\nema = 1.5\n{DATA}", "optimiser.ema: is 1.5, want 0 to 1"),
+        (f"[schedule]\nrate = nan\n{DATA}", "schedule.rate: is nan"),
+        (f"{DATA}weight = inf\n", "data 1: weight: is inf"),
+        (f"{DATA}objects = -3\n", "data 1: objects: is -3, want 0 or more"),
+        (f'{DATA}style = "plain"\n', "data 1: style: is 'plain', want a table"),
+    ],
+)
+def test_mistakes_are_named(text, says):
+    with pytest.raises(ConfigError, match=says):
+        parse_train_config(text, "here")
+
+
+def test_an_unknown_recipe_is_told_which_there_are():
+    with pytest.raises(ConfigError, match="there are laptop, paper, skins, small, or a path"):
+        load_train_config("large")
