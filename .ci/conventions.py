@@ -31,8 +31,8 @@ WORDS = {
 CLOCKS = re.compile(r"(process_time|perf_counter|monotonic|thread_time|time)(_ns)?")
 CLOCKS_IN = (
     "factory/jobs/",
-    "factory/particulate/service/",
-    "factory/particulate/weights/pickled.py",
+    "factory/models/service/",
+    "factory/models/weights/pickled.py",
     "factory/registry/registration.py",
     "factory/runtime/clock.py",
     "factory/runtime/store.py",

@@ -18,9 +18,9 @@ import numpy as np
 
 from asset_factory.factory.articulate.particulate import load_articulator
 from asset_factory.factory.config import AutoConfig, ParticulateConfig
-from asset_factory.factory.particulate.prediction import Prediction
-from asset_factory.factory.particulate.sampling import Cloud
-from asset_factory.factory.particulate.service import Address, ModelService, asking, call_asking
+from asset_factory.factory.models.particulate.prediction import Prediction
+from asset_factory.factory.models.particulate.sampling import Cloud
+from asset_factory.factory.models.service import Address, ModelService, asking, call_asking
 from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 
 QUESTIONS = 8
@@ -71,7 +71,7 @@ def batches(questions: list[tuple[Cloud, Cloud]]) -> dict[str, Any]:
     """Time per cloud of the network as it answers, and of its plain form with 1 and more clouds."""
     import torch
 
-    from asset_factory.factory.particulate.loading import load_network
+    from asset_factory.factory.models.particulate.loading import load_network
 
     torch.set_num_threads(1)
     learned = load_network(ParticulateConfig())

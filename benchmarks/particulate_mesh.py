@@ -13,10 +13,10 @@ import time
 
 import numpy as np
 
-from asset_factory.factory.particulate.labels import Refinement, refined, with_gaps_filled
-from asset_factory.factory.particulate.proxy import carried_back, proxy_of
-from asset_factory.factory.particulate.sampling import sample
-from asset_factory.factory.particulate.surface import Surface
+from asset_factory.factory.models.particulate.labels import Refinement, refined, with_gaps_filled
+from asset_factory.factory.models.particulate.proxy import carried_back, proxy_of
+from asset_factory.factory.models.particulate.sampling import sample
+from asset_factory.factory.models.particulate.surface import Surface
 
 POINTS = 102_400
 CONTEXT = 40_000

@@ -19,8 +19,8 @@ from scipy.optimize import linear_sum_assignment
 from asset_factory.factory.articulate.settings import decode_rules
 from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.mesh import FloatArray, IntArray, Mesh
-from asset_factory.factory.particulate.inference import infer
-from asset_factory.factory.particulate.model import Model, Particulate, load_model
+from asset_factory.factory.models.particulate.inference import infer
+from asset_factory.factory.models.particulate.model import Model, Particulate, load_model
 from asset_factory.learn.objects import make_object
 
 CATEGORIES = (

@@ -19,10 +19,10 @@ import numpy as np
 
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.geometry.posing import posed
-from asset_factory.factory.particulate import sampling
-from asset_factory.factory.particulate.components import component_features
-from asset_factory.factory.particulate.sharp import sharp_edges
-from asset_factory.factory.particulate.surface import Surface
+from asset_factory.factory.models.particulate import sampling
+from asset_factory.factory.models.particulate.components import component_features
+from asset_factory.factory.models.particulate.sharp import sharp_edges
+from asset_factory.factory.models.particulate.surface import Surface
 from asset_factory.learn.objects import CATEGORIES, MixtureSettings, training_object
 from asset_factory.learn.samples.sample import DrawSettings, draw
 from asset_factory.learn.samples.sampled_object import sampled_from

@@ -12,15 +12,15 @@ from ..config import BuildConfig, ParticulateConfig
 from ..intake.annotation import AnnotatedJoint, Annotation
 from ..intake.intake import Intake
 from ..mesh import FloatArray, Mesh
-from ..particulate.agreement import Consensus
-from ..particulate.decoding import Decoded, DecodedPart
-from ..particulate.inference import Network, infer
-from ..particulate.loading import load_network, weight_files
-from ..particulate.motion import PredictedMotion
-from ..particulate.prediction import MotionClass
-from ..particulate.service import identity_of, network_for
-from ..particulate.weights.checkpoint import describe
-from ..particulate.weights.sources import fetch
+from ..models.particulate.agreement import Consensus
+from ..models.particulate.decoding import Decoded, DecodedPart
+from ..models.particulate.inference import Network, infer
+from ..models.particulate.loading import load_network, weight_files
+from ..models.particulate.motion import PredictedMotion
+from ..models.particulate.prediction import MotionClass
+from ..models.service import identity_of, network_for
+from ..models.weights.checkpoint import describe
+from ..models.weights.sources import fetch
 from ..runtime.store import digest_file
 from .annotated import AnnotatedArticulator
 from .settings import decode_rules, require_usable

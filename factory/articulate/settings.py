@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from ..config import ParticulateConfig
 from ..errors import ConfigError
-from ..particulate.components import COMPONENT_FEATURES
-from ..particulate.decoding import DecodeRules, TreeOver
-from ..particulate.inference import MOST_SAMPLES
-from ..particulate.labels import Refinement
-from ..particulate.network.shape import read_shape
-from ..particulate.partfield.shape import read_partfield_shape
-from ..particulate.precision import Precision
-from ..particulate.weights.checkpoint import naming, open_checkpoint
-from ..particulate.weights.sources import PARTFIELD, SHIPPED, fetch
+from ..models.network.shape import read_shape
+from ..models.partfield.shape import read_partfield_shape
+from ..models.particulate.components import COMPONENT_FEATURES
+from ..models.particulate.decoding import DecodeRules, TreeOver
+from ..models.particulate.inference import MOST_SAMPLES
+from ..models.particulate.labels import Refinement
+from ..models.particulate.precision import Precision
+from ..models.weights.checkpoint import naming, open_checkpoint
+from ..models.weights.sources import PARTFIELD, SHIPPED, fetch
 
 LEAST = {"driving": 0, "points": 1, "context_points": 1, "max_faces": 4, "samples": 1}
 

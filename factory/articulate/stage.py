@@ -11,7 +11,7 @@ from ..config import BuildConfig
 from ..errors import ConfigError, InputRejected
 from ..intake.intake import Intake
 from ..mesh import FloatArray, IntArray, Mesh
-from ..particulate.weights.sources import fetch
+from ..models.weights.sources import fetch
 from ..runtime.keys import Stage
 from ..runtime.stages import Stages
 from ..runtime.store import digest_file

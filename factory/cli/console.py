@@ -21,7 +21,7 @@ from rich.table import Table
 
 from asset_factory.sim_checks import Disagreement, Finding, Report, Severity, Status
 
-from ..particulate.weights.checkpoint import WeightsInfo
+from ..models.weights.checkpoint import WeightsInfo
 from ..registry import Entry
 from ..registry.result import Result
 from ..report.summary import Summary

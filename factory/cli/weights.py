@@ -43,8 +43,8 @@ class WeightsCommand:
 
 def run(command: WeightsCommand) -> int:
     """Describe or convert a checkpoint; returns the exit code."""
-    from ..particulate.weights.checkpoint import convert, describe
-    from ..particulate.weights.sources import fetch
+    from ..models.weights.checkpoint import convert, describe
+    from ..models.weights.sources import fetch
 
     wanted = command.action
     source = fetch(wanted.checkpoint)

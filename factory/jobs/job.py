@@ -19,7 +19,7 @@ from ..articulate.catalog import entry_of
 from ..config import BuildConfig
 from ..errors import RegistryError
 from ..intake.load import DESCRIPTION_SUFFIXES
-from ..particulate.service import Address, ModelService
+from ..models.service import Address, ModelService
 from ..registry import Entry, Registry
 from ..registry.claims import Claim, claim
 from ..registry.product import Product

@@ -12,8 +12,8 @@ from asset_factory.sim_checks.judge import Judge
 
 from ..build import make_asset
 from ..config import BuildConfig
-from ..particulate.service import Address, asking
-from ..particulate.weights.sources import weights_at
+from ..models.service import Address, asking
+from ..models.weights.sources import weights_at
 from ..registry.product import Product
 
 _JUDGES: dict[CheckConfig, Judge] = {}

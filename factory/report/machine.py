@@ -154,8 +154,8 @@ def _network() -> str:
     import torch
 
     from ..config import ParticulateConfig
-    from ..particulate.loading import load_network
-    from ..particulate.weights.sources import SHIPPED
+    from ..models.particulate.loading import load_network
+    from ..models.weights.sources import SHIPPED
 
     load_network(ParticulateConfig(checkpoint=SHIPPED))
     place = torch.cuda.get_device_name() if torch.cuda.is_available() else "no GPU: on the CPU"

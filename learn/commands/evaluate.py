@@ -256,7 +256,7 @@ def _list_digest(path: Path | None) -> str:
 
 
 def _weights(checkpoint: str) -> dict[str, str]:
-    from asset_factory.factory.particulate.weights.sources import fetch
+    from asset_factory.factory.models.weights.sources import fetch
 
     file = fetch(checkpoint)
     return {"file": file.name, "digest": digest_file(file)}

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.mesh import FloatArray, IntArray, Mesh, read_only
-from asset_factory.factory.particulate.prediction import MotionClass
+from asset_factory.factory.models.particulate.prediction import MotionClass
 
 BoolArray = npt.NDArray[np.bool_]
 

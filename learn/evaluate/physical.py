@@ -14,7 +14,7 @@ import numpy as np
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import FloatArray
-from asset_factory.factory.particulate.prediction import MotionClass
+from asset_factory.factory.models.particulate.prediction import MotionClass
 
 from .bodies import Bodies, BoolArray, bodies_of, face_centres
 from .hits import FOUND_IOU, angles, hits, offset

@@ -18,7 +18,7 @@ from asset_factory.factory.articulate.evidence.numbers import GUESS, measure
 from asset_factory.factory.articulate.evidence.setting import Setting, setting_of
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.mesh import FloatArray
-from asset_factory.factory.particulate.surface import BoolArray
+from asset_factory.factory.models.particulate.surface import BoolArray
 
 from .spoiling import spoilt
 from .truth import made_up_guess, truth_of

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from asset_factory.factory.articulation import rotation_about
-from asset_factory.factory.mesh import FloatArray, IntArray
-from asset_factory.factory.particulate.components import component_features
-from asset_factory.factory.particulate.prediction import Float32Array, MotionClass
+from asset_factory.factory.mesh import Float32Array, FloatArray, IntArray
+from asset_factory.factory.models.particulate.components import component_features
+from asset_factory.factory.models.particulate.prediction import MotionClass
 
 from .sampled_object import SampledObject
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.particulate.weights.checkpoint import load_tensors, open_checkpoint
+from asset_factory.factory.models.weights.checkpoint import load_tensors, open_checkpoint
 from asset_factory.factory.runtime.store import writing
 
 Tensor = Any

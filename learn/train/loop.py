@@ -15,15 +15,15 @@ from typing import Any
 import torch  # noqa: TID253 - this module is only imported to train
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.particulate.network.shape import expected_tensors, parameter_count
-from asset_factory.factory.particulate.weights.safetensors import write_safetensors
+from asset_factory.factory.models.network.shape import expected_tensors, parameter_count
+from asset_factory.factory.models.weights.safetensors import write_safetensors
 from asset_factory.factory.runtime.store import write_whole
 
 from ..samples.sample import Sample
-from ..train.data_loader import DataLoader
-from ..train.dataset import digest, find_pools, held_out_samples, source_counts, source_lines
 from .checkpoints import BEST, LAST, State, fill, read_state, read_weights, write_state
 from .curves import Curve, draw_curves, require_plotting
+from .data_loader import DataLoader
+from .dataset import digest, find_pools, held_out_samples, source_counts, source_lines
 from .distributed import ProcessGroup, joined
 from .folder import held
 from .progress import Watch, watching

@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from asset_factory.factory.particulate.network.shape import AxisForm
+from asset_factory.factory.models.network.shape import AxisForm
 
 from ..samples.batches import Batch
 from .matching import arranged, arranged_columns, match

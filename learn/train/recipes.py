@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.particulate.network.shape import AxisForm
+from asset_factory.factory.models.network.shape import AxisForm
 from asset_factory.factory.presets import overlay
 
 from .bounds import require_within

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from asset_factory.factory.particulate.components import COMPONENT_FEATURES
-from asset_factory.factory.particulate.network.shape import AxisForm, NetworkShape
+from asset_factory.factory.models.network.shape import AxisForm, NetworkShape
+from asset_factory.factory.models.particulate.components import COMPONENT_FEATURES
 
 from ..samples.sample import DrawSettings
 from .losses import LossSettings

@@ -12,8 +12,8 @@ import numpy as np
 import torch  # noqa: TID253 - this module is only imported to train
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.particulate.network.shape import FREQUENCIES
-from asset_factory.factory.particulate.network.transformer import PartArticulationTransformer
+from asset_factory.factory.models.network.shape import FREQUENCIES
+from asset_factory.factory.models.network.transformer import PartArticulationTransformer
 
 from ..samples.batches import Batch
 from .checkpoints import State, fill

@@ -2,7 +2,7 @@
 
 import pytest
 
-from asset_factory.factory.particulate.weights import pickled
+from asset_factory.factory.models.weights import pickled
 from asset_factory.sim_checks.processes.isolation import WarmChild
 
 

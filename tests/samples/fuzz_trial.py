@@ -294,7 +294,7 @@ def _check(path: Path, folder: Path) -> tuple[str, str]:
 def _weights(path: Path, folder: Path) -> tuple[str, str]:
     """As ``factory weights info`` does."""
     from asset_factory.factory.errors import ConfigError
-    from asset_factory.factory.particulate.weights.checkpoint import describe
+    from asset_factory.factory.models.weights.checkpoint import describe
 
     return _judged(lambda: str(describe(path).network), ConfigError)
 

@@ -3,10 +3,10 @@
 import numpy as np
 
 from asset_factory.factory.articulation import JointKind
-from asset_factory.factory.particulate.prediction import MotionClass, Prediction
-from asset_factory.factory.particulate.proxy import proxy_of
-from asset_factory.factory.particulate.sampling import sample
-from asset_factory.factory.particulate.surface import Surface
+from asset_factory.factory.models.particulate.prediction import MotionClass, Prediction
+from asset_factory.factory.models.particulate.proxy import proxy_of
+from asset_factory.factory.models.particulate.sampling import sample
+from asset_factory.factory.models.particulate.surface import Surface
 
 SURE = 12.0
 PARTS = 16

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from asset_factory.factory.particulate.prediction import Prediction
+from asset_factory.factory.models.particulate.prediction import Prediction
 
 PARTS = 16
 

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from asset_factory.factory.articulate.particulate import load_articulator
-from asset_factory.factory.particulate.sampling import Cloud
-from asset_factory.factory.particulate.service import Address, asking
+from asset_factory.factory.models.particulate.sampling import Cloud
+from asset_factory.factory.models.service import Address, asking
 
 
 @dataclass(frozen=True)

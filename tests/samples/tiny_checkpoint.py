@@ -2,8 +2,8 @@
 
 from weight_rule import weights
 
-from asset_factory.factory.particulate.network.shape import NetworkShape, expected_tensors
-from asset_factory.factory.particulate.weights.safetensors import write_safetensors
+from asset_factory.factory.models.network.shape import NetworkShape, expected_tensors
+from asset_factory.factory.models.weights.safetensors import write_safetensors
 
 SHAPE = NetworkShape(hidden=32, blocks=2, heads=4, features=0)
 GAINS = {"point_mask_decoder": 8.0, "part_hierarchy_decoder": 2.0, "part_motion_classifier": 8.0}

@@ -6,9 +6,9 @@ import numpy as np
 import torch  # noqa: TID253
 from weight_rule import weights
 
-from asset_factory.factory.particulate.model import Model, PointCloud
-from asset_factory.factory.particulate.network.shape import NetworkShape, expected_tensors
-from asset_factory.factory.particulate.network.transformer import PartArticulationTransformer
+from asset_factory.factory.models.network.shape import NetworkShape, expected_tensors
+from asset_factory.factory.models.network.transformer import PartArticulationTransformer
+from asset_factory.factory.models.particulate.model import Model, PointCloud
 
 TINY = NetworkShape(hidden=32, blocks=3, heads=4, features=6)
 GAINS = {"point_mask_decoder": 3.0, "part_hierarchy_decoder": 2.0}

@@ -15,8 +15,8 @@ from ...geometry.components import connected_components
 from ...geometry.triangles import face_areas
 from ...intake.intake import Intake
 from ...mesh import FloatArray, IntArray, Mesh
-from ...particulate.inference import Network
-from ...particulate.weights.sources import SHIPPED
+from ...models.particulate.inference import Network
+from ...models.weights.sources import SHIPPED
 from ..annotated import annotated_articulator, annotation_of
 from ..articulator import Articulator
 from ..geometric import GeometricArticulator

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...mesh import FloatArray, read_only
-from ...particulate.surface import BoolArray
+from ...models.particulate.surface import BoolArray
 from ..evidence import Guess
 from .views import SeenPart, Slide, View
 

@@ -8,7 +8,7 @@ from enum import IntEnum
 import numpy as np
 
 from ...mesh import FloatArray, read_only
-from ...particulate.surface import BoolArray
+from ...models.particulate.surface import BoolArray
 from ..evidence import SeenMotion
 from .trust import SIGNS
 from .views import Slide

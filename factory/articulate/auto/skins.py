@@ -10,7 +10,7 @@ import numpy as np
 from ...articulation import Articulation, Part
 from ...geometry.components import connected_components
 from ...mesh import Mesh
-from ...particulate.surface import Surface
+from ...models.particulate.surface import Surface
 from ..seams import SeamsArticulator
 from .trust import Trust
 

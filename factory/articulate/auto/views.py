@@ -9,8 +9,8 @@ import numpy as np
 from ...articulation import rotation_about
 from ...config import ParticulateConfig
 from ...mesh import FloatArray, IntArray, Mesh
-from ...particulate.decoding import Decoded, DecodeRules
-from ...particulate.inference import Network, infer
+from ...models.particulate.decoding import Decoded, DecodeRules
+from ...models.particulate.inference import Network, infer
 from ..geometric.scene import level_yaw
 
 UP = np.array([0.0, 0.0, 1.0])

@@ -14,7 +14,7 @@ from typing import Any
 
 from ...config import BuildConfig
 from ...errors import ConfigError
-from ...particulate.weights.sources import HUB, SHIPPED
+from ...models.weights.sources import HUB, SHIPPED
 from ...presets import load_config, overlay
 from ...report.nightly.outcome import ALL_INPUTS, SHARED_INPUTS, FailureRules
 from ...runtime.remote import is_url

@@ -16,11 +16,11 @@ from typing import Any
 from asset_factory.sim_checks.processes.isolation import processors
 
 from ...config import ParticulateConfig
-from ...particulate.service import Address
-from ...particulate.service.answering import refusal
-from ...particulate.service.listening import answer_all, listening_socket
-from ...particulate.service.process import load_answering
-from ...particulate.weights.sources import weights_at
+from ...models.service import Address
+from ...models.service.answering import refusal
+from ...models.service.listening import answer_all, listening_socket
+from ...models.service.process import load_answering
+from ...models.weights.sources import weights_at
 from .weights import SentWeights, arrived
 
 #: Clouds that wait for one GPU at a time.

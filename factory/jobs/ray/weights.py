@@ -14,7 +14,7 @@ import numpy as np
 from filelock import FileLock
 
 from ...errors import ConfigError
-from ...particulate.weights.sources import SHIPPED, fetch
+from ...models.weights.sources import SHIPPED, fetch
 from ...runtime.store import digest_file, writing
 from .exchange import ExchangeError
 

@@ -14,7 +14,7 @@ from asset_factory.factory.articulation import JointKind, Weights
 from asset_factory.factory.config import BuildConfig, ParticulateConfig
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.intake.intake import Intake, Provenance
-from asset_factory.factory.particulate.prediction import MotionClass
+from asset_factory.factory.models.particulate.prediction import MotionClass
 from asset_factory.learn.objects.catalog import DEMO_CATEGORIES, make_object
 from asset_factory.learn.surfaces import fused_like
 

@@ -11,18 +11,18 @@ from weight_rule import weights
 
 from asset_factory.factory.cli.commands import run
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.particulate.model import load_field, load_model
-from asset_factory.factory.particulate.network.shape import expected_tensors
-from asset_factory.factory.particulate.partfield.shape import UNUSED, PartFieldShape
-from asset_factory.factory.particulate.partfield.shape import (
+from asset_factory.factory.models.network.shape import expected_tensors
+from asset_factory.factory.models.partfield.shape import UNUSED, PartFieldShape
+from asset_factory.factory.models.partfield.shape import (
     expected_tensors as expected_field_tensors,
 )
-from asset_factory.factory.particulate.weights.checkpoint import convert, describe
-from asset_factory.factory.particulate.weights.safetensors import (
+from asset_factory.factory.models.particulate.model import load_field, load_model
+from asset_factory.factory.models.weights.checkpoint import convert, describe
+from asset_factory.factory.models.weights.safetensors import (
     read_safetensors,
     write_safetensors,
 )
-from asset_factory.factory.particulate.weights.sources import PARTFIELD, PARTICULATE, fetch
+from asset_factory.factory.models.weights.sources import PARTFIELD, PARTICULATE, fetch
 from asset_factory.factory.runtime.store import digest_file
 
 pytestmark = pytest.mark.usefixtures("warm_reader")

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asset_factory.factory.geometry.pieces import Sheet, pieces
-from asset_factory.factory.particulate.surface import Surface
+from asset_factory.factory.models.particulate.surface import Surface
 
 
 def sheet_of(shape: trimesh.Trimesh, colors: np.ndarray | None = None) -> Sheet:

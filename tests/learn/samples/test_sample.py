@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, rotation_about
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.mesh import Mesh, concatenate
-from asset_factory.factory.particulate.prediction import MotionClass
+from asset_factory.factory.models.particulate.prediction import MotionClass
 from asset_factory.learn.objects import make_object
 from asset_factory.learn.samples import sampled_object as sampled_objects
 from asset_factory.learn.samples.sample import DrawSettings, draw

@@ -17,7 +17,7 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind, P
 from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.mesh import Material, Mesh
-from asset_factory.factory.particulate.surface import Surface
+from asset_factory.factory.models.particulate.surface import Surface
 from asset_factory.learn.objects import artist_like, fused_like, make_object
 from asset_factory.learn.objects.mixture import in_character
 from asset_factory.learn.surfaces import mirrored, skin_like, stretched

@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import linear_sum_assignment
 
-from asset_factory.factory.particulate.model import load_model
-from asset_factory.factory.particulate.network.shape import AxisForm, NetworkShape
-from asset_factory.factory.particulate.network.transformer import PartArticulationTransformer
+from asset_factory.factory.models.network.shape import AxisForm, NetworkShape
+from asset_factory.factory.models.network.transformer import PartArticulationTransformer
+from asset_factory.factory.models.particulate.model import load_model
 from asset_factory.learn.samples.batches import Batch, collate
 from asset_factory.learn.samples.sample import DrawSettings, draw
 from asset_factory.learn.train.losses import (

@@ -3,8 +3,8 @@
 import pytest
 import torch  # noqa: TID253
 
-from asset_factory.factory.particulate.network import pairs
-from asset_factory.factory.particulate.network.layers import two_layers
+from asset_factory.factory.models.network import pairs
+from asset_factory.factory.models.network.layers import two_layers
 
 torch.set_num_threads(1)
 

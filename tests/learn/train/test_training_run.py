@@ -17,8 +17,8 @@ from tiny_recipe import recipe
 
 from asset_factory.factory.cli.commands import run
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.particulate.model import load_model
-from asset_factory.factory.particulate.weights.checkpoint import open_checkpoint
+from asset_factory.factory.models.particulate.model import load_model
+from asset_factory.factory.models.weights.checkpoint import open_checkpoint
 from asset_factory.learn.commands.train import Train, train
 from asset_factory.learn.train import loop
 from asset_factory.learn.train import trainer as training

@@ -5,8 +5,8 @@ import math
 import pytest
 import torch  # noqa: TID253
 
-from asset_factory.factory.particulate.network.shape import NetworkShape
-from asset_factory.factory.particulate.network.transformer import PartArticulationTransformer
+from asset_factory.factory.models.network.shape import NetworkShape
+from asset_factory.factory.models.network.transformer import PartArticulationTransformer
 from asset_factory.learn.train.curves import Curve, draw_curves, read_curve
 from asset_factory.learn.train.ema import RunningMean
 from asset_factory.learn.train.schedule import ScheduleSettings

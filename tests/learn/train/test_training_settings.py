@@ -3,7 +3,7 @@
 import pytest
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.particulate.network.shape import SIZES
+from asset_factory.factory.models.network.shape import SIZES
 from asset_factory.learn.train.recipes import (
     load_train_config,
     parse_train_config,

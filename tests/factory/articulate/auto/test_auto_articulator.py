@@ -17,7 +17,7 @@ from asset_factory.factory.config import AutoConfig, ParticulateConfig
 from asset_factory.factory.geometry.posing import face_parts, turned
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import Mesh
-from asset_factory.factory.particulate.prediction import MotionClass, Prediction
+from asset_factory.factory.models.particulate.prediction import MotionClass, Prediction
 from asset_factory.learn.evaluate.bodies import bodies_of
 from asset_factory.learn.objects import make_object
 

@@ -16,7 +16,7 @@ from asset_factory.factory.intake.source import Source
 from asset_factory.factory.jobs.ray.exchange import ExchangeError
 from asset_factory.factory.jobs.ray.inputs import Inputs
 from asset_factory.factory.jobs.ray.weights import Checkpoints, arrived, sent_weights
-from asset_factory.factory.particulate.weights.sources import fetch, weights_at
+from asset_factory.factory.models.weights.sources import fetch, weights_at
 from asset_factory.sim_checks.config import CheckConfig
 from asset_factory.sim_checks.judge import Judge
 

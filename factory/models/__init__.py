@@ -1,0 +1,1 @@
+"""Every trained thing: arrays in, arrays out; its weights and their card."""

@@ -1,0 +1,97 @@
+"""Mesh -> reading: sample, ask the network, decode; several times over, if wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Protocol
+
+import numpy as np
+
+from ...errors import InputRejected
+from ...mesh import FloatArray, IntArray
+from .agreement import Consensus, consensus
+from .decoding import Decoded, DecodeRules, decode
+from .prediction import Prediction
+from .proxy import proxy_of
+from .sampling import Cloud, sample
+from .surface import Surface
+
+MOST_SAMPLES = 64
+
+
+class Network(Protocol):
+    """Whatever answers for a cloud of points."""
+
+    def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
+        """Return the answer for one cloud, all in the network's frame.
+
+        Args:
+            cloud: to label.
+            context: more of the same surface, from which features are computed.
+        """
+        ...
+
+
+def infer(
+    vertices: FloatArray,
+    faces: IntArray,
+    network: Network,
+    *,
+    points: int,
+    context_points: int,
+    most_faces: int,
+    samples: int,
+    seed: int,
+    rules: DecodeRules,
+) -> Consensus:
+    """Return what the network makes of a mesh.
+
+    Args:
+        vertices: object frame, z up [m], shape [vertex_count, 3].
+        faces: shape [face_count, 3].
+        network: answers for one cloud.
+        points: to label per sample; more where a face would have none.
+        context_points: for features of the whole shape, per sample.
+        most_faces: a mesh with more is shown as a lighter one.
+        samples: how many independent samples are read; the one that agrees most with the others is
+            taken.
+        seed: of all chance; sample ``k`` is the same however many there are.
+        rules: how an answer is read.
+
+    Raises:
+        InputRejected: ``zero_size``, ``prediction_not_finite``.
+        ValueError: there must be at least one point and one sample.
+    """
+    if points < 1 or context_points < 1 or most_faces < 4 or not 1 <= samples <= MOST_SAMPLES:
+        raise ValueError(
+            f"{points} points, {context_points} context points, {most_faces} faces, "
+            f"{samples} samples: "
+            f"want at least 1, 1, 4 and 1, and at most {MOST_SAMPLES} samples"
+        )
+    surface = _surface(vertices, faces)
+    proxy = proxy_of(surface, most_faces)
+
+    def readings() -> Iterator[Decoded]:
+        for number in range(samples):
+            seen = sample(
+                proxy.surface,
+                points,
+                context_points,
+                most_faces,
+                np.random.default_rng((seed, number)),
+            )
+            answer = network(seen.cloud.inside(seen.box), seen.context.inside(seen.box))
+            yield decode(surface, proxy, seen, answer, rules)
+
+    return consensus(tuple(readings()), surface.areas)
+
+
+def _surface(vertices: FloatArray, faces: IntArray) -> Surface:
+    if not len(faces):
+        raise InputRejected(
+            "empty",
+            "the mesh has no faces; want a surface, no point cloud",
+            value=0.0,
+            unit="faces",
+        )
+    return Surface.of(vertices, faces)

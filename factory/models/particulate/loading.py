@@ -1,0 +1,48 @@
+"""From a configuration to the networks it names."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ...config import ParticulateConfig
+from ..network.shape import read_shape
+from ..weights.checkpoint import naming, open_checkpoint
+from ..weights.sources import fetch
+from .components import COMPONENT_FEATURES
+
+if TYPE_CHECKING:
+    from .model import Particulate
+
+
+def weight_files(config: ParticulateConfig) -> tuple[str, ...]:
+    """The checkpoints that an answer rests on, as the configuration names them; no tensor is read.
+
+    Raises:
+        ConfigError: no such checkpoint, or not one of this network.
+    """
+    stored = open_checkpoint(fetch(config.checkpoint))
+    with naming(stored.file):
+        wants = read_shape(stored.shapes).features not in (0, COMPONENT_FEATURES)
+    return (config.checkpoint, config.features) if wants else (config.checkpoint,)
+
+
+def load_network(config: ParticulateConfig) -> Particulate:
+    """The networks with their weights, ready to answer; imports torch, which then has one thread.
+
+    Raises:
+        ConfigError: no such checkpoint, or not one of this network.
+    """
+    import torch
+
+    from .model import Particulate, load_field, load_model
+
+    # Sums in another order would have other bits, and workers are as many as processors.
+    torch.set_num_threads(1)
+    checkpoint, *features = weight_files(config)
+    model = load_model(checkpoint, precision=config.precision, device=config.device)
+    field = (
+        load_field(features[0], precision=config.precision, device=config.device)
+        if features
+        else None
+    )
+    return Particulate(model, field, config.driving or None)

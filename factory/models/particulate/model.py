@@ -1,0 +1,355 @@
+"""The network with its weights, ready to answer for a cloud of points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ...errors import ConfigError
+from ...mesh import Float32Array, IntArray
+from ..network.shape import NetworkShape, read_shape
+from ..partfield.shape import UNUSED, PartFieldShape, read_partfield_shape
+from ..weights.checkpoint import load_tensors, naming, open_checkpoint
+from ..weights.sources import PARTFIELD, fetch
+from .components import COMPONENT_FEATURES, component_features
+from .precision import Precision, product_dtype
+from .prediction import Prediction
+from .sampling import Cloud
+
+if TYPE_CHECKING:
+    from ..network.streaming import Driven
+
+_FIELD_HALF_SIZE = 0.9
+_DRIVING_SEED = 0
+
+
+@dataclass(frozen=True)
+class PointCloud:
+    """Points as the network sees them.
+
+    Attributes:
+        points: network frame, in a box with longest side 1 about the origin, z up, shape
+            [point_count, 3].
+        normals: there; shorter than 1 where they are a mean of two, shape [point_count, 3].
+        features: shape [point_count, channels]; ``None`` for networks that want none.
+    """
+
+    points: Float32Array
+    normals: Float32Array
+    features: Float32Array | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("points", "normals", "features"):
+            value = getattr(self, name)
+            if value is None:
+                continue
+            array = np.asarray(value, dtype=np.float32)
+            wide = array.shape[-1] if name == "features" and array.ndim == 2 else 3
+            if array.shape != (len(self.points), wide) or not len(array):
+                raise ValueError(
+                    f"{name}: shape {array.shape}, "
+                    f"want [{len(self.points)}, {wide}] with some points"
+                )
+            object.__setattr__(self, name, array)
+
+    def take(self, rows: IntArray) -> PointCloud:
+        """Some of the points."""
+        return PointCloud(
+            self.points[rows],
+            self.normals[rows],
+            None if self.features is None else self.features[rows],
+        )
+
+
+@dataclass(frozen=True)
+class Model:
+    """A Part Articulation Transformer with weights.
+
+    Attributes:
+        shape: its sizes and variant.
+        dtype: of the products over points, a torch type.
+        device: where it runs.
+        upright: whether it was taught every axis by its upward direction, so that only limits say
+            which way opens.
+    """
+
+    shape: NetworkShape
+    dtype: Any
+    device: str
+    _network: Any = field(repr=False)
+    upright: bool = False
+
+    def predict(
+        self, cloud: PointCloud, *, driving: int | None = None, hypothesis: int = 0
+    ) -> Prediction:
+        """Return what the network says about a cloud.
+
+        Args:
+            cloud: of any size.
+            driving: how many of the points the parts are told from, drawn at random but always the
+                same ones; the others are only labelled, for less work. All of them by default.
+            hypothesis: which mask head, for networks with several.
+        """
+        if driving is not None and driving < len(cloud.points):
+            rows = np.random.default_rng(_DRIVING_SEED).permutation(len(cloud.points))[:driving]
+            return self.decode(self.encode(cloud.take(np.sort(rows))), cloud, hypothesis=hypothesis)
+        from ..network.streaming import drive
+
+        hidden = self._embed(cloud)
+        driven = drive(self._network, hidden, self.dtype)
+        return self._read(driven, hidden, driven.updates[-1:], hypothesis)
+
+    def encode(self, cloud: PointCloud) -> Driven:
+        """What a cloud tells about its parts: enough to label other points of the same surface."""
+        from ..network.streaming import drive
+
+        driven: Driven = drive(self._network, self._embed(cloud), self.dtype)
+        return driven
+
+    def decode(self, driven: Driven, cloud: PointCloud, *, hypothesis: int = 0) -> Prediction:
+        """Return what the network says about points, given what others told about the parts.
+
+        Every point is answered for alone: more or fewer of them change nothing.
+        """
+        return self._read(driven, self._embed(cloud), driven.updates, hypothesis)
+
+    def _embed(self, cloud: PointCloud) -> Any:
+        from ..network.streaming import embed_chunks
+
+        wanted = self.shape.features
+        given = cloud.features
+        if wanted and (given is None or given.shape[1] != wanted):
+            have = "none are given" if given is None else f"{given.shape[1]} are given"
+            raise ConfigError(
+                f"this network wants {wanted} features per point, and {have}; "
+                f"{PARTFIELD.source} has them"
+            )
+        features = cloud.features if wanted else None
+        return embed_chunks(
+            self._network, cloud.points, cloud.normals if self.shape.normals else None, features
+        )
+
+    def _read(
+        self, driven: Driven, hidden: Any, updates: tuple[Any, ...], hypothesis: int
+    ) -> Prediction:
+        from ..network.streaming import PairHead, finish, part_outputs
+
+        if not 0 <= hypothesis < self.shape.hypotheses:
+            raise ValueError(f"hypothesis {hypothesis}: this network has {self.shape.hypotheses}")
+        masks = PairHead(self._network.mask_head(hypothesis), driven.queries, self.dtype)
+        mask_logits = finish(hidden, updates, masks)
+        parts = part_outputs(self._network, driven.queries)
+        if self.upright:
+            parts = _opening(parts)
+        moment = parts.pop("revolute_moment")
+        closest = None
+        if moment is None:
+            closest = _Closest(
+                hidden, PairHead(self._network.point_motion_decoder, driven.queries, self.dtype)
+            )
+        return Prediction(
+            mask_logits=mask_logits, closest_points=closest, revolute_moment=moment, **parts
+        )
+
+
+def _opening(parts: dict[str, Any]) -> dict[str, Any]:
+    """Axes turned round where most of the range lies behind this pose: positive then opens."""
+    limits = parts["revolute_range"]
+    behind = -limits.min(axis=1) > limits.max(axis=1)
+    sign = np.where(behind, -1.0, 1.0).astype(np.float32)[:, None]
+    changed = {
+        "revolute_direction": parts["revolute_direction"] * sign,
+        "revolute_range": np.where(behind[:, None], -limits[:, ::-1], limits),
+    }
+    moment = parts["revolute_moment"]
+    return {**parts, **changed, "revolute_moment": None if moment is None else moment * sign}
+
+
+@dataclass(frozen=True)
+class _Closest:
+    """See :class:`.prediction.ClosestPoints`."""
+
+    hidden: Any
+    head: Any
+
+    def __call__(self, part_ids: IntArray, rows: IntArray | None = None) -> Float32Array:
+        from ..network.streaming import own_parts
+
+        if np.shape(part_ids) != (len(self.hidden),):
+            raise ValueError(f"part_ids: shape {np.shape(part_ids)}, want [{len(self.hidden)}]")
+        picked = np.arange(len(self.hidden)) if rows is None else np.asarray(rows, dtype=np.int64)
+        found: Float32Array = own_parts(
+            self.hidden, self.head, np.asarray(part_ids, dtype=np.int64), picked
+        )
+        return found
+
+
+@dataclass(frozen=True)
+class FeatureField:
+    """PartField's encoder with weights.
+
+    Attributes:
+        shape: its sizes.
+        dtype: of the products, a torch type.
+        device: where it runs.
+    """
+
+    shape: PartFieldShape
+    dtype: Any
+    device: str
+    _encoder: Any = field(repr=False)
+
+    def features(self, context: npt.ArrayLike, points: npt.ArrayLike) -> Float32Array:
+        """Return a feature for every point.
+
+        Args:
+            context: a sample of the whole surface, any frame, shape [context_count, 3]; features
+                depend on it.
+            points: where features are wanted, same frame, shape [point_count, 3].
+
+        Returns:
+            [point_count, channels].
+        """
+        import torch
+
+        from ..partfield.encoder import sample_field
+
+        cloud = np.asarray(context, dtype=np.float32)
+        low = cloud.min(axis=0)
+        high = cloud.max(axis=0)
+        scale = (
+            2.0
+            * _FIELD_HALF_SIZE
+            / max(float((high - low).max()), float(np.finfo(np.float32).tiny))
+        )
+
+        def inside(where: npt.ArrayLike) -> Any:
+            placed = (np.asarray(where, dtype=np.float32) - (low + high) / 2.0) * np.float32(scale)
+            return torch.tensor(placed, device=self.device)
+
+        lowered = self.dtype is not torch.float32
+        with (
+            torch.inference_mode(),
+            torch.autocast(self.device.split(":")[0], self.dtype, enabled=lowered),
+        ):
+            field = self._encoder(inside(cloud))
+        with torch.inference_mode():
+            return np.asarray(sample_field(field, inside(points)).cpu().numpy())
+
+
+@dataclass(frozen=True)
+class Particulate:
+    """Both networks together: from points of a surface to what the parts are and how they move.
+
+    Attributes:
+        model: says it.
+        field: gives it features; ``None`` for a model that wants none, or what a point's component
+            looks like.
+        driving: see :meth:`Model.predict`.
+    """
+
+    model: Model
+    field: FeatureField | None = None
+    driving: int | None = None
+
+    def __post_init__(self) -> None:
+        wanted = self.model.shape.features
+        given = 0 if self.field is None else self.field.shape.features
+        if wanted and wanted != given and not (self.field is None and wanted == COMPONENT_FEATURES):
+            raise ConfigError(
+                f"this network wants {wanted} features per point and gets {given}: "
+                f"load the weights of {PARTFIELD.network} beside it, "
+                f"{PARTFIELD.source}. {PARTFIELD.terms}"
+            )
+
+    def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
+        """Return the answer for one cloud, all in the network's frame.
+
+        Args:
+            cloud: to label.
+            context: more of the same surface, from which features are computed.
+        """
+        points = np.asarray(cloud.points, np.float32)
+        normals = np.asarray(cloud.normals, np.float32)
+        return self.model.predict(
+            PointCloud(points, normals, self._features(cloud, context)), driving=self.driving
+        )
+
+    def _features(self, cloud: Cloud, context: Cloud) -> Float32Array | None:
+        if not self.model.shape.features:
+            return None
+        if self.field is not None:
+            return self.field.features(context.points, cloud.points)
+        both = [
+            np.concatenate([getattr(c, name) for c in (cloud, context)])
+            for name in ("points", "normals")
+        ]
+        components = np.concatenate([cloud.components, context.components])
+        return component_features(both[0], both[1], components)[: len(cloud.points)]
+
+
+def load_model(
+    checkpoint: str,
+    *,
+    precision: Precision | str = Precision.FLOAT32,
+    device: str = "cpu",
+    max_parts: int = 16,
+) -> Model:
+    """Return a Part Articulation Transformer from a checkpoint; its tensors tell sizes and variant.
+
+    Args:
+        checkpoint: a safetensors, ``.pt`` or ``.ckpt`` file, or ``hf:owner/repository/file``.
+        precision: of the products over points.
+        device: as torch names it.
+        max_parts: part queries, which no tensor tells; the published weights have 16.
+
+    Raises:
+        ConfigError: no such checkpoint, or not one of this network.
+    """
+    from ..network.transformer import PartArticulationTransformer
+
+    stored = open_checkpoint(fetch(checkpoint))
+    with naming(stored.file):
+        shape = read_shape(stored.shapes, max_parts)
+    network = _filled(PartArticulationTransformer, shape, load_tensors(stored), device)
+    upright = stored.metadata.get("axes") == "upright"
+    return Model(shape, product_dtype(precision), device, network, upright)
+
+
+def load_field(
+    checkpoint: str,
+    *,
+    precision: Precision | str = Precision.FLOAT32,
+    device: str = "cpu",
+    heads: int = 8,
+) -> FeatureField:
+    """PartField's encoder from a checkpoint. The published weights are for non-commercial use only.
+
+    Args:
+        checkpoint: a safetensors, ``.pt`` or ``.ckpt`` file, or ``hf:owner/repository/file``.
+        precision: of the products.
+        device: as torch names it.
+        heads: of its transformer, which no tensor tells; the published weights have 8.
+
+    Raises:
+        ConfigError: no such checkpoint, or not one of this network.
+    """
+    from ..partfield.encoder import PartFieldEncoder
+
+    stored = open_checkpoint(fetch(checkpoint))
+    with naming(stored.file):
+        shape = read_partfield_shape(stored.shapes, heads=heads)
+    encoder = _filled(PartFieldEncoder, shape, load_tensors(stored, leave=UNUSED), device)
+    return FeatureField(shape, product_dtype(precision), device, encoder)
+
+
+def _filled(kind: Any, shape: Any, tensors: dict[str, Any], device: str) -> Any:
+    import torch
+
+    with torch.device("meta"):
+        network = kind(shape)
+    network.load_state_dict(tensors, strict=True, assign=True)
+    return network.to(device).eval().requires_grad_(False)

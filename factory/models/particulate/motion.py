@@ -1,0 +1,173 @@
+"""How one part moves: class, axes and ranges of the network's answer, in its own frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ...errors import InputRejected
+from ...mesh import FloatArray, IntArray
+from .prediction import MotionClass, Prediction
+
+LEAST_DIRECTION = 1e-8
+"""Shorter vectors have no direction."""
+AT_END = 0.02
+"""A pose this close to an end of the range, as its share, is at that end.
+
+Networks do not regress exact zeros.
+"""
+
+
+@dataclass(frozen=True)
+class Line:
+    """An axis, and how far the votes for it lie apart.
+
+    Attributes:
+        direction: unit, shape [3].
+        point: shape [3].
+        spread: median distance of the votes from the line; ``None`` where nobody votes.
+    """
+
+    direction: FloatArray
+    point: FloatArray
+    spread: float | None
+
+
+@dataclass(frozen=True)
+class PredictedMotion:
+    """One part's motion relative to its parent.
+
+    Attributes:
+        kind: see :class:`MotionClass`; only what its axis and slide make possible.
+        margin: probability of the predicted class less that of the runner-up, 0 to 1.
+        axis: of the turn; ``None`` unless it turns.
+        turn: lower and upper limit [rad], holding 0.
+        slide_direction: unit, shape [3]; ``None`` unless it slides.
+        slide: lower and upper limit, holding 0.
+        notes: what was changed, each the end of a sentence about the part.
+        probabilities: of each class, in the order of :class:`MotionClass`; empty where nobody says.
+    """
+
+    kind: MotionClass
+    margin: float
+    axis: Line | None = None
+    turn: tuple[float, float] = (0.0, 0.0)
+    slide_direction: FloatArray | None = None
+    slide: tuple[float, float] = (0.0, 0.0)
+    notes: tuple[str, ...] = ()
+    probabilities: tuple[float, ...] = ()
+
+
+def read_motion(prediction: Prediction, part: int, part_ids: IntArray) -> PredictedMotion:
+    """Return the motion of one part that has points.
+
+    Args:
+        prediction: finite.
+        part: whose motion.
+        part_ids: the part of every point, shape [point_count]; its points vote for the place of its
+            axis.
+    """
+    probabilities = _probabilities(prediction.motion_logits[part])
+    kind = MotionClass(int(probabilities.argmax()))
+    runner_up, best = np.sort(probabilities)[-2:]
+    axis = _axis(prediction, part, part_ids) if kind.turns else None
+    slide = unit(prediction.prismatic_direction[part]) if kind.slides else None
+    notes: list[str] = []
+    if kind.turns and axis is None:
+        notes.append("turns about no direction: that motion is left out")
+    if kind.slides and slide is None:
+        notes.append("slides in no direction: that motion is left out")
+    turn_limits = slide_limits = (0.0, 0.0)
+    if axis is not None:
+        turn_limits = holding_zero(prediction.revolute_range[part], "rad", notes)
+    if slide is not None:
+        slide_limits = holding_zero(prediction.prismatic_range[part], "of the longest side", notes)
+    possible = MotionClass(
+        (MotionClass.REVOLUTE if axis is not None else 0)
+        | (MotionClass.PRISMATIC if slide is not None else 0)
+    )
+    return PredictedMotion(
+        possible,
+        float(best - runner_up),
+        axis,
+        turn_limits,
+        slide,
+        slide_limits,
+        tuple(notes),
+        tuple(probabilities),
+    )
+
+
+def unit(vector: npt.ArrayLike) -> FloatArray | None:
+    """Return the vector's direction; ``None`` if it has none."""
+    given = np.asarray(vector, dtype=np.float64)
+    length = float(np.linalg.norm(given))
+    return given / length if length > LEAST_DIRECTION else None
+
+
+def holding_zero(limits: npt.ArrayLike, measure: str, notes: list[str]) -> tuple[float, float]:
+    """Lower and upper limit that include 0, the input pose; changes are added to ``notes``."""
+    low, high = (float(x) for x in np.asarray(limits, dtype=np.float64))
+    if low > high:
+        low, high = high, low
+        notes.append(f"was predicted with its limits swapped: [{low:.4g}, {high:.4g}] {measure}")
+    span = max(high, 0.0) - min(low, 0.0)
+    if max(low, -high) > AT_END * span:
+        notes.append(
+            f"was predicted to move within [{low:.4g}, {high:.4g}] {measure} only; "
+            "widened to its input pose"
+        )
+    low, high = (
+        0.0 if side * end <= AT_END * span else end for side, end in ((-1.0, low), (1.0, high))
+    )
+    return low, high
+
+
+def _probabilities(logits: npt.ArrayLike) -> FloatArray:
+    values = np.asarray(logits, dtype=np.float64)
+    weights = np.exp(values - values.max())
+    return np.asarray(weights / weights.sum())
+
+
+def _axis(prediction: Prediction, part: int, part_ids: IntArray) -> Line | None:
+    direction = unit(prediction.revolute_direction[part])
+    if direction is None:
+        return None
+    if prediction.revolute_moment is not None:
+        raw = np.asarray(prediction.revolute_direction[part], dtype=np.float64)
+        moment = np.asarray(prediction.revolute_moment[part], dtype=np.float64)
+        return Line(direction, np.cross(moment, raw) / float(raw @ raw), None)
+    return _voted(votes_for(prediction, part, part_ids), direction)
+
+
+def votes_for(prediction: Prediction, part: int, part_ids: IntArray) -> FloatArray:
+    """Return where each of a part's points thinks its axis is nearest, shape [vote_count, 3].
+
+    Raises:
+        InputRejected: ``prediction_not_finite``.
+    """
+    if prediction.closest_points is None:
+        raise ValueError("this network gives its axes by their moments; it has no votes")
+    votes = np.asarray(
+        prediction.closest_points(part_ids, np.flatnonzero(part_ids == part)), dtype=np.float64
+    )
+    if not np.isfinite(votes).all():
+        bad = float((~np.isfinite(votes)).sum())
+        raise InputRejected(
+            "prediction_not_finite",
+            f"{bad:.0f} of {votes.size} numbers in the network's votes for an axis are not finite; "
+            "check its weights",
+            value=bad,
+            unit="numbers",
+            limit=0.0,
+        )
+    return votes
+
+
+def _voted(votes: FloatArray, direction: FloatArray) -> Line:
+    point = np.median(votes, axis=0)
+    off = votes - point
+    away = off - np.outer(off @ direction, direction)
+    return Line(direction, point, float(np.median(np.linalg.norm(away, axis=1))))

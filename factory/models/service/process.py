@@ -1,0 +1,122 @@
+"""The process that holds the network for a job: started, killed and restarted with it."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+import threading
+import time
+from pathlib import Path
+from types import TracebackType
+
+from asset_factory.sim_checks.processes.isolation import Failure, Limits, WarmChild, processors
+from asset_factory.sim_checks.processes.scratch import sockets
+
+from ...config import ParticulateConfig
+from ...runtime.store import digest_file
+from ..particulate.loading import load_network, weight_files
+from ..weights.sources import fetch
+from .answering import Answering, identity_of, refusal
+from .asking import Address
+from .listening import answer_all, listening_socket
+
+#: Longest life [s]; a week is as good as for ever, and a number that every kernel can wait for.
+LIFE_S = 7 * 86400.0
+#: Deaths within a minute of the start, in a row, after which it is given up.
+MOST_DEATHS = 3
+YOUNG_S = 60.0
+
+
+class ModelService:
+    """One network for all workers of a job; a context manager.
+
+    Whoever asks while it is dead waits for the next one, and asks a network of its own once it is
+    given up.
+
+    Args:
+        config: which network, and how it is run.
+        at_once: clouds worked on at the same time; by default as many as there are processors, on
+            another device one.
+    """
+
+    def __init__(self, config: ParticulateConfig, at_once: int | None = None) -> None:
+        self._config = config
+        self._at_once = at_once or (processors() if config.device == "cpu" else 1)
+        self._folder = Path(tempfile.mkdtemp(prefix="model-", dir=sockets()))
+        self._stopping = threading.Event()
+        self._child = WarmChild()
+        self._keeper = threading.Thread(target=self._keep, name="model-service", daemon=True)
+
+    def __enter__(self) -> ModelService:
+        self._keeper.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        at: TracebackType | None,
+    ) -> None:
+        self._stopping.set()
+        self._child.abandon()
+        self._keeper.join()
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+    @property
+    def address(self) -> Address:
+        """Return where it is asked; good from the start, also before it listens."""
+        return Address(str(self._folder / "socket"))
+
+    @property
+    def pid(self) -> int | None:
+        """Of its process; ``None`` while there is none."""
+        return self._child.pid
+
+    def _keep(self) -> None:
+        deaths = 0
+        while not self._stopping.is_set() and deaths < MOST_DEATHS:
+            started = time.monotonic()
+            outcome = self._child.call(
+                serve, self._config, self.address.path, self._at_once, limits=Limits(wall_s=LIFE_S)
+            )
+            self._child.close()
+            if outcome.failure is Failure.RAISED:
+                break
+            deaths = deaths + 1 if time.monotonic() - started < YOUNG_S else 1
+        # Without its folder nobody waits for it any more.
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+
+def serve(config: ParticulateConfig, path: str, at_once: int) -> None:
+    """Answer at a socket for ever; the main of the service's process."""
+    answer_all(listening_socket(path), _Late(config, at_once))
+
+
+class _Late:
+    """Answers by a network loaded at the first question, as the cache may answer all of a job."""
+
+    def __init__(self, config: ParticulateConfig, at_once: int) -> None:
+        self._config = config
+        self._at_once = at_once
+        self._loading = threading.Lock()
+        self._answering: Answering | None = None
+
+    def __call__(self, question: bytes) -> bytes:
+        """See :class:`.answering.Answering`; a refusal while the network cannot be loaded."""
+        try:
+            with self._loading:
+                if self._answering is None:
+                    self._answering = load_answering(self._config, self._at_once)
+        except Exception as error:  # noqa: BLE001 - who asks will ask at home
+            return refusal(error)
+        return self._answering(question)
+
+
+def load_answering(config: ParticulateConfig, at_once: int) -> Answering:
+    """Return the network that a configuration names, ready for questions.
+
+    Raises:
+        ConfigError: it cannot be loaded.
+    """
+    digests = tuple(digest_file(fetch(file)) for file in weight_files(config))
+    return Answering(load_network(config), identity_of(config, digests), at_once)

@@ -1,0 +1,336 @@
+"""From the network's numbers to parts, tree and motions: as the release, and where we leave it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+from stored_arrays import arrays
+
+from asset_factory.factory.articulate.draft import Draft, ordered
+from asset_factory.factory.articulation import Joint
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.models.particulate.confidence import assigned
+from asset_factory.factory.models.particulate.decoding import DecodeRules, TreeOver, decode
+from asset_factory.factory.models.particulate.frames import UnitBox
+from asset_factory.factory.models.particulate.labels import Refinement
+from asset_factory.factory.models.particulate.motion import holding_zero, read_motion
+from asset_factory.factory.models.particulate.prediction import MotionClass, Prediction
+from asset_factory.factory.models.particulate.proxy import Proxy
+from asset_factory.factory.models.particulate.sampling import Cloud, CloudSample
+from asset_factory.factory.models.particulate.surface import Surface
+
+UNIT = UnitBox(np.zeros(3), 1.0)
+
+
+def picked(points):
+    """Closest points as the network would compute them, from stored ones."""
+    return lambda part_ids, rows=None: points if rows is None else points[rows]
+
+
+def prediction_of(held):
+    """The logits behind stored decisions."""
+    mask = np.zeros((len(held["part_ids"]), 16))
+    mask[np.arange(len(mask)), held["part_ids"]] = 9.0
+    hierarchy = np.full((16, 16), -9.0)
+    for parent, child in held["motion_hierarchy"]:
+        hierarchy[parent, child] = 9.0
+    motion = 9.0 * np.eye(4)[held["is_part_revolute"] + 2 * held["is_part_prismatic"]]
+    return Prediction(
+        mask_logits=mask,
+        hierarchy_logits=hierarchy,
+        motion_logits=motion,
+        revolute_direction=held["revolute_axis"],
+        revolute_range=held["revolute_range"],
+        prismatic_direction=held["prismatic_axis"],
+        prismatic_range=held["prismatic_range"],
+        closest_points=picked(held["closest_point_on_axis"]),
+    )
+
+
+def seen(faces):
+    """A sample of which only the faces matter."""
+    cloud = Cloud(
+        np.zeros((len(faces), 3)),
+        np.zeros((len(faces), 3)),
+        faces,
+        np.zeros(len(faces), dtype=bool),
+        faces,
+    )
+    return CloudSample(cloud, cloud, UNIT)
+
+
+def decoded(surface, faces, prediction, **rules):
+    return decode(surface, Proxy(surface), seen(faces), prediction, DecodeRules(**rules))
+
+
+@pytest.mark.parametrize(
+    ("case", "refinement"),
+    [("nonstrict", Refinement.PATCH), ("strict_induced_tree", Refinement.COMPONENT)],
+)
+def test_a_stored_answer_becomes_the_released_codes_prediction(fixtures, case, refinement):
+    folder = fixtures / "postprocess_e2e" / case
+    held = arrays(folder / "network_outputs.npz")
+    want = arrays(folder / "pred.npz")
+    mesh = trimesh.load(folder / "mesh.obj", process=False)
+    surface = Surface.of(np.array(mesh.vertices), np.array(mesh.faces))
+    found = decoded(surface, held["face_indices"], prediction_of(held), refinement=refinement)
+    assert np.array_equal(found.face_part, want["face_part_ids"])
+    assert sorted(found.edges) == sorted(map(tuple, want["motion_hierarchy"].tolist()))
+    assert [p.query for p in found.parts] == sorted({int(p.query) for p in found.parts})
+    for index, part in enumerate(found.parts):
+        motion = part.motion
+        assert motion.kind.turns == want["is_part_revolute"][index]
+        assert motion.kind.slides == want["is_part_prismatic"][index]
+        if motion.axis is not None:
+            line = np.concatenate(
+                [motion.axis.direction, np.cross(motion.axis.direction, motion.axis.point)]
+            )
+            assert np.allclose(line, want["revolute_plucker"][index], atol=1e-6)
+            assert motion.turn == holding_zero(want["revolute_range"][index], "rad", [])
+        if motion.slide_direction is not None:
+            assert np.allclose(motion.slide_direction, want["prismatic_axis"][index], atol=1e-6)
+            assert motion.slide == holding_zero(want["prismatic_range"][index], "", [])
+
+
+def forward_prediction(held):
+    return Prediction(
+        mask_logits=held["point_mask_logits"][0],
+        hierarchy_logits=held["part_adjacency_logits"][0],
+        motion_logits=held["part_motion_logits"][0],
+        revolute_direction=held["revolute_dir_raw"][0],
+        revolute_range=held["revolute_range"][0],
+        prismatic_direction=held["prismatic_dir_raw"][0],
+        prismatic_range=held["prismatic_range"][0],
+        closest_points=picked(held["closest_point_on_axis"][0]),
+    )
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_axes_types_and_tree_are_those_of_the_release(fixtures, seed):
+    forward = arrays(fixtures / "pat_tiny" / f"forward_seed{seed}.npz")
+    want = arrays(fixtures / "pat_tiny" / f"infer_seed{seed}_t00.npz")
+    prediction = forward_prediction(forward)
+    points = assigned(prediction.mask_logits)
+    for part in points.present:
+        motion = read_motion(prediction, part, points.parts)
+        assert motion.kind.turns == want["is_part_revolute"][part]
+        assert motion.kind.slides == want["is_part_prismatic"][part]
+        if motion.axis is not None:
+            line = np.concatenate(
+                [motion.axis.direction, np.cross(motion.axis.direction, motion.axis.point)]
+            )
+            assert np.allclose(line, want["revolute_plucker"][part], atol=1e-5)
+        if motion.slide_direction is not None:
+            assert np.allclose(motion.slide_direction, want["prismatic_axis"][part], atol=1e-5)
+    # One face per point, so that faces are points and the tree is over the same parts.
+    count = len(points.parts)
+    vertices = np.random.default_rng(0).normal(size=(3 * count, 3))
+    surface = Surface.of(vertices, np.arange(3 * count).reshape(-1, 3))
+    found = decoded(surface, np.arange(count), prediction, refinement=Refinement.NONE)
+    query = [part.query for part in found.parts]
+    tree = sorted((query[parent], query[child]) for parent, child in found.edges)
+    assert tree == sorted(map(tuple, want["motion_hierarchy"].tolist()))
+
+
+def test_a_pluecker_network_gives_the_same_axes(fixtures):
+    held = arrays(fixtures / "geometry" / "plucker.npz")
+    for line, axis, point in zip(held["plucker"], held["axis_out"], held["point_out"], strict=True):
+        motion = read_motion(
+            turning(direction=3.0 * line[:3], moment=3.0 * line[3:]), 0, np.zeros(1, dtype=int)
+        )
+        assert np.allclose(motion.axis.direction, axis, atol=1e-6)
+        off = motion.axis.point - point
+        assert np.allclose(off - axis * (off @ axis), 0.0, atol=1e-6)
+
+
+def turning(
+    direction=(0.0, 0.0, 1.0), moment=(0.0, 0.0, 0.0), limits=(0.0, 1.0), kind=MotionClass.REVOLUTE
+):
+    return Prediction(
+        mask_logits=np.zeros((1, 1)),
+        hierarchy_logits=np.zeros((1, 1)),
+        motion_logits=5.0 * np.eye(4)[[kind]],
+        revolute_direction=np.array([direction]),
+        revolute_range=np.array([limits]),
+        prismatic_direction=np.array([[0.0, 2.0, 0.0]]),
+        prismatic_range=np.array([[0.0, 0.3]]),
+        revolute_moment=np.array([moment]),
+    )
+
+
+def motions(case, held):
+    """The stored parts as joints, ``both`` as two with an empty part between, slide inside turn."""
+    count = len(held[f"{case}_rev"])
+    names = [f"p{i}" for i in range(count)]
+    joints = []
+    for parent, child in held[f"{case}_hierarchy"].tolist():
+        line = held[f"{case}_plucker"][child]
+        point = np.cross(line[3:], line[:3])
+        turns = held[f"{case}_rev"][child]
+        slides = held[f"{case}_pri"][child]
+        slide = held[f"{case}_pri_axis"][child] if slides else np.array([0.0, 0, 1])
+        if turns and slides:
+            names.append(f"c{child}")
+            joints.append(Joint(f"{child}t", "revolute", parent, len(names) - 1, line[:3], point))
+            joints.append(Joint(f"{child}s", "prismatic", len(names) - 1, child, slide, point))
+        elif turns:
+            joints.append(Joint(f"{child}t", "revolute", parent, child, line[:3], point))
+        elif slides:
+            joints.append(Joint(f"{child}s", "prismatic", parent, child, slide, np.zeros(3)))
+        else:
+            joints.append(Joint(f"{child}f", "fixed", parent, child, slide, np.zeros(3)))
+    mesh = Mesh.from_triangles(np.eye(3), [[0, 1, 2]])
+    return ordered(Draft(mesh, np.zeros(1), tuple(names), tuple(joints)), forest=False)
+
+
+@pytest.mark.parametrize("case", [f"c{i}" for i in range(6)])
+@pytest.mark.parametrize(("state", "share"), [("s0", 0.0), ("s25", 0.25), ("s100", 1.0)])
+def test_parts_move_as_in_the_release(fixtures, case, state, share):
+    held = arrays(fixtures / "geometry" / "articulate.npz")
+    draft = motions(case, held)
+
+    def value(name, part):
+        low, high = held[f"{case}_{'rev' if name == 't' else 'pri'}_range"][part]
+        return low + share * (high - low)
+
+    values = {j.name: value(j.name[-1], int(j.name[:-1])) for j in draft.joints if j.movable}
+    poses = draft.poses(values)[held[f"{case}_part_ids"]]
+    moved = np.einsum("nij,nj->ni", poses[:, :3, :3], held[f"{case}_xyz"]) + poses[:, :3, 3]
+    root = draft.root
+    if held[f"{case}_rev"][root]:
+        # Where we leave the release: it moves the root too; relative to the root nothing differs.
+        line = held[f"{case}_plucker"][root]
+        own = Joint("own", "revolute", 0, 1, line[:3], np.cross(line[3:], line[:3])).motion(
+            value("t", root)
+        )
+        moved = moved @ own[:3, :3].T + own[:3, 3]
+    assert np.allclose(moved, held[f"{case}_{state}_xyz"], atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("given", "want", "said"),
+    [
+        ((0.0, 1.5), (0.0, 1.5), 0),
+        ((-0.01, 1.5), (0.0, 1.5), 0),
+        ((0.02, 1.5), (0.0, 1.5), 0),
+        ((-0.7, 0.8), (-0.7, 0.8), 0),
+        ((1.5, 0.0), (0.0, 1.5), 1),
+        ((0.4, 1.5), (0.0, 1.5), 1),
+        ((-1.5, -0.4), (-1.5, 0.0), 1),
+        ((0.0, 0.0), (0.0, 0.0), 0),
+    ],
+)
+def test_limits_hold_the_input_pose(given, want, said):
+    """Where we leave the release: its ranges may be swapped, or leave out the input pose."""
+    notes = []
+    assert holding_zero(given, "rad", notes) == pytest.approx(want)
+    assert len(notes) == said
+
+
+def test_a_motion_without_direction_is_left_out_with_a_note():
+    motion = read_motion(turning(direction=(0.0, 0.0, 0.0)), 0, np.zeros(1, dtype=int))
+    assert (motion.kind, motion.axis, len(motion.notes)) == (MotionClass.FIXED, None, 1)
+    both = read_motion(
+        turning(direction=(0.0, 0.0, 0.0), kind=MotionClass.BOTH), 0, np.zeros(1, dtype=int)
+    )
+    assert both.kind is MotionClass.PRISMATIC
+    assert both.slide == pytest.approx((0.0, 0.3))
+
+
+def test_the_margin_is_that_between_the_two_likeliest_kinds():
+    prediction = turning()
+    undecided = replace(
+        prediction, motion_logits=np.array([[0.0, np.log(3.0), np.log(2.0), -50.0]])
+    )
+    assert read_motion(undecided, 0, np.zeros(1, dtype=int)).margin == pytest.approx(
+        1 / 6, abs=1e-6
+    )
+
+
+def test_votes_for_an_axis_are_robust_and_their_spread_is_measured():
+    """A third of the votes are wild; the median does not move."""
+    rng = np.random.default_rng(0)
+    along = rng.uniform(-0.5, 0.5, 300)
+    votes = np.stack(
+        [0.2 + rng.normal(0, 0.01, 300), -0.1 + rng.normal(0, 0.01, 300), along], axis=1
+    )
+    votes[:90, :2] = rng.uniform(-3, 3, (90, 2))
+    held = turning(direction=(0.0, 0.0, 2.0))
+    prediction = replace(
+        held, closest_points=picked(votes.astype(np.float32)), revolute_moment=None
+    )
+    axis = read_motion(prediction, 0, np.zeros(300, dtype=int)).axis
+    assert np.allclose(axis.point[:2], [0.2, -0.1], atol=0.01)
+    assert 0.005 < axis.spread < 0.03
+    tight = replace(prediction, closest_points=picked(np.full((300, 3), 0.5, dtype=np.float32)))
+    assert read_motion(tight, 0, np.zeros(300, dtype=int)).axis.spread == 0.0
+
+
+@pytest.mark.parametrize(
+    "field", ["mask_logits", "hierarchy_logits", "motion_logits", "revolute_range"]
+)
+def test_broken_weights_are_a_reason_not_an_answer(field):
+    prediction = turning()
+    broken = np.array(getattr(prediction, field))
+    broken[0, 0] = np.nan
+    surface = Surface.of(np.eye(3), np.array([[0, 1, 2]]))
+    with pytest.raises(InputRejected, match=field) as caught:
+        decoded(surface, np.zeros(1, dtype=int), replace(prediction, **{field: broken}))
+    assert caught.value.code == "prediction_not_finite"
+
+
+def test_broken_votes_are_a_reason_too():
+    votes = np.full((1, 3), np.inf, dtype=np.float32)
+    prediction = replace(turning(), closest_points=picked(votes), revolute_moment=None)
+    with pytest.raises(InputRejected, match="votes") as caught:
+        read_motion(prediction, 0, np.zeros(1, dtype=int))
+    assert caught.value.code == "prediction_not_finite"
+
+
+def strip(count):
+    """``count`` boxes in a row, and a point on every face."""
+    boxes = [trimesh.creation.box().apply_translation([2.0 * i, 0, 0]) for i in range(count)]
+    mesh = trimesh.util.concatenate(boxes)
+    surface = Surface.of(np.array(mesh.vertices), np.array(mesh.faces))
+    return surface, np.arange(len(surface.faces))
+
+
+def rows(labels, hierarchy):
+    return Prediction(
+        mask_logits=9.0 * np.eye(16)[labels],
+        hierarchy_logits=hierarchy,
+        motion_logits=np.tile([9.0, 0, 0, 0], (16, 1)),
+        revolute_direction=np.ones((16, 3)),
+        revolute_range=np.zeros((16, 2)),
+        prismatic_direction=np.ones((16, 3)),
+        prismatic_range=np.zeros((16, 2)),
+        revolute_moment=np.zeros((16, 3)),
+    )
+
+
+@pytest.mark.parametrize("over", list(TreeOver))
+def test_one_tree_over_parts_with_faces_also_when_the_root_has_none(over):
+    """Where we leave the release: its writers then give a URDF of several roots."""
+    surface, faces = strip(3)
+    labels = np.repeat([4, 5, 6], 12)
+    labels[:2] = 9
+    hierarchy = np.full((16, 16), -9.0)
+    hierarchy[9, [4, 5, 6]] = 9.0
+    hierarchy[5, [4, 6]] = 1.0
+    found = decoded(
+        surface, faces, rows(labels, hierarchy), refinement=Refinement.COMPONENT, tree=over
+    )
+    assert [part.query for part in found.parts] == [4, 5, 6]
+    assert sorted(found.edges) == [(1, 0), (1, 2)]
+    assert found.root == 1
+    assert any("lost every face" in note for note in found.notes)
+    assert found.parts[1].parent_probability is None
+    assert found.parts[0].parent_probability == pytest.approx(1 / (1 + np.exp(-1.0)))
+
+
+def test_one_part_is_a_tree_without_edges():
+    surface, faces = strip(2)
+    found = decoded(surface, faces, rows(np.full(24, 3), np.zeros((16, 16))))
+    assert (found.edges, found.root, len(found.parts)) == ((), 0, 1)

@@ -1,0 +1,193 @@
+"""The same numbers as the original networks: logits, features, closest points, loss inputs."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch  # noqa: TID253
+import torch.nn.functional as F  # noqa: N812, TID253
+from weight_rule import weights
+
+from asset_factory.factory.models.network.shape import (
+    NetworkShape,
+    expected_tensors,
+    read_shape,
+)
+from asset_factory.factory.models.network.transformer import PartArticulationTransformer
+from asset_factory.factory.models.partfield.encoder import PartFieldEncoder
+from asset_factory.factory.models.partfield.shape import PartFieldShape, read_partfield_shape
+from asset_factory.factory.models.partfield.shape import (
+    expected_tensors as expected_field_tensors,
+)
+from asset_factory.factory.models.particulate.model import (
+    FeatureField,
+    Model,
+    PointCloud,
+    load_field,
+    load_model,
+)
+
+KEPT = Path(__file__).with_name("parity.npz")
+TINY = NetworkShape(hidden=48, blocks=2, heads=4, features=32)
+TINY_FIELD = PartFieldShape(
+    channels=32, resolution=16, width=64, layers=2, heads=4, plane_channels=96
+)
+GAINS = {"point_mask_decoder": 5.0, "part_motion_classifier": 3.0, "part_hierarchy_decoder": 2.0}
+CLOSE = {"rtol": 1e-4, "atol": 2e-4}
+OUTPUTS = {
+    "mask_logits": "point_mask_logits",
+    "hierarchy_logits": "part_adjacency_logits",
+    "motion_logits": "part_motion_logits",
+    "revolute_direction": "revolute_dir_raw",
+    "revolute_range": "revolute_range",
+    "prismatic_direction": "prismatic_dir_raw",
+    "prismatic_range": "prismatic_range",
+}
+
+
+def built(shape, base, dtype=torch.float32):
+    """A model with weights from the rule that the fixtures were made with."""
+    with torch.device("meta"):
+        network = PartArticulationTransformer(shape)
+    network.load_state_dict(weights(expected_tensors(shape), base, GAINS), assign=True)
+    return Model(shape, dtype, "cpu", network.eval().requires_grad_(False))
+
+
+def built_field(shape, dtype=torch.float32):
+    """A field with weights from the rule."""
+    with torch.device("meta"):
+        encoder = PartFieldEncoder(shape)
+    encoder.load_state_dict(weights(expected_field_tensors(shape), 0), assign=True)
+    return FeatureField(shape, dtype, "cpu", encoder.eval().requires_grad_(False))
+
+
+def case(file, prefix=""):
+    """The arrays of one object, without the batch."""
+    with np.load(file) as arrays:
+        found = {
+            name.removeprefix(prefix): arrays[name]
+            for name in arrays.files
+            if name.startswith(prefix)
+        }
+    return found if prefix else {name: array[0] for name, array in found.items()}
+
+
+def assert_same(prediction, wanted):
+    for name, original in OUTPUTS.items():
+        np.testing.assert_allclose(
+            getattr(prediction, name), wanted[original], err_msg=name, **CLOSE
+        )
+    closest = prediction.closest_points(wanted["part_ids_argmax"])
+    np.testing.assert_allclose(closest, wanted["closest_point_on_axis"], **CLOSE)
+
+
+def cloud_of(wanted):
+    return PointCloud(wanted["xyz"], wanted["normals"], wanted["feats"])
+
+
+def test_the_transformer_says_what_the_original_said():
+    wanted = case(KEPT, "transformer_")
+    assert_same(built(TINY, 0).predict(cloud_of(wanted)), wanted)
+
+
+def test_the_features_are_the_originals():
+    wanted = case(KEPT, "partfield_")
+    features = built_field(TINY_FIELD).features(wanted["points_enc"], wanted["points_dec"])
+    np.testing.assert_allclose(features, wanted["point_feat"], **CLOSE)
+
+
+def test_features_in_bfloat16_stay_within_two_percent():
+    wanted = case(KEPT, "partfield_")
+    features = built_field(TINY_FIELD, torch.bfloat16).features(
+        wanted["points_enc"], wanted["points_dec"]
+    )
+    error = np.linalg.norm(features - wanted["point_feat"]) / np.linalg.norm(wanted["point_feat"])
+    assert 1e-5 < error < 0.02
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_stored_tiny_weights_say_what_the_original_said(fixtures, seed):
+    model = load_model(str(fixtures / "pat_tiny" / f"weights_seed{seed}.safetensors"))
+    assert model.shape == TINY
+    wanted = case(fixtures / "pat_tiny" / f"forward_seed{seed}.npz")
+    assert_same(model.predict(cloud_of(wanted)), wanted)
+    with torch.no_grad():
+        batch = [torch.tensor(wanted[name])[None] for name in ("xyz", "normals", "feats")]
+        hidden = model._network.embed(*batch)
+        queries = model._network.first_queries()[None]
+        np.testing.assert_allclose(queries[0], wanted["emb_part_query"], **CLOSE)
+        for number, block in enumerate(model._network.blocks):
+            hidden, queries = block(hidden, queries)
+            np.testing.assert_allclose(hidden[0], wanted[f"block{number}_x"], **CLOSE)
+            np.testing.assert_allclose(queries[0], wanted[f"block{number}_q"], **CLOSE)
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_training_sees_the_originals_logits_and_losses(fixtures, seed):
+    network = load_model(str(fixtures / "pat_tiny" / f"weights_seed{seed}.safetensors"))._network
+    with np.load(fixtures / "pat_tiny" / f"losses_seed{seed}.npz") as arrays:
+        wanted = {name: torch.from_numpy(arrays[name]) for name in arrays.files}
+    hidden, queries = network(*(wanted[name] for name in ("xyz", "normals", "feats")))
+    masks = network.mask_logits(hidden, queries)
+    np.testing.assert_allclose(masks, wanted["matcher_logits"], **CLOSE)
+    loss = F.cross_entropy(masks.transpose(1, 2), wanted["part_ids"])
+    np.testing.assert_allclose(loss, wanted["loss_unmatched_point_mask_loss"], rtol=1e-5)
+    closest = network.closest_points(hidden, queries, wanted["part_ids"])
+    kinds = wanted["gt_part_motion_class"].gather(1, wanted["part_ids"])
+    turning = (kinds == 1) | (kinds == 3)
+    loss = (closest - wanted["gt_closest_point_on_axis"])[turning].abs().mean()
+    np.testing.assert_allclose(
+        loss, wanted["loss_unmatched_point_closest_point_on_axis_loss"], rtol=1e-4
+    )
+
+
+def test_the_released_size_says_what_the_original_said(fixtures):
+    folder = fixtures / "pat_b_full"
+    keys = json.loads((folder / "config_and_keys.json").read_text())["keys"]
+    shape = read_shape({name: tuple(size) for name, size in keys.items()})
+    assert shape == NetworkShape()
+    wanted = case(folder / "forward_base0.npz")
+    assert_same(built(shape, 0).predict(cloud_of(wanted)), wanted)
+
+
+def test_stored_tiny_field_is_the_originals(fixtures):
+    field = load_field(str(fixtures / "partfield_tiny" / "weights_base0.safetensors"), heads=4)
+    assert field.shape == TINY_FIELD
+    wanted = case(fixtures / "partfield_tiny" / "case_base0.npz")
+    encoder = field._encoder
+    with torch.no_grad():
+        points = torch.tensor(wanted["points_enc_norm"])
+        np.testing.assert_allclose(
+            encoder.pvcnn.pc_encoder.encoder[0](points)[0], wanted["pts0"], **CLOSE
+        )
+        planes = encoder.pvcnn(points)
+        np.testing.assert_allclose(planes[0], wanted["pvcnn_out"], **CLOSE)
+        np.testing.assert_allclose(
+            encoder.triplane_transformer(planes)[0], wanted["planes"], **CLOSE
+        )
+    np.testing.assert_allclose(
+        field.features(wanted["points_enc"], wanted["points_dec"]), wanted["point_feat"], **CLOSE
+    )
+
+
+@pytest.mark.full
+def test_the_released_field_is_the_originals(fixtures):
+    folder = fixtures / "partfield_full"
+    keys = json.loads((folder / "config_and_keys.json").read_text())["keys"]
+    shape = read_partfield_shape({name: tuple(size) for name, size in keys.items()})
+    assert shape == PartFieldShape()
+    wanted = case(folder / "case_base0.npz")
+    features = built_field(shape).features(wanted["points_enc"], wanted["points_dec"])
+    np.testing.assert_allclose(features, wanted["point_feat"], **CLOSE)
+
+
+@pytest.mark.full
+def test_the_released_size_in_bfloat16_stays_within_two_percent(fixtures):
+    wanted = case(fixtures / "pat_b_full" / "forward_base0.npz")
+    prediction = built(NetworkShape(), 0, torch.bfloat16).predict(cloud_of(wanted))
+    for name, original in OUTPUTS.items():
+        largest = max(1.0, np.abs(wanted[original]).max())
+        assert np.abs(getattr(prediction, name) - wanted[original]).max() < 0.02 * largest, name
+    clear = wanted["mask_margin"] > 0.05 * np.abs(wanted["point_mask_logits"]).max()
+    assert np.array_equal(prediction.mask_logits.argmax(1)[clear], wanted["part_ids_argmax"][clear])

@@ -1,0 +1,296 @@
+"""The streamed network is the plain one, whatever the chunks, the batch or the order of points."""
+
+from copy import deepcopy
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import torch  # noqa: TID253
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tiny_checkpoint import write_checkpoint
+from tiny_model import TINY, plainly, random_cloud, tiny_model
+
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.models.network.layers import Attention, SinusoidEmbedding
+from asset_factory.factory.models.network.shape import AxisForm
+from asset_factory.factory.models.network.streaming import (
+    QueryPass,
+    drive,
+    embed_chunks,
+)
+from asset_factory.factory.models.network.transformer import pair_logits
+from asset_factory.factory.models.particulate.model import Particulate, PointCloud, load_model
+from asset_factory.factory.models.particulate.precision import product_dtype
+from asset_factory.factory.models.particulate.sampling import Cloud
+
+CLOSE = {"rtol": 1e-4, "atol": 1e-4}
+PART_FIELDS = (
+    "hierarchy_logits",
+    "motion_logits",
+    "revolute_direction",
+    "revolute_range",
+    "prismatic_direction",
+    "prismatic_range",
+)
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        TINY,
+        replace(TINY, features=0),
+        replace(TINY, normals=False),
+        replace(TINY, raw_coords=False, blocks=1),
+        replace(TINY, max_parts=5),
+        replace(TINY, axis_form=AxisForm.PLUCKER),
+    ],
+)
+def test_streamed_is_plain(shape):
+    model = tiny_model(shape)
+    cloud = random_cloud(777, shape)
+    masks, closest, parts = plainly(model, cloud)
+    prediction = model.predict(cloud)
+    np.testing.assert_allclose(prediction.mask_logits, masks, **CLOSE)
+    for name in PART_FIELDS:
+        np.testing.assert_allclose(
+            getattr(prediction, name), getattr(parts, name)[0].numpy(), err_msg=name, **CLOSE
+        )
+    if shape.axis_form is AxisForm.PLUCKER:
+        assert prediction.closest_points is None
+        np.testing.assert_allclose(
+            prediction.revolute_moment, parts.revolute_moment[0].numpy(), **CLOSE
+        )
+    else:
+        assert prediction.revolute_moment is None
+        np.testing.assert_allclose(prediction.closest_points(masks.argmax(1)), closest, **CLOSE)
+
+
+def test_each_mask_head_gives_its_own_answer():
+    shape = replace(TINY, hypotheses=2)
+    model = tiny_model(shape)
+    cloud = random_cloud(50, shape)
+    answers = [model.predict(cloud, hypothesis=number).mask_logits for number in range(2)]
+    for number, answer in enumerate(answers):
+        np.testing.assert_allclose(answer, plainly(model, cloud, number)[0], **CLOSE)
+    assert np.abs(answers[0] - answers[1]).max() > 0.1
+    with pytest.raises(ValueError, match="this network has 2"):
+        model.predict(cloud, hypothesis=2)
+
+
+@settings(max_examples=30)
+@given(count=st.integers(1, 40), chunk=st.integers(1, 50), seed=st.integers(0, 5))
+def test_chunks_do_not_matter(count, chunk, seed):
+    model = tiny_model()
+    cloud = random_cloud(count, seed=seed)
+    inputs = (cloud.points, cloud.normals, cloud.features)
+    whole, parts = (embed_chunks(model._network, *inputs, size) for size in (count, chunk))
+    queries = [
+        drive(model._network, hidden, torch.float32, size).queries
+        for hidden, size in ((whole, count), (parts, chunk))
+    ]
+    np.testing.assert_allclose(queries[0].numpy(), queries[1].numpy(), **CLOSE)
+    np.testing.assert_allclose(whole.numpy(), parts.numpy(), **CLOSE)
+
+
+def test_a_batch_is_its_clouds_one_by_one():
+    model = tiny_model()
+    clouds = [random_cloud(60, seed=seed) for seed in range(3)]
+    stacked = [
+        torch.tensor(np.stack([getattr(cloud, name) for cloud in clouds]))
+        for name in ("points", "normals", "features")
+    ]
+    with torch.no_grad():
+        hidden, queries = model._network(*stacked)
+        masks = model._network.mask_logits(hidden, queries)
+        closest = model._network.closest_points(hidden, queries, masks.argmax(-1))
+    for number, cloud in enumerate(clouds):
+        prediction = model.predict(cloud)
+        np.testing.assert_allclose(prediction.mask_logits, masks[number].numpy(), **CLOSE)
+        own = prediction.closest_points(masks[number].argmax(-1).numpy())
+        np.testing.assert_allclose(own, closest[number].numpy(), **CLOSE)
+
+
+def test_the_order_of_points_does_not_matter():
+    model = tiny_model()
+    cloud = random_cloud(300)
+    order = np.random.default_rng(1).permutation(300)
+    np.testing.assert_allclose(
+        model.predict(cloud.take(order)).mask_logits,
+        model.predict(cloud).mask_logits[order],
+        **CLOSE,
+    )
+
+
+def test_every_point_twice_changes_nothing():
+    # Attention averages over points, so a cloud and its double tell the queries the same.
+    model = tiny_model()
+    cloud = random_cloud(200)
+    twice = model.predict(cloud.take(np.concatenate([np.arange(200), np.arange(200)])))
+    once = model.predict(cloud)
+    np.testing.assert_allclose(twice.mask_logits[:200], once.mask_logits, **CLOSE)
+    np.testing.assert_allclose(twice.motion_logits, once.motion_logits, **CLOSE)
+
+
+def test_a_cloud_that_drives_itself_is_predicted():
+    model = tiny_model()
+    cloud = random_cloud(700)
+    decoded = model.decode(model.encode(cloud), cloud)
+    predicted = model.predict(cloud)
+    np.testing.assert_allclose(decoded.mask_logits, predicted.mask_logits, **CLOSE)
+    np.testing.assert_allclose(decoded.hierarchy_logits, predicted.hierarchy_logits, **CLOSE)
+    assert np.array_equal(model.predict(cloud, driving=700).mask_logits, predicted.mask_logits)
+
+
+def test_points_that_do_not_drive_are_answered_for_alone():
+    model = tiny_model()
+    cloud = random_cloud(700)
+    driven = model.encode(random_cloud(100, seed=9))
+    everything = model.decode(driven, cloud)
+    some = np.array([5, 600, 17])
+    np.testing.assert_allclose(
+        model.decode(driven, cloud.take(some)).mask_logits, everything.mask_logits[some], **CLOSE
+    )
+
+
+def test_few_driving_points_always_give_the_same_answer_for_all():
+    model = tiny_model()
+    cloud = random_cloud(700)
+    few = model.predict(cloud, driving=300)
+    assert few.mask_logits.shape == (700, 16)
+    assert np.array_equal(few.mask_logits, model.predict(cloud, driving=300).mask_logits)
+    assert not np.array_equal(few.mask_logits, model.predict(cloud).mask_logits)
+    # They are a fair sample: the more of them, the closer to what all would tell.
+    wanted = model.predict(cloud).motion_logits
+    errors = [
+        np.abs(model.predict(cloud, driving=count).motion_logits - wanted).max()
+        for count in (10, 80, 640)
+    ]
+    assert errors[0] > errors[1] > errors[2] > 0.0
+
+
+def test_closest_points_of_some_rows_are_those_of_all():
+    prediction = tiny_model().predict(random_cloud(90))
+    part_ids = prediction.mask_logits.argmax(1)
+    rows = np.array([3, 3, 88, 0])
+    np.testing.assert_allclose(
+        prediction.closest_points(part_ids, rows),
+        prediction.closest_points(part_ids)[rows],
+        **CLOSE,
+    )
+    assert prediction.closest_points(part_ids, np.zeros(0, dtype=int)).shape == (0, 3)
+    other = prediction.closest_points((part_ids + 1) % 16)
+    assert np.abs(other - prediction.closest_points(part_ids)).min(axis=0).max() > 0.0
+    with pytest.raises(ValueError, match=r"want \[90\]"):
+        prediction.closest_points(part_ids[:5])
+
+
+def test_bfloat16_stays_within_two_percent_of_the_largest_logit():
+    cloud = random_cloud(500)
+    exact, rough = (
+        tiny_model(dtype=dtype).predict(cloud) for dtype in (torch.float32, torch.bfloat16)
+    )
+    for name in ("mask_logits", *PART_FIELDS):
+        wanted = getattr(exact, name)
+        got = getattr(rough, name)
+        assert np.abs(got - wanted).max() < 0.02 * max(np.abs(wanted).max(), 1.0), name
+    assert not np.array_equal(exact.mask_logits, rough.mask_logits)
+
+
+def test_logits_of_any_size_do_not_overflow_the_sums():
+    attention = Attention(8, 2, 0.0).eval().requires_grad_(False)
+    attention.norm_q.weight.fill_(15.0)
+    attention.norm_k.weight.fill_(15.0)
+    draw = np.random.default_rng(0).normal
+    asking, asked = (torch.tensor(draw(size=(count, 8)), dtype=torch.float32) for count in (3, 64))
+    streamed = QueryPass(attention, asking, torch.float32)
+    for chunk in asked.split(7):
+        streamed.see(chunk)
+    np.testing.assert_allclose(
+        streamed.found().numpy(), attention(asking, asked).numpy(), atol=1e-3
+    )
+
+
+def test_pairs_are_what_concatenation_gives():
+    head = tiny_model()._network.part_hierarchy_decoder
+    rows = torch.randn(1, 5, 32)
+    columns = torch.randn(1, 4, 32)
+    pairs = torch.cat(
+        [rows[:, :, None].expand(-1, -1, 4, -1), columns[:, None].expand(-1, 5, -1, -1)], dim=-1
+    )
+    np.testing.assert_allclose(
+        pair_logits(head, rows, columns).numpy(), head(pairs)[..., 0].numpy(), atol=1e-5
+    )
+
+
+def test_gradients_reach_every_weight():
+    shape = replace(TINY, blocks=1)
+    network = deepcopy(tiny_model(shape)._network).requires_grad_(True)
+    cloud = random_cloud(20, shape)
+    hidden, queries = network(
+        *(torch.tensor(each)[None] for each in (cloud.points, cloud.normals, cloud.features))
+    )
+    parts = network.part_outputs(queries)
+    outputs = [
+        network.mask_logits(hidden, queries),
+        network.closest_points(hidden, queries, torch.zeros(1, 20).long()),
+    ]
+    outputs += [getattr(parts, name) for name in PART_FIELDS]
+    sum(output.square().sum() for output in outputs).backward()
+    assert not [
+        name
+        for name, weight in network.named_parameters()
+        if weight.grad is None or not weight.grad.any()
+    ]
+
+
+def test_sinusoids_are_sines_then_cosines_per_coordinate():
+    embedding = SinusoidEmbedding(195, 4, raw_coords=True)
+    expanded = embedding.expand(torch.tensor([[0.001, 0.0, -0.002]]))[0].numpy()
+    np.testing.assert_allclose(expanded[[0, 32]], [np.sin(1.0), np.cos(1.0)], rtol=1e-5)
+    np.testing.assert_allclose(expanded[64:96], 0.0, atol=1e-7)
+    np.testing.assert_allclose(expanded[128 + 1], np.sin(-2.0 * 10000.0 ** (-1 / 32)), rtol=1e-5)
+    np.testing.assert_allclose(expanded[192:], [0.001, 0.0, -0.002], rtol=1e-6)
+
+
+def nowhere(count):
+    """So many points in one place."""
+    none = np.zeros(count, dtype=np.int64)
+    return Cloud(np.zeros((count, 3)), np.zeros((count, 3)), none, none.astype(bool), none)
+
+
+def test_a_network_without_its_features_says_where_they_are():
+    with pytest.raises(ConfigError, match="NON-COMMERCIAL"):
+        Particulate(tiny_model())
+    with pytest.raises(ConfigError, match="and none are given"):
+        tiny_model().predict(PointCloud(np.zeros((3, 3)), np.zeros((3, 3))))
+    answer = Particulate(tiny_model(replace(TINY, features=0)))(nowhere(4), nowhere(9))
+    assert answer.mask_logits.shape == (4, 16)
+
+
+@pytest.mark.parametrize("points", [np.zeros((0, 3)), np.zeros((3, 2)), np.zeros(3)])
+def test_what_is_no_cloud_is_refused(points):
+    with pytest.raises(ValueError, match="points: shape"):
+        PointCloud(points, points)
+
+
+def test_precision_is_what_is_asked_for_on_every_machine():
+    assert product_dtype("bfloat16") is torch.bfloat16
+    assert product_dtype("float32") is torch.float32
+    with pytest.raises(ValueError, match="auto"):
+        product_dtype("auto")
+
+
+def test_an_upright_axis_is_turned_round_where_its_limits_say_that_it_opens_backwards(tmp_path):
+    file = write_checkpoint(tmp_path / "upright.safetensors", base=3, metadata={"axes": "upright"})
+    plain = write_checkpoint(tmp_path / "plain.safetensors", base=3)
+    rng = np.random.default_rng(0)
+    cloud = PointCloud(rng.uniform(-0.5, 0.5, (50, 3)), rng.normal(size=(50, 3)))
+    told = load_model(str(file)).predict(cloud)
+    raw = load_model(str(plain)).predict(cloud)
+    behind = -raw.revolute_range.min(axis=1) > raw.revolute_range.max(axis=1)
+    assert 0 < behind.sum() < len(behind)
+    np.testing.assert_array_equal(told.revolute_direction[behind], -raw.revolute_direction[behind])
+    np.testing.assert_array_equal(told.revolute_range[behind], -raw.revolute_range[behind][:, ::-1])
+    np.testing.assert_array_equal(told.revolute_range[~behind], raw.revolute_range[~behind])
+    assert (told.revolute_range.max(axis=1) >= -told.revolute_range.min(axis=1)).all()

@@ -1,0 +1,260 @@
+"""One network for many callers: the same bits as locally, and local if the service fails."""
+
+import os
+import signal
+import socket
+import threading
+import time
+from dataclasses import fields
+
+import numpy as np
+import pytest
+from random_network import random_network
+from tiny_checkpoint import write_checkpoint
+
+from asset_factory.factory.articulate.particulate import load_articulator
+from asset_factory.factory.config import ParticulateConfig
+from asset_factory.factory.models.particulate.loading import load_network
+from asset_factory.factory.models.particulate.prediction import Prediction
+from asset_factory.factory.models.particulate.sampling import Cloud
+from asset_factory.factory.models.service import (
+    Address,
+    ModelService,
+    asking,
+    network_for,
+    wire,
+)
+from asset_factory.factory.models.service.answering import HELD, Answering
+from asset_factory.factory.models.service.listening import answer_all, listening_socket
+from asset_factory.factory.models.service.wire import Message, WireError, pack, unpack
+
+
+def cloud_of(count, seed=0):
+    rng = np.random.default_rng(seed)
+    numbers = rng.integers(0, 3, count)
+    points, normals = rng.uniform(-0.5, 0.5, (2, count, 3)).astype(np.float32)
+    return Cloud(points, normals, numbers, numbers > 0, numbers)
+
+
+def equal(one, other):
+    for each in fields(Prediction):
+        a = getattr(one, each.name)
+        b = getattr(other, each.name)
+        if each.name != "closest_points" and not (a is b is None or np.array_equal(a, b)):
+            return False
+    return True
+
+
+def not_at_home():
+    raise AssertionError("the network at home was asked")
+
+
+def test_a_loaded_network_multiplies_with_one_thread(tmp_path):
+    torch = pytest.importorskip("torch")
+    before = torch.get_num_threads()
+    torch.set_num_threads(2)
+    try:
+        load_network(
+            ParticulateConfig(checkpoint=str(write_checkpoint(tmp_path / "tiny.safetensors")))
+        )
+        assert torch.get_num_threads() == 1
+    finally:
+        torch.set_num_threads(before)
+
+
+@pytest.fixture
+def serving(tmp_path):
+    """A network served by threads of this process: ``serving(network)`` gives the address."""
+    opened = []
+
+    def serve(network, identity="it", **settings):
+        listening = listening_socket(str(tmp_path / "socket"))
+        opened.append(listening)
+        answering = Answering(network, identity, 2)
+        threading.Thread(
+            target=answer_all, args=(listening, answering), kwargs=settings, daemon=True
+        ).start()
+        return Address(str(tmp_path / "socket"), start_s=0.2, answer_s=20.0)
+
+    yield serve
+    for listening in opened:
+        listening.shutdown(socket.SHUT_RDWR)
+        listening.close()
+
+
+def test_a_served_network_gives_the_same_bits(serving):
+    network = random_network
+    cloud = cloud_of(500)
+    context = cloud_of(200, 1)
+    with asking(serving(network)):
+        served = network_for("it", not_at_home)
+    answer = served(cloud, context)
+    own = network(cloud, context)
+    assert equal(answer, own)
+    ids = np.argmax(own.mask_logits, axis=1)
+    rows = np.arange(0, 500, 7)
+    assert np.array_equal(answer.closest_points(ids, rows), own.closest_points(ids, rows))
+    assert np.array_equal(answer.closest_points(ids), own.closest_points(ids))
+
+
+def test_many_askers_at_once_each_get_their_own_answer(serving):
+    network = random_network
+    clouds = [(cloud_of(100 + number, number), cloud_of(50, number)) for number in range(16)]
+    with asking(serving(network)):
+        served = [network_for("it", not_at_home) for _ in clouds]
+    answers = [None] * len(clouds)
+
+    def ask(number):
+        answers[number] = served[number](*clouds[number])
+
+    threads = [threading.Thread(target=ask, args=(number,)) for number in range(len(clouds))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(equal(answer, network(*both)) for answer, both in zip(answers, clouds, strict=True))
+
+
+def test_without_a_service_the_network_is_ones_own():
+    assert network_for("it", lambda: "own") == "own"
+
+
+@pytest.mark.parametrize(
+    "wrong", ["nobody listens", "another network", "it breaks", "it says nonsense", "full"]
+)
+def test_where_the_service_is_no_help_the_network_at_home_answers(serving, tmp_path, wrong):
+    own = random_network
+    cloud = cloud_of(50)
+
+    def broken(cloud, context):
+        raise MemoryError("no room")
+
+    address = Address(str(tmp_path / "gone" / "socket"), start_s=30.0)
+    if wrong == "another network":
+        address = serving(own, identity="other")
+    elif wrong == "it breaks":
+        address = serving(broken)
+    elif wrong == "full":
+        address = serving(own, most_askers=0)
+    elif wrong == "it says nonsense":
+        listening = listening_socket(str(tmp_path / "nonsense"))
+        threading.Thread(
+            target=answer_all, args=(listening, lambda _: b"\xff" * 100), daemon=True
+        ).start()
+        address = Address(str(tmp_path / "nonsense"))
+    asked_at_home = []
+
+    def home():
+        asked_at_home.append(True)
+        return own
+
+    with asking(address):
+        served = network_for("it", home)
+    began = time.monotonic()
+    assert equal(served(cloud, cloud), own(cloud, cloud))
+    served(cloud, cloud)
+    assert len(asked_at_home) == 1, "loaded once, asked twice"
+    assert time.monotonic() - began < 10.0, "a service that is gone for good is not waited for"
+    if wrong == "it says nonsense":
+        listening.shutdown(socket.SHUT_RDWR)
+        listening.close()
+
+
+def test_closest_points_that_are_held_no_more_come_from_home(serving):
+    network = random_network
+    cloud = cloud_of(50)
+    with asking(serving(network)):
+        served = network_for("it", lambda: network)
+    first = served(cloud, cloud)
+    for _ in range(HELD):
+        served(cloud, cloud)
+    ids = np.zeros(50, dtype=np.int64)
+    assert np.array_equal(first.closest_points(ids), network(cloud, cloud).closest_points(ids))
+
+
+def test_messages_come_back_as_they_were():
+    arrays = {
+        "a": np.arange(6, dtype=np.float32).reshape(2, 3),
+        "b": np.zeros((0, 4), np.int64),
+        "c": np.array(3),
+    }
+    message = unpack(pack(Message("kind", {"x": "y"}, arrays)))
+    assert (message.kind, dict(message.texts)) == ("kind", {"x": "y"})
+    assert all(np.array_equal(message.arrays[name], array) for name, array in arrays.items())
+
+
+def header(text, body=b""):
+    return wire._LENGTHS.pack(len(text), len(body)) + text + body
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"",
+        b"\x01\x00\x00",
+        b"\xff" * 8,
+        header(b"{}")[:-1],
+        header(b"not json"),
+        header(b"[" * 50000),
+        header(b'{"kind": 1, "texts": {}}'),
+        header(b'{"kind": "x", "texts": {}, "arrays": [["a", "|O", [1]]]}', b"12345678"),
+        header(b'{"kind": "x", "texts": {}, "arrays": [["a", "<f4", [-1]]]}', b"1234"),
+        header(
+            b'{"kind": "x", "texts": {}, "arrays": [["a", "<f4", [9999999999, 9999999999]]]}',
+            b"1234",
+        ),
+        header(b'{"kind": "x", "texts": {}, "arrays": [["a", "<f4", [1]]]}', b"12345678"),
+    ],
+)
+def test_what_is_no_message_is_refused(data):
+    with pytest.raises(WireError):
+        unpack(data)
+
+
+def test_what_is_too_long_is_not_even_received():
+    here, there = socket.socketpair()
+    with here, there:
+        there.sendall(wire._LENGTHS.pack(10, wire.MOST_BYTES + 1))
+        with pytest.raises(WireError, match="at most"):
+            wire.receive(here, time.monotonic() + 5.0)
+
+
+def test_a_killed_service_starts_again_and_a_stopped_one_leaves_nothing(tmp_path):
+    config = ParticulateConfig(
+        checkpoint=str(write_checkpoint(tmp_path / "tiny.safetensors")), points=64
+    )
+    own = load_network(config)
+    cloud = cloud_of(600)
+    with ModelService(config, at_once=1) as service:
+        for _ in range(2):
+            with asking(service.address):
+                served = load_articulator(config).network
+            assert equal(served(cloud, cloud), own(cloud, cloud))
+            assert served._own is None, "the service answered"
+            pid = service.pid
+            os.kill(pid, signal.SIGKILL)
+            while service.pid in (pid, None):
+                time.sleep(0.01)
+        folder = os.path.dirname(service.address.path)
+    assert not os.path.exists(folder)
+    assert service.pid is None
+
+
+def test_a_service_that_nobody_asks_loads_nothing(tmp_path):
+    config = ParticulateConfig(
+        checkpoint=str(write_checkpoint(tmp_path / "tiny.safetensors")), points=64
+    )
+    with ModelService(config, at_once=1) as service:
+        while not os.path.exists(service.address.path):
+            time.sleep(0.01)
+        with open(f"/proc/{service.pid}/maps") as loaded:
+            assert "libtorch" not in loaded.read()
+
+
+def test_a_service_whose_weights_cannot_be_read_is_given_up(tmp_path):
+    with (
+        ModelService(ParticulateConfig(checkpoint=str(tmp_path / "none.safetensors"))) as service,
+        asking(service.address),
+    ):
+        served = network_for("it", lambda: random_network)
+        assert served(cloud_of(20), cloud_of(20)).part_count > 0

@@ -1,0 +1,168 @@
+"""What fuzzing found in the readers of checkpoints, each once."""
+
+import io
+import json
+import struct
+import time
+import zipfile
+
+import pytest
+from fuzz_cases import pickled_number, pickled_text
+from fuzz_hostile_weights import SHARED
+
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.models.weights.checkpoint import open_checkpoint
+
+pytestmark = pytest.mark.usefixtures("warm_reader")
+
+#: Far more than the work takes, far less than what it took.
+QUICK_S = 3.0
+
+
+def torch_file(folder, description, **members):
+    file = folder / "w.pt"
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("archive/data.pkl", description)
+        archive.writestr("archive/version", b"3\n")
+        for name, data in members.items():
+            archive.writestr(f"archive/{name}", data)
+        archive.writestr(zipfile.ZipInfo("archive/data/0"), b"\0" * 4)
+    return file
+
+
+KEY = pickled_text("0")
+
+
+def tensor(storage=b"ctorch\nFloatStorage\n", key=KEY, size=1):
+    stored = b"(" + pickled_text("storage") + storage + key + pickled_text("cpu") + b"K\1tQ"
+    sizes = b"(" + pickled_number(size) + b"t(K\1t"
+    hooks = b"ccollections\nOrderedDict\n)R"
+    return (
+        b"ctorch._utils\n_rebuild_tensor_v2\n(" + stored + b"K\0" + sizes + b"\x89" + hooks + b"tR"
+    )
+
+
+def one_tensor(**changes):
+    return b"\x80\x02}" + pickled_text("a") + tensor(**changes) + b"s."
+
+
+#: A pair of the pair before, twice, sixty times: a few bytes with 2^60 leaves. By DUP, which torch
+#: does not know, and in the way in which torch writes it.
+LAUGH = b"(t" + b"2\x86" * 60
+REMEMBERED = b"(t" + SHARED * 60
+
+
+def test_a_file_cannot_change_what_the_next_one_is_read_with(tmp_path):
+    state = b"}" + pickled_text("dtype") + pickled_text("U8") + b"s"
+    poison = b"\x80\x02}" + pickled_text("x") + b"ctorch\nFloatStorage\n" + state + b"bs."
+    with pytest.raises(ConfigError, match="Can only build Tensor"):
+        open_checkpoint(torch_file(tmp_path, poison))
+    sound = open_checkpoint(torch_file(tmp_path, one_tensor()))
+    assert sound.tensors["a"].dtype == "F32"
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        b"}" + LAUGH + b"Ns",
+        b"}(" + LAUGH + b"Nu",
+        b"(" + LAUGH + b"Nd",
+        LAUGH + b"Q",
+        b"\x8f(" + LAUGH + b"\x90",
+        b"(" + LAUGH + b"\x91",
+        b"ccollections\nOrderedDict\n](" + LAUGH + b"N\x86e\x85R",
+        b"}" + pickled_text("a") + tensor(key=LAUGH) + b"s",
+        b"}" + pickled_text("a") + tensor(storage=LAUGH) + b"s",
+        LAUGH + b")R",
+        b"}" + REMEMBERED + b"Ns",
+        REMEMBERED + b")R",
+    ],
+)
+def test_shared_pairs_are_neither_hashed_nor_printed(body, tmp_path):
+    started = time.process_time()
+    with pytest.raises(ConfigError) as caught:
+        open_checkpoint(torch_file(tmp_path, b"\x80\x02" + body + b"."))
+    assert time.process_time() - started < QUICK_S
+    assert len(str(caught.value)) < 500
+
+
+@pytest.mark.parametrize(
+    "code", [b"cos\nsystem\n(NtR", b"(Nios\nsystem\n", b"(cos\nsystem\nNo", b"(Nishutil\nrmtree\n"]
+)
+def test_what_a_file_would_call_is_refused(code, tmp_path):
+    body = pickled_text("b") + code + pickled_text("a") + tensor()
+    with pytest.raises(ConfigError, match=r"os\.system|posix\.system|Unsupported operand"):
+        open_checkpoint(torch_file(tmp_path, b"\x80\x02}(" + body + b"u."))
+
+
+def test_what_torch_would_call_is_a_stand_in(tmp_path):
+    (tmp_path / "dear").mkdir()
+    call = b"cshutil\nrmtree\n(" + pickled_text(str(tmp_path / "dear")) + b"tR"
+    body = pickled_text("b") + call + pickled_text("a") + tensor()
+    found = open_checkpoint(torch_file(tmp_path, b"\x80\x02}(" + body + b"u."))
+    assert list(found.tensors) == ["a"]
+    assert (tmp_path / "dear").is_dir()
+
+
+def test_a_bomb_beside_the_description_is_not_unpacked(tmp_path):
+    with pytest.raises(ConfigError, match="big-endian"):
+        open_checkpoint(torch_file(tmp_path, one_tensor(), byteorder=b"\0" * 50_000_000))
+
+
+def test_a_locked_or_lying_archive_is_refused(tmp_path):
+    data = bytearray(torch_file(tmp_path, one_tensor()).read_bytes())
+    for mark, offset in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
+        data[data.find(mark) + offset] |= 1
+    (tmp_path / "locked.pt").write_bytes(data)
+    with pytest.raises(ConfigError, match="unsupported encryption"):
+        open_checkpoint(tmp_path / "locked.pt")
+    data = bytearray(torch_file(tmp_path, one_tensor(size=1_000_000)).read_bytes())
+    for at in (data.rfind(b"PK\x01\x02") + 20, data.rfind(b"PK\x01\x02") + 24):
+        struct.pack_into("<I", data, at, 4_000_000)
+    (tmp_path / "lies.pt").write_bytes(data)
+    with pytest.raises(ConfigError, match=r"does not fit|archive is corrupted"):
+        open_checkpoint(tmp_path / "lies.pt")
+
+
+def safetensors(folder, header):
+    text = header if isinstance(header, bytes) else json.dumps(header).encode()
+    (folder / "w.safetensors").write_bytes(struct.pack("<Q", len(text)) + text + bytes(16))
+    return folder / "w.safetensors"
+
+
+@pytest.mark.parametrize(
+    "entry",
+    [
+        {"dtype": "F32", "shape": [1], "data_offsets": ["a", "b"]},
+        {"dtype": "F32", "shape": ["x"], "data_offsets": [0, -1]},
+        {"dtype": "F32", "shape": [-1], "data_offsets": [0, -4]},
+        {"dtype": "F32", "shape": [1.0], "data_offsets": [0.0, 4.0]},
+        {"dtype": "F32", "shape": [1] * 1000, "data_offsets": [0, 4]},
+        {"dtype": "F32", "shape": [10**4000] * 1000, "data_offsets": [0, 4]},
+    ],
+)
+def test_sizes_that_are_no_sizes_are_refused_at_once(entry, tmp_path):
+    started = time.process_time()
+    with pytest.raises(ConfigError, match="not safetensors, damaged or cut off: ") as caught:
+        open_checkpoint(safetensors(tmp_path, {"a": entry}))
+    assert time.process_time() - started < QUICK_S
+    assert len(str(caught.value)) < 600
+
+
+def test_a_header_of_nothing_but_brackets_is_refused_before_it_is_parsed(tmp_path):
+    with pytest.raises(ConfigError, match="invalid type: sequence"):
+        open_checkpoint(safetensors(tmp_path, b"[" + b"{}," * 1_000_001 + b"1]"))
+    with pytest.raises(ConfigError, match="invalid type: map, expected a string"):
+        open_checkpoint(safetensors(tmp_path, {"__metadata__": {"terms": {"a": 1}}}))
+
+
+def test_the_zip_of_a_real_file_is_still_read(tmp_path):
+    torch = pytest.importorskip("torch")
+    stream = io.BytesIO()
+    state = {
+        "state_dict": {"a.weight": torch.ones(2, 3), "b": torch.nn.Parameter(torch.zeros(4))},
+        ("epoch", 1): 3,
+    }
+    torch.save(state, stream)
+    (tmp_path / "w.ckpt").write_bytes(stream.getvalue())
+    assert open_checkpoint(tmp_path / "w.ckpt").shapes == {"a.weight": (2, 3), "b": (4,)}

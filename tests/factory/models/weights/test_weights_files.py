@@ -1,0 +1,325 @@
+"""Tensor files: read back what was written, refuse what is damaged, foreign or hostile."""
+
+import json
+import os
+import pickle
+import struct
+import sys
+import types
+import zipfile
+from collections import OrderedDict
+
+import numpy as np
+import pytest
+import torch  # noqa: TID253
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.models.weights import pickled
+from asset_factory.factory.models.weights.checkpoint import load_tensors, open_checkpoint
+from asset_factory.factory.models.weights.pickled import unpack
+from asset_factory.factory.models.weights.safetensors import (
+    read_safetensors,
+    write_safetensors,
+)
+from asset_factory.sim_checks.processes.isolation import Failure, Outcome
+
+pytestmark = pytest.mark.usefixtures("warm_reader")
+
+TENSORS = {
+    "one.weight": torch.arange(6.0).reshape(2, 3),
+    "one.bias": torch.tensor([0.5, -1.0]).bfloat16(),
+    "steps": torch.tensor(7),
+    "nothing": torch.zeros(0, 4),
+    "mask": torch.tensor([True, False, True]),
+    "half": torch.tensor([1.5]).half(),
+}
+
+
+@pytest.fixture
+def stored(tmp_path):
+    file = tmp_path / "weights.safetensors"
+    write_safetensors(file, TENSORS, {"network": "none"})
+    return file
+
+
+def loaded(file):
+    return {name: tensor.load() for name, tensor in open_checkpoint(file).tensors.items()}
+
+
+def assert_same(found, wanted=TENSORS):
+    assert set(found) == set(wanted)
+    for name, tensor in wanted.items():
+        assert found[name].dtype == tensor.dtype, name
+        assert torch.equal(found[name], tensor), name
+
+
+def test_what_was_written_is_read(stored):
+    assert_same(loaded(stored))
+    assert read_safetensors(stored).metadata == {"network": "none"}
+
+
+def test_the_same_tensors_are_the_same_bytes_in_any_order(stored, tmp_path):
+    other = tmp_path / "other.safetensors"
+    write_safetensors(other, dict(reversed(TENSORS.items())), {"network": "none"})
+    assert other.read_bytes() == stored.read_bytes()
+    assert not list(tmp_path.glob(".writing-*"))
+
+
+def test_the_layout_is_the_formats(stored):
+    data = stored.read_bytes()
+    (length,) = struct.unpack("<Q", data[:8])
+    header = json.loads(data[8 : 8 + length])
+    assert length % 8 == 0
+    begin, end = header["one.weight"]["data_offsets"]
+    assert header["one.weight"] == {"dtype": "F32", "shape": [2, 3], "data_offsets": [begin, end]}
+    assert np.frombuffer(data[8 + length + begin : 8 + length + end], "<f4").tolist() == [
+        0,
+        1,
+        2,
+        3,
+        4,
+        5,
+    ]
+
+
+def test_files_of_the_formats_own_library_are_read(fixtures):
+    checkpoint = open_checkpoint(fixtures / "pat_tiny" / "weights_seed0.safetensors")
+    tensors = load_tensors(checkpoint)
+    assert len(tensors) == 116
+    assert tensors["pos_embed.mlp.0.weight"].shape == (48, 195)
+
+
+@settings(max_examples=60)
+@given(share=st.floats(0.0, 0.999))
+def test_a_file_cut_anywhere_is_refused(tmp_path_factory, share):
+    folder = tmp_path_factory.mktemp("cut")
+    whole = folder / "whole.safetensors"
+    cut = folder / "cut.safetensors"
+    write_safetensors(whole, TENSORS, {})
+    data = whole.read_bytes()
+    cut.write_bytes(data[: int(share * len(data))])
+    with pytest.raises(ConfigError, match=r"cut off|too few"):
+        loaded(cut)
+
+
+def test_a_file_that_lacks_one_byte_is_refused(stored):
+    stored.write_bytes(stored.read_bytes()[:-1])
+    with pytest.raises(ConfigError, match=r"cut off: incomplete metadata, file not fully covered"):
+        open_checkpoint(stored)
+
+
+def entry(**changes):
+    return {"dtype": "F32", "shape": [2], "data_offsets": [0, 8], **changes}
+
+
+@pytest.mark.parametrize(
+    ("header", "says"),
+    [
+        ({"a": entry(shape=[3])}, "invalid shape, data type, or offset for tensor"),
+        ({"a": entry(shape=[-2])}, "invalid value: integer `-2`, expected usize"),
+        ({"a": entry(shape=[2.0])}, "floating point `2.0`, expected usize"),
+        ({"a": entry(shape=[2**40, 2**40])}, "overflow"),
+        ({"a": entry(dtype="F7")}, "unknown variant `F7`"),
+        ({"a": entry(dtype=["F32"])}, "invalid type: sequence"),
+        ({"a": 3}, "invalid type: integer `3`, expected struct TensorInfo"),
+        ({"a": {"dtype": "F32"}}, "missing field `shape`"),
+        ({"a": entry(data_offsets=[8, 16])}, "invalid offset for tensor `a`"),
+        ({"a": entry(), "b": entry(data_offsets=[4, 12])}, "invalid offset for tensor `b`"),
+        ({"a": entry(data_offsets=[0, 8, 9])}, "data_offsets|invalid length|trailing|expected"),
+        ([1, 2], "invalid type: sequence"),
+        ({"__metadata__": 3}, "invalid type: integer `3`, expected a map"),
+    ],
+)
+def test_a_header_that_lies_is_refused(tmp_path, header, says):
+    file = tmp_path / "lies.safetensors"
+    text = json.dumps(header).encode()
+    file.write_bytes(struct.pack("<Q", len(text)) + text + bytes(16))
+    with pytest.raises(ConfigError, match=says):
+        open_checkpoint(file)
+
+
+@pytest.mark.parametrize(
+    "data", [b"", b"abc", b"solid cube facet normal 0 0 0", bytes(64), b"\xff" * 64]
+)
+def test_what_is_no_checkpoint_is_refused(tmp_path, data):
+    file = tmp_path / "mesh.stl"
+    file.write_bytes(data)
+    with pytest.raises(ConfigError, match=r"mesh\.stl: "):
+        open_checkpoint(file)
+
+
+def test_doubled_names_are_refused(tmp_path):
+    file = tmp_path / "twice.safetensors"
+    text = (
+        b'{"a":{"dtype":"U8","shape":[1],"data_offsets":[0,1]},'
+        b'"a":{"dtype":"U8","shape":[1],"data_offsets":[0,1]}}'
+    )
+    file.write_bytes(struct.pack("<Q", len(text)) + text + b"\0")
+    with pytest.raises(ConfigError, match="a appears twice"):
+        open_checkpoint(file)
+
+
+@pytest.mark.parametrize("wrapped", [False, True])
+def test_what_torch_saves_is_read(tmp_path, wrapped):
+    file = tmp_path / "model.pt"
+    state = OrderedDict(TENSORS)
+    torch.save(
+        {"state_dict": state, "epoch": 3, "callbacks": {"best": 0.5}} if wrapped else state, file
+    )
+    assert_same(loaded(file))
+
+
+def test_a_modules_parameters_and_views_are_read(tmp_path):
+    file = tmp_path / "model.pt"
+    base = torch.arange(12.0).reshape(3, 4)
+    state = {"turned": base.T, "tail": base[1:, 2], "own": torch.nn.Parameter(base)}
+    torch.save(state, file)
+    assert_same(loaded(file), {name: tensor.detach() for name, tensor in state.items()})
+
+
+def test_settings_of_unknown_classes_are_passed_over(tmp_path, monkeypatch):
+    file = tmp_path / "trained.ckpt"
+    # As trainers store their configuration: in a class of a library that nobody here has.
+    library = types.ModuleType("yacs.config")
+    library.CfgNode = type("CfgNode", (dict,), {"__module__": "yacs.config"})
+    monkeypatch.setitem(sys.modules, "yacs", types.ModuleType("yacs"))
+    monkeypatch.setitem(sys.modules, "yacs.config", library)
+    configuration = library.CfgNode(rate=0.1, nested=library.CfgNode(deep=[1, 2]))
+    configuration.frozen = True
+    torch.save(
+        {"state_dict": TENSORS, "hyper_parameters": configuration, "dtypes": torch.float64}, file
+    )
+    monkeypatch.undo()
+    assert "yacs.config" not in sys.modules
+    assert_same(loaded(file))
+
+
+class Hostile:
+    """Runs a command when it is unpickled by a reader that lets it."""
+
+    def __init__(self, command):
+        self.command = command
+
+    def __reduce__(self):
+        return os.system, (self.command,)
+
+
+def test_nothing_in_a_file_is_run(tmp_path):
+    trace = tmp_path / "trace"
+    file = tmp_path / "model.pt"
+    torch.save({"weights": TENSORS["half"], "trap": Hostile(f"touch {trace}")}, file)
+    with pytest.raises(ConfigError, match=r"posix\.system"):
+        open_checkpoint(file)
+    assert not trace.exists()
+    pickle.loads(pickle.dumps(Hostile(f"touch {trace}")))  # noqa: S301
+    assert trace.exists(), "the trap would have worked on a reader that trusts"
+
+
+def test_a_reader_is_not_kept_where_nobody_asks_for_it(tmp_path, monkeypatch):
+    monkeypatch.undo()
+    file = tmp_path / "model.pt"
+    torch.save(TENSORS, file)
+    assert_same(loaded(file))
+
+
+def test_without_torch_the_remedy_is_named(tmp_path, monkeypatch):
+    file = tmp_path / "model.pt"
+    torch.save(TENSORS, file)
+    monkeypatch.setitem(sys.modules, "torch", None)
+    with pytest.raises(ConfigError, match="pip install torch"):
+        unpack(file, tmp_path / "to.safetensors", 5)
+
+
+def test_a_file_that_takes_too_long_is_given_up(tmp_path, monkeypatch):
+    torch.save(TENSORS, tmp_path / "model.pt")
+    monkeypatch.setattr(
+        pickled,
+        "run_isolated",
+        lambda *_args, **_limits: Outcome(None, Failure.CRASHED, "killed", "", 1.0),
+    )
+    with pytest.raises(ConfigError, match="cannot be read within 1 s and 1 GiB: killed"):
+        open_checkpoint(tmp_path / "model.pt")
+
+
+def test_what_was_read_once_is_known_until_the_file_changes(tmp_path, monkeypatch):
+    file = tmp_path / "model.pt"
+    torch.save({"a": torch.ones(2)}, file)
+    assert open_checkpoint(file).shapes == {"a": (2,)}
+    with monkeypatch.context() as patch:
+        patch.setattr(pickled, "run_isolated", None)
+        assert open_checkpoint(file).shapes == {"a": (2,)}
+    torch.save({"a": torch.ones(3)}, file)
+    assert open_checkpoint(file).shapes == {"a": (3,)}
+
+
+def repacked(source, target, change):
+    """A copy of a zip archive whose entries went through ``change(name, data)``; None drops one."""
+    with zipfile.ZipFile(source) as old, zipfile.ZipFile(target, "w") as new:
+        for info in old.infolist():
+            data = change(info.filename, old.read(info))
+            if data is not None:
+                new.writestr(info.filename, data)
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (lambda name, data: None if "/data/" in name else data, "failed locating file data/0"),
+        (
+            lambda name, data: data[:1] if "/data/" in name else data,
+            "bytes are missing, compressed or cut off",
+        ),
+        (lambda name, data: None if name.endswith("data.pkl") else data, "not one of torch.save"),
+        (lambda name, data: b"big" if name.endswith("byteorder") else data, "big-endian"),
+        (
+            lambda name, data: data[:9] if name.endswith("data.pkl") else data,
+            "cannot be read|cut off",
+        ),
+        (lambda name, data: b"garbage" if name.endswith("data.pkl") else data, "cannot be read"),
+    ],
+)
+def test_a_damaged_archive_is_refused(tmp_path, change, says):
+    torch.save({"half": TENSORS["half"]}, tmp_path / "whole.pt")
+    repacked(tmp_path / "whole.pt", tmp_path / "damaged.pt", change)
+    with pytest.raises(ConfigError, match=says):
+        loaded(tmp_path / "damaged.pt")
+
+
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.9, 0.99])
+def test_an_archive_that_is_cut_off_is_refused(tmp_path, share):
+    torch.save(TENSORS, tmp_path / "whole.pt")
+    data = (tmp_path / "whole.pt").read_bytes()
+    (tmp_path / "cut.pt").write_bytes(data[: int(share * len(data))])
+    with pytest.raises(ConfigError, match="cut off"):
+        open_checkpoint(tmp_path / "cut.pt")
+
+
+def test_a_tensor_larger_than_its_storage_is_refused(tmp_path):
+    # A million rows that share one number take no room in a file, and gigabytes once they are
+    # loaded.
+    torch.save({"wide": torch.zeros(1).expand(1_000_000, 1000)}, tmp_path / "bomb.pt")
+    with pytest.raises(ConfigError, match=r"wide: shape .* does not fit the 1 numbers stored"):
+        open_checkpoint(tmp_path / "bomb.pt")
+
+
+def test_the_old_format_and_empty_files_say_what_to_do(tmp_path):
+    torch.save(TENSORS, tmp_path / "old.pt", _use_new_zipfile_serialization=False)
+    with pytest.raises(ConfigError, match="save it again"):
+        open_checkpoint(tmp_path / "old.pt")
+    torch.save([1, 2], tmp_path / "list.pt")
+    with pytest.raises(ConfigError, match="no mapping"):
+        open_checkpoint(tmp_path / "list.pt")
+    torch.save({"epoch": 3}, tmp_path / "none.pt")
+    with pytest.raises(ConfigError, match="holds no tensors"):
+        open_checkpoint(tmp_path / "none.pt")
+
+
+def test_floats_become_float32_and_the_unwanted_stay_in_the_file(stored):
+    tensors = load_tensors(open_checkpoint(stored), leave=("one.", "nothing"))
+    assert {name: tensor.dtype for name, tensor in tensors.items()} == {
+        "steps": torch.int64,
+        "mask": torch.bool,
+        "half": torch.float32,
+    }
