@@ -106,7 +106,7 @@ class RegisteredAsset:
 
     @property
     def standing_bounds(self) -> FloatArray:
-        """Box around the closed object as it stands on the ground [m], shape [2, 3]."""
+        """Return the box around the closed object as it stands on the ground [m], shape [2, 3]."""
         return np.asarray(self.bounds + np.array([0.0, 0.0, self.ground_offset]))
 
     def closed_value(self, joint: str) -> float:
@@ -165,7 +165,7 @@ def named(
 
 
 def listed(names: list[str]) -> str:
-    """Names as an error lists them."""
+    """Return the names as an error lists them."""
     more = f" and {len(names) - LISTED} more" if len(names) > LISTED else ""
     return (", ".join(repr(name) for name in names[:LISTED]) + more) or "none"
 

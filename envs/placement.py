@@ -210,7 +210,7 @@ def _search(
 def _candidates(
     path: FloatArray, facing: FloatArray, robot: RobotShape
 ) -> tuple[FloatArray, FloatArray]:
-    """Base positions [m], shape [count, 3], and headings [rad], shape [count].
+    """Return the base positions [m], shape [count, 3], and headings [rad], shape [count].
 
     A heading is the turn away from straight ahead.
     """
@@ -226,7 +226,7 @@ def _candidates(
 
 
 def _in_world(places: FloatArray, yaws: FloatArray, points: FloatArray) -> FloatArray:
-    """Points of the base frame at every place [m], shape [place, point, 3]."""
+    """Return the points of the base frame at every place [m], shape [place, point, 3]."""
     cos = np.cos(yaws)[:, None]
     sin = np.sin(yaws)[:, None]
     x = points[:, 0]
@@ -267,7 +267,7 @@ def _body_clearance(places: FloatArray, boxes: FloatArray, robot: RobotShape) ->
 def _arm_clearance(
     places: FloatArray, yaws: FloatArray, boxes: FloatArray, robot: RobotShape
 ) -> FloatArray:
-    """Distance between the arm at rest and all boxes [m], shape [place]."""
+    """Return the distance between the arm at rest and all boxes [m], shape [place]."""
     points = _in_world(places, yaws, robot.arm)[:, :, None]
     gap = np.maximum(boxes[:, 0] - points, points - boxes[:, 1])
     distance = np.linalg.norm(np.maximum(gap, 0.0), axis=-1) + np.minimum(gap.max(axis=-1), 0.0)

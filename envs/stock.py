@@ -242,7 +242,7 @@ def _handles(link: ElementTree.Element) -> list[ElementTree.Element]:
 
 
 def _corners(visuals: Iterable[ElementTree.Element]) -> Iterator[FloatArray]:
-    """Vertices of visuals [m], link frame, shape [vertex, 3] each."""
+    """Yield the vertices of visuals [m], link frame, shape [vertex, 3] each."""
     for visual in visuals:
         for mesh in visual.iter("mesh"):
             yield np.asarray(

@@ -95,7 +95,7 @@ class Targets:
         self._now = {name: table[self._rows, self.slot] for name, table in self._table.items()}
 
     def drawn(self, env_idx: torch.Tensor, draw: torch.Tensor) -> torch.Tensor:
-        """Slots that uniform numbers in [0, 1) stand for, both shape [chosen]."""
+        """Return the slots that uniform numbers in [0, 1) stand for, both shape [chosen]."""
         return self._allowed[env_idx, (draw * self.count[env_idx]).long()]
 
     def __getitem__(self, name: str) -> torch.Tensor:

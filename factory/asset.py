@@ -36,7 +36,7 @@ class Hull:
 
     @cached_property
     def volume(self) -> float:
-        """Enclosed volume [m3], by the divergence theorem."""
+        """Return the enclosed volume [m3], by the divergence theorem."""
         corners = (self.vertices - self.vertices.mean(axis=0))[self.faces]
         return float(
             np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6.0
@@ -234,7 +234,7 @@ class Asset:
 
     @property
     def mass(self) -> float:
-        """Total mass [kg]."""
+        """Return the total mass [kg]."""
         return float(sum(body.inertial.mass for body in self.bodies))
 
     @property

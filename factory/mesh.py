@@ -141,7 +141,7 @@ class Mesh:
 
     @property
     def diagonal(self) -> float:
-        """Length of the box's diagonal [m]."""
+        """Return the length of the box's diagonal [m]."""
         return float(np.linalg.norm(self.extents))
 
     def submesh(self, face_indices: npt.ArrayLike) -> Mesh:

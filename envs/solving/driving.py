@@ -254,7 +254,7 @@ class Driver:
 
 
 def sustained(forces: Sequence[float]) -> float:
-    """Greatest mean over ``WINDOW`` control steps, of forces of one each [N]."""
+    """Return the greatest mean over ``WINDOW`` control steps, of forces of one each [N]."""
     if len(forces) < WINDOW:
         return 0.0
     return float(np.convolve(forces, np.full(WINDOW, 1.0 / WINDOW), "valid").max())

@@ -190,7 +190,7 @@ def _clear(
 
 
 def _hand_points(world: RobotWorld, balls: Balls, hands: FloatArray, opening: float) -> FloatArray:
-    """Points of the hand at some poses, shape [count, point, 3]."""
+    """Return the points of the hand at some poses, shape [count, point, 3]."""
     values = np.zeros((1, len(world.chain.limits)))
     values[:, list(world.grippers)] = opening
     poses = world.chain.forward(values, np.eye(4))
@@ -203,7 +203,7 @@ def _hand_points(world: RobotWorld, balls: Balls, hands: FloatArray, opening: fl
 def _outer(
     world: RobotWorld, poses: FloatArray, seed: int, along: bool
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Points of outer surfaces [m], their normals, and what they are worth, 0 to 1.
+    """Return the points of outer surfaces [m], their normals, and what they are worth, 0 to 1.
 
     Surfaces that face against the motion, or, ``along``, those that move along themselves.
     """

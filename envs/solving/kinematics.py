@@ -209,7 +209,7 @@ def _cross(first: FloatArray, second: FloatArray) -> FloatArray:
 
 
 def _moved(value: FloatArray, slides: bool) -> FloatArray:
-    """Motion along or about x, shape [count, 4, 4]."""
+    """Return the motion along or about x, shape [count, 4, 4]."""
     motion = np.tile(np.eye(4), (len(value), 1, 1))
     if slides:
         motion[:, 0, 3] = value

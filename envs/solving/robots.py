@@ -48,7 +48,7 @@ class Robot:
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """Joints whose values are planned."""
+        """Return the joints whose values are planned."""
         return self.arm if self.lift is None else (self.lift, *self.arm)
 
     def action(

@@ -78,7 +78,7 @@ class LinkHulls:
     def distance(
         self, points: FloatArray, poses: FloatArray, leave_out: Sequence[int] = ()
     ) -> FloatArray:
-        """Lower bound of the distance to the nearest piece [m], shape [count, point].
+        """Return the lower bound of the distance to the nearest piece [m], shape [count, point].
 
         Negative inside.
 

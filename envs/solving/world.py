@@ -86,7 +86,7 @@ class RobotWorld:
     targets: tuple[GraspTarget, ...]
 
     def object_poses(self, values: FloatArray, share: float | None = None) -> FloatArray:
-        """Poses of the object's links, shape [link, 4, 4].
+        """Return the poses of the object's links, shape [link, 4, 4].
 
         Args:
             values: of its joints, shape [degree].

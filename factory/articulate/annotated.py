@@ -32,7 +32,7 @@ TRAVEL_SHARE = 0.5
 
 
 def annotation_of(intake: Intake) -> Annotation | None:
-    """Parts and joints that came with an input; ``None`` if none did.
+    """Return the parts and joints that came with an input; ``None`` if none did.
 
     Raises:
         InputRejected: ``bad_annotation``: a file of them lies there and cannot be used.
@@ -275,7 +275,7 @@ def _unique(names: list[str], fallback: str) -> list[str]:
 
 
 def _finished(draft: Draft, articulator: str) -> Articulation:
-    """Parts in tree order, link origins beside their geometry."""
+    """Return the parts in tree order, link origins beside their geometry."""
     order = [draft.root, *(joint.child for joint in draft.joints)]
     position = {part: index for index, part in enumerate(order)}
     names = _unique([draft.names[part] for part in order], "part")

@@ -105,7 +105,7 @@ def _refuse_cycles(draft: Draft, roots: list[int]) -> None:
 
 
 def _parents_first(joints: tuple[Joint, ...], roots: list[int]) -> tuple[Joint, ...]:
-    """Depth first, siblings in the order given."""
+    """Return the depth first, siblings in the order given."""
     children: dict[int, list[Joint]] = {}
     for joint in joints:
         children.setdefault(joint.parent, []).append(joint)

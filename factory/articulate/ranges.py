@@ -122,7 +122,7 @@ def with_zero_inside(draft: Draft) -> Draft:
 
 
 def without_still_joints(draft: Draft) -> Draft:
-    """Joints without a range become fixed."""
+    """Return the joints without a range become fixed."""
     joints = []
     notes = []
     for joint in draft.joints:

@@ -11,7 +11,7 @@ from .draft import Draft
 
 
 def unlabelled_to_root(draft: Draft) -> Draft:
-    """Faces that belong to no part go to the root."""
+    """Return the faces that belong to no part go to the root."""
     loose = draft.face_part < 0
     if not loose.any():
         return draft
@@ -22,7 +22,7 @@ def unlabelled_to_root(draft: Draft) -> Draft:
 
 
 def welded(draft: Draft) -> Draft:
-    """Parts held by fixed joints become one with their parents; needs ordered joints.
+    """Return the parts held by fixed joints become one with their parents; needs ordered joints.
 
     The whole is called after its topmost member that has faces.
     """

@@ -89,7 +89,7 @@ def _judged(
     config: CheckConfig,
     workers: int,
 ) -> Iterator[Iterator[Report]]:
-    """Reports in the order of the files, each once it and all before it are there.
+    """Yield the reports in the order of the files, each once it and all before it are there.
 
     A judge serves one file at a time; what it asks are child processes of its own, so that threads
     are enough here. Simulators share what processors the files leave.

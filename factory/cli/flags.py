@@ -165,7 +165,7 @@ class Effort(Protocol):
 
     @property
     def timeout(self) -> float:
-        """Longest that one attempt may take [s]."""
+        """Return the longest that one attempt may take [s]."""
 
 
 def check_effort(command: Effort, counts: Sequence[str]) -> None:

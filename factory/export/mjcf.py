@@ -73,7 +73,7 @@ def _defaults() -> ElementTree.Element:
 
 
 def _looks(layout: Layout) -> dict[Look, str]:
-    """Names for the distinct appearances, in order of first use."""
+    """Return the names for the distinct appearances, in order of first use."""
     looks: dict[Look, str] = {}
     for files in layout.links:
         for piece in files.visuals:

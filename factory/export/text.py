@@ -18,7 +18,7 @@ def number(value: float, decimals: int = DECIMALS) -> str:
 
 
 def vector(values: Iterable[float], decimals: int = DECIMALS) -> str:
-    """Several :func:`number` with spaces between, as URDF and MJCF want them."""
+    """Return several :func:`number` with spaces between, as URDF and MJCF want them."""
     return " ".join(number(value, decimals) for value in values)
 
 
@@ -31,7 +31,7 @@ def vectors(word: str, rows: FloatArray, decimals: int = DECIMALS) -> list[str]:
 
 
 def scientific(values: Iterable[float]) -> str:
-    """Several :func:`magnitude` as text, with spaces between."""
+    """Return several :func:`magnitude` as text, with spaces between."""
     return " ".join(repr(magnitude(value)).removesuffix(".0") for value in values)
 
 

@@ -76,7 +76,7 @@ def _write_part(
 
 
 def _groups(asset: Asset, part: int) -> list[tuple[IntArray, bool]]:
-    """Faces of a part by (handle or not, material), body first."""
+    """Return the faces of a part by (handle or not, material), body first."""
     faces = asset.articulation.parts[part].faces
     # A handle may be a part of its own, fixed to the one that moves.
     on_handle = np.zeros(len(faces), dtype=bool)

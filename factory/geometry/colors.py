@@ -9,7 +9,7 @@ from ..mesh import FloatArray
 
 
 def srgb_of(linear: npt.ArrayLike) -> FloatArray:
-    """Linear values in [0, 1] as they are shown."""
+    """Return the linear values in [0, 1] as they are shown."""
     light = np.asarray(linear, dtype=np.float64)
     return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1.0 / 2.4) - 0.055)
 

@@ -44,7 +44,7 @@ def _weld(mesh: Mesh) -> IntArray:
 
 
 def _label_faces(faces: IntArray, proper: IntArray) -> IntArray:
-    """Labels of faces with sorted corners; faces that are not ``proper`` stay alone."""
+    """Return the labels of faces with sorted corners; faces that are not ``proper`` stay alone."""
     count = len(faces)
     owner = np.repeat(np.flatnonzero(proper), 3)
     edges = faces[proper][:, [0, 1, 1, 2, 0, 2]].reshape(-1, 2)

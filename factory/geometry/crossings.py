@@ -126,7 +126,7 @@ class Crossings:
 
     @property
     def first(self) -> IntArray:
-        """Indices of the nearest crossing of each pixel that has any."""
+        """Return the indices of the nearest crossing of each pixel that has any."""
         return np.flatnonzero(np.diff(self.pixel, prepend=-1))
 
 

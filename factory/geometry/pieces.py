@@ -95,7 +95,7 @@ def _turns(sheet: Sheet) -> FloatArray:
 
 
 def _merged(sheet: Sheet, piece: IntArray, ties: FloatArray) -> IntArray:
-    """Pieces of which none is small, but for those that border on nothing.
+    """Return the pieces of which none is small, but for those that border on nothing.
 
     Args:
         sheet: the surface.

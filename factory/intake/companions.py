@@ -49,7 +49,7 @@ _MOST_TEXT = 16 * MOST_BYTES
 
 
 def companions(source: Path, known: frozenset[str] = frozenset()) -> frozenset[str]:
-    """Files in or below an input's folder that it may be made of, itself included.
+    """Return the files in or below an input's folder that it may be made of, itself included.
 
     Some may be too many, and some missing that are called strangely, or named beyond the first
     64 MiB of a file: what an input was made of only its reader knows, see :class:`.reads.Reads`.
@@ -100,7 +100,7 @@ def _layers(root: Path) -> Iterator[Path]:
 
 
 def _folders(data: bytes, root: Path) -> Iterator[Path]:
-    """Folders in which an MJCF says that its files lie."""
+    """Yield the folders in which an MJCF says that its files lie."""
     for found in REFERENCE.finditer(data if b"dir" in data else b""):
         if found[1].endswith(b"dir"):
             yield Path(os.path.normpath(root / found[2].decode("utf-8", "replace")))
@@ -120,7 +120,7 @@ def _names(data: bytes) -> Iterator[str]:
 
 
 def _places(names: set[str], folders: set[Path], root: Path) -> Iterator[Path]:
-    """Files and links in the input's folder that names lead to."""
+    """Yield the files and links in the input's folder that names lead to."""
     for name in {*names, *map(unquote, names)}:
         for folder in folders:
             yield from _there(name, folder, root)

@@ -56,7 +56,7 @@ def is_description(path: Path) -> bool:
 
 
 def links_out(paths: Sequence[Path]) -> tuple[Path, ...]:
-    """Links in folders that lead out of them, which :func:`find_inputs` passes over."""
+    """Return the links in folders that lead out of them, which :func:`find_inputs` passes over."""
     found = []
     for folder in (path for path in paths if path.is_dir()):
         real = folder.resolve()

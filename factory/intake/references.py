@@ -60,7 +60,7 @@ class References:
                     waiting.append((target, depth + 1))
 
     def _named_in(self, path: Path) -> Iterator[tuple[str, str]]:
-        """Attributes that name something, and what."""
+        """Yield the attributes that name something, and what."""
         data = b""
         if lies_below(path, self._real):
             with suppress(OSError), open_regular(path) as file:

@@ -60,7 +60,7 @@ def _joints_above(articulation: Articulation, part: int) -> list[Joint]:
 
 
 def _pose(joints: list[Joint], values: dict[str, float]) -> FloatArray:
-    """Motion from rest of what hangs on joints from the root down, [4, 4]."""
+    """Return the motion from rest of what hangs on joints from the root down, [4, 4]."""
     pose = np.eye(4)
     for joint in joints:
         pose = pose @ joint.motion(values.get(joint.name, 0.0))

@@ -66,7 +66,7 @@ class Camera:
 
 
 def box_corners(surfaces: Sequence[SceneSurface]) -> FloatArray:
-    """Corners of the box around surfaces of one link, link frame [m], shape [8, 3]."""
+    """Return the corners of the box around surfaces of one link, link frame [m], shape [8, 3]."""
     low = np.min([surface.vertices.min(axis=0) for surface in surfaces], axis=0)
     high = np.max([surface.vertices.max(axis=0) for surface in surfaces], axis=0)
     picks = np.array(np.meshgrid([0, 1], [0, 1], [0, 1])).reshape(3, -1).T
@@ -113,12 +113,12 @@ class Viewpoint:
         )
 
     def _corners(self, values: Mapping[str, float]) -> FloatArray:
-        """Corners of all links' boxes in a pose, root frame [m], shape [count, 3]."""
+        """Return the corners of all links' boxes in a pose, root frame [m], shape [count, 3]."""
         found = self._placed(values)
         return np.concatenate(found) if found else np.zeros((1, 3))
 
     def _placed(self, values: Mapping[str, float]) -> list[FloatArray]:
-        """Corners of each link's box in a pose."""
+        """Return the corners of each link's box in a pose."""
         poses = self._scene.poses(values)
         boxes = self._boxes.items()
         return [box @ poses[link, :3, :3].T + poses[link, :3, 3] for link, box in boxes]

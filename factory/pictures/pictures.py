@@ -153,7 +153,7 @@ def webp(pixels: Pixels) -> bytes:
 
 
 def animated(pixels: list[Pixels]) -> bytes:
-    """Frames there and back as an animated WebP file."""
+    """Return the frames there and back as an animated WebP file."""
     from PIL import Image
 
     there = [Image.fromarray(each) for each in pixels]
@@ -177,7 +177,7 @@ def animated(pixels: list[Pixels]) -> bytes:
 
 
 def _moving(scene: SceneGraph) -> frozenset[int]:
-    """Links that some joint moves."""
+    """Return the links that some joint moves."""
     found: set[int] = set()
     for joint in scene.joints:
         if joint.moves or joint.parent in found:

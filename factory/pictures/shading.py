@@ -132,7 +132,7 @@ def _lit(
     hits: Hits,
     rays: npt.NDArray[np.int64],
 ) -> FloatRows:
-    """Linear RGB of rays that met something."""
+    """Return the linear RGB of rays that met something."""
     color = np.empty((len(rays), 3), dtype=np.float32)
     normal = hits.normal[rays]
     poses = look.caster.scene.poses(values)
@@ -190,7 +190,7 @@ def _albedo(surface: SceneSurface, faces: npt.NDArray[np.int32], weights: FloatR
 
 
 def _texels(image: bytes) -> FloatRows | None:
-    """Linear RGB of an image, shape [height, width, 3]."""
+    """Return the linear RGB of an image, shape [height, width, 3]."""
     known = _TEXELS.get(image)
     if known is None:
         from PIL import Image

@@ -73,7 +73,7 @@ def _remove_staging(staging: Path) -> Trimmed:
 
 
 def _remove_unfinished(root: Path) -> Trimmed:
-    """Files that are still to get their name; whoever writes one has it locked."""
+    """Return the files that are still to get their name; whoever writes one has it locked."""
     freed = Trimmed()
     pattern = f"{WRITING_PREFIX}*"
     places = (

@@ -17,7 +17,7 @@ from .rows import RegistryRow
 
 
 def all_ids(root: Path) -> list[str]:
-    """Names of everything that has a folder, sorted."""
+    """Return the names of everything that has a folder, sorted."""
     found = set()
     for place in (ASSETS, REJECTED):
         if (root / place).is_dir():

@@ -50,12 +50,12 @@ class Registry:
 
     @property
     def assets(self) -> Path:
-        """Bundles that passed."""
+        """Return the bundles that passed."""
         return self.root / ASSETS
 
     @property
     def rejected(self) -> Path:
-        """Reports of those that did not."""
+        """Return the reports of those that did not."""
         return self.root / REJECTED
 
     @property
@@ -172,7 +172,7 @@ class Registry:
     def entries(
         self, *, limit: int | None = None, after: str = "", **wanted: str
     ) -> tuple[Entry, ...]:
-        """Rows that pass every filter, by id; all of them by default.
+        """Return the rows that pass every filter, by id; all of them by default.
 
         Args:
             limit: rows at most.

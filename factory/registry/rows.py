@@ -127,7 +127,7 @@ def report_digest(connection: sqlite3.Connection, asset_id: str) -> str:
 def select(
     connection: sqlite3.Connection, filters: Filters, *, limit: int | None, after: str
 ) -> tuple[Entry, ...]:
-    """Entries that pass, by id, those after an id, at most so many."""
+    """Return the entries that pass, by id, those after an id, at most so many."""
     query, values = filters.query(after=after)
     ordered = f"{_SELECT}{query} ORDER BY {filters.order} LIMIT ?"
     return tuple(

@@ -69,7 +69,7 @@ class Stage:
 
 
 def settings_of(value: object, *, without: tuple[str, ...] = (LIMIT, GATE)) -> Any:
-    """Settings as JSON data, but for those marked.
+    """Return the settings as JSON data, but for those marked.
 
     Args:
         value: a setting, or a dataclass of settings.

@@ -114,7 +114,7 @@ class _Writer(Buffer):
 def _chain(
     writer: _Writer, scene: SceneGraph, surfaces: tuple[SceneSurface, ...]
 ) -> tuple[int, list[int]]:
-    """Nodes of all links with those surfaces; the root's index, and each link's."""
+    """Return the nodes of all links with those surfaces; the root's index, and each link's."""
     root = len(writer.nodes)
     writer.nodes.append({"name": scene.name, "rotation": Z_UP, "children": [root + 1]})
     nodes = []

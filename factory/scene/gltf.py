@@ -101,7 +101,7 @@ class Buffer:
 def primitive(
     buffer: Buffer, mesh: Mesh, faces: IntArray, normals: FloatArray | None = None
 ) -> dict[str, Any]:
-    """Some faces of one material, without that material.
+    """Return some faces of one material, without that material.
 
     Args:
         buffer: takes the numbers.

@@ -142,7 +142,7 @@ def _surface(
 def plain_surface(
     link: int, vertices: FloatArray, faces: IntArray, color: Color = SceneSurface.color
 ) -> SceneSurface:
-    """Triangles of one colour, every one flat; arguments: :class:`SceneSurface`."""
+    """Return the triangles of one colour, every one flat; arguments: :class:`SceneSurface`."""
     return SceneSurface(link, vertices.astype(np.float32), faces.astype(np.int32), color=color)
 
 

@@ -170,7 +170,7 @@ class SceneGraph:
         return poses
 
     def opened(self, amount: float) -> dict[str, float]:
-        """Values of all free joints; the first ones start earlier.
+        """Return the values of all free joints; the first ones start earlier.
 
         Args:
             amount: 0: all are closed; 1: all are open.

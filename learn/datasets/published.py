@@ -41,7 +41,7 @@ POINT_FIELDS = frozenset(
 
 
 def find_published(root: Path) -> tuple[SourceItem, ...]:
-    """Folders with ``original.obj`` and labels, and point caches."""
+    """Return the folders with ``original.obj`` and labels, and point caches."""
     return find_items(root, _mains, categories_of(root))
 
 

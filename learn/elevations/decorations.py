@@ -62,7 +62,7 @@ class Decorations:
 
     @classmethod
     def drawn(cls, rng: np.random.Generator) -> Decorations:
-        """Some generator's taste."""
+        """Return some generator's taste."""
         planked, strapped, plated, grained = rng.random(4) < (PLANKED, STRAPPED, PLATED, GRAINED)
         margin = float(rng.uniform(0.05, 0.3))
         count = int(rng.integers(1, 5)) if strapped else 0
@@ -147,7 +147,7 @@ def _field(shape: tuple[int, ...], rng: np.random.Generator) -> tuple[slice, sli
 
 
 def _streaks(shape: tuple[int, ...], level: bool, rng: np.random.Generator) -> FloatArray:
-    """Noise that is ten times as long as wide, of standard deviation one."""
+    """Return the noise that is ten times as long as wide, of standard deviation one."""
     sigma = (1.0, 10.0) if level else (10.0, 1.0)
     noise = ndimage.gaussian_filter(rng.normal(size=shape), sigma)
     return np.asarray(noise / max(float(noise.std()), 1e-9))

@@ -44,7 +44,7 @@ class PictureNetwork(nn.Module):  # type: ignore[misc]
         return answer
 
     def folded(self) -> dict[str, FloatArray]:
-        """Weights and biases by layer, the normalisations folded in."""
+        """Return the weights and biases by layer, the normalisations folded in."""
         layers = {"first": self.first, "last": self.last}
         for way, pairs, start in (("down", self.down, 0), ("up", self.up, 1)):
             for number, pair in enumerate(pairs, start=start):

@@ -49,7 +49,7 @@ class Looks:
 
     @classmethod
     def drawn(cls, rng: np.random.Generator) -> Looks:
-        """Some generator's hand."""
+        """Return some generator's hand."""
         gray = float(rng.uniform(0.2, 0.9))
         plain = (gray, gray, gray) if rng.random() < 0.5 else tuple(rng.uniform(0.1, 0.9, 3))
         return cls(
@@ -81,7 +81,7 @@ class Picture:
 def pictures_of(
     articulation: Articulation, rng: np.random.Generator, sides: Sequence[Side]
 ) -> dict[Side, Picture]:
-    """Some sides of an object at rest, as if it were one skin of some generator's."""
+    """Return some sides of an object at rest, as if it were one skin of some generator's."""
     looks = Looks.drawn(rng)
     return {side: _picture(articulation, side, looks, rng) for side in sides}
 
@@ -144,7 +144,7 @@ def _smooth(values: FloatArray, sigma: float) -> FloatArray:
 
 
 def _border(part: IntArray) -> FloatArray:
-    """Distance to the next border between two parts [pixels]."""
+    """Return the distance to the next border between two parts [pixels]."""
     differs = np.zeros(part.shape, dtype=np.bool_)
     differs[1:] |= part[1:] != part[:-1]
     differs[:, 1:] |= part[:, 1:] != part[:, :-1]
@@ -154,7 +154,7 @@ def _border(part: IntArray) -> FloatArray:
 
 
 def _engraved(border: FloatArray, looks: Looks, rng: np.random.Generator) -> FloatArray:
-    """Depth of the grooves; here and there they are shallow [pixels]."""
+    """Return the depth of the grooves; here and there they are shallow [pixels]."""
     patchy = _wavy(border.shape, 25.0, rng)
     groove = np.where(border <= looks.wide, looks.deep, 0.0) * np.clip(1.0 + patchy, 0.2, 1.5)
     return _smooth(groove, 0.5)

@@ -88,7 +88,7 @@ def rows_of(articulation: Articulation, rng: np.random.Generator) -> Rows:
 def _fronts(
     pictures: dict[Side, Picture], truth: Sequence[TruePanel], rng: np.random.Generator
 ) -> dict[Side, Front]:
-    """Sides with panels, and sometimes one without."""
+    """Return the sides with panels, and sometimes one without."""
     some = [side for side in AROUND if any(each.side is side for each in truth)]
     none = [side for side in AROUND if side in pictures and side not in some]
     if none and (not some or rng.random() < EMPTY):
@@ -126,5 +126,5 @@ def _shifted(true: Sequence[TruePanel], rng: np.random.Generator) -> list[Rectan
 
 
 def stacked(rows: Sequence[FloatArray]) -> FloatArray:
-    """Rows of features, shape [n, feature_count]; [0, 0] without any."""
+    """Return the rows of features, shape [n, feature_count]; [0, 0] without any."""
     return np.stack(rows) if rows else np.zeros((0, 0))

@@ -98,7 +98,7 @@ def read_views(path: Path) -> tuple[SideView, ...]:
 
 
 def _lids(articulation: Articulation, top: Picture) -> list[int]:
-    """Parts that cover most of what is seen from above."""
+    """Return the parts that cover most of what is seen from above."""
     whole = int(top.relief.seen.sum())
     return [
         joint.child

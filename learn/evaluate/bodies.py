@@ -103,7 +103,7 @@ def bodies_of(articulation: Articulation) -> Bodies:
 
 
 def _own(articulation: Articulation, part: int) -> tuple[Joint, ...]:
-    """Movable joints up to the next part with faces."""
+    """Return the movable joints up to the next part with faces."""
     found: list[Joint] = []
     while (joint := articulation.parent_joint(part)) is not None:
         if joint.movable:
@@ -125,5 +125,5 @@ def value_at(joint: Joint, share: float) -> float:
 
 
 def face_centres(mesh: Mesh) -> FloatArray:
-    """Centroid of every face [m], shape [face_count, 3]."""
+    """Return the centroid of every face [m], shape [face_count, 3]."""
     return np.asarray(mesh.vertices[mesh.faces].mean(axis=1))

@@ -136,7 +136,7 @@ def procedural_requests(
     poses: Sequence[str] = ("closed",),
     yaws: Sequence[str] = ("front",),
 ) -> tuple[Request, ...]:
-    """Procedural objects, one per category, seed, pose and yaw.
+    """Return the procedural objects, one per category, seed, pose and yaw.
 
     Raises ConfigError for an unknown pose or yaw.
     """

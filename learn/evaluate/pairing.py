@@ -34,7 +34,7 @@ class Pairing:
         object.__setattr__(self, "pairs", read_only(self.pairs, np.int64))
 
     def iou(self) -> FloatArray:
-        """Intersection over union of each pair, shape [pair_count]."""
+        """Return the intersection over union of each pair, shape [pair_count]."""
         true, predicted = self.pairs.T
         return np.asarray(_iou(self.shared, self.true_area, self.predicted_area)[true, predicted])
 

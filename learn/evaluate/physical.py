@@ -102,7 +102,7 @@ def _both_ways(of: tuple[FloatArray, FloatArray], true: BoolArray, predicted: Bo
 def _motion_aware(
     true: Bodies, predicted: Bodies, pairing: Pairing, areas: FloatArray, tolerance: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Mean over states of each body's intersection over union, true and predicted."""
+    """Return the mean over states of each body's intersection over union, true and predicted."""
     size = float(true.articulation.mesh.extents.max())
     closed = true.centres_at(0.0)
     total = np.zeros(len(pairing.pairs))

@@ -62,7 +62,7 @@ def fit_motions(motion_samples: Sequence[MotionSample], steps: int = 250) -> Fit
 
 
 def fit_rating(motion_samples: Sequence[MotionSample], steps: int = 250) -> Rating:
-    """Weights by listwise logistic regression; confidence by two-fold cross-fitting."""
+    """Return the weights by listwise logistic regression; confidence by two-fold cross-fitting."""
     rating = _weights(motion_samples, steps)
     fold = np.array([_digest(motion_sample.name) % 2 for motion_sample in motion_samples])
     said: list[float] = []
@@ -91,7 +91,7 @@ def fit_rating(motion_samples: Sequence[MotionSample], steps: int = 250) -> Rati
 
 
 def fit_usual(motion_samples: Sequence[MotionSample], slides: bool, steps: int = 250) -> Usual:
-    """Shares of belief over steps of range, by logistic regression.
+    """Return the shares of belief over steps of range, by logistic regression.
 
     Raises:
         ConfigError: no motion sample is of that kind.
@@ -203,7 +203,7 @@ def _weights(motion_samples: Sequence[MotionSample], steps: int) -> Rating:
 
 
 def _telling(motion_sample: MotionSample) -> IntArray:
-    """Rows of the candidates that teach, in order; the same ones each time."""
+    """Return the rows of the candidates that teach, in order; the same ones each time."""
     order = np.argsort(-motion_sample.worth, kind="stable")
     if len(order) <= MOST_CANDIDATES:
         return np.sort(order)

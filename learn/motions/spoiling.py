@@ -35,7 +35,7 @@ def _areas(partition: Partition) -> FloatArray:
 
 
 def _pieces(partition: Partition, rows: IntArray) -> tuple[IntArray, FloatArray]:
-    """Components among some faces and their areas [m2], largest first."""
+    """Return the components among some faces and their areas [m2], largest first."""
     ids, index = np.unique(partition.components[rows], return_inverse=True)
     areas = np.bincount(index, weights=_areas(partition)[rows]).astype(np.float64)
     order = np.argsort(-areas, kind="stable")
@@ -97,7 +97,7 @@ def _gain_bite(
 def _bite(
     partition: Partition, labels: IntArray, part: int, rng: np.random.Generator
 ) -> np.ndarray:
-    """Faces near a random face of the part."""
+    """Return the faces near a random face of the part."""
     centres = partition.triangles.mean(axis=1)
     mine = centres[labels == part]
     radius = BITE * float(np.linalg.norm(np.ptp(mine, axis=0)))

@@ -70,7 +70,7 @@ def _named(table: str, names: Sequence[str], rows: FloatArray) -> list[str]:
 
 
 def _row(values: FloatArray, digits: int = 3) -> str:
-    """Rounded; never a minus nothing."""
+    """Return the rounded; never a minus nothing."""
     return (
         "["
         + ", ".join(

@@ -36,7 +36,7 @@ class FileFrame:
 
 
 def written_order(mesh: Mesh) -> IntArray:
-    """Faces in the order files hold them, material by material, shape [face_count]."""
+    """Return the faces in the order files hold them, material by material, shape [face_count]."""
     return np.argsort(mesh.face_material, kind="stable")
 
 

@@ -62,11 +62,11 @@ class Batch:
 
     @property
     def parts(self) -> int:
-        """Rows for parts: the queries of the network."""
+        """Return the rows for parts: the queries of the network."""
         return int(self.parents.shape[1])
 
     def split(self, size: int) -> Iterator[Batch]:
-        """Batches of at most ``size`` samples."""
+        """Yield the batches of at most ``size`` samples."""
         for start in range(0, len(self), size):
             yield self._map(lambda array, rows=slice(start, start + size): array[rows])
 
@@ -88,7 +88,7 @@ class Batch:
 
 
 def collate(samples: Sequence[Sample], parts: int) -> Batch:
-    """Samples as one batch of arrays.
+    """Return the samples as one batch of arrays.
 
     Args:
         samples: with equally many points, and at most ``parts`` parts each.
@@ -112,7 +112,7 @@ def collate(samples: Sequence[Sample], parts: int) -> Batch:
 
 
 def join(batches: Sequence[Batch], order: Sequence[int]) -> Batch:
-    """Batches of arrays, one after the other, their rows put in an order."""
+    """Return the batches of arrays, one after the other, their rows put in an order."""
     joined: dict[str, Array] = {}
     for each in fields(Batch):
         values = [getattr(batch, each.name) for batch in batches]

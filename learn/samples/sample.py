@@ -261,7 +261,7 @@ def _chosen(sampled: SampledObject, rng: np.random.Generator, settings: DrawSett
 def _components(
     sampled: SampledObject, rng: np.random.Generator, settings: DrawSettings
 ) -> IntArray:
-    """Components as this example tells them: all, none, or some taken for one."""
+    """Return the components as this example tells them: all, none, or some taken for one."""
     fused, merged = rng.random(2)
     if fused < settings.fused_share:
         return np.zeros(len(sampled.components), dtype=np.int64)
@@ -275,7 +275,7 @@ def _components(
 
 
 def _parents_first(parents: IntArray) -> list[int]:
-    """Parts ordered so that each comes after what it hangs on."""
+    """Return the parts ordered so that each comes after what it hangs on."""
     placed: list[int] = []
     waiting = list(range(len(parents)))
     while waiting:

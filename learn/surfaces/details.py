@@ -75,7 +75,7 @@ def without_handles(mesh: Labelled, rng: np.random.Generator) -> Labelled:
 
 
 def hidden_faces(mesh: Labelled, rng: np.random.Generator) -> BoolArray:
-    """Faces of which no point is seen from any of 14 directions, shape [face_count].
+    """Return the faces of which no point is seen from any of 14 directions, shape [face_count].
 
     Points on the surface are drawn into depth pictures; a face counts as hidden if hardly any of
     its points is in front.

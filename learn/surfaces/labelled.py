@@ -108,7 +108,7 @@ class Labelled:
 
     @property
     def longest(self) -> float:
-        """Longest side of the box of all faces [m]."""
+        """Return the longest side of the box of all faces [m]."""
         low, high = self.bounds
         return float((high - low).max())
 
@@ -133,7 +133,7 @@ class Labelled:
         return self if kept.all() else self.chosen(kept)
 
     def with_own_vertices(self) -> Labelled:
-        """Pieces share no vertices."""
+        """Return the pieces share no vertices."""
         key = self.piece[:, None] * len(self.vertices) + self.faces
         used, faces = np.unique(key, return_inverse=True)
         vertices = self.vertices[used % len(self.vertices)]

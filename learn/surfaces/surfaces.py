@@ -85,7 +85,7 @@ def curved(mesh: Labelled, rng: np.random.Generator, share: float = 0.5) -> Labe
 
 
 def snapped(mesh: Labelled, rng: np.random.Generator) -> Labelled:
-    """Vertices on a grid of up to 4 mm: boards that nearly meet share edges."""
+    """Return the vertices on a grid of up to 4 mm: boards that nearly meet share edges."""
     step = float(rng.choice([0.002, 0.003, 0.004])) * min(1.0, mesh.longest / COMMON_SIZE)
     rounded = replace(mesh, vertices=np.round(mesh.vertices / step) * step)
     return rounded.without(rounded.areas < 1e-3 * step**2)
@@ -196,6 +196,6 @@ def doubled(mesh: Labelled, rng: np.random.Generator, share: float = 1.0) -> Lab
 
 
 def flipped(mesh: Labelled, rng: np.random.Generator, share: float = 0.3) -> Labelled:
-    """Pieces turned inside out."""
+    """Return the pieces turned inside out."""
     chosen = some(rng, mesh.piece_count, share)[mesh.piece]
     return replace(mesh, faces=np.where(chosen[:, None], mesh.faces[:, ::-1], mesh.faces))

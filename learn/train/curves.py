@@ -42,7 +42,7 @@ class Curve:
 
 
 def read_curve(path: Path) -> dict[str, list[float]]:
-    """Columns of a table by name."""
+    """Return the columns of a table by name."""
     rows = _read(path)
     if not rows:
         return {}

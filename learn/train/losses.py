@@ -161,7 +161,7 @@ class Counts:
 
     @property
     def edge_weight(self) -> float:
-        """Pairs that are no edge, per edge; 1 without any edge."""
+        """Return the pairs that are no edge, per edge; 1 without any edge."""
         return (self.pairs - self.edges) / self.edges if self.edges else 1.0
 
 
@@ -296,7 +296,7 @@ def _dice(masks: Tensor, batch: Batch, targets: LossTargets) -> Tensor:
 
 
 def _direction_error(said: Tensor, true: Tensor, limits: Tensor, sign_free: bool) -> Tensor:
-    """Mean distance per coordinate, shape [batch, parts]."""
+    """Return the mean distance per coordinate, shape [batch, parts]."""
     import torch
 
     straight = (said.float() - true).abs().mean(-1)

@@ -65,7 +65,7 @@ def _permutation(cost: Any, root_first: bool) -> Any:
 
 
 def arranged(tensor: Tensor, queries: Tensor) -> Tensor:
-    """Rows of [batch, parts, ...] in the order that :func:`match` found."""
+    """Return the rows of [batch, parts, ...] in the order that :func:`match` found."""
     index = queries.reshape(*queries.shape, *[1] * (tensor.dim() - 2)).expand(
         *queries.shape, *tensor.shape[2:]
     )
@@ -73,5 +73,5 @@ def arranged(tensor: Tensor, queries: Tensor) -> Tensor:
 
 
 def arranged_columns(tensor: Tensor, queries: Tensor) -> Tensor:
-    """Columns of [batch, n, parts] in the order that :func:`match` found."""
+    """Return the columns of [batch, n, parts] in the order that :func:`match` found."""
     return tensor.gather(2, queries[:, None].expand(-1, tensor.shape[1], -1))

@@ -35,6 +35,6 @@ class ScheduleSettings:
         return self.rate * (self.last_rate + (1.0 - self.last_rate) * falling)
 
     def points_at(self, step: int, points: int) -> int:
-        """Points per sample of a step, where it is ``points`` at first."""
+        """Return the points per sample of a step, where it is ``points`` at first."""
         late = self.late_points and step >= self.late_from * self.steps
         return self.late_points if late else points

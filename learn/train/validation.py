@@ -106,7 +106,7 @@ def _add(sums: _Sums, network: Any, batch: Batch, config: TrainConfig) -> None:
 
 
 def part_ious(said: IntArray, true: IntArray) -> list[float]:
-    """Overlap of every true part with its predicted one, by the best total assignment.
+    """Return the overlap of every true part with its predicted one, by the best total assignment.
 
     Args:
         said: any label of each point, shape [n].

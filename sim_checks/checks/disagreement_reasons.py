@@ -79,7 +79,7 @@ class Dispute:
 
     @property
     def passing(self) -> frozenset[str]:
-        """Engines that found nothing wrong."""
+        """Return the engines that found nothing wrong."""
         return frozenset(name for name, verdict in self.verdicts.items() if verdict == PASS)
 
     @property

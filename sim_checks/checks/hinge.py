@@ -25,7 +25,7 @@ def knuckles(
     moving: int,
     config: PenetrationConfig,
 ) -> frozenset[tuple[int, int]]:
-    """Pairs of solids (first, second) whose overlap at rest is this hinge's knuckle.
+    """Return the pairs of solids (first, second) whose overlap at rest is this hinge's knuckle.
 
     Args:
         solids: placed at rest.
@@ -65,7 +65,7 @@ def _span(heights: FloatArray) -> tuple[float, float]:
 
 
 def _covered(spans: list[tuple[float, float]]) -> float:
-    """Length of the union of intervals."""
+    """Return the length of the union of intervals."""
     total = 0.0
     reached = -np.inf
     for low, high in sorted(spans):

@@ -217,7 +217,7 @@ def _gyration(
 
 
 def _volume(link: Link) -> float:
-    """Volume of the collision hulls together [m3]; overlaps count twice."""
+    """Return the volume of the collision hulls together [m3]; overlaps count twice."""
     total = 0.0
     for shape in link.collisions:
         try:

@@ -57,7 +57,7 @@ class _Grid:
 def interior_findings(
     link: Link, hulls: Sequence[CollisionHull], down: FloatArray, config: LintConfig
 ) -> tuple[list[Finding], dict[str, Any]]:
-    """Findings about one link's open inside, and its numbers.
+    """Return the findings about one link's open inside, and its numbers.
 
     The cavity is the space within the convex hull of what is visible that can be reached from
     outside without crossing a visible surface; what is closer than a voxel or two to a surface is
@@ -227,7 +227,7 @@ def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull:
 
 
 def _directions() -> FloatArray:
-    """Unit vectors evenly over the sphere, and the axes, shape [direction_count, 3]."""
+    """Return the unit vectors evenly over the sphere, and the axes, shape [direction_count, 3]."""
     index = np.arange(CORNERS) + 0.5
     height = 1.0 - 2.0 * index / CORNERS
     turn = np.pi * (1.0 + math.sqrt(5.0)) * index
@@ -260,7 +260,7 @@ def _walled(surface: BoolArray, down: FloatArray) -> BoolArray:
 
 
 def _reached(surface: BoolArray, grid: _Grid, hand: float) -> BoolArray:
-    """Voxels that the centre of a ball of diameter ``hand`` [m] reaches from outside.
+    """Return the voxels that the centre of a ball of diameter ``hand`` [m] reaches from outside.
 
     It may not cross a surface.
     """

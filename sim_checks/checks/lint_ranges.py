@@ -174,7 +174,7 @@ def _axis_findings(
 
 
 def _gap(first: FloatArray, second: FloatArray) -> float:
-    """Distance between the boxes around two sets of points [m]; 0 if they meet."""
+    """Return the distance between the boxes around two sets of points [m]; 0 if they meet."""
     apart = np.maximum(
         first.min(axis=0) - second.max(axis=0), second.min(axis=0) - first.max(axis=0)
     )

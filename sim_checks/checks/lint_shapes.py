@@ -145,7 +145,7 @@ def _hull_findings(
 
 
 def _aspect(hull: CollisionHull) -> float:
-    """Longest over shortest width, along the hull's own principal directions."""
+    """Return the longest over shortest width, along the hull's own principal directions."""
     centered = hull.vertices - hull.vertices.mean(axis=0)
     _, _, directions = np.linalg.svd(centered, full_matrices=False)
     widths = np.ptp(centered @ directions.T, axis=0)
@@ -154,12 +154,12 @@ def _aspect(hull: CollisionHull) -> float:
 
 
 def _widths(hull: CollisionHull) -> FloatArray:
-    """Width of the hull across each of its faces [m]."""
+    """Return the width of the hull across each of its faces [m]."""
     return hull.offsets + farthest_along(hull.vertices, -hull.normals)
 
 
 def _signed_volume(shape: DescribedShape) -> float:
-    """Volume by the divergence theorem [m3]; means something only for a closed mesh."""
+    """Return the volume by the divergence theorem [m3]; means something only for a closed mesh."""
     corners = (shape.vertices - shape.vertices.mean(axis=0))[shape.faces]
     volume = (
         np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6.0

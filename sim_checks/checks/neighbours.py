@@ -107,7 +107,7 @@ def _swept(solids: Solids, rest: Rest, joints: list[JointLine]) -> Mapping[str, 
 
 
 def _around(boxes: FloatArray) -> FloatArray:
-    """Lowest and highest corner of boxes [m], shape [box_count, 2, 3] -> [2, 3]."""
+    """Return the lowest and highest corner of boxes [m], shape [box_count, 2, 3] -> [2, 3]."""
     return np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
 
 

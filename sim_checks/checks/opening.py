@@ -95,7 +95,7 @@ class _OpeningOrder:
         return self._swept(name, opened).excess <= self.courses[name].config.excess_m
 
     def _freed(self, name: str) -> Names | None:
-        """Joints with which open this one opens; ``None`` if there are none."""
+        """Return the joints with which open this one opens; ``None`` if there are none."""
         for opened in self._trials(name):
             if self._clean(name, opened) and self._together(opened):
                 return opened

@@ -127,7 +127,7 @@ class _RestingBody:
         return self._cloud
 
     def _center(self) -> FloatArray:
-        """Centre of mass as posed, in the root's frame [m], shape [3]."""
+        """Return the centre of mass as posed, in the root's frame [m], shape [3]."""
         total: FloatArray = np.sum(list(self._moments.values()), axis=0) / self.mass
         return total
 
@@ -351,7 +351,7 @@ def _corners(shapes: tuple[DescribedShape, ...]) -> FloatArray:
 
 
 def _edges(points: FloatArray, thinnest: float) -> FloatArray | None:
-    """Lines around points in the plane, shape [edge_count, 3].
+    """Return the lines around points in the plane, shape [edge_count, 3].
 
     ``None`` where the points span less than ``thinnest`` [m].
     """

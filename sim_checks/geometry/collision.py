@@ -120,13 +120,13 @@ class Skin:
         )
 
     def distance(self, other: Skin) -> float:
-        """Distance of the two surfaces [m]; 0 where they meet."""
+        """Return the distance of the two surfaces [m]; 0 where they meet."""
         request = self._fcl.DistanceRequest()
         result = self._fcl.DistanceResult()
         return max(0.0, float(self._fcl.distance(self._object, other._object, request, result)))
 
     def touching(self, other: Skin, most: int) -> IntArray:
-        """Faces that meet, as pairs (this one's, the other's), shape [pair_count, 2].
+        """Return the faces that meet, as pairs (this one's, the other's), shape [pair_count, 2].
 
         At most so many.
         """

@@ -95,7 +95,7 @@ class CoupledOrbit:
         return self.path.limits(self.start)[1]
 
     def highest(self, direction: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
-        """Upper bound of the points' height along a direction within each interval.
+        """Return the upper bound of the points' height along a direction within each interval.
 
         Exact where nothing turns.
 
@@ -113,7 +113,7 @@ class CoupledOrbit:
         return higher
 
     def swept_bounds(self, at: FloatArray) -> FloatArray:
-        """Boxes that hold the points all the way between neighbouring places.
+        """Return the boxes that hold the points all the way between neighbouring places.
 
         Returns:
             lowest and highest corners [m], shape [place_count - 1, 2, 3].

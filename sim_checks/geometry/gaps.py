@@ -233,7 +233,7 @@ def _inside(
 
 
 def _windings(surface: VisibleSurface, rows: IntArray, points: FloatArray) -> FloatArray:
-    """Winding numbers of closed faces around points, shape [point_count].
+    """Return the winding numbers of closed faces around points, shape [point_count].
 
     After van Oosterom and Strackee (1983).
     """

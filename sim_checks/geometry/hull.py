@@ -59,7 +59,7 @@ class CollisionHull:
 
     @property
     def bounds(self) -> FloatArray:
-        """Lowest and highest corner of the axis-aligned box, shape [2, 3]."""
+        """Return the lowest and highest corner of the axis-aligned box, shape [2, 3]."""
         return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)])
 
     def moved(self, pose: FloatArray) -> CollisionHull:

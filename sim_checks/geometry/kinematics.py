@@ -88,7 +88,7 @@ class Tree:
         return Poser(self).link_poses(values)
 
     def below(self, joint: JointLine) -> frozenset[str]:
-        """Names of the links that move with ``joint``."""
+        """Return the names of the links that move with ``joint``."""
         found = {joint.child}
         for other in self.order:
             if other.parent in found:
@@ -211,7 +211,7 @@ def unit_axis(joint: JointLine) -> FloatArray:
 
 
 def rotation_about(axis: FloatArray, angle: float) -> FloatArray:
-    """Rotation by ``angle`` [rad] about a unit axis; shape [3, 3]."""
+    """Return the rotation by ``angle`` [rad] about a unit axis; shape [3, 3]."""
     from scipy.spatial.transform import Rotation
 
     return Rotation.from_rotvec(angle * axis).as_matrix()

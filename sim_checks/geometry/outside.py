@@ -34,7 +34,7 @@ def distance_outside(points: FloatArray, hulls: Sequence[CollisionHull]) -> Floa
 
 
 def _distances(points: FloatArray, hull: CollisionHull) -> FloatArray:
-    """Distances of points outside a hull [m], shape [point_count].
+    """Return the distances of points outside a hull [m], shape [point_count].
 
     The nearest point of a hull lies within a face or on an edge. Within a face it is the foot on
     the farthest face plane, as no plane is farther off than the hull.
@@ -61,7 +61,7 @@ def _beyond(points: FloatArray, hull: CollisionHull) -> FloatArray:
 
 
 def _edge_distances(points: FloatArray, hull: CollisionHull) -> FloatArray:
-    """Distances of points to the nearest edge of a hull [m], shape [point_count]."""
+    """Return the distances of points to the nearest edge of a hull [m], shape [point_count]."""
     middle = hull.vertices.mean(axis=0)
     starts, ends = (hull.vertices[hull.edges[:, side]] - middle for side in (0, 1))
     along = ends - starts

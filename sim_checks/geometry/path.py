@@ -87,7 +87,7 @@ class Orbit:
     tangent: FloatArray
 
     def highest(self, direction: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
-        """Upper bound of the points' height along a direction within each interval.
+        """Return the upper bound of the points' height along a direction within each interval.
 
         Exact on a slide.
 
@@ -118,7 +118,7 @@ class Orbit:
         return higher + bulge(float(np.hypot(cosine, sine).max()), ends - starts)
 
     def swept_bounds(self, at: FloatArray) -> FloatArray:
-        """Boxes that hold the points all the way between neighbouring places.
+        """Return the boxes that hold the points all the way between neighbouring places.
 
         Returns:
             lowest and highest corners [m], shape [place_count - 1, 2, 3].
@@ -138,7 +138,7 @@ class Orbit:
 
 
 def boxed(points: FloatArray, margin: FloatArray) -> FloatArray:
-    """Boxes around points [m] at neighbouring places.
+    """Return the boxes around points [m] at neighbouring places.
 
     Args:
         points: shape [place_count, point_count, 3].

@@ -99,11 +99,11 @@ class Solids:
         return poses
 
     def bounds(self) -> FloatArray:
-        """Boxes around the solids as placed [m], shape [solid_count, 2, 3]."""
+        """Return the boxes around the solids as placed [m], shape [solid_count, 2, 3]."""
         return np.array([item.collider.bounds for item in self.items]).reshape(-1, 2, 3)
 
     def diagonal(self) -> float:
-        """Diagonal of the box around everything as placed [m]."""
+        """Return the diagonal of the box around everything as placed [m]."""
         boxes = self.bounds()
         return (
             float(np.linalg.norm(boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)))
@@ -206,12 +206,12 @@ class Solids:
         return CoupledPath(lines, length)
 
     def between(self, first: int, second: int) -> frozenset[str]:
-        """Names of the free joints that move two parts against one another."""
+        """Return the names of the free joints that move two parts against one another."""
         here, there = (self._above(part) for part in (first, second))
         return frozenset(self._leader(name) for name in here ^ there)
 
     def _above(self, part: int) -> set[str]:
-        """Names of the moving joints above a part."""
+        """Return the names of the moving joints above a part."""
         found = set()
         for below, parent, joint in reversed(self._steps):
             if below == part:

@@ -50,7 +50,7 @@ class VisibleSurface:
 
     @cached_property
     def boxes(self) -> FloatArray:
-        """Lowest and highest corner of every face [m], shape [2, face_count, 3]."""
+        """Return the lowest and highest corner of every face [m], shape [2, face_count, 3]."""
         corners = self.vertices[self.faces]
         return np.stack([corners.min(axis=1), corners.max(axis=1)])
 

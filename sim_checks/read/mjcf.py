@@ -121,7 +121,7 @@ def _mimics(model: MjModel) -> dict[str, Mimic]:
 
 
 def _excluded(model: MjModel) -> frozenset[frozenset[str]]:
-    """Pairs of bodies excluded by name, or whose contact bits never meet."""
+    """Return the pairs of bodies excluded by name, or whose contact bits never meet."""
     pairs = {divmod(int(signature), 1 << 16) for signature in model.exclude_signature}
     types = np.zeros(model.nbody, dtype=np.int64)
     affinities = np.zeros(model.nbody, dtype=np.int64)

@@ -301,12 +301,12 @@ class _DriveTrack:
 
     @property
     def reached(self) -> float:
-        """Highest share of the range."""
+        """Return the highest share of the range."""
         return min(max(0.0, self._highest), 1.0)
 
     @property
     def returned(self) -> float:
-        """Share of the range that is open now."""
+        """Return the share of the range that is open now."""
         return min(max(0.0, self._last), 1.0)
 
     @property

@@ -29,7 +29,7 @@ class Ranges:
 
     @property
     def travel(self) -> FloatArray:
-        """Upper minus lower; negative for a joint that another takes backwards."""
+        """Return the upper minus lower; negative for a joint that another takes backwards."""
         return self.upper - self.lower
 
     @property
@@ -93,12 +93,12 @@ def uncoupled(world: World) -> list[int]:
 
 
 def carried_masses(world: World) -> FloatArray:
-    """Mass that each joint moves [kg], shape [joint_count]."""
+    """Return the mass that each joint moves [kg], shape [joint_count]."""
     return np.array([_mass(world, names) for names in world.carried], np.float64)
 
 
 def moving_mass(world: World) -> float:
-    """Mass of all that any joint moves [kg]."""
+    """Return the mass of all that any joint moves [kg]."""
     return _mass(world, frozenset[str]().union(*world.carried))
 
 

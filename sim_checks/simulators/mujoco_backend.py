@@ -134,7 +134,7 @@ class MujocoWorld:
         return np.array(self._data.qvel[self._dofs], np.float64)
 
     def inertias(self) -> FloatArray:
-        """Diagonal of the mass matrix, shape [joint_count]."""
+        """Return the diagonal of the mass matrix, shape [joint_count]."""
         full = np.zeros((self._model.nv, self._model.nv))
         self._mujoco.mj_fullM(self._model, self._data, full)
         return np.array(np.diag(full)[self._dofs], np.float64)
@@ -146,7 +146,7 @@ class MujocoWorld:
         return float(self._data.energy.sum())
 
     def balance(self) -> FloatArray:
-        """Forces against gravity, velocity effects and springs, shape [joint_count]."""
+        """Return the forces against gravity, velocity effects and springs, shape [joint_count]."""
         data = self._data
         return np.array(
             (data.qfrc_bias - data.qfrc_spring - data.qfrc_gravcomp)[self._dofs], np.float64

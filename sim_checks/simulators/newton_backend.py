@@ -130,7 +130,7 @@ class NewtonWorld(MujocoWorld):
 
 
 def _frictions(loaded: Any, solid: int) -> dict[int, list[float]]:
-    """Friction of each collision shape that Newton gave a body; -1 is the world.
+    """Return the friction of each collision shape that Newton gave a body; -1 is the world.
 
     Its solver lets a shape that nothing can touch touch nothing, so that it is not counted there.
     """

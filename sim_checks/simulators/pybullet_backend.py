@@ -156,11 +156,11 @@ class PybulletWorld:
         return np.array(self._states()[1], np.float64)
 
     def inertias(self) -> FloatArray:
-        """Diagonal of the mass matrix, shape [joint_count]."""
+        """Return the diagonal of the mass matrix, shape [joint_count]."""
         return self._dynamics.inertias(self._states()[0]) if self._ids else np.zeros(0)
 
     def energy(self) -> float:
-        """Kinetic energy, and potential energy of gravity if it is on [J]."""
+        """Return the kinetic energy, and potential energy of gravity if it is on [J]."""
         if not self._ids:
             return 0.0
         position, velocity = self._states()
@@ -179,7 +179,7 @@ class PybulletWorld:
         )
 
     def balance(self) -> FloatArray:
-        """Forces against gravity and velocity effects, shape [joint_count]."""
+        """Return the forces against gravity and velocity effects, shape [joint_count]."""
         if not self._ids:
             return np.zeros(0)
         position, velocity = self._states()

@@ -48,7 +48,7 @@ class Dynamics:
         self._moments = {link: np.array(info[2], np.float64) for link, info in infos.items()}
 
     def inertias(self, position: FloatArray) -> FloatArray:
-        """Diagonal of the mass matrix [kg m2] or [kg], shape [joint_count]."""
+        """Return the diagonal of the mass matrix [kg m2] or [kg], shape [joint_count]."""
         matrix = self._matrix(position)
         return np.diag(matrix).copy() if matrix is not None else self._inertias()
 
@@ -76,7 +76,7 @@ class Dynamics:
         return forces
 
     def kinetic(self, position: FloatArray, velocity: FloatArray) -> float:
-        """Kinetic energy [J]."""
+        """Return the kinetic energy [J]."""
         matrix = self._matrix(position)
         if matrix is not None:
             return 0.5 * float(velocity @ matrix @ velocity)

@@ -153,7 +153,7 @@ def left_alone(
     config: MotionConfig,
     forces: Callable[[], FloatArray] | None = None,
 ) -> Iterator[tuple[FloatArray, FloatArray]]:
-    """Positions and velocities step by step, until time is up or all are at rest.
+    """Yield the positions and velocities step by step, until time is up or all are at rest.
 
     Applied are ``forces`` where given, asked before every step, else none.
 

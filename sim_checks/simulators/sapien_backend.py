@@ -129,12 +129,12 @@ class SapienWorld:
         return _vector(self._articulation.qvel) if self._articulation is not None else np.zeros(0)
 
     def inertias(self) -> FloatArray:
-        """Diagonal of the mass matrix, shape [joint_count]."""
+        """Return the diagonal of the mass matrix, shape [joint_count]."""
         matrix = self._dynamics.compute_generalized_mass_matrix(self._articulation.qpos)  # type: ignore[union-attr]
         return np.diag(np.asarray(matrix, np.float64)).copy()
 
     def energy(self) -> float:
-        """Kinetic energy, and potential energy of gravity if it is on [J]."""
+        """Return the kinetic energy, and potential energy of gravity if it is on [J]."""
         if self._articulation is None:
             return 0.0
         velocity = self.velocities()
@@ -151,7 +151,7 @@ class SapienWorld:
         return kinetic + GRAVITY * sum(float(mass) * float(height) for mass, height in heights)
 
     def balance(self) -> FloatArray:
-        """Forces against gravity and velocity effects, shape [joint_count]."""
+        """Return the forces against gravity and velocity effects, shape [joint_count]."""
         if self._articulation is None:
             return np.zeros(0)
         return _vector(self._articulation.compute_passive_force(True, True))

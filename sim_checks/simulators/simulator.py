@@ -324,7 +324,7 @@ class World(Protocol):
 
     @property
     def carried(self) -> tuple[frozenset[str], ...]:
-        """Names of the links that each joint moves."""
+        """Return the names of the links that each joint moves."""
 
     def weigh(self, on: bool) -> None:
         """Gravity and springs on, as after loading, or off."""
@@ -342,13 +342,13 @@ class World(Protocol):
         """Inertia of each joint here, others at rest [kg m2] or [kg], shape [joint_count]."""
 
     def energy(self) -> float:
-        """Kinetic energy plus potential energy of gravity and springs that are on [J].
+        """Return the kinetic energy plus potential energy of gravity and springs that are on [J].
 
         The zero is arbitrary.
         """
 
     def balance(self) -> FloatArray:
-        """Forces that balance gravity, velocity effects and springs [N m] or [N].
+        """Return the forces that balance gravity, velocity effects and springs [N m] or [N].
 
         Shape [joint_count].
         """
@@ -382,7 +382,7 @@ class Simulator(Protocol):
 
     @property
     def formats(self) -> tuple[str, ...]:
-        """Description formats it loads: ``urdf``, ``mjcf``."""
+        """Return the description formats it loads: ``urdf``, ``mjcf``."""
 
     @property
     def soft_friction(self) -> tuple[str, ...]:

@@ -302,7 +302,7 @@ def _joints(name: str, proposal: Proposal, holder: int, part: int) -> list[Joint
 
 
 def _parents_first(sharing: Sharing) -> list[int]:
-    """Numbers of the parts, each after what it hangs on."""
+    """Return the numbers of the parts, each after what it hangs on."""
     order: list[int] = []
     waiting = list(range(1, len(sharing.chosen) + 1))
     while waiting:

@@ -37,7 +37,7 @@ class Contacts:
 
 
 def contacts_of(mesh: Mesh, components: IntArray, face_areas: FloatArray) -> Contacts:
-    """Contacts between points spread evenly over the mesh, the same every time.
+    """Return the contacts between points spread evenly over the mesh, the same every time.
 
     Args:
         mesh: metres.

@@ -82,7 +82,7 @@ def agreed_parts(views: tuple[View, ...], areas: FloatArray) -> tuple[LearnedPar
 
 
 def shared(one: BoolArray, other: BoolArray, areas: FloatArray) -> float:
-    """Area that two sets of faces share over the area that they cover, 0 to 1."""
+    """Return the area that two sets of faces share over the area that they cover, 0 to 1."""
     covered = float(areas[one | other].sum())
     return float(areas[one & other].sum()) / covered if covered > 0.0 else 0.0
 

@@ -65,7 +65,7 @@ class Sightings:
         return self.cut.mesh
 
     def carried(self, proposals: Sequence[Proposal]) -> tuple[Proposal, ...]:
-        """Proposals about the uncut mesh as ones about the cut one."""
+        """Return the proposals about the uncut mesh as ones about the cut one."""
         return tuple(replace(each, faces=each.faces[self.cut.source]) for each in proposals)
 
     def beyond(self, proposals: Sequence[Proposal], known: Sequence[BoolArray]) -> list[Proposal]:

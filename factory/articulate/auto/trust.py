@@ -46,12 +46,12 @@ class Trust:
     least: float
 
     def confidence(self, signs: FloatArray) -> float:
-        """Probability that a proposal is right, 0 to 1."""
+        """Return the probability that a proposal is right, 0 to 1."""
         return float(1.0 / (1.0 + np.exp(-float(signs @ self.weights))))
 
 
 def signs_of(values: Mapping[str, float]) -> FloatArray:
-    """Signs in their order; those not given are 0.
+    """Return the signs in their order; those not given are 0.
 
     Raises:
         KeyError: no such sign.
@@ -63,7 +63,7 @@ def signs_of(values: Mapping[str, float]) -> FloatArray:
 
 
 def log_odds(probability: float) -> float:
-    """Bounded, so that no single sign decides alone."""
+    """Return values bounded so that no single sign decides alone."""
     bounded = min(max(probability, 0.01), 0.99)
     return float(np.log(bounded / (1.0 - bounded)))
 

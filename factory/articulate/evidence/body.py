@@ -55,7 +55,7 @@ class Partition:
 
     @cached_property
     def triangles(self) -> FloatArray:
-        """Corners [m], shape [face_count, 3, 3]."""
+        """Return the corners [m], shape [face_count, 3, 3]."""
         return np.asarray(self.mesh.vertices[self.mesh.faces])
 
     @cached_property
@@ -65,7 +65,7 @@ class Partition:
 
     @cached_property
     def ends(self) -> tuple[FloatArray, FloatArray]:
-        """Box corners of every face [m], two of shape [face_count, 3]."""
+        """Return the box corners of every face [m], two of shape [face_count, 3]."""
         return ends_of(self.triangles)
 
     @cached_property
@@ -87,7 +87,7 @@ class Partition:
 
     @cached_property
     def components(self) -> IntArray:
-        """Connected component of every face, shape [face_count]."""
+        """Return the connected component of every face, shape [face_count]."""
         return connected_components(self.mesh)
 
     def above(self, part: int) -> IntArray:
@@ -137,7 +137,7 @@ class Body:
 
     @property
     def tolerance(self) -> float:
-        """Gap below which the part touches what stays [m]."""
+        """Return the gap below which the part touches what stays [m]."""
         return CONTACT * self.partition.mesh.diagonal
 
     @cached_property
@@ -183,7 +183,7 @@ class Body:
 
     @property
     def own_size(self) -> float:
-        """Diagonal of the part alone, without what hangs on it [m]."""
+        """Return the diagonal of the part alone, without what hangs on it [m]."""
         return float(self.partition.part_diagonals[self.part])
 
     @property
@@ -233,7 +233,7 @@ def body_of(partition: Partition, part: int) -> Body | None:
 def _near(
     partition: Partition, stays: npt.NDArray[np.bool_], low: FloatArray, high: FloatArray
 ) -> tuple[FloatArray, IntArray]:
-    """Triangles that reach into a box, shape [n, 3, 3], and their parts, shape [n].
+    """Return the triangles that reach into a box, shape [n, 3, 3], and their parts, shape [n].
 
     Large ones are cut up, so that surfels are not spent outside.
     """

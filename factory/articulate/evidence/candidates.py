@@ -138,7 +138,7 @@ def _contact_lines(body: Body) -> list[Line]:
 
 
 def _round_lines(body: Body) -> list[Line]:
-    """Middles of the part's round pieces, seen along the frames' axes."""
+    """Return the middles of the part's round pieces, seen along the frames' axes."""
     labels = body.partition.components[body.faces]
     triangles = body.partition.triangles[body.faces]
     ids, counts = np.unique(labels, return_counts=True)

@@ -47,7 +47,7 @@ class Extent:
 
 
 def extent_of(body: Body, chosen: Candidates, evidence: FloatArray, guess: Guess) -> Extent:
-    """Limits of one candidate.
+    """Return the limits of one candidate.
 
     Args:
         body: the part.

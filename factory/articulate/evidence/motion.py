@@ -115,7 +115,7 @@ def best_motion(
 
 
 def beliefs(scores: FloatArray) -> FloatArray:
-    """Shares of belief, one for each score, adding up to 1 (softmax)."""
+    """Return the shares of belief, one for each score, adding up to 1 (softmax)."""
     weights = np.exp(scores - scores.max())
     return np.asarray(weights / weights.sum())
 

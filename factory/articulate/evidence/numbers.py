@@ -37,7 +37,7 @@ NAMES = TURN + SLIDE + GUESS
 
 
 def measure(body: Body, candidates: Candidates, guess: Guess) -> FloatArray:
-    """Evidence for every candidate, shape [n, len(NAMES)], mostly within -1 to 1."""
+    """Return the evidence for every candidate, shape [n, len(NAMES)], mostly within -1 to 1."""
     look = look_at(body)
     numbers = np.zeros((len(candidates), len(NAMES)))
     column = {name: i for i, name in enumerate(NAMES)}
@@ -164,7 +164,7 @@ def _free_at_first(look: Look, some: Candidates) -> FloatArray:
 
 
 def _along_rest(body: Body, some: Candidates, along: FloatArray) -> FloatArray:
-    """Share of the axis, as long as the part, that runs close to what stays."""
+    """Return the share of the axis, as long as the part, that runs close to what stays."""
     share = np.linspace(0.05, 0.95, 7)
     low = along.min(axis=1)
     high = along.max(axis=1)

@@ -90,7 +90,7 @@ def _height(body: Body, z: float) -> float:
 
 
 def _log(one: float, other: float) -> float:
-    """Logarithm of a ratio of lengths, within -3 to 3."""
+    """Return the logarithm of a ratio of lengths, within -3 to 3."""
     return float(np.clip(np.log(max(one, 1e-12) / max(other, 1e-12)), -3.0, 3.0))
 
 

@@ -54,7 +54,7 @@ def travel(body: Body, some: Candidates) -> Travel:
 def displaced(
     some: Candidates, points: FloatArray, values: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Points moved along candidates of one kind.
+    """Return the points moved along candidates of one kind.
 
     Args:
         some: ``n`` of one kind.
@@ -89,7 +89,7 @@ def _lengths(body: Body, some: Candidates) -> FloatArray:
 
 
 def _outside(body: Body, points: FloatArray) -> FloatArray:
-    """Share of points outside the box of what stays, in the level frame, shape [n]."""
+    """Return the share of points outside the box of what stays, in the level frame, shape [n]."""
     rest = body.grid.surfels.points
     if not len(rest):
         return np.ones(len(points))

@@ -44,7 +44,7 @@ class Usual:
     base: FloatArray
 
     def shares(self, numbers: FloatArray) -> FloatArray:
-        """Share of belief in each step, shape [..., k] for numbers of shape [..., n]."""
+        """Return the share of belief in each step, shape [..., k] for numbers of shape [..., n]."""
         scores = np.tanh(numbers @ self.inner + self.offset) @ self.outer + self.base
         weights = np.exp(scores - scores.max(axis=-1, keepdims=True))
         return np.asarray(weights / weights.sum(axis=-1, keepdims=True))

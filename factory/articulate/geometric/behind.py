@@ -54,7 +54,7 @@ def look_behind(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> Behind
 
 
 def _behind(scene: Scene, panel: Panel, panels: tuple[Panel, ...], slack: float) -> IntArray:
-    """Pieces behind the panel, inside its rectangle, and no other panel's."""
+    """Return the pieces behind the panel, inside its rectangle, and no other panel's."""
     margin = slack * np.array([panel.width, panel.height])
     inside = (scene.low[:, RECT] >= panel.low[RECT] - margin).all(axis=1)
     inside &= (scene.high[:, RECT] <= panel.high[RECT] + margin).all(axis=1)
@@ -115,7 +115,7 @@ def _connected_to(scene: Scene, index: IntArray, start: IntArray) -> IntArray:
 
 
 def _cavity(scene: Scene, panel: Panel, box: IntArray) -> tuple[float, int, bool, bool]:
-    """Depth, walls, solid and roomy of :class:`Behind`."""
+    """Return the depth, walls, solid and roomy of :class:`Behind`."""
     ignored = np.union1d(panel.pieces, box)
     start = panel.center.copy()
     start[FRONT] = panel.high[FRONT] + scene.touch / 8.0
@@ -164,7 +164,7 @@ def _around(scene: Scene, start: FloatArray, ignored: IntArray) -> FloatArray:
 
 
 def _attached(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArray:
-    """Shallow pieces behind the panel that touch it and nothing that stays."""
+    """Return the shallow pieces behind the panel that touch it and nothing that stays."""
     index = _behind(scene, panel, panels, 0.0)
     shallow = scene.high[index, FRONT] - panel.high[FRONT] <= 0.3 * scene.size[FRONT]
     index = index[shallow]
@@ -190,7 +190,7 @@ def overlap_bulk(scene: Scene, pieces: IntArray) -> bool:
 
 
 def covers(low: Panel, high: Panel) -> float:
-    """Share of the smaller panel's rectangle that the two have in common."""
+    """Return the share of the smaller panel's rectangle that the two have in common."""
     return overlap_area(low.low, low.high, high.low, high.high) / max(
         min(low.area, high.area), 1e-12
     )

@@ -259,7 +259,7 @@ def _mover(
 def _hinge(
     scene: Scene, panel: Panel, side: str, surroundings: FloatArray
 ) -> tuple[FloatArray, FloatArray, float]:
-    """Axis, origin and free turn [rad] of a hinge at one edge.
+    """Return the axis, origin and free turn [rad] of a hinge at one edge.
 
     The back corner, or the front one if it opens wider.
     """

@@ -52,7 +52,7 @@ def _stands_on(scene: Scene, piece: int, posts: list[int]) -> bool:
 
 
 def _own_grip(scene: Scene, seed: Panel) -> FloatArray | None:
-    """Box of what a one-piece drawer reaches out with before its front."""
+    """Return the box of what a one-piece drawer reaches out with before its front."""
     corners = scene.triangles[scene.labels == seed.slabs[0]].reshape(-1, 3)
     out = corners[corners[:, FRONT] < seed.low[FRONT] - 0.75 * scene.touch]
     return np.stack([out.min(axis=0), out.max(axis=0)]) if len(out) else None

@@ -37,17 +37,17 @@ class Panel:
 
     @property
     def width(self) -> float:
-        """Horizontal side [m]."""
+        """Return the horizontal side [m]."""
         return float(self.high[SIDEWAYS] - self.low[SIDEWAYS])
 
     @property
     def height(self) -> float:
-        """Vertical side [m]."""
+        """Return the vertical side [m]."""
         return float(self.high[UP] - self.low[UP])
 
     @property
     def depth(self) -> float:
-        """Thickness [m]."""
+        """Return the thickness [m]."""
         return float(self.high[FRONT] - self.low[FRONT])
 
     @property
@@ -71,7 +71,7 @@ class Panel:
 
     @property
     def pieces(self) -> IntArray:
-        """Slabs and what is mounted on them, sorted."""
+        """Return the slabs and what is mounted on them, sorted."""
         return np.array(sorted({*self.slabs, *self.mounted}), dtype=np.int64)
 
 
@@ -84,5 +84,5 @@ def overlap_area(
 
 
 def rect_area(extents: FloatArray) -> FloatArray:
-    """Area of rectangles across the front, of extents of shape [n, 3]."""
+    """Return the area of rectangles across the front, of extents of shape [n, 3]."""
     return np.asarray((extents[:, SIDEWAYS] + HAIR) * (extents[:, UP] + HAIR))

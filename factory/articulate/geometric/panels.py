@@ -56,7 +56,7 @@ def _seed_pieces(scene: Scene) -> IntArray:
 
 
 def _box_pieces(scene: Scene) -> IntArray:
-    """Pieces that are drawers by themselves.
+    """Return the pieces that are drawers by themselves.
 
     Deep, with a flat front, open at the top, not the whole object.
     """
@@ -114,7 +114,7 @@ def _box_panel(scene: Scene, piece: int) -> Panel:
 
 
 def _join_layers(scene: Scene, seeds: list[Panel]) -> list[Panel]:
-    """Sheets over the same rectangle, one behind the other, are one slab."""
+    """Join sheets over the same rectangle, one behind the other, to one slab."""
     joined: list[Panel] = []
     for seed in seeds:
         for k, other in enumerate(joined):

@@ -62,7 +62,7 @@ def _behind(scene: Scene, door: Mover, point: np.ndarray) -> bool:
 
 
 def _clusters(scene: Scene, pieces: IntArray) -> list[IntArray]:
-    """Pieces whose boxes touch, directly or through others."""
+    """Return the pieces whose boxes touch, directly or through others."""
     low = scene.low[pieces]
     high = scene.high[pieces]
     hair = scene.touch / 4.0

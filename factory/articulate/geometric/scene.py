@@ -44,12 +44,12 @@ class Scene:
 
     @cached_property
     def low(self) -> FloatArray:
-        """Lower box corners of the pieces [m], shape [piece_count, 3]."""
+        """Return the lower box corners of the pieces [m], shape [piece_count, 3]."""
         return self._reduce(np.minimum, self._ends[0])
 
     @cached_property
     def high(self) -> FloatArray:
-        """Upper box corners of the pieces [m], shape [piece_count, 3]."""
+        """Return the upper box corners of the pieces [m], shape [piece_count, 3]."""
         return self._reduce(np.maximum, self._ends[1])
 
     def _reduce(self, operation: np.ufunc, values: FloatArray) -> FloatArray:
@@ -59,7 +59,7 @@ class Scene:
 
     @cached_property
     def extents(self) -> FloatArray:
-        """Box sides of the pieces [m], shape [piece_count, 3]."""
+        """Return the box sides of the pieces [m], shape [piece_count, 3]."""
         return self.high - self.low
 
     @cached_property
@@ -71,12 +71,12 @@ class Scene:
 
     @cached_property
     def box(self) -> FloatArray:
-        """Box of everything [m], shape [2, 3]."""
+        """Return the box of everything [m], shape [2, 3]."""
         return np.stack([self.low.min(axis=0), self.high.max(axis=0)])
 
     @cached_property
     def size(self) -> FloatArray:
-        """Box sides of everything [m], shape [3]."""
+        """Return the box sides of everything [m], shape [3]."""
         return np.asarray(self.box[1] - self.box[0])
 
     @cached_property
@@ -138,7 +138,7 @@ def _cross(p: FloatArray, q: FloatArray) -> FloatArray:
 
 
 def quarter_turn(turns: int) -> FloatArray:
-    """Rotation about z by ``turns`` quarter turns, exact, shape [3, 3]."""
+    """Return the rotation about z by ``turns`` quarter turns, exact, shape [3, 3]."""
     c, s = ((1, 0), (0, 1), (-1, 0), (0, -1))[turns % 4]
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 

@@ -12,7 +12,7 @@ STEP = np.radians(5.0)
 
 
 def surface_points(scene: Scene, most: int = 20000) -> tuple[FloatArray, IntArray]:
-    """Corners and evenly spread points of the surface, always the same.
+    """Return the corners and evenly spread points of the surface, always the same.
 
     Returns:
         Positions [m], shape [point_count, 3], and the piece of each, shape [point_count].

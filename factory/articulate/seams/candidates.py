@@ -256,6 +256,6 @@ def is_among(rectangle: Rectangle, others: Iterable[Rectangle]) -> bool:
 
 
 def in_common(one: Rectangle, other: Rectangle) -> float:
-    """Intersection over union."""
+    """Return the intersection over union."""
     shared = one.shared(other)
     return shared / (one.area + other.area - shared)

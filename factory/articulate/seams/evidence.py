@@ -79,7 +79,7 @@ class Seams:
         )
 
     def turned(self) -> Seams:
-        """Rows and columns exchanged."""
+        """Return the rows and columns exchanged."""
         return Seams(
             self.groove.T,
             self.step.T,
@@ -92,12 +92,12 @@ class Seams:
 
 
 def level_seams(relief: Relief, face: Face) -> Seams:
-    """Evidence for horizontal seams."""
+    """Return the evidence for horizontal seams."""
     return _seams(face.height, relief.facing, relief.lab, relief.piece, face.covered, relief.seen)
 
 
 def upright_seams(relief: Relief, face: Face) -> Seams:
-    """Evidence for vertical seams."""
+    """Return the evidence for vertical seams."""
     turned = _seams(
         face.height.T,
         relief.facing.T,
@@ -161,7 +161,7 @@ def _step(height: FloatArray) -> FloatArray:
 
 
 def _other_side(lab: FloatArray) -> FloatArray:
-    """Difference of the colours above and below each row, beyond their own changes."""
+    """Return the difference of the colours above and below each row, beyond their own changes."""
     mean = ndimage.uniform_filter1d(lab, 3, axis=0)
     above = _shifted(mean, 3)
     below = _shifted(mean, -3)

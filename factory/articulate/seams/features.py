@@ -48,7 +48,7 @@ class Context:
 
 
 def features(around: Context, rectangle: Rectangle, *, cut: bool) -> FloatArray:
-    """Figures about one rectangle, as :data:`NAMES` has them, shape [feature_count].
+    """Return the figures about one rectangle, as :data:`NAMES` has them, shape [feature_count].
 
     Args:
         around: its side.
@@ -73,7 +73,7 @@ def features(around: Context, rectangle: Rectangle, *, cut: bool) -> FloatArray:
 
 
 def _place(relief: Relief, rectangle: Rectangle) -> list[float]:
-    """Size, shape and place on the side, in shares of what is seen."""
+    """Return the size, shape and place on the side, in shares of what is seen."""
     first_row, last_row, first_column, last_column = relief.box
     low = np.array([first_row, first_column])
     size = np.maximum(np.array([last_row, last_column]) - low, 1)
@@ -116,7 +116,7 @@ def _grips(scene: FrontScene, rectangle: Rectangle, handles: Sequence[Protrusion
 
 
 def _inside(scene: FrontScene, rectangle: Rectangle) -> list[float]:
-    """Lines that run through it, and how many of its sides are the outline's."""
+    """Return the lines that run through it, and how many of its sides are the outline's."""
     level = _crossing(scene.level, rectangle, 1, 0)
     upright = _crossing(scene.upright, rectangle, 0, 1)
     return [
@@ -186,7 +186,7 @@ def _surface(scene: FrontScene, rectangle: Rectangle) -> list[float]:
 
 
 def _ring(rectangle: Rectangle, shape: tuple[int, int]) -> list[tuple[slice, slice]]:
-    """Strips below, above, left and right of a rectangle, a little apart from it."""
+    """Return the strips below, above, left and right of a rectangle, a little apart from it."""
     bottom, left = (int(value) for value in rectangle.low)
     top, right = (int(value) for value in rectangle.high)
     rows = slice(bottom, top + 1)

@@ -49,7 +49,7 @@ class Front:
 
     @cached_property
     def level(self) -> Seams:
-        """Evidence for horizontal seams."""
+        """Return the evidence for horizontal seams."""
         return level_seams(self.relief, self.face)
 
     @cached_property

@@ -36,7 +36,7 @@ class FrontPanel:
 
     @property
     def aspect(self) -> float:
-        """Width over height."""
+        """Return the width over height."""
         return float(self.rectangle.size[1] / max(self.rectangle.size[0], 1))
 
 

@@ -87,7 +87,7 @@ class Protrusion:
 
     @property
     def size(self) -> FloatArray:
-        """Rows and columns."""
+        """Return the rows and columns."""
         return np.asarray(self.high - self.low + 1.0)
 
     def holds(self, other: Protrusion) -> bool:

@@ -51,7 +51,7 @@ def layout_of(scene: FrontScene, found: Sequence[Rectangle]) -> PanelLayout:
 
 
 def value_of(scene: FrontScene, panels: Sequence[FrontPanel], found: Sequence[Rectangle]) -> float:
-    """Log-odds of panels that somebody else found."""
+    """Return the log-odds of panels that somebody else found."""
     if not panels:
         return 0.0
     others = [each.rectangle for each in candidates_of(scene, found) if not each.cut]
@@ -61,7 +61,7 @@ def value_of(scene: FrontScene, panels: Sequence[FrontPanel], found: Sequence[Re
 
 
 def rated(scene: FrontScene, candidates: Sequence[PanelCandidate]) -> list[Group]:
-    """Candidates with what is thought of them, the likeliest first."""
+    """Return the candidates with what is thought of them, the likeliest first."""
     if not candidates:
         return []
     pieces, rows = described(scene, candidates)

@@ -134,14 +134,14 @@ def _told(covers: FloatArray) -> BoolArray:
 
 
 def _seen_above(front: Front, row: int) -> float:
-    """Share of what is above a row that the picture network takes for a lid, 0 to 1."""
+    """Return the share of what is above a row that the picture network takes for a lid, 0 to 1."""
     lid = front.sight.lid[row // SQUARE + 1 :]
     seen = front.relief.seen[::SQUARE, ::SQUARE][row // SQUARE + 1 :]
     return float(lid[seen].mean()) if seen.any() else 0.0
 
 
 def _cover(relief: Relief, seams: Seams, evidence: FloatArray) -> FloatArray:
-    """Share of each row's length with evidence, shape [rows]."""
+    """Return the share of each row's length with evidence, shape [rows]."""
     wide = ndimage.maximum_filter1d(evidence * seams.known, 2 * WANDER + 1, axis=0)
     inner = ndimage.binary_erosion(relief.seen, np.ones((1, 5), np.bool_))
     known = inner & (seams.known > 0.5)

@@ -68,7 +68,7 @@ def openings_of(
 def _possible(
     relief: Relief, panel: FrontPanel, weights: dict[OpensBy, float]
 ) -> dict[OpensBy, float]:
-    """Weights without drawers where there is no depth for one."""
+    """Return the weights without drawers where there is no depth for one."""
     short = float(panel.rectangle.size.min()) * relief.raster.pixel
     if relief.depth < SHALLOW * short:
         return {way: weight for way, weight in weights.items() if way is not OpensBy.OUT}
@@ -76,12 +76,12 @@ def _possible(
 
 
 def _logs(values: FloatArray) -> FloatArray:
-    """Logarithms of the probabilities that log-weights stand for."""
+    """Return the logarithms of the probabilities that log-weights stand for."""
     return np.asarray(values - np.logaddexp.reduce(values))
 
 
 def _ranked(weights: Mapping[OpensBy, float]) -> tuple[tuple[OpensBy, float], ...]:
-    """Ways with their probabilities, the likeliest first."""
+    """Return the ways with their probabilities, the likeliest first."""
     shares = np.exp(_logs(np.array(list(weights.values()))))
     ways = zip(weights, shares.tolist(), strict=True)
     return tuple(sorted(ways, key=lambda each: -each[1]))

@@ -192,7 +192,7 @@ def _crossings(scene: FrontScene, rectangle: Rectangle) -> int:
 def _without_handles(
     relief: Relief, pulled: Sequence[FrontPanel], bare: Sequence[Group]
 ) -> list[FrontPanel]:
-    """Panels without a handle beside one that has one and is like them."""
+    """Return the panels without a handle beside one that has one and is like them."""
     free = [
         group
         for group in clear_of(bare, pulled)

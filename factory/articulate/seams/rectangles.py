@@ -42,7 +42,7 @@ class Lines:
     known: FloatArray
 
     def covered(self, line: IntArray, start: IntArray, stop: IntArray) -> FloatArray:
-        """Share of a line's piece with evidence; arrays broadcast."""
+        """Return the share of a line's piece with evidence; arrays broadcast."""
         return self._share(self.sums, line, start, stop)
 
     def in_relief(self, line: IntArray, start: IntArray, stop: IntArray) -> FloatArray:
@@ -126,7 +126,7 @@ class Rectangle:
 
     @property
     def size(self) -> IntArray:
-        """Rows and columns."""
+        """Return the rows and columns."""
         return np.asarray(self.high - self.low)
 
     @property
@@ -152,7 +152,7 @@ class Rectangle:
         return replace(self, low=low, high=high)
 
     def shared(self, other: Rectangle) -> float:
-        """Area of both [pixels]."""
+        """Return the area of both [pixels]."""
         side = np.minimum(self.high, other.high) - np.maximum(self.low, other.low)
         return float(np.prod(np.maximum(side, 0)))
 

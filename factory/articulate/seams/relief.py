@@ -47,7 +47,7 @@ class Relief:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Rows and columns."""
+        """Return the rows and columns."""
         return self.raster.rows, self.raster.columns
 
     @property

@@ -211,7 +211,7 @@ def _layer(weights: Weights, name: str, values: FloatArray, step: int = 1) -> Fl
 def _convolved(
     values: FloatArray, kernel: FloatArray, bias: FloatArray, step: int = 1
 ) -> FloatArray:
-    """Cross-correlation with zeros around.
+    """Return the cross-correlation with zeros around.
 
     Args:
         values: shape [channels, rows, columns].

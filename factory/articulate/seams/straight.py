@@ -19,7 +19,7 @@ _QUARTER = 90
 
 
 def straightening(mesh: Mesh) -> FloatArray | None:
-    """Rotation about z that makes an object's sides look along the axes, shape [3, 3].
+    """Return the rotation about z that makes an object's sides look along the axes, shape [3, 3].
 
     By at most an eighth of a turn; ``None`` for what stands straight already or is round.
     """

@@ -55,7 +55,7 @@ class _Resolver:
 
 
 def read_dae(data: bytes, path: Path, files: InputFiles) -> Soup:
-    """Triangles of a COLLADA file, scene transforms and instances applied, in metres.
+    """Return the triangles of a COLLADA file, scene transforms and instances applied, in metres.
 
     Raises:
         InputRejected: ``unsupported`` (no pycollada), ``unreadable`` or ``too_large``.

@@ -18,7 +18,7 @@ _CORNERS_OF_TRIANGLE = 3
 
 
 def read_off(data: bytes, path: Path, files: InputFiles) -> Soup:
-    """Triangles of an OFF file, in the file's own frame and units.
+    """Return the triangles of an OFF file, in the file's own frame and units.
 
     Raises:
         InputRejected: ``unreadable``, ``unsupported`` (binary, four-dimensional) or ``too_large``.

@@ -38,7 +38,7 @@ class _Triangles:
 
 
 def read_ply(data: bytes, path: Path, files: InputFiles) -> Soup:
-    """Triangles of a PLY file, in the file's own frame and units.
+    """Return the triangles of a PLY file, in the file's own frame and units.
 
     Raises:
         InputRejected: ``unreadable``, ``too_large``, or ``external_reference`` for its texture.

@@ -18,7 +18,7 @@ _VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)")
 
 
 def read_stl(data: bytes, path: Path, files: InputFiles) -> Soup:
-    """Triangles of an STL file, in the file's own frame and units.
+    """Return the triangles of an STL file, in the file's own frame and units.
 
     Raises:
         InputRejected: ``unreadable`` or ``too_large``.

@@ -59,14 +59,14 @@ class GeometryReader:
 
     @property
     def dropped_degenerate(self) -> int:
-        """Faces without area that the mesh files had."""
+        """Return the faces without area that the mesh files had."""
         return sum(
             visual.dropped_degenerate for visual in self._visuals.values() if visual is not None
         )
 
     @property
     def dropped_non_finite(self) -> int:
-        """Faces with a NaN or infinite corner that the mesh files had."""
+        """Return the faces with a NaN or infinite corner that the mesh files had."""
         return sum(
             visual.dropped_non_finite for visual in self._visuals.values() if visual is not None
         )

@@ -86,7 +86,7 @@ def _polygons(prim: Any) -> Mesh | None:
 
 
 def fanned(counts: IntArray, corners: IntArray, wanted: np.ndarray) -> IntArray:
-    """Polygons as triangles around their first corners, shape [triangle_count, 3].
+    """Return the polygons as triangles around their first corners, shape [triangle_count, 3].
 
     Args:
         counts: corners of each polygon, shape [polygon_count].

@@ -113,7 +113,7 @@ class _Bodies:
 def _pieces(
     prims: list[Any], bodies: _Bodies, file: str, max_faces: int
 ) -> tuple[tuple[str, Mesh], ...]:
-    """Surfaces that are shown; of a body that has others, not its colliders."""
+    """Return the surfaces that are shown; of a body that has others, not its colliders."""
     from pxr import UsdGeom
 
     cache = UsdGeom.XformCache()

@@ -241,7 +241,7 @@ def unpacked(archive: tarfile.TarFile, folder: Path) -> None:
 
 
 def paths_below(value: Any, folder: Path) -> Iterator[Path]:
-    """Paths below a folder that a value names; dataclasses and tuples are looked into."""
+    """Yield the paths below a folder that a value names; dataclasses and tuples are looked into."""
     if isinstance(value, Path):
         if value.is_relative_to(folder):
             yield value

@@ -276,7 +276,7 @@ class _Tasks(Generic[T]):
         self.start(replace(task, node=""))
 
     def _lacking(self, task: _Task, outcome: Outcome[Any]) -> frozenset[str]:
-        """Files that a node missed, and that should have been sent along."""
+        """Return the files that a node missed, and that should have been sent along."""
         if task.input is None or self._executor.inputs is None or outcome.value is None:
             return frozenset()
         return task.input.lacking(self._executor.inputs.reads(outcome.value.value))

@@ -86,7 +86,7 @@ class PackedInput:
     names: frozenset[str]
 
     def lacking(self, reads: Reads) -> frozenset[str]:
-        """Files that its reader missed on a node, and that are here.
+        """Return the files that its reader missed on a node, and that are here.
 
         Args:
             reads: what it read, and what it did not find.

@@ -30,7 +30,7 @@ class Search:
 
 
 def coacd_pieces(solid: Triangles, search: Search) -> list[Triangles]:
-    """Convex pieces of a closed manifold. Call through ``run_isolated`` only."""
+    """Return the convex pieces of a closed manifold. Call through ``run_isolated`` only."""
     import coacd  # heavy, native, and only ever loaded in the child
 
     coacd.set_log_level("off")
@@ -53,7 +53,7 @@ def coacd_pieces(solid: Triangles, search: Search) -> list[Triangles]:
 
 
 def vhacd_pieces(solid: Triangles, max_hulls: int) -> list[Triangles]:
-    """Convex pieces by V-HACD's voxels. Call through ``run_isolated`` only."""
+    """Return the convex pieces by V-HACD's voxels. Call through ``run_isolated`` only."""
     import vhacdx  # optional, native, and only ever loaded in the child
 
     vertices, faces = solid

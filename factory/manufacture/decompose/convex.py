@@ -86,12 +86,12 @@ def surface_points(vertices: FloatArray, faces: IntArray) -> FloatArray:
 
 
 def concavity(vertices: FloatArray, faces: IntArray, hull: Hull) -> float:
-    """Deepest dent of a surface: largest depth of it below its convex hull [m]."""
+    """Return the deepest dent of a surface: largest depth of it below its convex hull [m]."""
     return float(depth_below(hull, surface_points(vertices, faces)).max())
 
 
 def aspect(hull: Hull) -> float:
-    """Longest over shortest side of the tightest box along the hull's principal axes."""
+    """Return the longest over shortest side of the tightest box along the hull's principal axes."""
     centered = hull.vertices - hull.vertices.mean(axis=0)
     _, _, axes = np.linalg.svd(centered, full_matrices=False)
     sides = np.ptp(centered @ axes.T, axis=0)

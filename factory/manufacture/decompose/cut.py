@@ -61,7 +61,7 @@ def flatness(vertices: FloatArray) -> float:
 def cut_along_faces(
     solid: Manifold, error_m: float, most: int, slot_m: float | None = None
 ) -> Cut | None:
-    """Convex pieces of a solid made of flat faces.
+    """Return the convex pieces of a solid made of flat faces.
 
     Each piece is cut along that plane of one of its inward edges which leaves the least volume
     between the pieces and their hulls, until no dent is deeper than ``error_m`` (notch cutting:
@@ -171,7 +171,7 @@ def _waste(pieces: list[Manifold]) -> float:
 
 
 def _candidate_planes(vertices: FloatArray, faces: IntArray) -> list[tuple[FloatArray, float]]:
-    """Planes through inward edges, those with the longest and sharpest edges first."""
+    """Return the planes through inward edges, those with the longest and sharpest edges first."""
     corners = vertices[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area = np.linalg.norm(normals, axis=1)

@@ -63,7 +63,7 @@ def decompose(
     hollow: Collection[str] = (),
     rooms: Rooms | None = None,
 ) -> tuple[PartHulls, ...]:
-    """Convex hulls for every part, in the parts' order.
+    """Return the convex hulls for every part, in the parts' order.
 
     Args:
         articulation: whose parts are decomposed, in the object frame at rest, each where no other

@@ -59,7 +59,7 @@ class _Attempt:
 
 
 def climb_down(solid: Manifold, error_m: float, config: DecomposeConfig) -> Rung | None:
-    """Hulls of one connected solid by the first method that gives acceptable ones.
+    """Return the hulls of one connected solid by the first method that gives acceptable ones.
 
     Args:
         solid: a closed manifold [m], too curved to be cut along its own faces.

@@ -38,7 +38,7 @@ class _Cluster:
 def merge(
     hulls: list[Hull], error_m: float, slot_m: float | None = None, room: Room = NOWHERE
 ) -> list[Hull]:
-    """Fewer hulls over the same geometry.
+    """Return the fewer hulls over the same geometry.
 
     Pairs are joined, the one that fills least first, as long as the joined hull's surface stays
     within ``error_m`` of the hulls it was made from, see ``fills_little``.

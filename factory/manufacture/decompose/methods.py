@@ -86,7 +86,7 @@ METHODS: tuple[Method, ...] = (whole, along_faces, along_simplified_faces, by_se
 
 
 def split_solid(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces:
-    """Convex pieces of one closed solid by the first method that has some.
+    """Return the convex pieces of one closed solid by the first method that has some.
 
     Args:
         solid: a closed manifold [m].

@@ -51,7 +51,7 @@ def _outside(hulls: Sequence[Hull], points: FloatArray) -> FloatArray:
 
 
 def _from_one(hull: Hull, points: FloatArray) -> FloatArray:
-    """Distances of points outside a hull [m], shape [n].
+    """Return the distances of points outside a hull [m], shape [n].
 
     No plane is further off than the hull. So where the foot on the farthest is a point of the hull
     it is the nearest one; else that lies on an edge.
@@ -67,7 +67,7 @@ def _from_one(hull: Hull, points: FloatArray) -> FloatArray:
 
 
 def _from_edges(hull: Hull, points: FloatArray) -> FloatArray:
-    """Distances of points from the nearest edge [m], shape [n]."""
+    """Return the distances of points from the nearest edge [m], shape [n]."""
     pairs = hull.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
     start, end = np.moveaxis(hull.vertices[pairs[pairs[:, 0] < pairs[:, 1]]], 1, 0)
     along = end - start

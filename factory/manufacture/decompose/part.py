@@ -71,7 +71,7 @@ def split_part(
     room: Room = NOWHERE,
     hollow: bool = False,
 ) -> PartPieces | None:
-    """Convex hulls of the triangles of one part.
+    """Return the convex hulls of the triangles of one part.
 
     Args:
         vertices: welded positions [m], shape [n, 3].
@@ -169,7 +169,7 @@ def _hollowed(solids: list[Manifold], cavities: list[Manifold]) -> list[Manifold
 
 
 def _cover(sheet: OpenSurface, center: FloatArray, config: DecomposeConfig) -> list[Hull]:
-    """Slabs over an open surface, simplified as far as that keeps it covered."""
+    """Return the slabs over an open surface, simplified as far as that keeps it covered."""
     error_m = config.error_m
     points = surface_points(sheet.vertices, sheet.faces)
     for max_faces in (config.max_faces // 4, config.max_faces):

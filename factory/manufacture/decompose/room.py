@@ -132,7 +132,7 @@ def _corners(points: FloatArray) -> FloatArray:
 
 
 def _spread(mesh: Mesh) -> FloatArray:
-    """Points over a surface by area, then corners; always the same ones."""
+    """Return the points over a surface by area, then corners; always the same ones."""
     generator = np.random.default_rng(0)
     areas = face_areas(mesh)
     if not areas.sum() > 0.0:

@@ -39,7 +39,7 @@ class _Patch:
 def slabs(
     surface: OpenSurface, error_m: float, thickness_m: float, center: FloatArray
 ) -> list[Hull]:
-    """Convex slabs over a surface.
+    """Return the convex slabs over a surface.
 
     Neighbouring faces are joined, cheapest first, as long as what they span stays within
     ``error_m`` of them: no higher than that over their mean plane, and no wider than that beyond

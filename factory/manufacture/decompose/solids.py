@@ -86,7 +86,7 @@ def manifold_of_hull(hull: Hull) -> Manifold:
 
 
 def triangles_of(manifold: Manifold) -> tuple[FloatArray, IntArray]:
-    """Vertices [m], shape [n, 3], and outward faces, shape [m, 3]."""
+    """Return the vertices [m], shape [n, 3], and outward faces, shape [m, 3]."""
     mesh = manifold.to_mesh64()
     return (
         np.array(mesh.vert_properties[:, :3], dtype=np.float64, order="C"),

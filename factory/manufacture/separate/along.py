@@ -38,7 +38,7 @@ class Step:
 
 
 def steps_along(poses: Sequence[FloatArray]) -> list[Step]:
-    """Poses with what lies between them, where a slide leads through them.
+    """Return the poses with what lies between them, where a slide leads through them.
 
     Hulls are thinner than a step is long: a board passes a lip between two poses.
     """
@@ -201,7 +201,7 @@ def _moved(before: Hull | None, after: Hull | None) -> bool:
 
 
 def _seen(solid: Hull, pose: FloatArray, behind: FloatArray) -> FloatArray:
-    """Corners of a moved hull, there and where it slid there from [m], shape [n, 3]."""
+    """Return the corners of a moved hull, there and where it slid there from [m], shape [n, 3]."""
     points = solid.vertices @ pose[:3, :3].T + pose[:3, 3]
     return np.concatenate([points, points + behind]) if behind.any() else points
 
@@ -213,7 +213,7 @@ def _from_the_other(step: Step) -> tuple[FloatArray, FloatArray]:
 
 
 def _cost(sides: Sides, before: tuple[Hull, Hull], whole: tuple[float, float]) -> float:
-    """Share of what is whole that is lost, more pieces counted in."""
+    """Return the share of what is whole that is lost, more pieces counted in."""
     lost = 0.0
     for pieces, hull, of in zip(sides, before, whole, strict=True):
         lost += (hull.volume - sum(piece.volume for piece in pieces)) / of
@@ -228,7 +228,7 @@ def near_pairs(
     margin: float,
     behind: FloatArray | None = None,
 ) -> list[tuple[int, int]]:
-    """Indices of hulls whose boxes come within ``margin`` [m] of one another.
+    """Return the indices of hulls whose boxes come within ``margin`` [m] of one another.
 
     Args:
         a: hulls of one part; ``None`` for one of which nothing is left.

@@ -121,7 +121,7 @@ class Loss:
 
     @property
     def deepest_m(self) -> float:
-        """Deepest cut below its visible surface, excused or not [m]."""
+        """Return the deepest cut below its visible surface, excused or not [m]."""
         return max(self.bared_m, self.planed_m)
 
 
@@ -268,7 +268,7 @@ def too_bare(names: Sequence[str], losses: Sequence[Loss], config: SeparateConfi
 
 
 def _within(hulls: Sequence[Hull], others: Sequence[Hull]) -> float:
-    """Volume of hulls that lies in any of others [m3]."""
+    """Return the volume of hulls that lies in any of others [m3]."""
     room = union([manifold_of_hull(other) for other in others])
     return sum(float((manifold_of_hull(hull) ^ room).volume()) for hull in hulls)
 

@@ -161,7 +161,7 @@ def _before(
 def _met(
     holder: Sequence[Hull], mover: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
 ) -> list[Hull]:
-    """Hulls of the mover that come near the holder anywhere on their way."""
+    """Return the hulls of the mover that come near the holder anywhere on their way."""
     met = {j for pose in poses for _, j in near_pairs(holder, mover, pose, clearance_m)}
     return [mover[j] for j in sorted(met)]
 

@@ -298,7 +298,7 @@ class _Bench:
         return planed_limit(self.config, min(sizes, default=0.0))
 
     def _hinges(self, a: int, b: int) -> list[Joint]:
-        """Joints at an edge of what they turn, the one against the other part."""
+        """Return the joints at an edge of what they turn, the one against the other part."""
         turning = [joint for joint in joints_between(self.articulation, a, b) if joint.turns]
         # What a crooked hinge needs is not planed off: its axis is to be mended.
         if any(is_crooked(joint.axis) for joint in turning):

@@ -24,7 +24,7 @@ def swept_m(
     enough_m: float = np.inf,
     gap_m: float = 0.0,
 ) -> float:
-    """Worst deepening of any two parts along one joint, the others closed [m].
+    """Return the worst deepening of any two parts along one joint, the others closed [m].
 
     An upper bound at the poses that are looked at: only face normals separate.
 

@@ -127,7 +127,7 @@ class Turned:
 def _ways(
     a: Sequence[Hull], b: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
 ) -> dict[tuple[int, int], list[FloatArray]]:
-    """Poses at which two hulls may be too near to one another, by their numbers."""
+    """Return the poses at which two hulls may be too near to one another, by their numbers."""
     found: dict[tuple[int, int], list[FloatArray]] = {}
     for pose in poses:
         for pair in near_pairs(a, b, pose, clearance_m):

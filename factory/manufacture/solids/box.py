@@ -65,7 +65,7 @@ class Box:
 
     @property
     def corners(self) -> FloatArray:
-        """Shape [8, 3]."""
+        """Return the shape [8, 3]."""
         return np.array(list(itertools.product(*zip(self.low, self.high, strict=True))))
 
     def hull(self) -> Hull | None:

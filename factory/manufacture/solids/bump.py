@@ -62,7 +62,7 @@ def find_bump(points: FloatArray, rim: FloatArray, joint: Joint) -> Bump | None:
 
 
 def _ways(joint: Joint) -> list[FloatArray]:
-    """Directions in which it may stand out: those that its motion keeps."""
+    """Return the directions in which it may stand out: those that its motion keeps."""
     ways = [np.asarray(joint.axis), -np.asarray(joint.axis)]
     if joint.kind is JointKind.PRISMATIC:
         across = np.vstack([np.eye(3), -np.eye(3)])

@@ -75,7 +75,7 @@ def planes_of_panels(
 
 
 def surface_points(work: Workpiece, part: int) -> FloatArray:
-    """Points of a part's skin, close enough for its pieces [m], shape [n, 3]."""
+    """Return the points of a part's skin, close enough for its pieces [m], shape [n, 3]."""
     if part not in work.points:
         work.points[part] = _surface_points(work, part)
     return work.points[part]
@@ -148,7 +148,7 @@ def make_slab(work: Workpiece, part: int) -> None:
 def _behind_slab(
     work: Workpiece, part: int, hulls: list[Hull], points: FloatArray, whole: int
 ) -> tuple[Hull, ...]:
-    """Pieces of what is a panel's own there: shelves in a door, a knife's other side.
+    """Return the pieces of what is a panel's own there: shelves in a door, a knife's other side.
 
     Args:
         work: all parts.
@@ -207,7 +207,7 @@ def _lid_hollow(work: Workpiece, panel: FlatPanel) -> tuple[Box, ...]:
 
 
 def _inner(work: Workpiece, owners: tuple[int, ...], wall: float) -> BoolArray:
-    """Cells of some owners at least a wall below everything that is not theirs."""
+    """Return the cells of some owners at least a wall below everything that is not theirs."""
     mine = np.isin(work.owner, owners)
     lattice = work.lattice
     for part in owners:

@@ -25,7 +25,7 @@ LEAST_LEFT = 0.5
 
 
 def cleared(work: Workpiece) -> dict[int, tuple[Hull, ...]]:
-    """Pieces per part, cut where a part would come nearer to another than it may."""
+    """Return the pieces per part, cut where a part would come nearer to another than it may."""
     hulls = {part: list(work.hulls.get(part, ())) for part in range(len(work.source.parts))}
     articulation = replace(work.source, joints=tuple(work.joints))
     for a, b in combinations(range(len(articulation.parts)), 2):

@@ -70,7 +70,7 @@ def _passed(bump: Bump, joint: Joint) -> FloatArray:
 
 
 def _moved(points: FloatArray, way: list[FloatArray]) -> FloatArray:
-    """Points at all poses of a way [m], shape [n, 3]."""
+    """Return the points at all poses of a way [m], shape [n, 3]."""
     return np.concatenate([points @ pose[:3, :3].T + pose[:3, 3] for pose in way])
 
 

@@ -60,18 +60,18 @@ class Lattice:
 
     @property
     def shape(self) -> tuple[int, int, int]:
-        """Cells along each axis."""
+        """Return the cells along each axis."""
         x, y, z = (len(each) - 1 for each in self.lines)
         return x, y, z
 
     @cached_property
     def step(self) -> float:
-        """Length of most cells' sides [m]."""
+        """Return the length of most cells' sides [m]."""
         return float(max(np.median(np.diff(line)) for line in self.lines))
 
     @property
     def middles(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Coordinates of the cells' centres along each axis [m]."""
+        """Return the coordinates of the cells' centres along each axis [m]."""
         x, y, z = ((each[1:] + each[:-1]) / 2.0 for each in self.lines)
         return x, y, z
 
@@ -121,7 +121,7 @@ class Lattice:
         return np.asarray(np.moveaxis(inside, -1, axis))
 
     def centers(self, cells: npt.NDArray[np.int64]) -> FloatArray:
-        """Centres [m] of cells given by their indices, shape [n, 3]."""
+        """Return the centres [m] of cells given by their indices, shape [n, 3]."""
         return np.column_stack([self.middles[axis][cells[:, axis]] for axis in range(3)])
 
 
@@ -138,7 +138,7 @@ def enclosed(mesh: Mesh, lattice: Lattice) -> BoolArray:
 
 
 def marked(lattice: Lattice, points: FloatArray) -> BoolArray:
-    """Cells in which any of some points lies, shape [nx, ny, nz]."""
+    """Return the cells in which any of some points lies, shape [nx, ny, nz]."""
     cells = np.stack(
         [
             np.clip(np.searchsorted(line, points[:, axis]) - 1, 0, len(line) - 2)

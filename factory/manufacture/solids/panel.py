@@ -211,7 +211,7 @@ def _rectangle(view: PartView, seen: BoolArray) -> tuple[FloatArray, FloatArray]
 def _rim(
     mesh: Mesh, faces: IntArray, view: PartView, rectangle: tuple[FloatArray, FloatArray]
 ) -> float | None:
-    """Depth down to which nine tenths of the faces around a part's rim reach [m]."""
+    """Return the depth down to which nine tenths of the faces around a part's rim reach [m]."""
     corners = (mesh.vertices @ view.side.frame.T)[mesh.faces[faces]]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area = np.linalg.norm(normals, axis=1)

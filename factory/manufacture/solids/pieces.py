@@ -79,7 +79,7 @@ class _Nearby:
 
 
 def convex_pieces(matter: Matter, most: int) -> tuple[Hull, ...]:
-    """Hulls that cover the matter, at most ``most``; the worst one is cut first.
+    """Return the hulls that cover the matter, at most ``most``; the worst one is cut first.
 
     Every piece is the hull of what of the matter lies in a box of cells, so that it cannot leave
     that box: where boxes keep clear of something, so do pieces, exactly.
@@ -239,7 +239,7 @@ def _waste(matter: Matter, span: Span, hull: Hull) -> float:
 
 
 def filled(lattice: Lattice, weights: Weights, span: Span, hull: Hull) -> float:
-    """Volume of cells within a span that a hull fills, each times its weight [m3].
+    """Return the volume of cells within a span that a hull fills, each times its weight [m3].
 
     What is thinner than cells may pass between their centres: it fills what it crosses.
     """
@@ -359,7 +359,7 @@ def _blocked(matter: Matter, nearby: _Nearby, span: Span, box: Box, hull: Convex
 
 
 def _planes(matter: Matter, span: Span) -> Iterator[tuple[int, int]]:
-    """Planes worth trying: where much begins or ends, and the middle; axis and line."""
+    """Yield the planes worth trying: where much begins or ends, and the middle; axis and line."""
     for axis in range(3):
         length = span[axis].stop - span[axis].start
         if length < 2:

@@ -84,7 +84,7 @@ def _on_panel(articulation: Articulation, part: int, panels: dict[int, FlatPanel
 
 
 def _apart(panels: dict[int, FlatPanel]) -> dict[int, FlatPanel]:
-    """Rectangles of one side that overlap or nearly meet, both ended at the middle."""
+    """Return the rectangles of one side that overlap or nearly meet, both ended at the middle."""
     result = dict(panels)
     order = sorted(result)
     for number, a in enumerate(order):
@@ -150,7 +150,7 @@ def _behind(panel: FlatPanel, depth: float = OWN_BACK_M) -> Box:
 
 
 def _inner_side(skin: CutSkin, frame: FloatArray) -> BoolArray:
-    """Triangles that look away from a side's viewer."""
+    """Return the triangles that look away from a side's viewer."""
     edges = skin.corners[:, 1:] - skin.corners[:, :1]
     normals = np.cross(edges[:, 0], edges[:, 1])
     return np.asarray(normals @ frame[2] > 0.5 * np.linalg.norm(normals, axis=1))
@@ -159,7 +159,7 @@ def _inner_side(skin: CutSkin, frame: FloatArray) -> BoolArray:
 def recognize_bumps(
     articulation: Articulation, parts: list[int]
 ) -> tuple[dict[int, Bump], list[int]]:
-    """Knobs, buttons and wheels among some parts; and those that are none."""
+    """Return the knobs, buttons and wheels among some parts; and those that are none."""
     mesh = articulation.mesh
     edges, both = border(mesh, face_parts(articulation))
     bumps: dict[int, Bump] = {}

@@ -44,17 +44,17 @@ class CutSkin:
 
     @property
     def middles(self) -> FloatArray:
-        """Centres of the triangles [m], shape [n, 3]."""
+        """Return the centres of the triangles [m], shape [n, 3]."""
         first, second, third = np.moveaxis(self.corners, 1, 0)
         return np.asarray((first + second + third) / 3.0)
 
     def touching(self, box: Box) -> BoolArray:
-        """Triangles whose bounds meet a box, shape [n]."""
+        """Return the triangles whose bounds meet a box, shape [n]."""
         low, high = ends_of(self.corners)
         return np.asarray(((low <= box.high) & (high >= box.low)).all(axis=1))
 
     def chosen(self, which: BoolArray | IntArray) -> CutSkin:
-        """Some of the triangles."""
+        """Return some of the triangles."""
         return CutSkin(self.corners[which], self.face[which], self.weights[which], self.part[which])
 
     def joined(self, other: CutSkin) -> CutSkin:

@@ -44,7 +44,7 @@ def parts_to_build(articulation: Articulation, fronts: bool = False) -> tuple[in
 
 
 def border(mesh: Mesh, part: IntArray) -> tuple[IntArray, IntArray]:
-    """Edges between exactly two faces of different parts.
+    """Return the edges between exactly two faces of different parts.
 
     Returns:
         Vertices, shape [n, 2], and the two parts, shape [n, 2].

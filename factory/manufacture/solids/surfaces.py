@@ -22,7 +22,7 @@ Triangles = FloatArray
 
 
 def boundary(triangles: Triangles) -> FloatArray:
-    """Edges of only one of some triangles, in their direction; shape [n, 2, 3]."""
+    """Return the edges of only one of some triangles, in their direction; shape [n, 2, 3]."""
     points, index = np.unique(
         np.round(triangles.reshape(-1, 3) / SAME_M).astype(np.int64), axis=0, return_inverse=True
     )
@@ -37,7 +37,7 @@ def boundary(triangles: Triangles) -> FloatArray:
 
 
 def rim(edges: FloatArray, column: Box, back: float, sides: BoolArray) -> Triangles:
-    """Strips from the edges of a cut to a plane, facing out of the column.
+    """Return the strips from the edges of a cut to a plane, facing out of the column.
 
     Args:
         edges: of the part's skin in its panel's frame [m], shape [n, 2, 3].

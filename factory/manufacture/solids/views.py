@@ -29,7 +29,7 @@ class PartView:
 
     @property
     def pixel(self) -> float:
-        """Length of a pixel's side [m]."""
+        """Return the length of a pixel's side [m]."""
         return self.picture.raster.pixel
 
     @property
@@ -45,7 +45,7 @@ class PartView:
         return np.asarray(raster.low[1] + np.arange(raster.rows) * raster.pixel)
 
     def window(self, low: FloatArray, high: FloatArray) -> tuple[slice, slice]:
-        """Rows and columns whose centres lie between two corners (u, v) [m]."""
+        """Return the rows and columns whose centres lie between two corners (u, v) [m]."""
         columns = np.searchsorted(self.columns, [low[0], high[0]])
         rows = np.searchsorted(self.rows, [low[1], high[1]])
         return slice(rows[0], rows[1]), slice(columns[0], columns[1])

@@ -227,7 +227,7 @@ def _material(work: Workpiece, part: int, materials: list[Material]) -> int:
 
 
 def _color(work: Workpiece, part: int) -> tuple[float, float, float, float]:
-    """Mean colour of what is seen of a part from all sides, linear."""
+    """Return the mean colour of what is seen of a part from all sides, linear."""
     seen = [view.picture.color[view.part == part] for view in work.views.values()]
     pixels = np.concatenate(seen)
     if not len(pixels):

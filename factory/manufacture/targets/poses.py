@@ -64,7 +64,7 @@ def poses_of(joint: Joint, shape: PartShape) -> list[Pose]:
 
 
 def _fronts(joint: Joint, shape: PartShape) -> list[FloatArray]:
-    """Directions in which a handle may stand out."""
+    """Return the directions in which a handle may stand out."""
     if turns_on_the_spot(joint, shape):
         return [joint.axis, -joint.axis]
     outward = opening_direction(joint, shape)

@@ -108,7 +108,7 @@ def protrusions(joint: Joint, shape: PartShape, front: ProtrudingFront) -> list[
 
 
 def _outline(shape: PartShape, outward: FloatArray) -> float:
-    """Area of the part's box as seen along ``outward`` [m2]."""
+    """Return the area of the part's box as seen along ``outward`` [m2]."""
     across = np.linalg.svd(outward[None])[2][1:]
     flat = shape.corners.reshape(-1, 3)
     # Seen along a coordinate axis the box is the coordinate one; else the frame across is as good
@@ -149,7 +149,7 @@ def component_labels(faces: IntArray) -> IntArray:
 
 
 def _groups(shape: PartShape, candidates: IntArray) -> list[IntArray]:
-    """Candidates by component, components whose boxes touch taken together."""
+    """Return the candidates by component, components whose boxes touch taken together."""
     label = component_labels(shape.welded[candidates])
     count = int(label.max()) + 1
     low = np.full((count, 3), np.inf)

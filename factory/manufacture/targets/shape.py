@@ -38,21 +38,21 @@ class PartShape:
 
     @property
     def centers(self) -> FloatArray:
-        """Centre of each face [m], shape [face_count, 3]."""
+        """Return the centre of each face [m], shape [face_count, 3]."""
         return np.asarray(self.corners.mean(axis=1))
 
     @property
     def center(self) -> FloatArray:
-        """Centre of the surface [m], shape [3]."""
+        """Return the centre of the surface [m], shape [3]."""
         return np.asarray(self.areas @ self.centers / self.areas.sum())
 
     @property
     def middle(self) -> FloatArray:
-        """Middle of the box around it [m], shape [3]."""
+        """Return the middle of the box around it [m], shape [3]."""
         return np.asarray((self.corners.min(axis=(0, 1)) + self.corners.max(axis=(0, 1))) / 2.0)
 
     def only(self, chosen: IntArray | BoolArray) -> PartShape:
-        """Some of its faces."""
+        """Return some of its faces."""
         return PartShape(
             self.parts,
             self.faces[chosen],
@@ -90,7 +90,7 @@ def velocity(joint: Joint, points: FloatArray) -> FloatArray:
 
 
 def lever(joint: Joint, points: FloatArray) -> FloatArray:
-    """Distance from the joint's axis [m]."""
+    """Return the distance from the joint's axis [m]."""
     return np.asarray(np.linalg.norm(np.cross(joint.axis, points - joint.origin), axis=-1))
 
 

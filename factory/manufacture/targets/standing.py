@@ -116,7 +116,7 @@ def _solids(asset: Asset, part: int) -> list[FloatArray]:
 
 
 def _outline(points: FloatArray) -> FloatArray:
-    """Corners of the convex outline, counter-clockwise, shape [corner_count, 2]."""
+    """Return the corners of the convex outline, counter-clockwise, shape [corner_count, 2]."""
     try:
         return np.asarray(points[ConvexHull(points).vertices])
     except QhullError:
@@ -127,7 +127,7 @@ def _outline(points: FloatArray) -> FloatArray:
 
 
 def _distance(outline: FloatArray, places: FloatArray) -> FloatArray:
-    """Distance of points from a convex outline [m], 0 within it, shape [point_count]."""
+    """Return the distance of points from a convex outline [m], 0 within it, shape [point_count]."""
     edges = np.roll(outline, -1, axis=0) - outline
     offset = places[:, None] - outline
     square = np.maximum((edges**2).sum(axis=1), 1e-18)

@@ -48,7 +48,7 @@ class Surroundings:
 
     @cached_property
     def bounds(self) -> FloatArray:
-        """Box around everything [m], shape [2, 3]."""
+        """Return the box around everything [m], shape [2, 3]."""
         return np.stack([self.boxes[0].min(axis=0), self.boxes[1].max(axis=0)])
 
     def inside(self, points: FloatArray) -> BoolArray:
@@ -64,13 +64,13 @@ class Surroundings:
         return found
 
     def around(self, point: FloatArray, reach: float) -> IntArray:
-        """Triangles whose boxes come within ``reach`` of a point along every axis."""
+        """Return the triangles whose boxes come within ``reach`` of a point along every axis."""
         low, high = self.boxes
         return np.flatnonzero(((low <= point + reach) & (high >= point - reach)).all(axis=1))
 
 
 def surroundings_of(articulation: Articulation, hulls: Sequence[Sequence[Hull]]) -> Surroundings:
-    """Meshes and hulls of all parts.
+    """Return the meshes and hulls of all parts.
 
     Args:
         articulation: at rest.
@@ -117,7 +117,7 @@ class HandView:
         return ends_of(self.local)
 
     def _met(self, low: FloatArray, high: FloatArray) -> BoolArray:
-        """Triangles whose boxes meet a box."""
+        """Return the triangles whose boxes meet a box."""
         below, above = self._boxes
         return np.asarray(((above >= low) & (below <= high)).all(axis=1))
 

@@ -76,6 +76,6 @@ class _Pairs(torch.autograd.Function):  # type: ignore[misc]
 
 
 def _passes(rows: Tensor) -> Iterator[slice]:
-    """Samples at a time: all of them, but on a CPU as many as fit its cache."""
+    """Yield the samples at a time: all of them, but on a CPU as many as fit its cache."""
     size = len(rows) if rows.is_cuda else max(1, _CACHED // max(1, rows[0].numel()))
     return (slice(start, start + size) for start in range(0, len(rows), size))

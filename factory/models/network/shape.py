@@ -56,12 +56,12 @@ class NetworkShape:
 
     @property
     def mlp(self) -> int:
-        """Width inside every two-layer perceptron."""
+        """Return the width inside every two-layer perceptron."""
         return self.mlp_ratio * self.hidden
 
     @property
     def embedding(self) -> int:
-        """Numbers that stand for a position or a normal before it is embedded."""
+        """Return the numbers that stand for a position or a normal before it is embedded."""
         return 3 * 2 * FREQUENCIES + (3 if self.raw_coords else 0)
 
 

@@ -156,7 +156,7 @@ def embed_chunks(
     features: Float32Array | None,
     chunk: int = CHUNK,
 ) -> Tensor:
-    """Points before the first block, shape [n, width], float32, where the network is."""
+    """Return the points before the first block, shape [n, width], float32, where the network is."""
     device = network.pos_embed.mlp[0].weight.device
     hidden = torch.empty(len(points), network.shape.hidden, device=device)
     for rows in chunks(len(points), chunk):
@@ -249,7 +249,7 @@ class PairHead:
 
 
 def chunks(count: int, size: int) -> Iterator[slice]:
-    """Slices that cover ``count`` rows, ``size`` at a time."""
+    """Yield the slices that cover ``count`` rows, ``size`` at a time."""
     return (slice(start, min(start + size, count)) for start in range(0, count, size))
 
 

@@ -71,7 +71,7 @@ class PartArticulationTransformer(nn.Module):  # type: ignore[misc]
     def forward(
         self, points: Tensor, normals: Tensor | None, features: Tensor | None
     ) -> tuple[Tensor, Tensor]:
-        """Points and queries after the last block.
+        """Return the points and queries after the last block.
 
         Args:
             points: network frame, shape [batch, n, 3].
@@ -88,7 +88,7 @@ class PartArticulationTransformer(nn.Module):  # type: ignore[misc]
         return hidden, queries
 
     def embed(self, points: Tensor, normals: Tensor | None, features: Tensor | None) -> Tensor:
-        """Points before the first block, shape [..., n, hidden]."""
+        """Return the points before the first block, shape [..., n, hidden]."""
         hidden = self.pos_embed(points)
         if self.shape.normals:
             hidden = hidden + self.normal_embed(normals)

@@ -49,12 +49,12 @@ class PartFieldShape:
 
     @property
     def features(self) -> int:
-        """Channels of a point's feature."""
+        """Return the channels of a point's feature."""
         return self.plane_channels - self.sdf_channels
 
     @property
     def coarse(self) -> int:
-        """Tokens along each side of a plane."""
+        """Return the tokens along each side of a plane."""
         return self.resolution // 4
 
 

@@ -47,7 +47,7 @@ class PointVoxelConv(nn.Module):  # type: ignore[misc]
         self.point_features = PointFeatures(channels)
 
     def forward(self, points: Tensor) -> Tensor:
-        """Features of points within [-1, 1]^3, shape [n, 3] to [1, channels, n]."""
+        """Return the features of points within [-1, 1]^3, shape [n, 3] to [1, channels, n]."""
         inputs = torch.cat([points, 2.0 * points, torch.zeros_like(points[:, :2])], dim=1)
         cells = ((points + 1.0) / 2.0 * GRID).clamp(0.0, GRID - 1.0)
         volume = self.voxel_layers(voxelize(inputs, cells))

@@ -23,7 +23,7 @@ _LEAST = 1e-6
 def component_features(
     points: npt.ArrayLike, normals: npt.ArrayLike, components: IntArray
 ) -> Float32Array:
-    """Features of every point of a cloud that covers the object.
+    """Return the features of every point of a cloud that covers the object.
 
     Args:
         points: network frame, shape [point_count, 3].

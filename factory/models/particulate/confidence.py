@@ -26,7 +26,7 @@ class Assignment:
 
     @property
     def present(self) -> IntArray:
-        """Parts with at least one point, ascending."""
+        """Return the parts with at least one point, ascending."""
         return np.unique(self.parts)
 
 

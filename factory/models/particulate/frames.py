@@ -44,7 +44,7 @@ class UnitBox:
 
     @property
     def outwards(self) -> FloatArray:
-        """Unit to outer frame, shape [4, 4]."""
+        """Return the unit to outer frame, shape [4, 4]."""
         matrix = np.eye(4) * self.size
         matrix[:3, 3] = self.center
         matrix[3, 3] = 1.0

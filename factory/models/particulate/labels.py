@@ -47,7 +47,7 @@ def voted(point_faces: IntArray, point_labels: IntArray, face_count: int) -> Int
 def with_gaps_filled(
     surface: Surface, labels: IntArray, points: FloatArray, point_labels: IntArray
 ) -> IntArray:
-    """Faces labelled -1 take the label of the labelled point nearest to their centre.
+    """Return the faces labelled -1 take the label of the labelled point nearest to their centre.
 
     Args:
         surface: same frame as ``points``.

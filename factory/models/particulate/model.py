@@ -56,7 +56,7 @@ class PointCloud:
             object.__setattr__(self, name, array)
 
     def take(self, rows: IntArray) -> PointCloud:
-        """Some of the points."""
+        """Return some of the points."""
         return PointCloud(
             self.points[rows],
             self.normals[rows],

@@ -147,7 +147,7 @@ def _largest(areas: FloatArray, solid: IntArray, count: int) -> IntArray:
 
 
 def _weighted(weights: FloatArray, count: int, rng: np.random.Generator) -> IntArray:
-    """Indices drawn in proportion to ``weights``, shape [count]."""
+    """Return the indices drawn in proportion to ``weights``, shape [count]."""
     if not count:
         return np.zeros(0, dtype=np.int64)
     total = np.cumsum(weights)

@@ -89,7 +89,7 @@ class Surface:
 
     @cached_property
     def areas(self) -> FloatArray:
-        """Area of each face, 0 for slivers, shape [face_count]."""
+        """Return the area of each face, 0 for slivers, shape [face_count]."""
         a, b, c = (self.vertices[self.faces[:, k]] for k in range(3))
         longest = np.maximum(np.maximum(_squared(b - a), _squared(c - b)), _squared(a - c))
         doubled = np.linalg.norm(self.crosses, axis=1)
@@ -97,7 +97,7 @@ class Surface:
 
     @cached_property
     def normals(self) -> FloatArray:
-        """Unit normals, zero for faces without area, shape [face_count, 3]."""
+        """Return the unit normals, zero for faces without area, shape [face_count, 3]."""
         solid = self.areas > 0.0
         return np.asarray(
             self.crosses * np.where(solid, 0.5 / np.where(solid, self.areas, 1.0), 0.0)[:, None]
@@ -110,7 +110,7 @@ class Surface:
 
     @cached_property
     def neighbours(self) -> IntArray:
-        """Pairs of faces that border on one another, shape [pair_count, 2].
+        """Return the pairs of faces that border on one another, shape [pair_count, 2].
 
         They share an edge that no third face shares: boxes that only touch along an edge stay
         apart. Faces on the same three corners count once and border on one another, so that a
@@ -134,7 +134,7 @@ class Surface:
 
     @cached_property
     def borders(self) -> FloatArray:
-        """Length that each pair of neighbours shares, shape [pair_count]."""
+        """Return the length that each pair of neighbours shares, shape [pair_count]."""
         one, other = self.faces[self.neighbours].transpose(1, 0, 2)
         shared = (one[:, :, None] == other[:, None, :]).any(axis=2)
         ends = np.argsort(~shared, axis=1, kind="stable")[:, :2]

@@ -65,7 +65,7 @@ def metadata_files(rows: list[dict[str, Any]]) -> dict[str, bytes]:
 
 
 def _schema(arrow: Any) -> Any:
-    """Types that do not depend on what the first rows happen to hold."""
+    """Return the types that do not depend on what the first rows happen to hold."""
     text = arrow.string()
     texts = arrow.list_(arrow.string())
     special = {

@@ -147,7 +147,7 @@ def slowest(attempts: Sequence[NightResult], most: int = SLOWEST) -> tuple[Night
 
 
 def licenses(attempts: Sequence[NightResult]) -> tuple[LicenseCount, ...]:
-    """Inputs by license, the most frequent first."""
+    """Return the inputs by license, the most frequent first."""
     totals = Counter(attempt.license for attempt in attempts)
     counts = Counter((attempt.license, attempt.status) for attempt in attempts)
     names = sorted(totals, key=lambda name: (-totals[name], name))

@@ -38,7 +38,7 @@ def nights_of(output: Path) -> Path:
 
 
 def names(nights: Path) -> tuple[str, ...]:
-    """Names of all nights there are, finished or not, sorted."""
+    """Return the names of all nights there are, finished or not, sorted."""
     folders = nights.iterdir() if nights.is_dir() else ()
     return tuple(
         sorted(path.name for path in folders if path.is_dir() and _NAME.fullmatch(path.name))
@@ -46,7 +46,7 @@ def names(nights: Path) -> tuple[str, ...]:
 
 
 def unfinished(nights: Path) -> tuple[str, ...]:
-    """Names of the nights that were interrupted and could go on."""
+    """Return the names of the nights that were interrupted and could go on."""
     return tuple(name for name in names(nights) if (nights / name / JOURNAL).is_file())
 
 

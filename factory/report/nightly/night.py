@@ -123,7 +123,7 @@ class Night:
 
     @property
     def attempted(self) -> int:
-        """Inputs with a verdict, or without one because they could not be judged."""
+        """Return the inputs with a verdict, or without one because they could not be judged."""
         return self.passed + self.rejected + self.unjudged
 
     @property

@@ -39,7 +39,7 @@ def index_of(root: Path) -> Path:
 
 
 def stale(registry: Registry) -> Iterator[Entry]:
-    """Entries whose page is missing or old; pages of what is gone are removed first."""
+    """Yield the entries whose page is missing or old; pages of what is gone are removed first."""
     folder = registry.root / PAGES / _ASSETS
     entries = tuple(registry.walk())
     known = {entry.id for entry in entries}

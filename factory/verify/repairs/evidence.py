@@ -41,7 +41,7 @@ class RepairEvidence:
         return frozenset(finding.code for finding in self.hard)
 
     def found(self, code: str) -> Iterator[Finding]:
-        """Findings of one code, hard and soft."""
+        """Yield the findings of one code, hard and soft."""
         return (each for each in self.verdict.report.findings if each.code == code)
 
     def contacts(self) -> Iterator[MeasuredContact]:
@@ -61,5 +61,5 @@ def ordered(one: str, other: str) -> Pair:
 
 
 def listed(pairs: frozenset[Pair]) -> str:
-    """Pairs of parts, for a sentence."""
+    """Return the pairs of parts, for a sentence."""
     return ", ".join(f"{a} and {b}" for a, b in sorted(pairs))

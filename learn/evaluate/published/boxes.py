@@ -18,14 +18,14 @@ def volume(box: FloatArray) -> float:
 
 
 def iou(a: FloatArray, b: FloatArray) -> float:
-    """Intersection over union; 0 where both are flat."""
+    """Return the intersection over union; 0 where both are flat."""
     shared = volume(np.stack([np.maximum(a[0], b[0]), np.minimum(a[1], b[1])]))
     union = volume(a) + volume(b) - shared
     return shared / union if union > 0.0 else 0.0
 
 
 def enclosing(a: FloatArray, b: FloatArray) -> float:
-    """Volume of the smallest box around both."""
+    """Return the volume of the smallest box around both."""
     return volume(np.stack([np.minimum(a[0], b[0]), np.maximum(a[1], b[1])]))
 
 
@@ -36,6 +36,6 @@ def giou(a: FloatArray, b: FloatArray) -> float:
 
 
 def generalised(shared: float, union: float, hull: float) -> float:
-    """Intersection over union less the share of the hull that the union leaves empty."""
+    """Return the intersection over union less the share of the hull that the union leaves empty."""
     share = shared / union if union > 0.0 else 0.0
     return share - ((hull - union) / hull if hull > 0.0 else 0.0)

@@ -38,7 +38,7 @@ class ScoredCloud:
 
     @property
     def present(self) -> IntArray:
-        """Parts that have points, ascending."""
+        """Return the parts that have points, ascending."""
         return np.unique(self.labels)
 
     def at(self, share: float) -> FloatArray:
@@ -57,7 +57,7 @@ class ScoredCloud:
     def poses(
         self, share: float, *, from_rest: bool = False, one_motion: bool = False
     ) -> FloatArray:
-        """Motions of the parts relative to rest, shape [part_count, 4, 4].
+        """Return the motions of the parts relative to rest, shape [part_count, 4, 4].
 
         Args:
             share: of each joint's range.

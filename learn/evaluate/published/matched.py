@@ -26,7 +26,7 @@ class Matching:
     true: int
 
     def scored(self, values: FloatArray, back: FloatArray, penalty: float | None) -> float:
-        """Mean over predicted and mean over true parts, averaged.
+        """Return the mean over predicted and mean over true parts, averaged.
 
         Args:
             values: of each pair, seen from the predicted part, shape [pair_count].

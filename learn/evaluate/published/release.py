@@ -103,6 +103,6 @@ def _overlap(
 def _share_inside(
     box: FloatArray, other: FloatArray, pose: FloatArray, rng: np.random.Generator
 ) -> float:
-    """Share of one box that lies, moved, in another."""
+    """Return the share of one box that lies, moved, in another."""
     points = rng.uniform(box[0], box[1], size=(SAMPLES, 3)) @ pose[:3, :3].T + pose[:3, 3]
     return float(((points >= other[0]) & (points <= other[1])).all(axis=1).mean())

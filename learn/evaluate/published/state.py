@@ -19,7 +19,7 @@ def compared(
     matching: Matching,
     prefix: str,
 ) -> dict[str, float]:
-    """Agreement of boxes and points of matched parts.
+    """Return the agreement of boxes and points of matched parts.
 
     Args:
         true: the truth.

@@ -129,7 +129,7 @@ def _columns(a: Assembly, width: float, each: Span, least: int, most: int) -> in
 
 
 def _uneven(a: Assembly, nodes: list[Node], low: float, high: float) -> Node:
-    """Cells beside each other, their widths drawn."""
+    """Return the cells beside each other, their widths drawn."""
     return row(*((a.draw(low, high), node) for node in nodes))
 
 

@@ -241,7 +241,7 @@ Maker = Callable[[Assembly], None]
 
 
 def named(*makers: Maker) -> dict[str, Maker]:
-    """Kinds of object by the names of what describes them."""
+    """Return the kinds of object by the names of what describes them."""
     return {getattr(maker, "__name__", ""): maker for maker in makers}
 
 
@@ -267,7 +267,7 @@ def _joints(draft: PartDraft, parent: int, child: int, offset: FloatArray) -> li
 def _joined(
     drafts: list[PartDraft], hairline: float
 ) -> tuple[FloatArray, IntArray, IntArray, tuple[Material, ...]]:
-    """Vertices, faces, the material of each face, and materials; parts in order."""
+    """Return the vertices, faces, the material of each face, and materials; parts in order."""
     vertices: list[FloatArray] = []
     faces: list[IntArray] = []
     looks: list[int] = []

@@ -112,17 +112,17 @@ def divided(
 
 
 def column(*children: tuple[float, Node]) -> Node:
-    """Cells upon each other, bottom first, with their shares."""
+    """Return the cells upon each other, bottom first, with their shares."""
     return children[0][1] if len(children) == 1 else ("v", children)
 
 
 def row(*children: tuple[float, Node]) -> Node:
-    """Cells beside each other, left first, with their shares."""
+    """Return the cells beside each other, left first, with their shares."""
     return children[0][1] if len(children) == 1 else ("h", children)
 
 
 def drawers(chance: Chance, count: int) -> Node:
-    """Drawers upon each other: equal, or lower ones taller."""
+    """Return the drawers upon each other: equal, or lower ones taller."""
     taper = chance.pick(0.0, 0.0, chance.draw(0.03, 0.3))
     heights = [max(0.35, 1.0 - taper * i) for i in range(count)]
     if count > 1 and chance.happens(0.2):

@@ -13,7 +13,7 @@ from .spans import Flat, Span, size, within
 
 @lru_cache(maxsize=64)
 def circle(sides: int) -> FloatArray:
-    """Cosines and sines of a regular polygon's corners, shape [2, sides]."""
+    """Return the cosines and sines of a regular polygon's corners, shape [2, sides]."""
     # Half a step makes a square of four corners upright.
     angle = 2.0 * np.pi * (np.arange(sides) + 0.5) / sides
     return np.stack([np.cos(angle), np.sin(angle)])
@@ -26,7 +26,7 @@ def arc(center: Flat, radius: float, start: float, stop: float, count: int) -> F
 
 
 def oval(half_x: float, half_y: float, count: int = 28) -> FloatArray:
-    """Points on an ellipse about the origin, shape [count, 2]."""
+    """Return the points on an ellipse about the origin, shape [count, 2]."""
     return circle(count).T * (half_x, half_y)
 
 

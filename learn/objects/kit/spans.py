@@ -37,7 +37,7 @@ def within(outer: Span, margin: float, other: float | None = None) -> Span:
 
 
 def ends(of: Span, length: float) -> tuple[Span, Span]:
-    """Spans of this length at the lower and at the upper end of another, inside it."""
+    """Return the spans of this length at the lower and at the upper end of another, inside it."""
     return span(of[0], length), span(of[1], -length)
 
 

@@ -110,7 +110,7 @@ def _rigid(pose: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _inertia(prim: Any, scale: FloatArray, kilograms: float) -> LinkInertia | None:
-    """Mass, centre and tensor as stated; ``None`` where an engine would make them up."""
+    """Return the mass, centre and tensor as stated; ``None`` where an engine would make them up."""
     from pxr import UsdPhysics
 
     if not prim.HasAPI(UsdPhysics.MassAPI):
