@@ -1,4 +1,4 @@
-"""How large triangles are, and how far they reach."""
+"""How large triangles are, which way they face, and how far they reach."""
 
 from __future__ import annotations
 
@@ -7,10 +7,24 @@ import numpy as np
 from ..mesh import FloatArray, Mesh
 
 
+def doubled_normals(corners: FloatArray) -> FloatArray:
+    """Return each triangle's normal times twice its area [m2], shape [n, 3].
+
+    Args:
+        corners: positions [m], shape [n, 3, 3].
+    """
+    first = corners[:, 0]
+    return np.asarray(np.cross(corners[:, 1] - first, corners[:, 2] - first))
+
+
+def areas_of(corners: FloatArray) -> FloatArray:
+    """Return the area of each triangle [m2], shape [n]; ``corners`` [m] have shape [n, 3, 3]."""
+    return np.asarray(np.linalg.norm(doubled_normals(corners), axis=1) / 2.0)
+
+
 def face_areas(mesh: Mesh) -> FloatArray:
     """Return the area of every face [m2], shape [face_count]."""
-    a, b, c = (mesh.vertices[mesh.faces[:, corner]] for corner in range(3))
-    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0)
+    return areas_of(mesh.vertices[mesh.faces])
 
 
 def ends_of(corners: FloatArray) -> tuple[FloatArray, FloatArray]:

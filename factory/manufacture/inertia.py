@@ -17,12 +17,14 @@ from dataclasses import dataclass
 import manifold3d
 import numpy as np
 from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import breadth_first_order, connected_components
+from scipy.sparse.csgraph import breadth_first_order
 
 from ..asset import Hull, Inertial
 from ..config import InertiaConfig
 from ..errors import InvalidAsset
+from ..geometry.edges import label_linked, shared_edges
 from ..geometry.rows import distinct_rows
+from ..geometry.triangles import areas_of, doubled_normals
 from ..mesh import FloatArray, IntArray, Mesh
 
 #: Lighter bodies make constraint solvers ill-conditioned beside furniture of many kilograms [kg].
@@ -129,7 +131,7 @@ def _mesh_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _M
         points = vertices[used]
         triangles = compact.reshape(-1, 3)
         oriented = _consistently_wound(triangles)
-        area = float(_areas(points, triangles).sum())
+        area = float(areas_of(points[triangles]).sum())
         volume = 0.0 if oriented is None else abs(_solid_moments(points, oriented).mass)
         if oriented is None:
             total += _sheet_moments(points, triangles, thickness)
@@ -142,57 +144,27 @@ def _mesh_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _M
 
 def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
     """Faces with an area, one of each set of corners: back-to-back copies are one sheet."""
-    real = faces[_areas(vertices, faces) > 0.0]
+    real = faces[areas_of(vertices[faces]) > 0.0]
     first, _ = distinct_rows(np.sort(real, axis=1))
     return real[np.sort(first)]
 
 
-def _areas(vertices: FloatArray, faces: IntArray) -> FloatArray:
-    a, b, c = (vertices[faces[:, i]] for i in range(3))
-    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0)
-
-
-def _edge_pairs(faces: IntArray) -> tuple[IntArray, IntArray, bool]:
-    """Pairs of faces that alone share an edge, whether they wind alike, and if all edges are so.
-
-    Returns:
-        Face indices, shape [pair_count, 2]; 1 where the two must be wound differently, shape
-        [pair_count]; whether the surface is closed.
-    """
-    directed = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
-    owner = np.tile(np.arange(len(faces)), 3)
-    ordered = np.sort(directed, axis=1)
-    order = np.lexsort((ordered[:, 1], ordered[:, 0]))
-    sorted_edges = ordered[order]
-    starts = (
-        np.flatnonzero(np.r_[True, (np.diff(sorted_edges, axis=0) != 0).any(axis=1)])
-        if len(order)
-        else order
-    )
-    counts = np.diff(np.r_[starts, len(order)])
-    first = starts[counts == 2]
-    one = order[first]
-    two = order[first + 1]
-    flipped = (directed[one, 0] == directed[two, 0]).astype(np.int64)
-    return np.stack([owner[one], owner[two]], axis=1), flipped, bool((counts == 2).all())
-
-
 def _components(faces: IntArray) -> list[IntArray]:
-    """Faces connected across edges of exactly two faces: solids that merely touch stay apart."""
+    """Group faces over edges of exactly two faces: solids that merely touch stay apart."""
     if not len(faces):
         return []
-    pairs, _, _ = _edge_pairs(faces)
-    graph = coo_matrix((np.ones(len(pairs)), pairs.T), shape=(len(faces), len(faces)))
-    label = connected_components(graph, directed=False)[1]
+    label = label_linked(len(faces), shared_edges(faces).faces)
     order = np.argsort(label, kind="stable")
     return np.split(faces[order], np.flatnonzero(np.diff(label[order])) + 1)
 
 
 def _consistently_wound(faces: IntArray) -> IntArray | None:
-    """The faces of one component, rewound where needed; ``None`` if it is open or one-sided."""
-    pairs, flipped, closed = _edge_pairs(faces)
-    if not closed:
+    """Rewind the faces of one component alike; ``None`` if it is open or one-sided."""
+    shared = shared_edges(faces)
+    if 2 * len(shared.faces) < 3 * len(faces):
         return None
+    pairs = shared.faces
+    flipped = (~shared.alike).astype(np.int64)
     if not flipped.any():
         return faces
     count = len(faces)
@@ -218,11 +190,12 @@ def _solid_moments(vertices: FloatArray, faces: IntArray) -> _Moments:
 
 
 def _sheet_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _Moments:
-    a, b, c = (vertices[faces[:, i]] for i in range(3))
-    cross = np.cross(b - a, c - a)
+    corners = vertices[faces]
+    cross = doubled_normals(corners)
     double = np.linalg.norm(cross, axis=1)
     volume = double / 2.0 * thickness
     normal = cross / double[:, None]
+    a, b, c = corners.transpose(1, 0, 2)
     total = a + b + c
     second = sum((p * volume[:, None]).T @ p for p in (a, b, c, total)) / 12.0
     across = (normal * volume[:, None]).T @ normal * thickness**2 / 12.0

@@ -6,6 +6,7 @@ import numpy as np
 
 from ...articulation import Articulation, rotation_about
 from ...asset import Hull
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray
 
 #: Smaller angles are those of faces, not of the object [rad].
@@ -19,7 +20,7 @@ def working_frame(articulation: Articulation, parts: tuple[int, ...]) -> FloatAr
     mesh = articulation.mesh
     faces = np.concatenate([articulation.parts[part].faces for part in parts])
     corners = mesh.vertices[mesh.faces[faces]]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = doubled_normals(corners)
     area = np.linalg.norm(normals, axis=1)
     upright = np.abs(normals[:, 2]) < LEVEL * area
     normals = normals[upright]

@@ -10,6 +10,7 @@ from scipy import ndimage
 
 from ...articulation import Joint, JointKind
 from ...geometry.crossings import BoolArray, Side
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, IntArray, Mesh
 from .box import Box
 from .views import PartView
@@ -213,7 +214,7 @@ def _rim(
 ) -> float | None:
     """Return the depth down to which nine tenths of the faces around a part's rim reach [m]."""
     corners = (mesh.vertices @ view.side.frame.T)[mesh.faces[faces]]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = doubled_normals(corners)
     area = np.linalg.norm(normals, axis=1)
     middle = corners.mean(axis=1)
     low, high = rectangle

@@ -9,6 +9,7 @@ import numpy as np
 from ...articulation import Articulation, Joint, JointKind
 from ...geometry.crossings import BoolArray, Side
 from ...geometry.posing import face_parts
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray
 from .box import Box
 from .bump import Bump, find_bump
@@ -151,8 +152,7 @@ def _behind(panel: FlatPanel, depth: float = OWN_BACK_M) -> Box:
 
 def _inner_side(skin: CutSkin, frame: FloatArray) -> BoolArray:
     """Return the triangles that look away from a side's viewer."""
-    edges = skin.corners[:, 1:] - skin.corners[:, :1]
-    normals = np.cross(edges[:, 0], edges[:, 1])
+    normals = doubled_normals(skin.corners)
     return np.asarray(normals @ frame[2] > 0.5 * np.linalg.norm(normals, axis=1))
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from ...articulation import Articulation
 from ...geometry.crossings import BoolArray
+from ...geometry.edges import shared_edges
 from ...geometry.posing import face_parts
 from ...mesh import FloatArray, IntArray, Mesh
 from .plates import bare_fronts, plates
@@ -49,16 +50,10 @@ def border(mesh: Mesh, part: IntArray) -> tuple[IntArray, IntArray]:
     Returns:
         Vertices, shape [n, 2], and the two parts, shape [n, 2].
     """
-    edges = np.sort(mesh.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    owner = np.repeat(part, 3)
-    order = np.lexsort((edges[:, 1], edges[:, 0]))
-    edges = edges[order]
-    owner = owner[order]
-    starts = np.flatnonzero(np.r_[True, (np.diff(edges, axis=0) != 0).any(axis=1)])
-    pairs = starts[np.diff(np.r_[starts, len(edges)]) == 2]
-    both = np.stack([owner[pairs], owner[pairs + 1]], axis=1)
+    shared = shared_edges(mesh.faces)
+    both = part[shared.faces]
     apart: BoolArray = both[:, 0] != both[:, 1]
-    return edges[pairs][apart], both[apart]
+    return shared.vertices[apart], both[apart]
 
 
 def _shared_border(mesh: Mesh, part: IntArray, count: int) -> FloatArray:

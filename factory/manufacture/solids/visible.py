@@ -11,6 +11,7 @@ from ...asset import Hull, InnerSurface
 from ...geometry.colors import linear_of
 from ...geometry.crossings import BoolArray
 from ...geometry.rows import distinct_rows
+from ...geometry.triangles import areas_of
 from ...mesh import FloatArray, IntArray, Material, Mesh
 from ..decompose.outside import outside
 from .box import Box
@@ -134,8 +135,8 @@ def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
 def hull_surfaces(work: Workpiece, part: int, hulls: tuple[Hull, ...]) -> None:
     """All of a part's pieces: of one whose own skin is only a shred."""
     triangles = [hull.vertices[hull.faces] for hull in hulls]
-    own = _areas(work.skin.corners[work.skin.part == part]).sum()
-    if triangles and own < SHRED * sum(_areas(each).sum() for each in triangles):
+    own = areas_of(work.skin.corners[work.skin.part == part]).sum()
+    if triangles and own < SHRED * sum(areas_of(each).sum() for each in triangles):
         record = InnerSurface(work.name(part), "body", "pieces")
         work.add(part, np.concatenate(triangles), None, record)
 
@@ -170,7 +171,7 @@ def meshed(work: Workpiece) -> Articulation:
     material = [mesh.face_material[skin.face]]
     for index, triangles in sorted(work.added.items()):
         inner = np.concatenate(triangles)
-        inner = inner[_areas(inner) > 1e-12]
+        inner = inner[areas_of(inner) > 1e-12]
         material.append(np.full(len(inner), _material(work, index, materials)))
         corners.append(inner)
         part.append(np.full(len(inner), index))
@@ -188,11 +189,6 @@ def meshed(work: Workpiece) -> Articulation:
         for index, each in enumerate(work.source.parts)
     )
     return replace(work.source, mesh=made, parts=parts, joints=tuple(work.joints))
-
-
-def _areas(corners: FloatArray) -> FloatArray:
-    a, b, c = corners.transpose(1, 0, 2)
-    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0)
 
 
 def _mixed(values: FloatArray | None, skin: CutSkin, count: int) -> FloatArray | None:
