@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from ...articulation import Articulation
-from ...asset import Handle
 from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray, IntArray
+from ...part import Handle
 from .protrusions import (
     LOOKS_OUT,
     ProtrudingFront,

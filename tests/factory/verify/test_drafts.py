@@ -75,13 +75,13 @@ def _blocked(right: Articulation) -> Articulation:
 
 
 def _reading_as(monkeypatch: pytest.MonkeyPatch, *changes: object) -> None:
-    likeliest = standing.readings
+    likeliest = standing.hypotheses
 
-    def readings(*asked: object) -> tuple[Articulation, ...]:
+    def hypotheses(*asked: object) -> tuple[Hypothesis, ...]:
         (right,) = likeliest(*asked)
         return tuple(change(right) for change in changes)
 
-    monkeypatch.setattr(standing, "readings", readings)
+    monkeypatch.setattr(standing, "hypotheses", hypotheses)
 
 
 CONFIG = BuildConfig(simulators=())

@@ -26,9 +26,9 @@ CONFIG = BuildConfig(simulators=())
 def guessed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The joints of the example, as guesses, the surest first."""
     names: list[str] = []
-    likeliest = standing.readings
+    likeliest = standing.hypotheses
 
-    def readings(*asked: object) -> tuple[Articulation, ...]:
+    def hypotheses(*asked: object) -> tuple[Hypothesis, ...]:
         (right,) = likeliest(*asked)
         joints = tuple(
             replace(joint, confidence=0.9 - 0.1 * number)
@@ -37,7 +37,7 @@ def guessed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         names[:] = [joint.name for joint in joints]
         return (replace(right, joints=joints),)
 
-    monkeypatch.setattr(standing, "readings", readings)
+    monkeypatch.setattr(standing, "hypotheses", hypotheses)
     return names
 
 
