@@ -13,7 +13,7 @@ WELD_SHARE = 1e-6
 
 
 def connected_components(mesh: Mesh) -> IntArray:
-    """Component number of every face, shape [face_count].
+    """Return the component number of every face, shape [face_count].
 
     Vertices are welded by position, faces on the same three vertices count once, and two faces are
     neighbours over an edge that exactly two faces share. So a double-sided sheet is one component
@@ -36,14 +36,14 @@ def connected_components(mesh: Mesh) -> IntArray:
 
 
 def _weld(mesh: Mesh) -> IntArray:
-    """Index of the welded vertex of every vertex, shape [vertex_count]."""
+    """Return the index of the welded vertex of every vertex, shape [vertex_count]."""
     tolerance = max(mesh.diagonal * WELD_SHARE, 1e-12)
     cells = np.round((mesh.vertices - mesh.bounds[0]) / tolerance).astype(np.int64)
     return distinct_rows(cells)[1]
 
 
 def _label_faces(faces: IntArray, proper: IntArray) -> IntArray:
-    """Number the components of faces with sorted corners; those not ``proper`` stay alone."""
+    """Return the components of faces with sorted corners; those not ``proper`` stay alone."""
     rows = np.flatnonzero(proper)
     return label_linked(len(faces), rows[shared_edges(faces[proper]).faces])
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..mesh import FloatArray, IntArray
 from .crossings import BoolArray
-from .triangles import ends_of
+from .triangles import FOLLOWING, ends_of
 
 #: Corners 0 to 2 are a triangle's own, 3 to 5 lie on its edges 0-1, 1-2 and 2-0; -1: no piece. By
 #: the edges that are divided: 1, 2 and 4, added up.
@@ -51,7 +51,7 @@ class Pieces:
         Returns:
             Shape [piece_count, 3, k].
         """
-        between = values + self.share[..., None] * (np.roll(values, -1, axis=1) - values)
+        between = values + self.share[..., None] * (values[:, FOLLOWING] - values)
         six = np.concatenate([values, between], axis=1)
         return np.asarray(six[self.whole[:, None], self.corner])
 
@@ -74,7 +74,7 @@ def cut_at_zero(height: FloatArray) -> Pieces:
     Args:
         height: of every corner, shape [triangle_count, 3], at least one triangle.
     """
-    following = np.roll(height, -1, axis=1)
+    following = height[:, FOLLOWING]
     edges = height * following < 0.0
     share = np.divide(height, height - following, out=np.zeros_like(height), where=edges)
     return divide(edges, share)

@@ -10,9 +10,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ..mesh import IntArray
-
-#: Pairs of corners along a triangle's edges, in its direction.
-AROUND = np.array([[0, 1], [1, 2], [2, 0]])
+from .triangles import FOLLOWING
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +30,7 @@ class SharedEdges:
 
 def shared_edges(faces: IntArray) -> SharedEdges:
     """Find the edges that exactly two faces share; ``faces`` has shape [face_count, 3]."""
-    directed = faces[:, AROUND].reshape(-1, 2)
+    directed = np.stack([faces, faces[:, FOLLOWING]], axis=2).reshape(-1, 2)
     low = directed.min(axis=1)
     high = directed.max(axis=1)
     key = low * (int(faces.max(initial=-1)) + 1) + high
@@ -50,7 +48,7 @@ def shared_edges(faces: IntArray) -> SharedEdges:
 
 
 def label_linked(count: int, links: npt.NDArray[np.integer]) -> IntArray:
-    """Number what hangs together.
+    """Find groups of linked things.
 
     Args:
         count: how many things there are.

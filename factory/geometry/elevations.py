@@ -43,7 +43,7 @@ class Elevation:
 
     @cached_property
     def normal(self) -> FloatArray:
-        """Unit normals of the triangles in the side's frame, shape [rows, columns, 3]; 0: none."""
+        """Return unit normals in the side's frame, shape [rows, columns, 3]; 0: nothing."""
         normals = doubled_normals(self.mesh.vertices[self.mesh.faces]) @ self.raster.side.frame.T
         length = np.linalg.norm(normals, axis=1, keepdims=True)
         normals = np.divide(normals, length, out=np.zeros_like(normals), where=length > 0.0)
@@ -51,7 +51,7 @@ class Elevation:
 
     @cached_property
     def color(self) -> FloatArray:
-        """Base colours as they are shown (sRGB) in [0, 1], shape [rows, columns, 3]; 0: nothing."""
+        """Return base colours as shown (sRGB) in [0, 1], shape [rows, columns, 3]; 0: nothing."""
         picture = np.zeros((*self.face.shape, 3))
         material = np.where(self.seen, self.mesh.face_material[self.face], -1)
         for index, each in enumerate(self.mesh.materials):

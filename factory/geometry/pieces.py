@@ -57,7 +57,7 @@ class Sheet:
 
 
 def pieces(sheet: Sheet) -> IntArray:
-    """Number of each face's piece, shape [face_count].
+    """Return the number of each face's piece, shape [face_count].
 
     Components are pieces; but one of most of the area is cut, and with it all that is as large.
     """
@@ -78,7 +78,7 @@ def pieces(sheet: Sheet) -> IntArray:
 
 
 def _turns(sheet: Sheet) -> FloatArray:
-    """Angle between the smoothed normals of each pair of neighbours [deg], shape [pair_count]."""
+    """Return the angle between neighbours' smoothed normals [deg], shape [pair_count]."""
     one, other = sheet.neighbours.T
     count = len(sheet.areas)
     ends = (np.concatenate([one, other]), np.concatenate([other, one]))

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from ..mesh import FloatArray, Mesh
+
+#: The corner after each of a triangle's three.
+FOLLOWING = [1, 2, 0]
 
 
 def doubled_normals(corners: FloatArray) -> FloatArray:
@@ -41,3 +45,31 @@ def ends_of(corners: FloatArray) -> tuple[FloatArray, FloatArray]:
     low = np.minimum(np.minimum(first, second), third)
     high = np.maximum(np.maximum(first, second), third)
     return low, high
+
+
+def meet_box(corners: FloatArray, low: FloatArray, high: FloatArray) -> npt.NDArray[np.bool_]:
+    """Tell which triangles meet an axis-aligned box, by separating axes (Akenine-Moller 2001).
+
+    Args:
+        corners: [m], shape [n, 3, 3].
+        low: the box's lower corner [m], shape [3].
+        high: its upper corner [m].
+
+    Returns:
+        Shape [n].
+    """
+    half = (high - low) / 2.0
+    local = corners - (low + high) / 2.0
+    edges = local[:, FOLLOWING] - local
+    least, most = ends_of(local)
+    normals = np.cross(edges[:, 0], edges[:, 1])
+    offsets = np.abs(np.einsum("nk,nk->n", normals, local[:, 0]))
+    across = np.cross(np.eye(3), edges[:, :, None]).reshape(-1, 9, 3)
+    heights = np.einsum("nak,nck->nca", across, local)
+    reach = np.abs(across) @ half
+    lowest, highest = ends_of(heights)
+    return np.asarray(
+        ((least <= half) & (most >= -half)).all(axis=1)
+        & (offsets <= np.abs(normals) @ half)
+        & ((lowest <= reach) & (highest >= -reach)).all(axis=1)
+    )

@@ -13,7 +13,7 @@ from ..articulation import Articulation
 def welded(
     articulation: Articulation, joints: Collection[str], onto: Mapping[str, int] | None = None
 ) -> Articulation:
-    """The same object without some of its joints: what they moved belongs to what they hung on.
+    """Return the object without some joints: what they moved joins what they hung on.
 
     Args:
         articulation: any.

@@ -100,7 +100,7 @@ def part_inertial(
 
 
 def carrier_inertial(child: Inertial, origin: FloatArray) -> Inertial:
-    """A small sphere for a link without geometry, light beside what hangs on it but not negligible.
+    """Return a small sphere for a link without geometry: light beside what hangs on it.
 
     Args:
         child: of the link that hangs on it.
@@ -123,7 +123,7 @@ def _inertial(moments: _Moments, reference: FloatArray) -> Inertial:
 
 
 def _mesh_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _Moments:
-    """Per unit of density: mass is a volume [m3]."""
+    """Return moments per unit of density: mass is a volume [m3]."""
     closed: list[tuple[FloatArray, IntArray]] = []
     total = _NOTHING
     for component in _components(_without_repeats(vertices, faces)):
@@ -143,7 +143,7 @@ def _mesh_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _M
 
 
 def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
-    """Faces with an area, one of each set of corners: back-to-back copies are one sheet."""
+    """Return faces with an area, one of each set of corners: back-to-back copies are one."""
     real = faces[areas_of(vertices[faces]) > 0.0]
     first, _ = distinct_rows(np.sort(real, axis=1))
     return real[np.sort(first)]
@@ -159,7 +159,7 @@ def _components(faces: IntArray) -> list[IntArray]:
 
 
 def _consistently_wound(faces: IntArray) -> IntArray | None:
-    """Rewind the faces of one component alike; ``None`` if it is open or one-sided."""
+    """Return the faces of one component, wound alike; ``None`` if it is open or one-sided."""
     shared = shared_edges(faces)
     if 2 * len(shared.faces) < 3 * len(faces):
         return None
@@ -203,7 +203,7 @@ def _sheet_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _
 
 
 def _union_moments(closed: list[tuple[FloatArray, IntArray]]) -> _Moments:
-    """Of closed, consistently wound components: solids united, cavities removed, largest first."""
+    """Add up closed, consistently wound components: solids united, cavities removed."""
     signed = np.array([_solid_moments(*component).mass for component in closed])
     order = np.argsort(-np.abs(signed), kind="stable")
     hollow = _cavities(closed, signed)
@@ -239,7 +239,7 @@ def _manifold_moments(body: manifold3d.Manifold) -> _Moments:
 
 
 def _cavities(closed: list[tuple[FloatArray, IntArray]], signed: FloatArray) -> list[bool]:
-    """Which components bound a cavity: they face opposite to the outermost one around them."""
+    """Find components that bound a cavity: they face opposite to the outermost one around."""
     hollow = [False] * len(closed)
     if not (signed > 0.0).any() or not (signed < 0.0).any():
         return hollow

@@ -50,7 +50,7 @@ def joints_between(articulation: Articulation, a: int, b: int) -> list[Joint]:
 
 
 def _joints_above(articulation: Articulation, part: int) -> list[Joint]:
-    """From the one that holds a part up to the root's."""
+    """Return the joints from the one that holds a part up to the root's."""
     found = []
     joint = articulation.parent_joint(part)
     while joint is not None:
@@ -68,7 +68,7 @@ def _pose(joints: list[Joint], values: dict[str, float]) -> FloatArray:
 
 
 def jointed(articulation: Articulation, a: int, b: int) -> bool:
-    """Whether one of two parts is held in the other by a joint, or by several without a body.
+    """Return whether one of two parts is held in the other: by a joint, or over empty links.
 
     A cap that turns and lifts hangs on a link without geometry between its two joints.
     """

@@ -16,7 +16,7 @@ LEVEL = 0.3
 
 
 def working_frame(articulation: Articulation, parts: tuple[int, ...]) -> FloatArray:
-    """Rows of the frame in which most upright faces of some parts look along an axis, [3, 3]."""
+    """Return the frame (rows) along whose axes most upright faces of some parts look, [3, 3]."""
     mesh = articulation.mesh
     faces = np.concatenate([articulation.parts[part].faces for part in parts])
     corners = mesh.vertices[mesh.faces[faces]]
@@ -38,7 +38,8 @@ def working_frame(articulation: Articulation, parts: tuple[int, ...]) -> FloatAr
 
 
 def turned_hull(hull: Hull, rotation: FloatArray) -> Hull:
-    """Return a hull turned by a rotation, shape [3, 3]."""
+    """Return a hull turned, or mirrored, by ``rotation``, shape [3, 3]."""
     if np.array_equal(rotation, np.eye(3)):
         return hull
-    return Hull(hull.vertices @ rotation.T, hull.faces)
+    faces = hull.faces[:, ::-1] if np.linalg.det(rotation) < 0.0 else hull.faces
+    return Hull(hull.vertices @ rotation.T, faces)

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...articulation import Articulation, Joint, JointKind
-from ...geometry.crossings import Raster, Side, crossings
-from ...mesh import FloatArray, Mesh
+from ...articulation import Articulation, JointKind
+from ...geometry.crossings import Raster, Side, crossings, side_facing
+from ...mesh import FloatArray
+from ...part import Proposer
 
-#: Who takes parts and joints as they are stated.
-STATED = "annotated"
-#: What opens a side moves along its outward normal to this cosine.
-OUTWARD = 0.8
 #: A drawer deeper than this share of the object has a box of its own.
 PLATE = 0.3
 #: A door is in front of something solid where so many rays meet a surface within this share of the
@@ -25,30 +22,25 @@ INSET = 0.15
 
 
 def plates(articulation: Articulation) -> dict[int, Side]:
-    """Return the thin parts that open an upright side, hung on the body, and that side.
+    """Return the thin panels of upright sides, hung on the body, and the side of each.
 
-    None where somebody stated the parts: what was modelled so is meant so.
+    Stated parts are none: what was modelled so is meant so.
     """
-    if articulation.articulator == STATED:
-        return {}
     found = {}
     for joint in articulation.joints:
-        hangs = joint.parent == 0 and joint.movable and joint.kind is not JointKind.CONTINUOUS
-        if not hangs or not len(articulation.parts[joint.child].faces):
+        part = articulation.parts[joint.child]
+        stated = part.source is not None and part.source.proposer is Proposer.ANNOTATION
+        if stated or joint.parent or not part.kind.closes_side or part.panel is None:
             continue
-        part = articulation.part_mesh(joint.child)
-        side = _opened_side(part, joint)
-        if side is None:
-            continue
-        away = side.frame[2]
-        depth = float(np.ptp(articulation.mesh.vertices @ away))
-        if float(np.ptp(part.vertices @ away)) <= PLATE * depth:
-            found[joint.child] = side
+        away = part.panel.frame[2]
+        depth = float(np.ptp(articulation.part_mesh(joint.child).vertices @ away))
+        if depth <= PLATE * float(np.ptp(articulation.mesh.vertices @ away)):
+            found[joint.child] = side_facing(part.panel.outward)
     return found
 
 
 def bare_fronts(articulation: Articulation) -> tuple[int, ...]:
-    """Drawers that are front plates alone, and doors of something that is solid behind them."""
+    """Return drawers that are front plates alone, and doors of what is solid behind them."""
     return tuple(
         part
         for part, side in plates(articulation).items()
@@ -57,20 +49,8 @@ def bare_fronts(articulation: Articulation) -> tuple[int, ...]:
     )
 
 
-def _opened_side(part: Mesh, joint: Joint) -> Side | None:
-    """Return the upright side that a part moves out of."""
-    motion = joint.axis
-    if joint.kind is JointKind.REVOLUTE:
-        motion = np.cross(joint.axis, part.bounds.mean(axis=0) - joint.origin)
-        motion = motion * np.sign(joint.upper + joint.lower)
-    length = float(np.linalg.norm(motion))
-    upright = [side for side in Side if side not in (Side.TOP, Side.BOTTOM)]
-    best = max(upright, key=lambda side: -float(side.frame[2] @ motion))
-    return best if -float(best.frame[2] @ motion) > OUTWARD * length > 0.0 else None
-
-
 def _solid_behind(articulation: Articulation, part: int, side: Side) -> float:
-    """Share of a plate behind whose face there is soon a surface of something else, 0 to 1."""
+    """Return the share of a plate soon behind which there is a surface of something else."""
     mesh = articulation.mesh
     crossed = crossings(mesh, Raster.around(mesh, side, PIXELS))
     own = np.zeros(len(mesh.faces), dtype=np.bool_)
@@ -94,8 +74,6 @@ def _window(raster: Raster, local: FloatArray) -> np.ndarray[tuple[int], np.dtyp
     low = local[:, :2].min(axis=0)
     high = local[:, :2].max(axis=0)
     inset = INSET * (high - low)
-    columns = raster.low[0] + np.arange(raster.columns) * raster.pixel
-    rows = raster.low[1] + np.arange(raster.rows) * raster.pixel
-    across = (columns > low[0] + inset[0]) & (columns < high[0] - inset[0])
-    up = (rows > low[1] + inset[1]) & (rows < high[1] - inset[1])
-    return np.asarray((up[:, None] & across[None, :]).ravel())
+    window = np.zeros((raster.rows, raster.columns), dtype=np.bool_)
+    window[raster.window(low + inset, high - inset)] = True
+    return window.ravel()

@@ -1,4 +1,4 @@
-"""What each part is, and the skin cut along the panels' outlines."""
+"""The panels among some parts, and the skin cut along their outlines."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind
-from ...geometry.crossings import BoolArray, Side
+from ...geometry.crossings import BoolArray, Side, side_facing
 from ...geometry.posing import face_parts
 from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray
 from .box import Box
 from .bump import Bump, find_bump
-from .panel import FlatPanel, PanelKind, facing, find_panel
+from .panel import FlatPanel, find_panel, opens
 from .seam import CutSkin, cut
 from .skin import border
 from .views import PartView, look
@@ -42,7 +42,7 @@ class Recognized:
 
 
 def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float) -> Recognized:
-    """Tell panels among some parts and cut the skin along them.
+    """Measure the panels among some parts and cut the skin along them.
 
     A part whose faces all lie within what another panel claims is no panel, and keeps them.
 
@@ -58,8 +58,11 @@ def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float)
     panels: dict[int, FlatPanel] = {}
     for index in parts:
         joint = articulation.joints[index - 1]
-        view = facing(joint, index, views) if joint.movable else None
-        if view is None or _on_panel(articulation, index, panels):
+        given = articulation.parts[index].panel
+        if given is None or not opens(joint, given) or _on_panel(articulation, index, panels):
+            continue
+        view = views.get(side_facing(given.outward))
+        if view is None or not (view.part == index).any():
             continue
         panel = find_panel(mesh, articulation.parts[index].faces, index, joint, view)
         if panel is not None:
@@ -137,7 +140,7 @@ def _claimed(skin: CutSkin, panel: FlatPanel, claimants: set[int], behind: float
     own = skin.part == panel.part
     part = skin.part.copy()
     part[inside & np.isin(part, list(claimants - {panel.part}))] = panel.part
-    fitted = _behind(panel, np.inf).holds(middles) & (panel.kind is not PanelKind.DRAWER)
+    fitted = _behind(panel, np.inf).holds(middles) & (not panel.slides)
     part[own & ~inside & ~fitted] = 0
     return skin.labelled(part)
 

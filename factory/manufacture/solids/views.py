@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry.crossings import BoolArray, Side
+from ...geometry.crossings import BoolArray, Raster, Side
 from ...geometry.elevations import PIXELS, Elevation, elevation
 from ...mesh import FloatArray, IntArray, Mesh
 
@@ -28,27 +28,9 @@ class PartView:
     picture: Elevation
 
     @property
-    def pixel(self) -> float:
-        """Return the length of a pixel's side [m]."""
-        return self.picture.raster.pixel
-
-    @property
-    def columns(self) -> FloatArray:
-        """``u`` of the columns' centres [m]."""
-        raster = self.picture.raster
-        return np.asarray(raster.low[0] + np.arange(raster.columns) * raster.pixel)
-
-    @property
-    def rows(self) -> FloatArray:
-        """``v`` of the rows' centres [m]."""
-        raster = self.picture.raster
-        return np.asarray(raster.low[1] + np.arange(raster.rows) * raster.pixel)
-
-    def window(self, low: FloatArray, high: FloatArray) -> tuple[slice, slice]:
-        """Return the rows and columns whose centres lie between two corners (u, v) [m]."""
-        columns = np.searchsorted(self.columns, [low[0], high[0]])
-        rows = np.searchsorted(self.rows, [low[1], high[1]])
-        return slice(rows[0], rows[1]), slice(columns[0], columns[1])
+    def raster(self) -> Raster:
+        """Return where its pixels lie."""
+        return self.picture.raster
 
 
 def look(mesh: Mesh, face_part: IntArray, side: Side) -> PartView:

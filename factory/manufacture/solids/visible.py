@@ -38,7 +38,7 @@ SPREAD = np.array([(i, j, 12 - i - j) for i in range(1, 12, 3) for j in range(1,
 
 
 def panel_surfaces(work: Workpiece, part: int) -> None:
-    """Back and rim of a panel, the opening that it leaves, what is hollow, a drawer's box."""
+    """Add a panel's back and rim, the opening that it leaves, hollows, and a drawer's box."""
     panel = work.panels[part]
     frame = panel.side.frame
     name = work.name(part)
@@ -86,7 +86,7 @@ def panel_surfaces(work: Workpiece, part: int) -> None:
 
 
 def _backed(work: Workpiece, panel: FlatPanel, triangles: FloatArray) -> FloatArray:
-    """Those of some triangles around a panel that lie on the body's pieces for the most part."""
+    """Return the triangles around a panel that lie mostly on the body's pieces."""
     if not len(triangles):
         return triangles
     points = np.einsum("kc,ncd->nkd", SPREAD, triangles).reshape(-1, 3) @ panel.side.frame
@@ -103,7 +103,7 @@ def _clipped(outline: FloatArray, panel: FlatPanel) -> FloatArray:
 
 
 def bump_surfaces(work: Workpiece, part: int) -> None:
-    """The base of a knob, or all of a wheel."""
+    """Add the base of a knob, or all of a wheel."""
     bump = work.bumps[part]
     corners = bump.hull.vertices[bump.hull.faces]
     if bump.normal is None:
@@ -133,7 +133,7 @@ def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def hull_surfaces(work: Workpiece, part: int, hulls: tuple[Hull, ...]) -> None:
-    """All of a part's pieces: of one whose own skin is only a shred."""
+    """Add all of a part's pieces, where its own skin is only a shred."""
     triangles = [hull.vertices[hull.faces] for hull in hulls]
     own = areas_of(work.skin.corners[work.skin.part == part]).sum()
     if triangles and own < SHRED * sum(areas_of(each).sum() for each in triangles):
@@ -192,7 +192,7 @@ def meshed(work: Workpiece) -> Articulation:
 
 
 def _mixed(values: FloatArray | None, skin: CutSkin, count: int) -> FloatArray | None:
-    """Corner values of pieces of triangles; none (NaN) for the triangles that follow them."""
+    """Return corner values of pieces of triangles, and NaN for ``count`` triangles after them."""
     if values is None:
         return None
     mixed = np.einsum("nkc,ncd->nkd", skin.weights, values[skin.face])

@@ -70,7 +70,7 @@ class Workpiece:
     notes: list[str] = field(default_factory=list)
 
     def name(self, part: int) -> str:
-        """Of a part."""
+        """Return a part's name."""
         return self.source.parts[part].name
 
     def host(self, part: int) -> int:
@@ -78,7 +78,7 @@ class Workpiece:
         return host_of(self.source, part)
 
     def closed_behind(self, part: int) -> bool:
-        """Whether what lies behind a panel is filled, so that an opening would end in a face."""
+        """Return whether what lies behind a panel is filled, so that its opening ends in a face."""
         return self.filled.get(part, True)
 
     def block(self, part: int, cells: BoolArray, weight: int) -> None:
@@ -87,7 +87,7 @@ class Workpiece:
         self.free[part] = np.where(cells, np.maximum(known, weight), known).astype(np.uint8)
 
     def block_box(self, part: int, box: Box, weight: int) -> None:
-        """The same of the cells in a box."""
+        """Say how badly the cells in a box must stay free of a part's pieces."""
         known = self.blocked(part)
         span = self.lattice.span(box)
         known[span] = np.maximum(known[span], weight)
@@ -101,7 +101,7 @@ class Workpiece:
     def add(
         self, part: int, triangles: FloatArray, panel: FlatPanel | None, record: InnerSurface
     ) -> None:
-        """A surface of a part; its triangles in the panel's frame, if one is given."""
+        """Add a surface of a part; its triangles are in the panel's frame, if one is given."""
         if not len(triangles):
             return
         turned = triangles if panel is None else triangles @ panel.side.frame

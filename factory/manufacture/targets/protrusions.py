@@ -141,7 +141,7 @@ def _panel(shape: PartShape, outward: FloatArray, height: FloatArray) -> tuple[f
 
 
 def component_labels(faces: IntArray) -> IntArray:
-    """Number each face's component, connected by shared vertices, shape [face_count]."""
+    """Return each face's component, connected by shared vertices, shape [face_count]."""
     used, compact = np.unique(faces, return_inverse=True)
     corners = compact.reshape(-1, 3)
     links = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]]])

@@ -13,7 +13,7 @@ from ...asset import Hull
 from ...geometry.crossings import BoolArray
 from ...geometry.cutting import clip_to_box
 from ...geometry.posing import face_parts
-from ...geometry.triangles import ends_of
+from ...geometry.triangles import ends_of, meet_box
 from ...mesh import FloatArray, IntArray
 
 #: What only touches a box is not in it [m].
@@ -148,7 +148,7 @@ class HandView:
         met = self._local[self._met(low, high)]
         # Most boxes that are not free hold a corner, which is soon seen.
         if len(met) and (
-            ((met >= low) & (met <= high)).all(axis=2).any() or len(clip_to_box(met, low, high))
+            ((met >= low) & (met <= high)).all(axis=2).any() or meet_box(met, low, high).any()
         ):
             return False
         probes = (low + high) / 2.0 + PROBES * (high - low) * 0.9

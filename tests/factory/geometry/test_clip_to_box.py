@@ -1,4 +1,4 @@
-"""Triangles cut to boxes: what is inside stays, exactly."""
+"""Triangles cut along planes and to boxes: what is inside stays, exactly."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 from plain_solids import box
 from target_worlds import PLAIN
 
-from asset_factory.factory.geometry.cutting import clip_to_box
+from asset_factory.factory.geometry.cutting import clip_to_box, cut_at_zero
+from asset_factory.factory.geometry.triangles import meet_box
 
 
 def area(triangles: np.ndarray) -> float:
@@ -46,3 +47,28 @@ def test_two_halves_make_the_whole(seed: int) -> None:
     right = clip_to_box(triangles, np.array([cut, -0.8, -0.8]), high)
     np.testing.assert_allclose(area(left) + area(right), area(whole), atol=1e-9)
     assert (np.abs(whole) <= 0.8 + 1e-9).all()
+
+
+@settings(max_examples=40)
+@given(st.integers(0, 2**32 - 1))
+def test_triangles_that_meet_a_box_are_those_of_which_it_holds_some(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    triangles = rng.uniform(-1.0, 1.0, (1, 1, 3)) + rng.uniform(-0.6, 0.6, (20, 3, 3))
+    low = np.array([-0.3, -0.2, -0.4])
+    high = np.array([0.1, 0.3, 0.2])
+    some = [bool(len(clip_to_box(triangle[None], low, high))) for triangle in triangles]
+    assert meet_box(triangles, low, high).tolist() == some
+
+
+def test_pieces_keep_what_is_linear_on_their_triangles() -> None:
+    triangles = surface(0.0, 1.0)
+    height = triangles[:, :, 0] - 0.3
+    pieces = cut_at_zero(height)
+    made = pieces.spread(triangles)
+    np.testing.assert_allclose(area(made), area(triangles))
+    lifted = pieces.spread(height[..., None])[..., 0]
+    np.testing.assert_allclose(lifted, made[:, :, 0] - 0.3, atol=1e-12)
+    assert ((lifted > -1e-9).all(axis=1) | (lifted < 1e-9).all(axis=1)).all()
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    wound = np.cross(made[:, 1] - made[:, 0], made[:, 2] - made[:, 0])
+    assert (np.einsum("ij,ij->i", wound, normals[pieces.whole]) > 0.0).all()
