@@ -73,10 +73,11 @@ def _panel(mesh: Mesh, joint: Joint, part: Part, points: FloatArray) -> Panel | 
 
 def _front(mesh: Mesh, part: Part, side: Side) -> float:
     """Return the depth of a part's face [m]: the median over the area that looks at the viewer."""
-    corners = mesh.vertices[mesh.faces[part.faces]] @ side.frame.T
+    corners = mesh.vertices[mesh.faces[part.faces]]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    shown = np.maximum(-normals[:, 2], 0.0)
-    depth = corners[:, :, 2].mean(axis=1)
+    away = side.frame[2]
+    shown = np.maximum(-normals @ away, 0.0)
+    depth = corners.mean(axis=1) @ away
     if not shown.any():
         return float(depth.min())
     order = np.argsort(depth, kind="stable")
