@@ -131,41 +131,51 @@ def sightings(mesh: Mesh, pieces: IntArray) -> tuple[Sightings, ...]:
         pieces: of every face, shape [face_count].
     """
     panels = [
-        [(mover, side) for mover in movers if (side := _side_of(mover)) is not None]
+        [seen for mover in movers if (seen := _SidePanel.of(mover)) is not None]
         for movers in hypotheses_of_mesh(mesh, pieces)
     ]
-    sides = {side for movers in panels for _, side in movers}
+    sides = {each.side for some in panels for each in some}
     outlines = {side: _Outlines.of(mesh, pieces, side) for side in sides}
-    return tuple(_sighted(mesh, pieces, outlines, movers) for movers in panels)
+    return tuple(_sighted(mesh, pieces, outlines, some) for some in panels)
 
 
-def _side_of(mover: OpeningPart) -> Side | None:
-    """Return the side that a panel was read from; ``None`` of others, or on a mesh askew."""
-    panel = mover.panel
-    if panel is None:
-        return None
-    return next((side for side in Side if np.allclose(side.frame[2], panel.frame[2])), None)
+@dataclass(frozen=True, eq=False)
+class _SidePanel:
+    """A part that is a panel of a side."""
+
+    mover: OpeningPart
+    panel: Panel
+    side: Side
+
+    @classmethod
+    def of(cls, mover: OpeningPart) -> _SidePanel | None:
+        """Return a part with its panel and side; ``None`` of others, or on a mesh askew."""
+        panel = mover.panel
+        if panel is None:
+            return None
+        sides = [side for side in Side if np.allclose(side.frame[2], panel.frame[2])]
+        return cls(mover, panel, sides[0]) if sides else None
 
 
 def _sighted(
     mesh: Mesh,
     pieces: IntArray,
     outlines: Mapping[Side, _Outlines],
-    panels: Sequence[tuple[OpeningPart, Side]],
+    panels: Sequence[_SidePanel],
 ) -> Sightings:
-    owners = [_panel_pieces(outlines[side], mover.panel) for mover, side in panels]
+    owners = [_panel_pieces(outlines[each.side], each.panel) for each in panels]
     cut = uncut(mesh)
-    for (mover, _), (own, whole) in zip(panels, owners, strict=True):
+    for each, (own, whole) in zip(panels, owners, strict=True):
         if len(own) and not whole:
-            cut = cut_around(cut, mover.region)
+            cut = cut_around(cut, each.mover.region)
     areas = face_areas(cut.mesh)
     found = []
-    for (mover, _), (own, whole) in zip(panels, owners, strict=True):
+    for each, (own, whole) in zip(panels, owners, strict=True):
         faces = np.isin(pieces[cut.source], own)
         if not whole:
-            faces &= inside(cut.mesh, mover.region)
+            faces &= inside(cut.mesh, each.mover.region)
         if faces.any() and areas[faces].sum() <= MOST * areas.sum():
-            found.append(_proposal(mover, faces))
+            found.append(_proposal(each.mover, faces))
     return Sightings(cut, pieces[cut.source], tuple(found))
 
 
