@@ -104,7 +104,7 @@ def _far_handle(moving: Moving, source: str) -> Handle:
     radial = across(target - moving.joint.origin, moving.joint.axis)
     far = moving.lever(shape.centers) >= 0.5 * moving.rim
     outer = far & (shape.normals @ radial > LOOKS_OUT)
-    edge = (reach >= farthest).any(axis=1)
+    edge = np.asarray((reach >= farthest).any(axis=1))
     return _handle_near(moving, outer if outer.any() else edge, target, radial, source)
 
 
