@@ -11,7 +11,7 @@ from ..articulation import Articulation, Joint, JointKind
 from ..geometry.welding import welded
 from .hinges import at_front_edge
 from .lying import lying_on
-from .solids.plates import plates
+from .solids.skin import plates
 
 Pair = tuple[str, str]
 #: Thin fronts of meshes of more faces are built at once: carved mouldings take minutes to search.

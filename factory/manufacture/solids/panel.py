@@ -8,12 +8,12 @@ import numpy as np
 from scipy import ndimage
 
 from ...articulation import Joint, JointKind
-from ...geometry.crossings import BoolArray, Side
+from ...geometry.crossings import BoolArray, Raster, Side
+from ...geometry.elevations import PIXELS, Elevation, elevation
 from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, IntArray, Mesh
 from ...part import Panel
 from .box import Box
-from .views import PartView
 
 #: A part that fills less of its rectangle is no panel.
 LEAST_FILL = 0.5
@@ -39,6 +39,38 @@ SOLID_M = 0.008
 
 
 @dataclass(frozen=True)
+class PartView:
+    """A side's picture; arrays have shape [rows, columns], row 0 lowest.
+
+    Attributes:
+        side: that is looked at; its frame's axes are right ``u``, up ``v`` and away ``w``.
+        part: which part is seen; -1: nothing.
+        depth: of what is seen, along the side's ``w`` [m]; infinite where there is nothing.
+        picture: colours and normals.
+    """
+
+    side: Side
+    part: IntArray
+    depth: FloatArray
+    picture: Elevation
+
+    @property
+    def raster(self) -> Raster:
+        """Return where its pixels lie."""
+        return self.picture.raster
+
+
+def look(mesh: Mesh, face_part: IntArray, side: Side) -> PartView:
+    """Return one side's view of a mesh whose faces belong to parts, shape [face_count]."""
+    picture = elevation(mesh, side, PIXELS)
+    seen: BoolArray = picture.seen
+    part = np.where(seen, face_part[picture.face], -1)
+    return PartView(
+        side, part, np.where(seen, picture.depth + picture.raster.near, np.inf), picture
+    )
+
+
+@dataclass(frozen=True)
 class FlatPanel:
     """A flat part that closes an opening, in the frame of the side that it faces.
 
@@ -49,10 +81,9 @@ class FlatPanel:
         low, high: its rectangle (right, up) [m], shape [2] each.
         front: depth at which most of it begins [m].
         back: depth of its plane back [m].
-        open: whether no frame lies beyond its left, right, lower and upper edge, shape [4].
         rule: where the back comes from.
-        frame: depth at which the frame begins beyond each edge [m], shape [4]; infinite where
-            there is none.
+        frame: depth at which the frame begins beyond its left, right, lower and upper edge [m],
+            shape [4]; infinite where there is none.
         shared: whether another panel begins at each edge, shape [4].
     """
 
@@ -63,10 +94,14 @@ class FlatPanel:
     high: FloatArray
     front: float
     back: float
-    open: BoolArray
     rule: str
     frame: FloatArray
     shared: BoolArray
+
+    @property
+    def open(self) -> BoolArray:
+        """Return whether no frame lies beyond each edge, shape [4]."""
+        return np.isinf(self.frame)
 
     @property
     def is_lid(self) -> bool:
@@ -131,10 +166,9 @@ def find_panel(
     if back - front > float((high - low).max()) and not is_lid:
         return None
     frame = _frames(view, part, low, high, back)
-    bare = ~np.isfinite(frame)
     shared = np.zeros(4, dtype=bool)
     slides = joint.kind is JointKind.PRISMATIC
-    return FlatPanel(part, slides, view.side, low, high, front, back, bare, rule, frame, shared)
+    return FlatPanel(part, slides, view.side, low, high, front, back, rule, frame, shared)
 
 
 def smoothed(view: PartView, seen: BoolArray) -> FloatArray:

@@ -11,12 +11,12 @@ from ...geometry.crossings import BoolArray, Side, side_facing
 from ...geometry.posing import face_parts
 from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray
+from ..poses import joints_above
 from .box import Box
 from .bump import Bump, find_bump
-from .panel import FlatPanel, find_panel, opens
+from .panel import FlatPanel, PartView, find_panel, look, opens
 from .seam import CutSkin, cut
 from .skin import border
-from .views import PartView, look
 
 #: Panels nearer to one another than this share a seam [m].
 SEAM_M = 0.012
@@ -79,12 +79,8 @@ def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float)
 
 
 def _on_panel(articulation: Articulation, part: int, panels: dict[int, FlatPanel]) -> bool:
-    above = articulation.joints[part - 1].parent
-    while above:
-        if above in panels:
-            return True
-        above = articulation.joints[above - 1].parent
-    return False
+    """Return whether a part hangs on a panel, directly or not."""
+    return any(joint.parent in panels for joint in joints_above(articulation, part))
 
 
 def _apart(panels: dict[int, FlatPanel]) -> dict[int, FlatPanel]:
@@ -116,7 +112,7 @@ def _ended(panel: FlatPanel, axis: int, at: float, above: bool) -> FlatPanel:
     shared = panel.shared.copy()
     shared[2 * axis + int(above)] = True
     frame[2 * axis + int(above)] = min(frame[2 * axis + int(above)], panel.front)
-    ended = replace(panel, frame=frame, open=~np.isfinite(frame), shared=shared)
+    ended = replace(panel, frame=frame, shared=shared)
     return replace(ended, high=ends) if above else replace(ended, low=ends)
 
 

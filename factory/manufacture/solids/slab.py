@@ -11,9 +11,8 @@ from ...asset import Hull
 from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray
 from ..decompose.convex import hull_of, limit_vertices
-from .panel import FlatPanel, smoothed
+from .panel import FlatPanel, PartView, smoothed
 from .pieces import MOST_CORNERS
-from .views import PartView
 
 #: What stands out of a panel's face further than this is a handle [m].
 PROUD_M = 0.008

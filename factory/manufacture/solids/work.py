@@ -11,13 +11,13 @@ from ...asset import Hull, InnerSurface
 from ...config import SolidsConfig
 from ...geometry.crossings import BoolArray, Side
 from ...mesh import FloatArray, IntArray
+from ..poses import held_by
 from .box import Box
 from .bump import Bump
 from .lattice import Lattice
 from .matter import Weights
-from .panel import FlatPanel
+from .panel import FlatPanel, PartView
 from .seam import CutSkin
-from .views import PartView
 
 
 @dataclass
@@ -112,8 +112,5 @@ class Workpiece:
 
 
 def host_of(articulation: Articulation, part: int) -> int:
-    """Return the nearest part with faces that a part hangs on."""
-    above = articulation.joints[part - 1].parent
-    while above and not len(articulation.parts[above].faces):
-        above = articulation.joints[above - 1].parent
-    return above
+    """Return the nearest part with faces that a part hangs on, or the root."""
+    return held_by(articulation, part) or 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import islice
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 from ...articulation import Articulation, Joint
 from ...asset import Hull, Target
 from .handles import find_handle
-from .holds import Hold, HoldSearch, exposed, grasp, poke
+from .holds import HoldSearch, exposed, grasp, poke
 from .poses import AGAINST, find_poses, spread_against
 from .shape import Moving, shape_of
 from .surroundings import surroundings_of
@@ -45,9 +46,9 @@ def find_targets(articulation: Articulation, hulls: Sequence[Sequence[Hull]]) ->
         part = held_part(articulation, joint)
         if part is not None:
             moving = Moving(joint, shape_of(articulation, part))
-            holds = _holds(HoldSearch(moving, everything))
+            holds = _holds(HoldSearch(part, moving, everything))
             chosen = _distinct(holds) or [_last_resort(articulation, part, moving)]
-            targets += [_target(joint, part, hold) for hold in chosen]
+            targets += [replace(each, score=round(each.score, 4)) for each in chosen]
     return tuple(targets)
 
 
@@ -62,7 +63,7 @@ def held_part(articulation: Articulation, joint: Joint) -> int | None:
     return None
 
 
-def _holds(task: HoldSearch) -> list[Hold]:
+def _holds(task: HoldSearch) -> list[Target]:
     """Try every candidate: poses to grasp at, and points to push at or hook behind."""
     poses = find_poses(task.moving)
     holds = [hold for pose in poses if (hold := grasp(task, pose)) is not None]
@@ -73,23 +74,9 @@ def _holds(task: HoldSearch) -> list[Hold]:
     return [*holds, *(hold for hold in pokes if hold is not None)]
 
 
-def _target(joint: Joint, part: int, hold: Hold) -> Target:
-    return Target(
-        joint.name,
-        part,
-        hold.kind,
-        hold.point,
-        hold.normal,
-        hold.pull,
-        hold.fingers,
-        hold.opening,
-        round(hold.score, 4),
-    )
-
-
-def _distinct(holds: list[Hold]) -> list[Hold]:
+def _distinct(holds: list[Target]) -> list[Target]:
     """Return the best ones that are not nearly the same as a better one."""
-    kept: list[Hold] = []
+    kept: list[Target] = []
     for hold in sorted(holds, key=lambda hold: -round(hold.score, 4)):
         same = any(
             hold.kind == other.kind
@@ -102,7 +89,7 @@ def _distinct(holds: list[Hold]) -> list[Hold]:
     return kept[:MOST]
 
 
-def _last_resort(articulation: Articulation, part: int, moving: Moving) -> Hold:
+def _last_resort(articulation: Articulation, part: int, moving: Moving) -> Target:
     """Name where one would pull if one could: a handle, the far edge, the middle of a front."""
     handle = find_handle(articulation, part)
     axis = moving.joint.axis
@@ -115,4 +102,5 @@ def _last_resort(articulation: Articulation, part: int, moving: Moving) -> Hold:
     if np.linalg.norm(side) < 0.1:
         side = np.cross(np.eye(3)[int(np.abs(normal).argmin())], normal)
     fingers = np.asarray(side / np.linalg.norm(side))
-    return Hold(kind, point, normal, pull, fingers, 0.0, HOPELESS * float(moving.place(point)))
+    score = HOPELESS * float(moving.place(point))
+    return Target(moving.joint.name, part, kind, point, normal, pull, fingers, 0.0, score)

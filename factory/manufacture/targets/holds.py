@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...asset import Target
 from ...mesh import FloatArray
 from .gripper import GRIPPER
 from .poses import Pose
@@ -47,28 +48,50 @@ THIN = 0.8
 
 
 @dataclass(frozen=True)
-class Hold:
-    """One way to hold one place, as :class:`~asset_factory.factory.asset.Target`, object frame."""
-
-    kind: str
-    point: FloatArray
-    normal: FloatArray
-    pull: FloatArray
-    fingers: FloatArray
-    opening: float
-    score: float
-
-
-@dataclass(frozen=True)
 class HoldSearch:
-    """A joint with what it moves, and what is around."""
+    """A joint with what it moves, and what is around.
 
+    Attributes:
+        part: index of the part that is held.
+        moving: the joint, and the part's surface.
+        everything: around it.
+    """
+
+    part: int
     moving: Moving
     everything: Surroundings
 
     def view(self, point: FloatArray, axes: FloatArray, reach: float = GRIPPER.reach) -> HandView:
         """Look at what a hand at a point may meet, in a frame whose axes are rows."""
         return self.everything.view(self.moving.shape.parts, point, axes, reach)
+
+    def target(
+        self,
+        kind: str,
+        point: FloatArray,
+        normal: FloatArray,
+        fingers: FloatArray,
+        worth: float,
+        *,
+        opening: float = 0.0,
+        at: FloatArray | None = None,
+    ) -> Target:
+        """Return a place to hold, which a hand comes to against ``normal``.
+
+        Args:
+            kind: of the hold.
+            point: where [m], shape [3].
+            normal: unit, shape [3].
+            fingers: unit direction along which they close, shape [3].
+            worth: 0 to 1, wherever it is.
+            opening: of the gripper [m].
+            at: what of the part is pulled [m], shape [3]; by default the point.
+        """
+        pulled = point if at is None else at
+        pull = self.moving.pull(pulled)
+        score = WORTH[kind] * worth * self.worth(pulled, normal)
+        name = self.moving.joint.name
+        return Target(name, self.part, kind, point, normal, pull, fingers, opening, score)
 
     def worth(self, point: FloatArray, normal: FloatArray) -> float:
         """Rate a place, 0 to 1: how well it is pulled there, and how easily reached."""
@@ -96,14 +119,14 @@ class HoldSearch:
         return view.free(np.array([-half, -half, GRIPPER.length]), np.array([half, half, end]))
 
 
-def grasp(task: HoldSearch, pose: Pose) -> Hold | None:
+def grasp(task: HoldSearch, pose: Pose) -> Target | None:
     """Return the best way to close two fingers around what is at a pose; ``None`` if none is."""
     axes = [np.stack([each, np.cross(pose.normal, each), pose.normal]) for each in pose.fingers]
     view = task.view(pose.point, axes[0])
     return _best(_closed(task, pose, view.turned(each)) for each in axes)
 
 
-def _closed(task: HoldSearch, pose: Pose, view: HandView) -> Hold | None:
+def _closed(task: HoldSearch, pose: Pose, view: HandView) -> Target | None:
     half = GRIPPER.finger_width / 2.0
     window = GRIPPER.widest / 2.0 + GRIPPER.finger_thickness
     room = GRIPPER.finger_thickness + 2.0 * GRIPPER.play
@@ -129,7 +152,7 @@ def _closed(task: HoldSearch, pose: Pose, view: HandView) -> Hold | None:
 
 def _rated_grasp(
     task: HoldSearch, pose: Pose, view: HandView, grip: tuple[float, float, float], worth: float
-) -> Hold | None:
+) -> Target | None:
     """Return a grip (lower and upper end of what is held, and how deep [m]) as a hold."""
     low, high, depth = grip
     middle = (low + high) / 2.0
@@ -160,15 +183,7 @@ def _rated_grasp(
         worth *= PALM
     if not task.arm_is_free(point, view.axes):
         worth *= ARM
-    return Hold(
-        "grasp",
-        point,
-        normal,
-        pull,
-        fingers,
-        width,
-        WORTH["grasp"] * worth * task.worth(reach, normal),
-    )
+    return task.target("grasp", point, normal, fingers, worth, opening=width, at=reach)
 
 
 def _spins(task: HoldSearch, point: FloatArray, width: float) -> bool:
@@ -194,7 +209,7 @@ def exposed(task: HoldSearch, point: FloatArray, outward: FloatArray) -> bool:
     return view.free(np.array([-half, -half, GRIPPER.off]), np.array([half, half, room]))
 
 
-def poke(task: HoldSearch, point: FloatArray, outward: FloatArray) -> Hold | None:
+def poke(task: HoldSearch, point: FloatArray, outward: FloatArray) -> Target | None:
     """Return how to push a place that faces against the opening: straight, hooked, or ``None``.
 
     Args:
@@ -208,18 +223,16 @@ def poke(task: HoldSearch, point: FloatArray, outward: FloatArray) -> Hold | Non
     if view.free(np.array([-half, -half, GRIPPER.off]), np.array([half, half, GRIPPER.length])):
         if not task.arm_is_free(point, axes):
             return None
-        worth = WORTH["push"] * (1.0 if _palm_is_free(view) else PALM)
-        pull = task.moving.pull(point)
-        return Hold("push", point, outward, pull, axes[0], 0.0, worth * task.worth(point, outward))
+        return task.target("push", point, outward, axes[0], 1.0 if _palm_is_free(view) else PALM)
     across = (axes[0], -axes[0], axes[1], -axes[1])
     return _best(_hooked(task, view, outward, ahead, 0.0) for ahead in across) or _best(
         _hooked(task, view, outward, ahead, TILT) for ahead in across
     )
 
 
-def _best(holds: Iterable[Hold | None]) -> Hold | None:
+def _best(holds: Iterable[Target | None]) -> Target | None:
     """Return the first hold that no later one beats; ``None`` if there is none."""
-    best: Hold | None = None
+    best: Target | None = None
     for hold in holds:
         if hold is not None and (best is None or hold.score > best.score + 1e-6):
             best = hold
@@ -228,7 +241,7 @@ def _best(holds: Iterable[Hold | None]) -> Hold | None:
 
 def _hooked(
     task: HoldSearch, near: HandView, outward: FloatArray, ahead: FloatArray, tilt: float
-) -> Hold | None:
+) -> Target | None:
     """Return a finger that comes against ``ahead``, its side towards the surface.
 
     Args:
@@ -257,10 +270,8 @@ def _hooked(
         if not task.arm_is_free(near.point, axes):
             return None
         free = view.free(floor - palm, floor + palm + [0.0, 0.0, GRIPPER.palm_depth])
-        worth = WORTH["hook"] * gap_worth * (1.0 if free else PALM) * (LEANING if tilt else 1.0)
-        pull = task.moving.pull(near.point)
-        worth *= task.worth(near.point, away)
-        return Hold("hook", near.point, away, pull, axes[1], 0.0, worth)
+        worth = gap_worth * (1.0 if free else PALM) * (LEANING if tilt else 1.0)
+        return task.target("hook", near.point, away, axes[1], worth)
     return None
 
 

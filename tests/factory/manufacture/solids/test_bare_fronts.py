@@ -14,7 +14,7 @@ from asset_factory.factory.config import SolidsConfig
 from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.solids.build import solids
-from asset_factory.factory.manufacture.solids.plates import bare_fronts
+from asset_factory.factory.manufacture.solids.skin import bare_fronts
 from asset_factory.factory.mesh import Mesh, concatenate
 
 OUT = np.array([0.0, -1.0, 0.0])
