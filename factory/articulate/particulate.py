@@ -56,11 +56,11 @@ class ParticulateArticulator:
 
     @property
     def name(self) -> str:
-        """``particulate``."""
+        """Return ``particulate``."""
         return "particulate"
 
     def articulate(self, mesh: Mesh) -> Articulation:
-        """The predicted tree over ``mesh`` (metres, z up), with a confidence per part and joint.
+        """Return the predicted tree over ``mesh`` [m], z up, with a confidence per part and joint.
 
         Raises:
             InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``:

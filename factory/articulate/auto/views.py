@@ -65,7 +65,7 @@ class View:
 def look_around(
     mesh: Mesh, network: Network, config: ParticulateConfig, views: int
 ) -> tuple[View, ...]:
-    """The mesh as the network reads it: levelled, then a quarter turn from one view to the next.
+    """Return the mesh as the network sees it: levelled, then turned by quarters between views.
 
     A network that knows what it sees says the same from every side; where it does not, it guesses.
 

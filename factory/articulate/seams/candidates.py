@@ -146,7 +146,7 @@ def _divided(scene: FrontScene, rectangle: Rectangle) -> list[PanelCandidate]:
 
 
 def _paired(pulls: Sequence[Protrusion], rectangle: Rectangle) -> list[Protrusion]:
-    """Two neighbours in every row as one: a wide drawer has two knobs. None if rows are odd."""
+    """Return two neighbours in every row as one; nothing if rows are odd."""
     rows: list[list[Protrusion]] = []
     for pull in sorted(pulls, key=lambda each: float(each.center[0])):
         if rows and pull.center[0] - rows[-1][-1].center[0] <= ROW * rectangle.size[0]:
@@ -224,7 +224,7 @@ def deep(scene: FrontScene, rectangle: Rectangle) -> bool:
 
 
 def mean_in(values: FloatArray | BoolArray, low: IntArray, high: IntArray) -> FloatArray:
-    """Mean of a picture in boxes from ``low`` up to, without, ``high``; shape [n, 2] each."""
+    """Average a picture in boxes from ``low`` up to, without, ``high``; shape [n, 2] each."""
     sums = np.pad(values.astype(np.float64), ((1, 0), (1, 0))).cumsum(axis=0).cumsum(axis=1)
     total = sums[high[:, 0], high[:, 1]] - sums[low[:, 0], high[:, 1]]
     total += sums[low[:, 0], low[:, 1]] - sums[high[:, 0], low[:, 1]]
@@ -232,7 +232,7 @@ def mean_in(values: FloatArray | BoolArray, low: IntArray, high: IntArray) -> Fl
 
 
 def main_pulls(handles: Sequence[Protrusion], rectangle: Rectangle) -> list[Protrusion]:
-    """One handle for each panel they speak for: two alike side by side open one wide drawer."""
+    """Return one handle for each panel: two alike side by side open one wide drawer."""
     if not handles:
         return []
     main = handles[0]

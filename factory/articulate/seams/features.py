@@ -294,7 +294,7 @@ def _grip(rectangle: Rectangle, handles: Sequence[Protrusion]) -> list[float]:
 def _neighbours(
     scene: FrontScene, rectangle: Rectangle, panels: Sequence[Rectangle]
 ) -> list[float]:
-    """Panels like it, beside it, and on which side those beside it have their handles."""
+    """Describe panels like it, beside it, and where those beside it have their handles."""
     others = [other for other in panels if other is not rectangle]
     if not others:
         return [0.0] * 6

@@ -54,7 +54,7 @@ class Group:
 
     @property
     def value(self) -> float:
-        """Of all of them, as if each were independent."""
+        """Add the panels' values, as if each were independent."""
         return sum(panel.value for panel in self.panels)
 
 

@@ -82,7 +82,7 @@ def rated(scene: FrontScene, found: Sequence[Rectangle]) -> list[Group]:
 
 
 def _groups(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[list[Group], list[Group]]:
-    """Rectangles that may be panels, and those that step back, which may only be cut into some."""
+    """Return what may be panels, and what steps back and may only be cut into some."""
     first_row, last_row, _, _ = scene.relief.box
     if last_row - first_row < FLAT * PIXELS:
         return [], []

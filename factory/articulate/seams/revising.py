@@ -39,7 +39,7 @@ PARTED = 0.45
 def revised(
     front: Front, panels: Sequence[FrontPanel], found: Sequence[Rectangle]
 ) -> list[FrontPanel]:
-    """Panels as the network sees them where it is sure, and those that it alone sees beside them.
+    """Return panels as the network sees them where it is sure, and others that it sees.
 
     Args:
         front: the side.
@@ -57,7 +57,7 @@ def revised(
 
 
 def _parted(front: Front, panel: FrontPanel) -> tuple[FrontPanel, ...]:
-    """Two doors, if the network sees an end behind the only knob, which is then both of theirs."""
+    """Return two doors, if the network sees an end behind the only knob, then shared."""
     whole = panel.rectangle
     if len(panel.handles) != 1:
         return (panel,)
@@ -96,7 +96,7 @@ def _recut(panels: Sequence[FrontPanel], glimpses: Sequence[FrontPanel]) -> list
 def _exchanged(
     front: Front, panels: Sequence[FrontPanel], others: Sequence[FrontPanel]
 ) -> list[FrontPanel]:
-    """With rectangles around the same handle for those that the network doubts."""
+    """Exchange panels that the network doubts for rectangles around the same handle."""
     kept = list(panels)
     for index, panel in enumerate(panels):
         if front.sight.shows(panel.rectangle) >= DOUBTED:
@@ -115,7 +115,7 @@ def _exchanged(
 
 
 def _cut_back(panel: FrontPanel, others: Sequence[FrontPanel]) -> FrontPanel:
-    """Without a narrow strip along one side that it shares with another panel."""
+    """Cut off a narrow strip along one side that it shares with another panel."""
     whole = panel.rectangle
     found = whole
     for other in (each.rectangle for each in others):
