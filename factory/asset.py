@@ -45,7 +45,7 @@ class Hull:
 
     @cached_property
     def planes(self) -> FloatArray:
-        """Return outward unit normals and offsets, ``n . x <= d`` inside, shape [plane_count, 4]."""
+        """Return outward unit normals and offsets, ``n . x <= d`` inside, [plane_count, 4]."""
         a, b, c = (self.vertices[self.faces[:, i]] for i in range(3))
         normals = np.cross(b - a, c - a)
         length = np.linalg.norm(normals, axis=1)

@@ -7,11 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...part import OpensBy
+from .candidates import usable
 from .fronts import Front
 from .groups import FrontPanel
 from .handles import Protrusion
 from .motions import Opening
-from .panels import usable
+from .panels import STRICT
 from .rectangles import Rectangle
 
 #: The door takes at least so much of what is seen of the side, and is so closed by seams.
@@ -36,7 +37,7 @@ def appliance_door(front: Front, found: Sequence[Rectangle]) -> Opening | None:
     seen = float(front.relief.seen.sum())
     fit = [
         each
-        for each in usable(front.scene, found)
+        for each in usable(front.scene, found, STRICT)
         if each.closed >= CLOSED
         and each.area >= LEAST * seen
         and not any(each.holds(handle.center) for handle in controls)

@@ -28,10 +28,6 @@ ROW = 0.05
 FLAT = 0.12
 #: Handles of one make are alike up to this ratio of their sizes.
 ONE_KIND = 2.0
-#: Of a rectangle so much must be seen and face the viewer.
-SOLID = 0.8
-#: And so much of the picture's area it covers.
-LEAST_AREA = 0.012
 #: A strip along a side, so wide as a share of the rectangle and at least [pixels], that lies so far
 #: behind its middle [pixels] belongs to something else: the wall behind a stove's top. Edges that
 #: are round to so far in [pixels] do not count.
@@ -101,21 +97,14 @@ def candidates_of(scene: FrontScene, found: Sequence[Rectangle]) -> list[PanelCa
     first_row, last_row, _, _ = scene.relief.box
     if last_row - first_row < FLAT * PIXELS:
         return []
-    usable = _usable(scene, (whole_side(scene), *found[:MOST_FOUND]))
-    back = steps_back(scene, usable)
-    kept: list[Rectangle] = []
-    level: list[Rectangle] = []
+    fit = usable(scene, (whole_side(scene), *found[:MOST_FOUND]))
+    back = steps_back(scene, fit)
     # What steps back may be cut into panels, but is none, and all but the whole side comes last.
-    for index in sorted(range(len(usable)), key=lambda index: index > 0 and back[index]):
-        each = usable[index]
-        if not is_among(each, kept) and deep(scene, each):
-            kept.append(each)
-            if not back[index]:
-                level.append(each)
-        if len(kept) >= MOST:
-            break
-    cuts = [cut for each in kept for cut in _divided(scene, each)]
-    return [*(PanelCandidate(each, (each,)) for each in level), *cuts]
+    order = sorted(range(len(fit)), key=lambda index: index > 0 and bool(back[index]))
+    kept = distinct(scene, fit, order)
+    cuts = [cut for index in kept for cut in _divided(scene, fit[index])]
+    whole = [PanelCandidate(fit[index], (fit[index],)) for index in kept if not back[index]]
+    return [*whole, *cuts]
 
 
 def whole_side(scene: FrontScene) -> Rectangle:
@@ -134,15 +123,22 @@ def _divided(scene: FrontScene, rectangle: Rectangle) -> list[PanelCandidate]:
     pulls = main_pulls(scene.handles_in(rectangle), rectangle)
     if len(pulls) < 2 or not of_one_kind(pulls):
         return []
-    short = min(scene.relief.shape)
-    found = []
-    for apart in (pulls, _paired(pulls, rectangle)):
-        if not 2 <= len(apart) <= MOST_PIECES:
-            continue
-        pieces = [piece for piece, _ in divided(rectangle, apart, scene.level, scene.upright)]
-        if pieces and min(float(piece.size.min()) for piece in pieces) >= SHORTEST * short:
-            found.append(PanelCandidate(rectangle, tuple(pieces)))
-    return found
+    pulls_of = (pulls, _paired(pulls, rectangle))
+    cuts = (cut_between(scene, rectangle, some, MOST_PIECES) for some in pulls_of)
+    return [
+        PanelCandidate(rectangle, tuple(piece for piece, _ in pieces)) for pieces in cuts if pieces
+    ]
+
+
+def cut_between(
+    scene: FrontScene, rectangle: Rectangle, pulls: Sequence[Protrusion], most: int
+) -> list[tuple[Rectangle, Protrusion]]:
+    """Cut a rectangle between two to ``most`` pulls; return nothing where a piece is too small."""
+    if not 2 <= len(pulls) <= most:
+        return []
+    pieces = divided(rectangle, pulls, scene.level, scene.upright)
+    shortest = min((float(piece.size.min()) for piece, _ in pieces), default=0.0)
+    return pieces if shortest >= SHORTEST * min(scene.relief.shape) else []
 
 
 def _paired(pulls: Sequence[Protrusion], rectangle: Rectangle) -> list[Protrusion]:
@@ -173,16 +169,58 @@ def of_one_kind(pulls: Sequence[Protrusion]) -> bool:
     )
 
 
-def _usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
-    """Return those that are solid and face the viewer."""
+@dataclass(frozen=True)
+class PanelLimits:
+    """What a rectangle must have to be looked at as a panel.
+
+    Attributes:
+        solid: share of it that is seen and faces the viewer.
+        area: share of the picture's area that it covers.
+        slimmest: its width over its height.
+        span: how wide the object is there, as a share of its whole width: no tank on a bowl.
+    """
+
+    solid: float = 0.8
+    area: float = 0.012
+    slimmest: float = 0.0
+    span: float = 0.0
+
+
+def usable(
+    scene: FrontScene, found: Sequence[Rectangle], limits: PanelLimits | None = None
+) -> list[Rectangle]:
+    """Return the rectangles that keep some limits, the lenient ones unless others are given."""
+    if not found:
+        return []
+    least = limits or PanelLimits()
     relief = scene.relief
     box = relief.box
     whole = max((box[1] - box[0]) * (box[3] - box[2]), 1)
     low = np.array([each.low for each in found]) + 2
     high = np.maximum(np.array([each.high for each in found]) - 1, low + 1)
+    size = high - low
     facing = relief.seen & ((relief.facing > 0.7) | scene.face.covered)
-    good = ((high - low).prod(axis=1) >= LEAST_AREA * whole) & (mean_in(facing, low, high) >= SOLID)
+    rows = mean_in(relief.seen, low * [1, 0], high * [1, 0] + [0, relief.shape[1]])
+    good = (
+        (size.prod(axis=1) >= least.area * whole)
+        & (mean_in(facing, low, high) >= least.solid)
+        & (size[:, 1] >= least.slimmest * size[:, 0])
+        & (rows * relief.shape[1] >= least.span * (box[3] - box[2]))
+    )
     return [each for each, fits in zip(found, good, strict=True) if fits]
+
+
+def distinct(scene: FrontScene, rectangles: Sequence[Rectangle], order: Sequence[int]) -> list[int]:
+    """Return which rectangles, in some order, are deep and unlike those before, at most 60."""
+    kept: list[int] = []
+    for index in order:
+        each = rectangles[index]
+        known = is_among(each, (rectangles[other] for other in kept))
+        if not known and deep(scene, each):
+            kept.append(index)
+        if len(kept) >= MOST:
+            break
+    return kept
 
 
 def steps_back(scene: FrontScene, rectangles: Sequence[Rectangle]) -> BoolArray:

@@ -90,6 +90,11 @@ class Protrusion:
         """Return the rows and columns."""
         return np.asarray(self.high - self.low + 1.0)
 
+    def split(self, column: int) -> tuple[Protrusion, Protrusion]:
+        """Return what is left and right of a column."""
+        left = replace(self, high=np.array([self.high[0], column - 1]))
+        return left, replace(self, low=np.array([self.low[0], column + 1]))
+
     def holds(self, other: Protrusion) -> bool:
         """Return whether another stands on it: then it is a panel in front of its frame."""
         return bool((other.low > self.low).all() and (other.high < self.high).all())

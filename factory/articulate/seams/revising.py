@@ -75,8 +75,7 @@ def _parted(front: Front, panel: FrontPanel) -> tuple[FrontPanel, ...]:
     if sure.max() < PARTED:
         return (panel,)
     seam = int(at[sure.argmax()])
-    on_left = replace(knob, high=np.array([knob.high[0], seam - 1]))
-    on_right = replace(knob, low=np.array([knob.low[0], seam + 1]))
+    on_left, on_right = knob.split(seam)
     return (
         replace(panel, rectangle=whole.with_side(RIGHT, seam), handles=(on_left,)),
         replace(panel, rectangle=whole.with_side(LEFT, seam), handles=(on_right,)),

@@ -49,7 +49,4 @@ def _halves(handle: Protrusion, upright: Lines) -> tuple[Protrusion, ...]:
     covers = upright.in_relief(lines[:, None], start[inside], stop[inside]).max(axis=1)
     if covers.max() < COVERED:
         return (handle,)
-    seam = int(upright.at[lines[int(covers.argmax())]])
-    left = replace(handle, high=np.array([handle.high[0], seam - 1]))
-    right = replace(handle, low=np.array([handle.low[0], seam + 1]))
-    return left, right
+    return handle.split(int(upright.at[lines[int(covers.argmax())]]))
