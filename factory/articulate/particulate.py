@@ -9,6 +9,7 @@ import numpy as np
 
 from ..articulation import Articulation, Joint, Part, Weights
 from ..config import BuildConfig, ParticulateConfig
+from ..geometry.posing import UP
 from ..intake.annotation import AnnotatedJoint, Annotation
 from ..intake.intake import Intake
 from ..mesh import FloatArray, Mesh
@@ -37,7 +38,6 @@ KINDS = {
     MotionClass.PRISMATIC: "prismatic",
     MotionClass.BOTH: "both",
 }
-UP = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)

@@ -11,10 +11,9 @@ from ...mesh import FloatArray, IntArray
 from ...part import PartKind
 from ..proposal import Motion
 from .movers import Mover
-from .scene import FRONT, SIDEWAYS, UP, Scene
+from .scene import FRONT, PLAN, SIDEWAYS, UP, Scene
 from .sweep import free_turn, surface_points
 
-PLAN = [SIDEWAYS, FRONT]
 COVERING = 0.65
 """Share of the object, seen from above, that a lid covers at least."""
 LIMITS = {PartKind.LID: np.radians(100.0), PartKind.SCREEN: np.radians(120.0)}

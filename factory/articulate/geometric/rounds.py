@@ -10,11 +10,10 @@ from ...part import PartKind
 from ..proposal import Motion
 from .knobs import is_round
 from .movers import Mover
-from .scene import FRONT, SIDEWAYS, UP, Scene, quarter_turn
+from .scene import FRONT, PLAN, SIDEWAYS, UP, Scene, quarter_turn
 
 FROM_ABOVE = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """The view whose front is the top of the scene: its y points down, its z to the back."""
-PLAN = [SIDEWAYS, FRONT]
 HIGHEST_CAP = 0.5
 """Of the object's height."""
 SLIM = 1.8

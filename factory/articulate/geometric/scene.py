@@ -14,6 +14,7 @@ FRONT = 1
 SIDEWAYS = 0
 UP = 2
 """Axes of the view frame: x right, y away from the viewer (the front looks along -y), z up."""
+PLAN = [SIDEWAYS, FRONT]
 RECT = [SIDEWAYS, UP]
 """Axes of the front plane."""
 

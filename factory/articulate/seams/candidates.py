@@ -13,7 +13,7 @@ from ...mesh import FloatArray, IntArray
 from .dividing import divided
 from .handles import Face, Protrusion
 from .rectangles import SHORTEST, Lines, Rectangle
-from .relief import Relief
+from .relief import BEHIND, Relief
 
 #: Rectangles with so much in common (intersection over union) are one.
 SAME = 0.8
@@ -34,7 +34,6 @@ ONE_KIND = 2.0
 ROUNDED = 5
 STRIP = 0.08
 LEAST_STRIP = 4
-BEHIND = 24.0
 #: What opens is a container: so thick as a share of the panel's shorter and longer side.
 THICK_SHORT = 0.15
 THICK_LONG = 0.08

@@ -44,6 +44,8 @@ FEWEST = 3
 FEWEST_LONG = 4
 SPACING_LONG = 2.5
 LONGEST = 0.08
+#: What is wider than so many times its height is a bar, not two knobs that have grown together.
+LONGEST_KNOB = 3.0
 #: Twins on opposite sides differ by less than that share of the picture.
 TWIN = 0.03
 #: What stands off less than that share of the highest handle of a side is none.

@@ -20,6 +20,8 @@ SHORTEST = 0.07
 COVERED = 0.55
 #: At the rounded corners of a rectangle nothing is asked: share of its side.
 CORNER = 0.06
+#: What is closed by seams so far may be a panel though nothing is seen on it.
+CLOSED = 0.8
 #: A side is covered to at least this, all four together to at least that.
 LEAST_SIDE = 0.55
 LEAST_MEAN = 0.72

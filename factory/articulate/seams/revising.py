@@ -11,16 +11,16 @@ from .candidates import in_common
 from .fronts import Front
 from .glimpses import glimpsed
 from .groups import FrontPanel, clear_of
+from .handles import LONGEST_KNOB
 from .panels import rated
 from .planks import beyond_planks
-from .rectangles import LEFT, RIGHT, Rectangle
+from .rectangles import CLOSED, LEFT, RIGHT, Rectangle
 from .sight import SQUARE
 
 #: Of a panel of which the network sees less, another rectangle with the same handle may be better:
-#: one of which it sees so much, so closed by seams, with less in common (intersection over union).
+#: one of which it sees so much, with less in common (intersection over union).
 DOUBTED = 0.6
 SURE = 0.7
-CLOSED = 0.8
 OTHER = 0.7
 #: Where nobody saw a seam between panels, the network must see so many there, and so much of them.
 FEWEST = 2
@@ -28,10 +28,9 @@ MOST_OF = 0.75
 #: What the network sees may lie over another panel so far, as a share of its own size: its ends
 #: are a few pixels off.
 STRIP = 0.15
-#: Two knobs that have grown together are at most so wide, as a share of both doors, and so many
-#: times as wide as high; between these shares of the width, so sure an end parts the doors.
+#: Two knobs that have grown together are at most so wide, as a share of both doors; between these
+#: shares of the width, so sure an end parts the doors.
 GROWN = 0.25
-WIDEST = 3.0
 MIDDLE = (0.4, 0.6)
 PARTED = 0.45
 
@@ -63,7 +62,7 @@ def _parted(front: Front, panel: FrontPanel) -> tuple[FrontPanel, ...]:
         return (panel,)
     knob = panel.handles[0]
     rows, columns = knob.size
-    if columns > min(WIDEST * rows, GROWN * whole.size[1]):
+    if columns > min(LONGEST_KNOB * rows, GROWN * whole.size[1]):
         return (panel,)
     inside = slice(whole.low[0] // SQUARE + 1, whole.high[0] // SQUARE)
     ends = front.sight.upright[inside]
