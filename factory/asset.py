@@ -45,7 +45,7 @@ class Hull:
 
     @cached_property
     def planes(self) -> FloatArray:
-        """Outward unit normals and offsets, ``n . x <= d`` inside, [plane_count, 4], no slivers."""
+        """Return outward unit normals and offsets, ``n . x <= d`` inside, [plane_count, 4]."""
         a, b, c = (self.vertices[self.faces[:, i]] for i in range(3))
         normals = np.cross(b - a, c - a)
         length = np.linalg.norm(normals, axis=1)
@@ -215,5 +215,5 @@ class Asset:
 
     @property
     def hull_count(self) -> int:
-        """Number of convex pieces over all parts."""
+        """Return the number of convex pieces over all parts."""
         return sum(len(body.hulls) for body in self.bodies)

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..articulation import Articulation, Joint, Part, Weights
 from ..config import BuildConfig, ParticulateConfig
+from ..geometry.posing import UP
 from ..intake.annotation import AnnotatedJoint, Annotation
 from ..intake.intake import Intake
 from ..mesh import FloatArray, Mesh
@@ -37,7 +38,6 @@ KINDS = {
     MotionClass.PRISMATIC: "prismatic",
     MotionClass.BOTH: "both",
 }
-UP = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)
@@ -56,11 +56,11 @@ class ParticulateArticulator:
 
     @property
     def name(self) -> str:
-        """``particulate``."""
+        """Return ``particulate``."""
         return "particulate"
 
     def articulate(self, mesh: Mesh) -> Articulation:
-        """The predicted tree over ``mesh`` (metres, z up), with a confidence per part and joint.
+        """Return the predicted tree over ``mesh`` [m], z up, with a confidence per part and joint.
 
         Raises:
             InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``:

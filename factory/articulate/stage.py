@@ -23,7 +23,7 @@ from .proposal import Hypothesis
 
 @lru_cache(maxsize=4)
 def _weight_digests(config: BuildConfig) -> list[str]:
-    """Of every checkpoint that may be asked; empty where no network can run."""
+    """Return the digests of checkpoints that may be asked; none where no network can run."""
     if not entry_of(config.articulator).asks_network or find_spec("torch") is None:
         return []
     named = [name for name in (config.particulate.checkpoint, config.particulate.features) if name]

@@ -52,7 +52,7 @@ def standing_hypotheses(
 def _stood_up(
     lying: Intake, origin: Source, stages: Stages
 ) -> tuple[Intake, tuple[Hypothesis, ...]] | None:
-    """Loaded with another axis up, if its sides then show enough that opens."""
+    """Load an input with another axis up, if its sides then show enough that opens."""
     try:
         with stages.clock.stage("load"):
             intake = origin.load()

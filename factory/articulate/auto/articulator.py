@@ -63,11 +63,11 @@ class AutoArticulator:
 
     @property
     def name(self) -> str:
-        """``auto``."""
+        """Return ``auto``."""
         return "auto"
 
     def articulate(self, mesh: Mesh) -> Articulation:
-        """What of ``mesh`` (metres, z up) moves with some certainty; the rest is one rigid part.
+        """Return what of ``mesh`` [m], z up, moves with some certainty; the rest is one rigid part.
 
         Raises:
             InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``:
@@ -76,7 +76,7 @@ class AutoArticulator:
         return self.hypotheses(mesh)[0].articulation
 
     def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
-        """As :meth:`articulate`, and what else it may be; the likeliest first.
+        """Return what :meth:`articulate` does, and what else it may be; the likeliest first.
 
         Where rules of shape are sure of something, the sides add only what is beside it: who
         models how a thing works, models all of it. The whole of what they show comes last then.
@@ -124,7 +124,7 @@ class AutoArticulator:
         ]
 
     def decide(self, mesh: Mesh, proposals: Sequence[Proposal]) -> Articulation:
-        """The articulation of those proposals that can be trusted and can be there together."""
+        """Return the articulation of the proposals that can be trusted and be there together."""
         rated = self._rated(proposals)
         rated.sort(key=lambda proposal: -proposal.rated)
         if any(proposal.proposer is Proposer.SIDES for proposal in rated):
@@ -162,7 +162,7 @@ class AutoArticulator:
         return replace(made, notes=(*made.notes, *notes))
 
     def proposals(self, mesh: Mesh, areas: FloatArray) -> tuple[Proposal, ...]:
-        """Everything that may move, by whoever says so.
+        """Return everything that may move, by whoever says so.
 
         Args:
             mesh: metres, z up.
@@ -193,7 +193,7 @@ class WithoutNetwork:
         return self.hypotheses(mesh)[0].articulation
 
     def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
-        """As :meth:`articulate`, and of a skin what else it may be; the likeliest first."""
+        """Return what :meth:`articulate` does, and of a one-piece mesh what else it may be."""
         least = least_of(load_trust(), self.config.least_confidence)
         if Make.of(mesh).one_piece:
             return seam_hypotheses(mesh, least, self.name)
@@ -225,7 +225,7 @@ def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
 def load_auto(
     particulate: ParticulateConfig, config: AutoConfig, trust: Trust | None = None
 ) -> AutoArticulator:
-    """The articulator with the shipped network, and the shipped trust unless another is given.
+    """Return the articulator with the shipped network, and trust, unless another is given.
 
     Raises:
         ConfigError: its weights cannot be read, or a setting cannot be.
@@ -255,7 +255,7 @@ def _shared_out(mesh: Mesh, sure: list[Proposal]) -> tuple[list[Proposal], Shari
 
 
 def _with_loose(mesh: Mesh, face_part: IntArray) -> IntArray:
-    """Labels in which handles and mouldings that touch nothing but a mover go with it."""
+    """Return labels in which handles and mouldings that touch only a mover go with it."""
     areas = face_areas(mesh)
     contacts = contacts_of(mesh, connected_components(mesh), areas)
     return settled(contacts, face_part, areas)

@@ -23,7 +23,7 @@ MIDDLE = 0.2
 
 
 def without_hidden(mesh: Mesh, rated: list[Proposal]) -> list[Proposal]:
-    """Without what only the network says of little pieces that no side shows: runners, shelf pins.
+    """Drop the network's little pieces that no side shows: runners, shelf pins.
 
     Nothing can take hold of those, and they bar what really moves. The racks of an oven stay.
     """

@@ -55,7 +55,7 @@ class _Seen:
 
 
 def agreed_parts(views: tuple[View, ...], areas: FloatArray) -> tuple[LearnedPart, ...]:
-    """Parts that move in at least one view, surest first; a view's part is in one of them at most.
+    """Return parts that move in some view, surest first; a view's part is in one at most.
 
     Args:
         views: of one mesh.
@@ -134,7 +134,7 @@ def _mean_slide(parts: list[SeenPart]) -> Motion | None:
 
 
 def _mean_direction(directions: list[FloatArray]) -> FloatArray | None:
-    """Mean of directions turned to the first one's side; ``None`` if none or they cancel."""
+    """Return the mean of directions turned to one side; ``None`` if none or they cancel."""
     if not directions:
         return None
     aligned = [d if float(d @ directions[0]) >= 0.0 else -d for d in directions]

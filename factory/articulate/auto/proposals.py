@@ -43,7 +43,7 @@ def propose(
     ruled: tuple[Proposal, ...],
     learned: tuple[LearnedPart, ...],
 ) -> tuple[Proposal, ...]:
-    """Every part that either side says moves; one proposal where both speak of the same part.
+    """Return every part that either says moves; one proposal where both mean the same part.
 
     Args:
         mesh: metres, z up.
@@ -134,7 +134,7 @@ def _alike(one: Motion, other: Motion | None) -> bool:
 
 
 def _slide_with(motion: Motion, part: LearnedPart) -> Motion | None:
-    """The slide of a part that also turns: along its turn axis unless the network is sure not."""
+    """Return the slide of a part that also turns: along that axis unless surely not."""
     if part.slide is None or motion.kind == "prismatic" or not part.slide.upper > part.slide.lower:
         return None
     along = float(part.slide.axis @ motion.axis)
@@ -144,7 +144,7 @@ def _slide_with(motion: Motion, part: LearnedPart) -> Motion | None:
 
 
 def _reopened(motion: Motion, part: LearnedPart) -> Motion:
-    """The slide of a part that may stand open: it can also go back as far as the network says.
+    """Return the slide of a part that may stand open: back as far as the network says.
 
     Not so for turns: a network that cannot tell a left door from a right one says of either that it
         is half open.

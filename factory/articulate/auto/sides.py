@@ -58,7 +58,7 @@ class Sightings:
 
     @property
     def mesh(self) -> Mesh:
-        """That the proposals are about."""
+        """Return the mesh that the proposals are about."""
         return self.cut.mesh
 
     def carried(self, proposals: Sequence[Proposal]) -> tuple[Proposal, ...]:
@@ -66,7 +66,7 @@ class Sightings:
         return tuple(replace(each, faces=each.faces[self.cut.source]) for each in proposals)
 
     def beyond(self, proposals: Sequence[Proposal], known: Sequence[BoolArray]) -> list[Proposal]:
-        """Those proposals that do not lie in something known to move, as a drawer's front does.
+        """Return the proposals that lie in nothing known to move, as a drawer's front does.
 
         Args:
             proposals: over the cut mesh.
@@ -84,7 +84,7 @@ class Sightings:
         ]
 
     def beside(self, proposals: Sequence[Proposal], known: Sequence[BoolArray]) -> list[Proposal]:
-        """Those proposals of whole pieces that are in a row or column with what is known to move.
+        """Return proposals of whole pieces that are in a row or column with what is known to move.
 
         Who models one front as a piece models each so. Of 16 parts of pieces seen on objects of
         the develop half where rules of shape are sure of something, none was right; of 43 whole
@@ -222,19 +222,19 @@ class _Outlines:
         return cls(picture, seen, *_through(crossed), low, high)
 
     def within(self, low: FloatArray, high: FloatArray) -> FloatArray:
-        """Share of each piece's outline that lies in a rectangle [m], shape [piece_count]."""
+        """Return the share of each piece's outline within a rectangle [m], shape [piece_count]."""
         size = np.maximum(self.high[:, :2] - self.low[:, :2], 1e-9)
         common = np.minimum(self.high[:, :2], high) - np.maximum(self.low[:, :2], low)
         return np.asarray((np.clip(common, 0.0, None) / size).clip(0.0, 1.0).prod(axis=1))
 
     def shown(self, low: FloatArray, high: FloatArray) -> FloatArray:
-        """Share of a rectangle's pixels [m] that show each piece, shape [piece_count]."""
+        """Return the share of a rectangle [m] that shows each piece, shape [piece_count]."""
         seen = self.seen[self._window(low, high)]
         counts = np.bincount(seen[seen >= 0], minlength=len(self.low))
         return np.asarray(counts / max(seen.size, 1))
 
     def behind(self, low: FloatArray, high: FloatArray) -> tuple[float, float]:
-        """How deep the mesh is behind a rectangle [m], and how much of that is inside of it."""
+        """Measure how deep the mesh is behind a rectangle [m], and how much of that is inside."""
         window = self._window(low, high)
         seen = self.seen[window] >= 0
         if not seen.any():
@@ -255,7 +255,7 @@ class _Outlines:
 
 
 def _through(crossed: Crossings) -> tuple[FloatArray, FloatArray]:
-    """Of each ray from first to last crossing the length [m], and the share that is inside.
+    """Return each ray's length from first to last crossing [m], and the share inside.
 
     Sheets of two faces, one each way, have no inside; the widest gap between two of them is one.
     """

@@ -34,7 +34,7 @@ class Make:
 
     @classmethod
     def of(cls, mesh: Mesh) -> Make:
-        """Of any mesh."""
+        """Tell how any mesh was made."""
         surface = Surface.of(mesh.vertices, mesh.faces)
         areas = np.bincount(connected_components(mesh), weights=surface.areas)
         whole = float(areas.sum())

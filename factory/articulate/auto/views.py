@@ -8,13 +8,13 @@ import numpy as np
 
 from ...articulation import JointKind, rotation_about
 from ...config import ParticulateConfig
+from ...geometry.posing import UP
 from ...mesh import FloatArray, IntArray, Mesh
 from ...models.particulate.decoding import Decoded, DecodeRules
 from ...models.particulate.inference import Network, infer
 from ..geometric.scene import level_yaw
 from ..proposal import Motion
 
-UP = np.array([0.0, 0.0, 1.0])
 MOST_VIEWS = 4
 """Quarter turns in a whole one."""
 
@@ -65,7 +65,7 @@ class View:
 def look_around(
     mesh: Mesh, network: Network, config: ParticulateConfig, views: int
 ) -> tuple[View, ...]:
-    """The mesh as the network reads it: levelled, then a quarter turn from one view to the next.
+    """Return the mesh as the network sees it: levelled, then turned by quarters between views.
 
     A network that knows what it sees says the same from every side; where it does not, it guesses.
 

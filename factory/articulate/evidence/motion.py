@@ -126,7 +126,7 @@ def _right_way(
 
 
 def _alike(body: Body, candidates: Candidates, chosen: int) -> BoolArray:
-    """Which candidates have the chosen motion's kind and axis, whichever way round, shape [n]."""
+    """Tell which candidates have the chosen kind and axis, whichever way round, shape [n]."""
     aligned = np.abs(candidates.axis @ candidates.axis[chosen]) > LIKE_ANGLE
     alike = (candidates.slides == candidates.slides[chosen]) & aligned
     if candidates.slides[chosen]:

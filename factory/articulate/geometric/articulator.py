@@ -93,7 +93,7 @@ def _level_scene(mesh: Mesh, labels: IntArray) -> Scene:
 
 
 def _best_view(scene: Scene) -> tuple[Mover, ...]:
-    """What moves, seen from the side where most of it is; axes and origins in the object frame."""
+    """Return what moves, seen from the side where most of it is; object frame."""
     best: tuple[Mover, ...] = ()
     best_weight = 0.0
     for turns in range(4):
@@ -120,7 +120,7 @@ def _top(scene: Scene) -> tuple[Mover, ...]:
 
 
 def _small_ones(scene: Scene, movers: tuple[Mover, ...]) -> Iterator[Mover]:
-    """Knobs on top, turntables and wheels among the pieces that do not move yet; object frame."""
+    """Yield knobs on top, turntables and wheels among pieces that stay so far; object frame."""
     taken = _pieces_of(movers)
     above = scene.turned(FROM_ABOVE)
     low = scene.size[UP] <= 0.5 * min(scene.size[SIDEWAYS], scene.size[FRONT])

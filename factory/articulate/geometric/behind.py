@@ -45,7 +45,7 @@ class FrontFace:
 
 
 def look_behind(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -> Behind:
-    """Everything :class:`Behind` says, for one panel among all."""
+    """Find everything that :class:`Behind` says, for one panel among all."""
     if panel.is_box:
         body = np.array(panel.slabs, dtype=np.int64)
         return Behind(
@@ -108,7 +108,7 @@ def _drawer_box(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -
 
 
 def _connected_to(scene: Scene, index: IntArray, start: IntArray) -> IntArray:
-    """Mask of the pieces that touch a started one, directly or through others."""
+    """Mark the pieces that touch a started one, directly or through others."""
     reached = start.copy()
     low = scene.low[index] - scene.touch
     high = scene.high[index] + scene.touch
@@ -161,14 +161,14 @@ INSIDE = ((0.5, 0.5), (0.45, 0.36), (0.55, 0.66))
 
 
 def _walls_around(scene: Scene, panel: FrontSlab) -> int:
-    """Sides (left, right, below, above, back) where something stands around a one-piece drawer."""
+    """Count the sides where something stands around a one-piece drawer."""
     middle = (scene.low[panel.slabs[0]] + scene.high[panel.slabs[0]]) / 2.0
     back, _ = scene.first_hit(middle, FRONT, 1, panel.pieces)
     return int(np.isfinite(_around(scene, middle, panel.pieces)).sum()) + bool(np.isfinite(back))
 
 
 def _around(scene: Scene, start: FloatArray, ignored: IntArray) -> FloatArray:
-    """Distances to the left, right, below and above [m], shape [4]; infinite where nothing is."""
+    """Measure to the left, right, below and above [m], shape [4]; infinite where nothing is."""
     rays = ((SIDEWAYS, -1), (SIDEWAYS, 1), (UP, -1), (UP, 1))
     return np.array([scene.first_hit(start, axis, sign, ignored)[0] for axis, sign in rays])
 
@@ -194,7 +194,7 @@ def _attached(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -> 
 
 
 def overlap_bulk(scene: Scene, pieces: IntArray) -> bool:
-    """Whether any of the pieces is more than trim: over 2 % of the front in any two directions."""
+    """Tell whether a piece is more than trim: over 2 % of the front in any two directions."""
     sides = np.sort(scene.extents[pieces], axis=1)[:, 1:]
     return bool((np.prod(sides, axis=1) > 0.02 * scene.size[SIDEWAYS] * scene.size[UP]).any())
 

@@ -32,7 +32,7 @@ KNUCKLES = 0.08
 
 
 def find_fronts(scene: Scene) -> tuple[Mover, ...]:
-    """Every door and drawer seen from the front of ``scene``, top to bottom, left to right."""
+    """Find the doors and drawers seen from the front, top to bottom, left to right."""
     panels = find_panels(scene)
     candidates = [FrontFace(panel, look_behind(scene, panel, panels)) for panel in panels]
     sure = [c for c in candidates if _is_sure(scene, c)]
@@ -82,7 +82,7 @@ def _covers_front_with_side_handle(scene: Scene, panel: FrontSlab) -> bool:
 
 
 def _has_handled_peer(scene: Scene, front: FrontFace, candidates: list[FrontFace]) -> bool:
-    """One wall may be missing (an open back) behind two panels with handles, side by side."""
+    """Tell whether another panel with a handle is beside one whose back may be open."""
     open_backed = [
         c for c in candidates if c.panel.handle is not None and c.behind.walls >= ALL_WALLS - 1
     ]
@@ -95,7 +95,7 @@ def _has_handled_peer(scene: Scene, front: FrontFace, candidates: list[FrontFace
 
 
 def _is_control_panel(scene: Scene, panel: FrontSlab) -> bool:
-    """Many small things on the panel, and what protrudes is no bar: knobs and buttons."""
+    """Tell whether many small things, and no bar, are on the panel: knobs and buttons."""
     if panel.handle is None:
         return False
     mounted = np.array(panel.mounted, dtype=np.int64)
@@ -131,7 +131,7 @@ def _in_frame(scene: Scene, panel: FrontSlab) -> bool:
 def _is_plausible(
     scene: Scene, front: FrontFace, sure: list[FrontFace], candidates: list[FrontFace]
 ) -> bool:
-    """No handle: the panel must close a real space, beside others or alone in front."""
+    """Tell whether a panel without handle closes a real space, beside others or alone."""
     panel = front.panel
     behind = front.behind
     deep = behind.depth >= max(2.0 * panel.depth, 0.3 * float(scene.size[FRONT]))
@@ -158,7 +158,7 @@ def _is_plausible(
 
 
 def _stands_alone(scene: Scene, panel: FrontSlab) -> bool:
-    """One panel over most of the front, foremost, without a twin at the back: a fridge's door."""
+    """Tell whether one panel is most of the front, foremost, without a twin at the back."""
     if (
         panel.area < 0.6 * scene.size[SIDEWAYS] * scene.size[UP]
         or panel.depth < 0.02 * scene.size[FRONT]
@@ -200,7 +200,7 @@ def _beside(a: FrontSlab, b: FrontSlab, scene: Scene) -> bool:
 
 
 def _drop_overlapping(fronts: list[FrontFace]) -> list[FrontFace]:
-    """Of two panels over each other keep the first, then the larger."""
+    """Keep the first of panels over each other, then the larger."""
     kept: list[FrontFace] = []
     for front in fronts:
         if all(covers(front.panel, other.panel) < 0.3 for other in kept):
@@ -281,7 +281,7 @@ def _hinge(
 def _without_knuckles(
     points: FloatArray, origin: FloatArray, axis: FloatArray, panel: FrontSlab
 ) -> FloatArray:
-    """Surroundings without what is about the axis: hinges turn within their own barrels."""
+    """Drop surroundings about the axis: hinges turn within their own barrels."""
     offset = points - origin
     radial = np.linalg.norm(offset - np.outer(offset @ axis, axis), axis=1)
     return np.asarray(points[radial > KNUCKLES * min(panel.width, panel.height)])

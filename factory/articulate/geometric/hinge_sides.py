@@ -17,7 +17,7 @@ OFF_CENTER = 0.15
 
 
 def handle_side(panel: FrontSlab) -> int:
-    """-1: the handle is at the left, 1: at the right, 0: in the middle or there is none."""
+    """Return -1 for a handle at the left, 1 at the right, 0 in the middle or for none."""
     if panel.handle is None:
         return 0
     offset = (panel.handle[:, SIDEWAYS].mean() - panel.center[SIDEWAYS]) / panel.width
@@ -71,7 +71,7 @@ def _by_centred_handle(
 
 
 def _in_stack(panel: FrontSlab, fronts: list[FrontFace]) -> bool:
-    """Three or more panels of one width, stacked, all with centred handles: a chest of drawers."""
+    """Tell whether three or more panels of one width are stacked: a chest of drawers."""
     tolerance = 0.05 * panel.width
     stack = [
         f
@@ -87,7 +87,7 @@ def _in_stack(panel: FrontSlab, fronts: list[FrontFace]) -> bool:
 def _side_by_neighbours(
     front: FrontFace, fronts: list[FrontFace]
 ) -> tuple[OpensBy, tuple[str, ...]]:
-    """Doors in a row open in pairs, away from each other; a lone one hinges at the left."""
+    """Open doors of a row in pairs, away from each other; hinge a lone one at the left."""
     panel = front.panel
     row = [
         f

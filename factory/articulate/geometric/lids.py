@@ -11,10 +11,9 @@ from ...mesh import FloatArray, IntArray
 from ...part import PartKind
 from ..proposal import Motion
 from .movers import Mover
-from .scene import FRONT, SIDEWAYS, UP, Scene
+from .scene import FRONT, PLAN, SIDEWAYS, UP, Scene
 from .sweep import free_turn, surface_points
 
-PLAN = [SIDEWAYS, FRONT]
 COVERING = 0.65
 """Share of the object, seen from above, that a lid covers at least."""
 LIMITS = {PartKind.LID: np.radians(100.0), PartKind.SCREEN: np.radians(120.0)}
@@ -38,7 +37,7 @@ class Cover:
 
     @property
     def center(self) -> FloatArray:
-        """Of the box [m], shape [3]."""
+        """Return the middle of the box [m], shape [3]."""
         return np.asarray((self.low + self.high) / 2.0)
 
 
@@ -82,7 +81,7 @@ def _top_slab(scene: Scene) -> int | None:
 
 
 def _hanging_on(scene: Scene, slab: int) -> IntArray:
-    """The slab, its rim and what sits on it: shallow pieces that touch it, even through others."""
+    """Return the slab, its rim and what sits on it: shallow pieces that touch it."""
     shallow = scene.low[:, UP] >= scene.low[slab, UP] - 0.15 * scene.size[UP]
     reached = np.zeros(len(scene.low), dtype=bool)
     reached[slab] = True
@@ -97,7 +96,7 @@ def _hanging_on(scene: Scene, slab: int) -> IntArray:
 
 
 def _above_a_cut(scene: Scene) -> tuple[Cover, ...]:
-    """A lid of several pieces: all above a height in the upper half that no piece crosses."""
+    """Return a lid of several pieces: all above a height that no piece crosses."""
     hair = scene.touch / 8.0
     floor = scene.box[0, UP] + 0.5 * scene.size[UP]
     for height in np.unique(scene.low[scene.low[:, UP] >= floor, UP]):
@@ -114,7 +113,7 @@ def _above_a_cut(scene: Scene) -> tuple[Cover, ...]:
 
 
 def _closes_empty_body(scene: Scene, cover: Cover) -> bool:
-    """Whether walls stand all around below the cover, with a bottom and nothing in between."""
+    """Tell whether walls stand all around below the cover, over a bottom and nothing else."""
     sides = cover.high - cover.low
     top = cover.low[UP] - scene.touch / 4
     depths = []
@@ -135,7 +134,7 @@ def _closes_empty_body(scene: Scene, cover: Cover) -> bool:
 
 
 def _tab(scene: Scene, cover: Cover) -> FloatArray | None:
-    """Middle of a latch or grip at an edge of the lid [m]; ``None`` if none or if central."""
+    """Return the middle of a latch or grip at the lid's edge [m]; ``None`` if none or central."""
     sides = (cover.high - cover.low)[PLAN]
     small = (scene.extents[cover.pieces][:, PLAN] <= 0.5 * sides).all(axis=1)
     middle = (scene.low[cover.pieces] + scene.high[cover.pieces])[:, PLAN] / 2.0
@@ -152,7 +151,7 @@ def _tab(scene: Scene, cover: Cover) -> FloatArray | None:
 def _hinge_side(
     scene: Scene, cover: Cover, tab: FloatArray | None
 ) -> tuple[tuple[int, int], tuple[str, ...]]:
-    """Axis and sign of the hinge's side: opposite the tab, else where the lid sticks out least."""
+    """Return axis and sign of the hinge's side: opposite the tab, else where it overhangs least."""
     if tab is not None:
         offset = (tab - cover.center)[PLAN] / (cover.high - cover.low)[PLAN]
         axis = int(np.argmax(np.abs(offset)))
@@ -193,7 +192,7 @@ def _hinged(
 
 
 def _screen(scene: Scene, slab: int) -> tuple[Mover, ...]:
-    """A closed laptop: a flat object of two slabs with many small keys between, near the hinge."""
+    """Find a closed laptop: two flat slabs with many small keys between, near the hinge."""
     width, depth, _ = scene.extents.T
     plan = width * depth
     twins = np.flatnonzero(plan >= 0.75 * plan[slab])

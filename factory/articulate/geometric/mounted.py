@@ -59,7 +59,7 @@ def _own_grip(scene: Scene, seed: FrontSlab) -> FloatArray | None:
 
 
 def handle_box(scene: Scene, seed: FrontSlab, mounted: IntArray) -> FloatArray | None:
-    """Box of what can be held of what is mounted on a panel, shape [2, 3]; ``None`` if nothing."""
+    """Return the box of what can be held on a panel, shape [2, 3]; ``None`` if nothing."""
     if seed.is_box and (grip := _own_grip(scene, seed)) is not None:
         return grip
     outer = protruding(scene, seed, mounted)
@@ -110,7 +110,7 @@ def _crowded(scene: Scene, panel: FrontSlab, outer: IntArray) -> bool:
 
 
 def _is_inset_bar(seed: FrontSlab, box: FloatArray) -> bool:
-    """A thin bar along a whole side, off the panel's edge: a long handle, not an edge strip."""
+    """Tell whether it is a thin bar along a whole side, off the edge: a long handle."""
     sides = np.array([seed.width, seed.height])
     across = int(np.argmin((box[1] - box[0])[RECT] / sides))
     low = box[0][RECT][across] - seed.low[RECT][across]

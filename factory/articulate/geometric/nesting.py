@@ -12,7 +12,7 @@ from .slab import STANDS_OFF, FrontSlab, overlap_area, rect_area
 
 
 def resolve_nesting(scene: Scene, seeds: list[FrontSlab]) -> list[FrontSlab]:
-    """Slabs within a slab: fillings and trims join it; panels with own handles make it a frame."""
+    """Join fillings and trims to the slab around them; panels with handles make it a frame."""
     absorbed: set[int] = set()
     frames: set[int] = set()
     extra: dict[int, list[int]] = {}
@@ -57,7 +57,7 @@ def _within(scene: Scene, inner: FrontSlab, host: FrontSlab) -> bool:
 
 
 def unshare(scene: Scene, panels: list[FrontSlab]) -> list[FrontSlab]:
-    """A piece mounted on two panels stays with the one it overlaps most, else the smaller one."""
+    """Leave a piece on two panels to the one it overlaps most, else to the smaller one."""
     best: dict[int, tuple[float, float, int]] = {}
     for k, panel in enumerate(panels):
         for piece in panel.mounted:
@@ -80,7 +80,7 @@ def unshare(scene: Scene, panels: list[FrontSlab]) -> list[FrontSlab]:
 
 
 def is_visible(scene: Scene, panel: FrontSlab) -> bool:
-    """Whether most rays from the front meet the panel first; what stands off it is ignored."""
+    """Tell whether most rays from the front meet the panel first, whatever stands off it."""
     hits = 0
     small = np.flatnonzero(rect_area(scene.extents) < STANDS_OFF * panel.area)
     through = np.setdiff1d(small, panel.pieces)

@@ -23,7 +23,7 @@ LONGEST_GRIP = 0.3
 
 
 def find_panels(scene: Scene) -> tuple[FrontSlab, ...]:
-    """All slabs that could be seen from the front, largest first; no piece is in two of them."""
+    """Find all slabs that could be seen from the front, largest first; no piece is in two."""
     seeds = [_panel(scene, (int(i),)) for i in _seed_pieces(scene)]
     seeds = _join_layers(scene, seeds)
     seeds += [_box_panel(scene, int(i)) for i in _box_pieces(scene)]
@@ -77,7 +77,7 @@ def _box_pieces(scene: Scene) -> IntArray:
 
 
 def _flat_front(scene: Scene, piece: int) -> float | None:
-    """Where a one-piece drawer has its front [m]: less deep than a handle that is one with it."""
+    """Return where a one-piece drawer has its front [m]: behind a handle that is one with it."""
     triangles = scene.triangles[scene.labels == piece]
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     width, depth, height = scene.extents[piece]
@@ -93,7 +93,7 @@ def _flat_front(scene: Scene, piece: int) -> float | None:
 
 
 def is_open_box(scene: Scene, piece: int) -> bool:
-    """Whether a ray from the middle leaves the piece upwards and meets its bottom downwards."""
+    """Tell whether a ray from the middle leaves the piece upwards and meets its bottom."""
     others = np.flatnonzero(np.arange(len(scene.low)) != piece)
     middle = (scene.low[piece] + scene.high[piece]) / 2.0
     middle[[SIDEWAYS, FRONT]] += 0.03 * scene.extents[piece, [SIDEWAYS, FRONT]]

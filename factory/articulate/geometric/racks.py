@@ -25,7 +25,7 @@ TRAVEL = 0.92
 
 
 def find_racks(scene: Scene, doors: tuple[Mover, ...], taken: IntArray) -> tuple[Mover, ...]:
-    """Baskets inside the object behind a door in the front of the scene, top to bottom."""
+    """Find baskets inside the object behind a door in its front, top to bottom."""
     free = np.ones(len(scene.low), dtype=bool)
     free[taken] = False
     thin = np.sort(scene.extents, axis=1)[:, 1] <= THIN * float(np.linalg.norm(scene.size))

@@ -10,11 +10,10 @@ from ...part import PartKind
 from ..proposal import Motion
 from .knobs import is_round
 from .movers import Mover
-from .scene import FRONT, SIDEWAYS, UP, Scene, quarter_turn
+from .scene import FRONT, PLAN, SIDEWAYS, UP, Scene, quarter_turn
 
 FROM_ABOVE = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """The view whose front is the top of the scene: its y points down, its z to the back."""
-PLAN = [SIDEWAYS, FRONT]
 HIGHEST_CAP = 0.5
 """Of the object's height."""
 SLIM = 1.8
@@ -31,7 +30,7 @@ LARGEST_WHEEL = 0.5
 
 
 def find_cap(scene: Scene) -> tuple[Mover, ...]:
-    """What tops a round body about the same upright axis: a cap that turns, or a lid that lifts."""
+    """Find what tops a round body about its upright axis: a cap that turns, a lid that lifts."""
     above = scene.turned(FROM_ABOVE)
     tallest = HIGHEST_CAP * scene.size[UP]
     reach = scene.high[:, UP] >= scene.box[1, UP] - 0.25 * scene.size[UP]
@@ -55,7 +54,7 @@ def _square(scene: Scene) -> FloatArray:
 
 
 def _tops_a_body(scene: Scene, cap: int, group: IntArray) -> bool:
-    """Whether only one body, as wide as the cap and coaxial with it, is below and touches it."""
+    """Tell whether only one body, as wide and coaxial, is below the cap and touches it."""
     rest = np.setdiff1d(np.arange(len(scene.low)), group)
     if not len(rest):
         return False
@@ -150,7 +149,7 @@ def find_turntables(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
 
 
 def _is_enclosed(scene: Scene, plate: int, pieces: IntArray) -> bool:
-    """Whether something stands on all six sides of a plate without touching, with room above."""
+    """Tell whether something stands on all six sides of a plate, with room above."""
     start = (scene.low[plate] + scene.high[plate]) / 2.0
     start[UP] = scene.high[pieces, UP].max() + scene.touch
     half = 0.5 * float(scene.extents[plate, SIDEWAYS])
@@ -164,7 +163,7 @@ def _is_enclosed(scene: Scene, plate: int, pieces: IntArray) -> bool:
 
 
 def find_wheels(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
-    """Two or more equal round pieces on the ground, upright, and clear of the ground otherwise."""
+    """Find two or more equal round pieces that stand upright on the ground."""
     found: list[Mover] = []
     for turns in (0, 1):
         view = scene.turned(quarter_turn(turns)) if turns else scene

@@ -56,17 +56,17 @@ class FrontSlab:
 
     @property
     def area(self) -> float:
-        """Of the front rectangle [m2]."""
+        """Return the area of the front rectangle [m2]."""
         return self.width * self.height
 
     @property
     def center(self) -> FloatArray:
-        """Of the slab's box [m], shape [3]."""
+        """Return the middle of the slab's box [m], shape [3]."""
         return np.asarray((self.low + self.high) / 2.0)
 
     @property
     def has_side_handle(self) -> bool:
-        """Whether an upright handle is near the left or right edge: it turns and does not slide."""
+        """Tell whether an upright handle is near the left or right edge: it turns."""
         if self.handle is None:
             return False
         width, _, height = self.handle[1] - self.handle[0]
@@ -96,7 +96,7 @@ class FrontSlab:
 def overlap_area(
     low: FloatArray, high: FloatArray, other_low: FloatArray, other_high: FloatArray
 ) -> float:
-    """Area that two boxes share, seen from the front [m2]; a line's width counts as a hair."""
+    """Return the area that two boxes share, seen from the front [m2]; a line is a hair wide."""
     sides = np.minimum(high, other_high)[RECT] - np.maximum(low, other_low)[RECT] + HAIR
     return float(np.prod(np.maximum(sides, 0.0)))
 

@@ -95,7 +95,7 @@ def hypotheses_of_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[Movers, ...]:
 
 
 def _appliance_hypotheses(seen: _Sides, side: Side) -> tuple[Movers, ...]:
-    """Of what has knobs on one side and nothing else that opens: its door, if there is one."""
+    """Return what has knobs on one side and nothing else that opens: its door, if any."""
     door = appliance_door(seen.fronts[side], seen.found[side]) if side in AROUND else None
     if door is not None and not _is_seen(seen.fronts[side], door.panel):
         door = None
@@ -186,7 +186,7 @@ class _Sides:
         )
 
     def has_lid(self, doubtful: bool) -> bool:
-        """Whether it is a lid that opens, and no panels; ``doubtful`` ones count for nothing."""
+        """Tell whether it is a lid that opens, and no panels; ``doubtful`` ones do not count."""
         if not self.lids or self.lids[0].value < LEAST_LID:
             return False
         if self.is_evident or not self.lids[0].is_seen(beside_panels=len(self.panels) > 1):
@@ -195,7 +195,7 @@ class _Sides:
         return doubtful or of_lid or self.lids[0].value > self.value - 1.0
 
     def has_all_of(self, few: Sequence[FrontPanel]) -> bool:
-        """Whether ``few`` are among the panels, and the others have handles and seams around."""
+        """Tell whether ``few`` are among the panels, and the others have handles and seams."""
         own = [panel.rectangle for panel in self.panels]
         those = [panel.rectangle for panel in few]
         if not those or not all(is_among(each, own) for each in those):
@@ -208,14 +208,14 @@ class _Sides:
         )
 
     def front_hypotheses(self) -> tuple[Movers, ...]:
-        """Of the panels, if there is enough to them."""
+        """Return the panels, if there is enough to them."""
         if self.value < LEAST_FRONT:
             return ()
         sure = [replace(each, value=_log_odds(each.value)) for each in self.panels]
         return self.hypotheses_of(self.side, sure)
 
     def hypotheses_of(self, side: Side, panels: Sequence[FrontPanel]) -> tuple[Movers, ...]:
-        """Of panels of one side whose values are log-odds; with others that fit them better."""
+        """Return panels of one side whose values are log-odds; with others that fit better."""
         front = self.fronts[side]
         seen = [panel for panel in panels if _is_seen(front, panel)]
         seen = _without_planks(front, seen)
@@ -238,14 +238,14 @@ class _Sides:
 
 
 def _glimpsed_hypotheses(seen: _Sides) -> tuple[Movers, ...]:
-    """Of the side on which the picture network alone is surest of most."""
+    """Return the side on which the picture network alone is surest of most."""
     panels = {side: glimpsed(seen.fronts[side]) for side in AROUND}
     side = max(AROUND, key=lambda each: _front_value(panels[each], each))
     return seen.hypotheses_of(side, panels[side])
 
 
 def _slab_hypotheses(seen: _Sides) -> tuple[Movers, ...]:
-    """Of the side with the largest slabs."""
+    """Return the side with the largest slabs."""
     panels = {side: slabs_on(seen.fronts, side, seen.found[side]) for side in AROUND}
     side = max(AROUND, key=lambda each: _front_value(panels[each], each))
     return seen.hypotheses_of(side, panels[side])
@@ -256,7 +256,7 @@ def _front_value(panels: Sequence[FrontPanel], side: Side) -> float:
 
 
 def _log_odds(value: float) -> float:
-    """Of a part being one, by what rules find to speak for it."""
+    """Return the log-odds of a part, by what rules find to speak for it."""
     return SLOPE * (value - EVEN)
 
 
@@ -278,14 +278,14 @@ def _lid_hypotheses(fronts: Mapping[Side, Front], lids: list[Lid]) -> tuple[Move
 
 
 def _is_seen(front: Front, panel: FrontPanel) -> bool:
-    """Whether the picture network sees a panel, or nobody needs to: a handle within a groove."""
+    """Tell whether the network sees a panel, or nobody needs to: a handle within a groove."""
     pulled = panel.handle is not None and panel.handle.height >= STANDS_OFF
     evident = pulled and float(panel.rectangle.relief.min()) >= EVIDENT
     return evident or front.sight.shows(panel.rectangle) >= LEAST_SEEN
 
 
 def _without_planks(front: Front, panels: list[FrontPanel]) -> list[FrontPanel]:
-    """Of several panels, those with handles and those that end on all sides."""
+    """Keep, of several panels, those with handles and those that end on all sides."""
     if len(panels) < 2:
         return panels
     return [panel for panel in panels if panel.handles or _has_ends(front, panel)]

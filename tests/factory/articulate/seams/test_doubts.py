@@ -12,6 +12,7 @@ from asset_factory.factory.articulate.seams import hypotheses
 from asset_factory.factory.articulate.seams.candidates import (
     PanelCandidate,
     steps_back,
+    usable,
     whole_side,
 )
 from asset_factory.factory.articulate.seams.company import without_control_panels
@@ -21,7 +22,7 @@ from asset_factory.factory.articulate.seams.groups import FrontPanel, Group, tog
 from asset_factory.factory.articulate.seams.handles import Face, Protrusion
 from asset_factory.factory.articulate.seams.layouts import rated
 from asset_factory.factory.articulate.seams.lids import Lid
-from asset_factory.factory.articulate.seams.panels import usable
+from asset_factory.factory.articulate.seams.panels import STRICT
 from asset_factory.factory.articulate.seams.rectangles import BOTTOM, TOP, Lines, Rectangle
 from asset_factory.factory.articulate.seams.relief import reliefs_of
 from asset_factory.factory.geometry.crossings import Side
@@ -40,7 +41,7 @@ def test_slivers_are_no_doors() -> None:
         )
         for share in (0.2, 0.1)
     )
-    assert usable(scene, [door, sliver]) == [door]
+    assert usable(scene, [door, sliver], STRICT) == [door]
 
 
 def test_a_front_may_show_nothing_but_pieces_between_handles() -> None:
