@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...articulation import Articulation
-from ...asset import Hull, InnerSurface
+from ...asset import Hull
 from ...geometry.colors import linear_of
 from ...geometry.crossings import BoolArray
 from ...geometry.rows import distinct_rows
@@ -15,6 +15,7 @@ from ...geometry.triangles import areas_of
 from ...mesh import FloatArray, IntArray, Material, Mesh
 from ..decompose.outside import outside
 from .box import Box
+from .drawer import WALL_M
 from .panel import FlatPanel
 from .seam import CutSkin
 from .surfaces import (
@@ -40,49 +41,40 @@ SPREAD = np.array([(i, j, 12 - i - j) for i in range(1, 12, 3) for j in range(1,
 def panel_surfaces(work: Workpiece, part: int) -> None:
     """Add a panel's back and rim, the opening that it leaves, hollows, and a drawer's box."""
     panel = work.panels[part]
-    frame = panel.side.frame
-    name = work.name(part)
-    body = work.name(0)
-    own = work.skin.corners[work.skin.part == part] @ frame.T
+    own = work.skin.corners[work.skin.part == part] @ panel.side.frame.T
     column = panel.reach(0.0, panel.back)
     edges = boundary(own)
-    thickness = round(float(panel.thickness), 4)
+    thickness = panel.thickness
     strips = rim(edges, column, panel.back, ~panel.open)
-    work.add(part, strips, panel, InnerSurface(name, "rim", panel.rule, thickness))
+    work.add(part, strips, "rim", panel.rule, panel=panel, thickness=thickness)
     start = panel.back + work.config.behind_m
-    opening = flipped(rim(edges, column, start, ~panel.shared & ~panel.open))
-    record = InnerSurface(body, "opening", panel.rule, thickness)
-    work.add(0, _backed(work, panel, opening), panel, record)
-    outline = outline_of(own.reshape(-1, 3)[:, :2])
-    outline = _clipped(outline, panel)
+    opening = _backed(work, panel, flipped(rim(edges, column, start, ~panel.shared & ~panel.open)))
+    work.add(0, opening, "opening", panel.rule, panel=panel, thickness=thickness)
+    outline = _clipped(outline_of(own.reshape(-1, 3)[:, :2]), panel)
     if len(outline) < 3:
         return
     inner = work.lids.get(part, ())
-    holes = [rectangle(inner[0])] if inner else []
-    back = plate(outline, holes, panel.back)
-    work.add(part, back, panel, InnerSurface(name, "slab back", panel.rule, thickness))
+    back = plate(outline, [rectangle(box) for box in inner[:1]], panel.back)
+    work.add(part, back, "slab back", panel.rule, panel=panel, thickness=thickness)
     hollows = work.hollows.get(part, ())
-    mouth = [rectangle(hollows[0])] if hollows else []
-    ring = flipped(plate(outline, mouth, start))
     wall = work.config.wall_m
-    invented = work.closed_behind(part)
-    if invented:
-        record = InnerSurface(body, "frame", panel.rule, wall)
-        work.add(0, _backed(work, panel, ring), panel, record)
-    if hollows and invented:
-        depth = round(float(hollows[-1].high[2] - hollows[0].low[2]), 4)
-        walls = inside_of(hollows, hollows[0].low[2])
-        work.add(0, walls, panel, InnerSurface(body, "hollow", "walls", wall, depth))
+    if work.closed_behind(part):
+        ring = flipped(plate(outline, [rectangle(box) for box in hollows[:1]], start))
+        ring = _backed(work, panel, ring)
+        work.add(0, ring, "frame", panel.rule, panel=panel, thickness=wall)
+        if hollows:
+            walls = inside_of(hollows, hollows[0].low[2])
+            depth = hollows[-1].high[2] - hollows[0].low[2]
+            work.add(0, walls, "hollow", "walls", panel=panel, thickness=wall, depth=depth)
     if inner:
-        depth = round(float(inner[0].high[2] - inner[-1].low[2]), 4)
         walls = inside_of(inner, inner[0].high[2])
-        work.add(part, walls, panel, InnerSurface(name, "lid hollow", "walls", wall, depth))
+        depth = inner[0].high[2] - inner[-1].low[2]
+        work.add(part, walls, "lid hollow", "walls", panel=panel, thickness=wall, depth=depth)
     boards = work.boards.get(part, ())
     if boards:
-        depth = round(float(boards[0].size[2]), 4)
-        work.add(
-            part, outside_of(boards), panel, InnerSurface(name, "drawer box", "hollow", 0.01, depth)
-        )
+        box = outside_of(boards)
+        depth = boards[0].size[2]
+        work.add(part, box, "drawer box", "hollow", panel=panel, thickness=WALL_M, depth=depth)
 
 
 def _backed(work: Workpiece, panel: FlatPanel, triangles: FloatArray) -> FloatArray:
@@ -107,7 +99,7 @@ def bump_surfaces(work: Workpiece, part: int) -> None:
     bump = work.bumps[part]
     corners = bump.hull.vertices[bump.hull.faces]
     if bump.normal is None:
-        work.add(part, corners, None, InnerSurface(work.name(part), "wheel", bump.rule))
+        work.add(part, corners, "wheel", bump.rule)
         return
     own = work.skin.corners[work.skin.part == part]
     edges = boundary(own)
@@ -120,9 +112,8 @@ def bump_surfaces(work: Workpiece, part: int) -> None:
         return
     lid = outline[:, :1] * across + outline[:, 1:] * along + bump.base * bump.normal
     fan = np.stack([np.repeat(lid[:1], len(lid) - 2, axis=0), lid[2:], lid[1:-1]], axis=1)
-    record = InnerSurface(work.name(part), "knob base", bump.rule)
-    work.add(part, fan, None, record)
-    work.add(work.host(part), flipped(fan), None, replace(record, part=work.name(work.host(part))))
+    work.add(part, fan, "knob base", bump.rule)
+    work.add(work.host(part), flipped(fan), "knob base", bump.rule)
 
 
 def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -137,8 +128,7 @@ def hull_surfaces(work: Workpiece, part: int, hulls: tuple[Hull, ...]) -> None:
     triangles = [hull.vertices[hull.faces] for hull in hulls]
     own = areas_of(work.skin.corners[work.skin.part == part]).sum()
     if triangles and own < SHRED * sum(areas_of(each).sum() for each in triangles):
-        record = InnerSurface(work.name(part), "body", "pieces")
-        work.add(part, np.concatenate(triangles), None, record)
+        work.add(part, np.concatenate(triangles), "body", "pieces")
 
 
 def kept_skin(work: Workpiece) -> CutSkin:

@@ -99,16 +99,35 @@ class Workpiece:
         return self.free[part]
 
     def add(
-        self, part: int, triangles: FloatArray, panel: FlatPanel | None, record: InnerSurface
+        self,
+        part: int,
+        triangles: FloatArray,
+        kind: str,
+        rule: str,
+        *,
+        panel: FlatPanel | None = None,
+        thickness: float | None = None,
+        depth: float | None = None,
     ) -> None:
-        """Add a surface of a part; its triangles are in the panel's frame, if one is given."""
+        """Add a surface of a part, and a record of it; nothing where it has no triangles.
+
+        Args:
+            part: index.
+            triangles: [m], shape [n, 3, 3]; in the panel's frame, if one is given.
+            kind: as of :class:`~asset_factory.factory.asset.InnerSurface`, with what follows.
+            rule: where its place comes from.
+            panel: in whose frame the triangles are.
+            thickness: of the matter behind it [m].
+            depth: of a hollow or a box [m].
+        """
         if not len(triangles):
             return
         turned = triangles if panel is None else triangles @ panel.side.frame
         if panel is not None and np.linalg.det(panel.side.frame) < 0.0:
             turned = turned[:, ::-1]
         self.added.setdefault(part, []).append(turned)
-        self.records.append(record)
+        sizes = (None if each is None else round(float(each), 4) for each in (thickness, depth))
+        self.records.append(InnerSurface(self.name(part), kind, rule, *sizes))
 
 
 def host_of(articulation: Articulation, part: int) -> int:
