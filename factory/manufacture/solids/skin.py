@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulation import Articulation, JointKind
-from ...geometry.crossings import BoolArray, Raster, Side, crossings, side_facing
+from ...geometry.crossings import BoolArray, Crossings, Raster, Side, crossings, side_facing
 from ...geometry.edges import shared_edges
 from ...geometry.posing import face_parts
 from ...mesh import FloatArray, IntArray, Mesh
 from ...part import Proposer
+from .panel import opens
 
 #: A part is a patch of a skin where it shares so much of its border with other parts, of the
 #: diagonal of its own box. Bodies of their own share none: every edge of theirs has two own faces.
@@ -86,6 +87,8 @@ def plates(articulation: Articulation) -> dict[int, Side]:
         stated = part.source is not None and part.source.proposer is Proposer.ANNOTATION
         if stated or joint.parent or not part.kind.closes_side or part.panel is None:
             continue
+        if not opens(joint, part.panel):
+            continue
         away = part.panel.frame[2]
         depth = float(np.ptp(articulation.part_mesh(joint.child).vertices @ away))
         if depth <= PLATE * float(np.ptp(articulation.mesh.vertices @ away)):
@@ -95,18 +98,24 @@ def plates(articulation: Articulation) -> dict[int, Side]:
 
 def bare_fronts(articulation: Articulation) -> tuple[int, ...]:
     """Return drawers that are front plates alone, and doors of what is solid behind them."""
+    found = plates(articulation)
+    slides = {part for part in found if articulation.joints[part - 1].kind is JointKind.PRISMATIC}
+    mesh = articulation.mesh
+    crossed = {
+        side: crossings(mesh, Raster.around(mesh, side, PIXELS))
+        for side in {found[part] for part in found if part not in slides}
+    }
     return tuple(
         part
-        for part, side in plates(articulation).items()
-        if articulation.joints[part - 1].kind is JointKind.PRISMATIC
-        or _solid_behind(articulation, part, side) >= SOLID
+        for part, side in found.items()
+        if part in slides or _solid_behind(articulation, part, crossed[side]) >= SOLID
     )
 
 
-def _solid_behind(articulation: Articulation, part: int, side: Side) -> float:
+def _solid_behind(articulation: Articulation, part: int, crossed: Crossings) -> float:
     """Return the share of a plate soon behind which there is a surface of something else."""
     mesh = articulation.mesh
-    crossed = crossings(mesh, Raster.around(mesh, side, PIXELS))
+    side = crossed.raster.side
     own = np.zeros(len(mesh.faces), dtype=np.bool_)
     own[articulation.parts[part].faces] = True
     local = articulation.part_mesh(part).vertices @ side.frame.T
