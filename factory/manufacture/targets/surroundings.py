@@ -15,6 +15,7 @@ from ...geometry.cutting import clip_to_box
 from ...geometry.posing import face_parts
 from ...geometry.triangles import ends_of, meet_box
 from ...mesh import FloatArray, IntArray
+from ..decompose.convex import depth_below
 
 #: What only touches a box is not in it [m].
 TOUCH_M = 1e-5
@@ -56,8 +57,7 @@ class Surroundings:
         near = ((low <= points.max(axis=0)) & (high >= points.min(axis=0))).all(axis=1)
         # Most hulls are nowhere near, and asking all of their planes is what takes long.
         for hull in np.flatnonzero(near).tolist():
-            planes = self.hulls[hull].planes
-            found |= (points @ planes[:, :3].T < planes[:, 3] - TOUCH_M).all(axis=1)
+            found |= depth_below(self.hulls[hull], points) > TOUCH_M
         return found
 
     def view(
