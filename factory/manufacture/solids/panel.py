@@ -76,7 +76,7 @@ class FlatPanel:
 
     Attributes:
         part: index.
-        slides: whether it is a drawer's front, that slides out; else it is hinged.
+        slides: whether it is a drawer's front; else a door's, or a lid.
         side: that it faces.
         low, high: its rectangle (right, up) [m], shape [2] each.
         front: depth at which most of it begins [m].
@@ -167,7 +167,7 @@ def find_panel(
         return None
     frame = _frames(view, part, low, high, back)
     shared = np.zeros(4, dtype=bool)
-    slides = joint.kind is JointKind.PRISMATIC
+    slides = joint.kind is JointKind.PRISMATIC and not is_lid
     return FlatPanel(part, slides, view.side, low, high, front, back, rule, frame, shared)
 
 
