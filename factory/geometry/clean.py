@@ -95,7 +95,7 @@ def _diagonal(points: FloatArray, name: str) -> float:
 
 
 def _weld(points: FloatArray, tolerance: float) -> tuple[IntArray, IntArray]:
-    """Indices of the points kept, by first appearance, and per point the one it became."""
+    """Return the indices of the points kept, by first appearance, and which one each became."""
     grid = np.rint((points - points.min(axis=0)) / tolerance).astype(np.int64)
     # A coordinate has at most 1e8 steps, 27 bits: two of them fit one sort key.
     order = np.lexsort((grid[:, 2], (grid[:, 0] << 28) | grid[:, 1]))
@@ -139,7 +139,7 @@ def _assemble(soup: Soup, vertices: FloatArray, faces: IntArray, source: IntArra
 
 
 def _finite_rows(values: FloatArray | None) -> FloatArray | None:
-    """Rows with a number that is not finite become NaN altogether; ``None`` if no row is left."""
+    """Make rows with a number that is not finite NaN altogether; ``None`` if no row is left."""
     if values is None:
         return None
     good = np.asarray(np.isfinite(values)).all(axis=-1, keepdims=True)

@@ -15,6 +15,6 @@ def srgb_of(linear: npt.ArrayLike) -> FloatArray:
 
 
 def linear_of(srgb: npt.ArrayLike) -> FloatArray:
-    """Shown values in [0, 1] as linear light."""
+    """Return shown values in [0, 1] as linear light."""
     shown = np.asarray(srgb, dtype=np.float64)
     return np.where(shown <= 0.04045, shown / 12.92, ((shown + 0.055) / 1.055) ** 2.4)

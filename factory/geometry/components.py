@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components as _graph_components
 
 from ..mesh import IntArray, Mesh
+from .edges import label_linked, shared_edges
 from .rows import distinct_rows
 
 WELD_SHARE = 1e-6
@@ -14,7 +13,7 @@ WELD_SHARE = 1e-6
 
 
 def connected_components(mesh: Mesh) -> IntArray:
-    """Component number of every face, shape [face_count].
+    """Return the component number of every face, shape [face_count].
 
     Vertices are welded by position, faces on the same three vertices count once, and two faces are
     neighbours over an edge that exactly two faces share. So a double-sided sheet is one component
@@ -37,30 +36,16 @@ def connected_components(mesh: Mesh) -> IntArray:
 
 
 def _weld(mesh: Mesh) -> IntArray:
-    """Index of the welded vertex of every vertex, shape [vertex_count]."""
+    """Return the index of the welded vertex of every vertex, shape [vertex_count]."""
     tolerance = max(mesh.diagonal * WELD_SHARE, 1e-12)
     cells = np.round((mesh.vertices - mesh.bounds[0]) / tolerance).astype(np.int64)
     return distinct_rows(cells)[1]
 
 
 def _label_faces(faces: IntArray, proper: IntArray) -> IntArray:
-    """Return the labels of faces with sorted corners; faces that are not ``proper`` stay alone."""
-    count = len(faces)
-    owner = np.repeat(np.flatnonzero(proper), 3)
-    edges = faces[proper][:, [0, 1, 1, 2, 0, 2]].reshape(-1, 2)
-    key = edges[:, 0] * (int(faces.max()) + 1) + edges[:, 1]
-    order = np.argsort(key, kind="stable")
-    key = key[order]
-    owner = owner[order]
-    start = (
-        np.flatnonzero(np.r_[True, key[1:] != key[:-1]])
-        if len(key)
-        else np.zeros(0, dtype=np.int64)
-    )
-    shared_by_two = start[np.diff(np.r_[start, len(key)]) == 2]
-    pairs = (owner[shared_by_two], owner[shared_by_two + 1])
-    graph = coo_matrix((np.ones(len(shared_by_two), dtype=np.int8), pairs), shape=(count, count))
-    return np.asarray(_graph_components(graph, directed=False)[1], dtype=np.int64)
+    """Return the components of faces with sorted corners; those not ``proper`` stay alone."""
+    rows = np.flatnonzero(proper)
+    return label_linked(len(faces), rows[shared_edges(faces[proper]).faces])
 
 
 def _adopt_slivers(labels: IntArray, faces: IntArray, proper: IntArray) -> IntArray:

@@ -32,8 +32,13 @@ class Side(StrEnum):
 
     @property
     def frame(self) -> FloatArray:
-        """Rows: to the right, up, and away from the viewer, unit vectors; shape [3, 3]."""
+        """Return rows: right, up, and away from the viewer, unit vectors; shape [3, 3]."""
         return _FRAMES[self]
+
+
+def side_facing(direction: FloatArray) -> Side:
+    """Return the side that looks most nearly in a direction, shape [3]."""
+    return min(Side, key=lambda side: float(side.frame[2] @ direction))
 
 
 _FRAMES = {
@@ -84,8 +89,30 @@ class Raster:
         start = low[:2] + (0.5 - margin + _SHIFT) * pixel
         return cls(side, start, float(low[2]), pixel, max(rows, 1), max(columns, 1))
 
+    @property
+    def right(self) -> FloatArray:
+        """Return how far to the right the columns' centres lie [m], shape [columns]."""
+        return np.asarray(self.low[0] + np.arange(self.columns) * self.pixel)
+
+    @property
+    def up(self) -> FloatArray:
+        """Return how far up the rows' centres lie [m], shape [rows]."""
+        return np.asarray(self.low[1] + np.arange(self.rows) * self.pixel)
+
+    def window(self, low: FloatArray, high: FloatArray) -> tuple[slice, slice]:
+        """Return the rows and columns whose centres lie between two corners, right and up [m]."""
+        columns = np.searchsorted(self.right, [low[0], high[0]])
+        rows = np.searchsorted(self.up, [low[1], high[1]])
+        return slice(rows[0], rows[1]), slice(columns[0], columns[1])
+
+    def nearest(self, local: FloatArray) -> tuple[IntArray, IntArray]:
+        """Return the rows and columns nearest to points of the side's frame [m], shape [n, 3]."""
+        rows = np.rint((local[:, 1] - self.low[1]) / self.pixel).astype(np.int64)
+        columns = np.rint((local[:, 0] - self.low[0]) / self.pixel).astype(np.int64)
+        return np.clip(rows, 0, self.rows - 1), np.clip(columns, 0, self.columns - 1)
+
     def points(self, rows: IntArray, columns: IntArray, depth: FloatArray) -> FloatArray:
-        """Points in the object frame [m], shape [..., 3], at depths [m] behind pixels."""
+        """Return points in the object frame [m], shape [..., 3], at depths [m] behind pixels."""
         across = np.stack(
             [
                 self.low[0] + np.asarray(columns) * self.pixel,
@@ -97,7 +124,7 @@ class Raster:
         return np.asarray(across @ self.side.frame)
 
     def pixels(self, points: FloatArray) -> FloatArray:
-        """Row, column (both with fractions) and depth [m] of points; shape [..., 3]."""
+        """Return row, column (both with fractions) and depth [m] of points; shape [..., 3]."""
         local = np.asarray(points) @ self.side.frame.T
         column = (local[..., 0] - self.low[0]) / self.pixel
         row = (local[..., 1] - self.low[1]) / self.pixel
@@ -147,7 +174,7 @@ def crossings(mesh: Mesh, raster: Raster) -> Crossings:
 
 
 def _batches(flat: FloatArray, raster: Raster) -> Iterator[tuple[IntArray, IntArray, IntArray]]:
-    """Triangles with the first pixel and the size of the boxes around them, a batch at a time."""
+    """Yield triangles with the first pixel and the size of the boxes around them, in batches."""
     limit = np.array([raster.columns, raster.rows])
     least, most = ends_of(flat)
     low = np.clip(np.ceil(least), 0, limit).astype(np.int64)
@@ -221,7 +248,7 @@ def _nearest_first(pixel: IntArray, depth: FloatArray) -> IntArray:
 
 
 def _doubled_areas(triangles: FloatArray) -> FloatArray:
-    """Twice the signed areas of flat triangles, shape [n, 3, 2]."""
+    """Return twice the signed areas of flat triangles, shape [n, 3, 2]."""
     right = triangles[:, 1] - triangles[:, 0]
     left = triangles[:, 2] - triangles[:, 0]
     return np.asarray(right[:, 0] * left[:, 1] - right[:, 1] * left[:, 0])

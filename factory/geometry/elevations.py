@@ -12,6 +12,7 @@ import numpy.typing as npt
 from ..mesh import FloatArray, IntArray, Material, Mesh, Texture
 from .colors import srgb_of
 from .crossings import BoolArray, Crossings, Raster, Side, crossings
+from .triangles import doubled_normals
 
 #: Along the longest extent of an object.
 PIXELS = 320
@@ -42,17 +43,15 @@ class Elevation:
 
     @cached_property
     def normal(self) -> FloatArray:
-        """Unit normals of the triangles in the side's frame, shape [rows, columns, 3]; 0: none."""
-        corners = self.mesh.vertices[self.mesh.faces]
-        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        normals = normals @ self.raster.side.frame.T
+        """Return unit normals in the side's frame, shape [rows, columns, 3]; 0: nothing."""
+        normals = doubled_normals(self.mesh.vertices[self.mesh.faces]) @ self.raster.side.frame.T
         length = np.linalg.norm(normals, axis=1, keepdims=True)
         normals = np.divide(normals, length, out=np.zeros_like(normals), where=length > 0.0)
         return np.where(self.seen[..., None], normals[self.face], 0.0)
 
     @cached_property
     def color(self) -> FloatArray:
-        """Base colours as they are shown (sRGB) in [0, 1], shape [rows, columns, 3]; 0: nothing."""
+        """Return base colours as shown (sRGB) in [0, 1], shape [rows, columns, 3]; 0: nothing."""
         picture = np.zeros((*self.face.shape, 3))
         material = np.where(self.seen, self.mesh.face_material[self.face], -1)
         for index, each in enumerate(self.mesh.materials):

@@ -10,11 +10,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy.sparse import coo_matrix, csr_matrix
-from scipy.sparse.csgraph import connected_components
 
 from ..mesh import FloatArray, IntArray
+from .edges import label_linked
 
 #: A component with more of the area is cut.
 WHOLE_SHARE = 0.9
@@ -58,12 +57,12 @@ class Sheet:
 
 
 def pieces(sheet: Sheet) -> IntArray:
-    """Number of each face's piece, shape [face_count].
+    """Return the number of each face's piece, shape [face_count].
 
     Components are pieces; but one of most of the area is cut, and with it all that is as large.
     """
     count = len(sheet.areas)
-    components = _grouped(count, sheet.neighbours)
+    components = label_linked(count, sheet.neighbours)
     area = np.bincount(components, weights=sheet.areas)
     whole = area > WHOLE_SHARE * float(area.sum())
     if not whole.any():
@@ -75,11 +74,11 @@ def pieces(sheet: Sheet) -> IntArray:
         parted |= np.abs(steps[:, 0] - steps[:, 1]).max(axis=1) > COLOR_STEP
     parted &= whole[components[sheet.neighbours[:, 0]]]
     joined = sheet.neighbours[~parted]
-    return _merged(sheet, _grouped(count, joined), sheet.borders * np.exp(-turn / SOFT_DEG))
+    return _merged(sheet, label_linked(count, joined), sheet.borders * np.exp(-turn / SOFT_DEG))
 
 
 def _turns(sheet: Sheet) -> FloatArray:
-    """Angle between the smoothed normals of each pair of neighbours [deg], shape [pair_count]."""
+    """Return the angle between neighbours' smoothed normals [deg], shape [pair_count]."""
     one, other = sheet.neighbours.T
     count = len(sheet.areas)
     ends = (np.concatenate([one, other]), np.concatenate([other, one]))
@@ -120,12 +119,5 @@ def _merged(sheet: Sheet, piece: IntArray, ties: FloatArray) -> IntArray:
         if not len(rows):
             break
         target = np.asarray(table[rows].argmax(axis=1)).ravel()
-        piece = _grouped(count, np.stack([rows, target], axis=1))[piece]
+        piece = label_linked(count, np.stack([rows, target], axis=1))[piece]
     return piece
-
-
-def _grouped(count: int, pairs: npt.NDArray[np.int64]) -> IntArray:
-    graph = coo_matrix(
-        (np.ones(len(pairs), dtype=np.int8), (pairs[:, 0], pairs[:, 1])), shape=(count, count)
-    )
-    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)

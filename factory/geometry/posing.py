@@ -45,7 +45,7 @@ def posed(articulation: Articulation, values: Mapping[str, float]) -> Articulati
 
 
 def closed(articulation: Articulation) -> Articulation:
-    """The object with every joint at its closed end; joints without ends stay where they are."""
+    """Return the object with every joint closed; joints without ends stay where they are."""
     return posed(
         articulation,
         {j.name: j.lower for j in articulation.joints if j.kind is not JointKind.CONTINUOUS},
@@ -54,13 +54,23 @@ def closed(articulation: Articulation) -> Articulation:
 
 def turned(articulation: Articulation, yaw: float) -> Articulation:
     """Return the whole object turned about the vertical through the origin by ``yaw`` [rad]."""
+    return rotated(articulation, rotation_about(UP, yaw))
+
+
+def rotated(articulation: Articulation, rotation: FloatArray) -> Articulation:
+    """Return the whole object turned about the origin by ``rotation``, shape [3, 3]."""
     motion = np.eye(4)
-    motion[:3, :3] = rotation_about(UP, yaw)
+    motion[:3, :3] = rotation
     joints = tuple(
-        replace(joint, axis=motion[:3, :3] @ joint.axis, origin=motion[:3, :3] @ joint.origin)
+        replace(joint, axis=rotation @ joint.axis, origin=rotation @ joint.origin)
         for joint in articulation.joints
     )
-    return replace(articulation, mesh=articulation.mesh.transformed(motion), joints=joints)
+    return replace(
+        articulation,
+        mesh=articulation.mesh.transformed(motion),
+        parts=tuple(part.turned(rotation) for part in articulation.parts),
+        joints=joints,
+    )
 
 
 def face_parts(articulation: Articulation) -> IntArray:

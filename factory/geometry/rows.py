@@ -9,7 +9,7 @@ from ..mesh import IntArray
 
 
 def distinct_rows(rows: npt.NDArray[np.generic]) -> tuple[IntArray, IntArray]:
-    """Of equal rows the first; as ``np.unique(rows, axis=0)``, in a quarter of its time.
+    """Find equal rows, as ``np.unique(rows, axis=0)`` does, in a quarter of its time.
 
     Args:
         rows: shape [n, k].

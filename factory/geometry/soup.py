@@ -53,7 +53,7 @@ def plain_soup(
 def stack_corners(
     pieces: Sequence[FloatArray | None], counts: Sequence[int], width: int
 ) -> FloatArray | None:
-    """One array of all pieces' corner attributes, NaN for a piece without; ``None`` if all are."""
+    """Join pieces' corner attributes, NaN for a piece without; ``None`` if all are without."""
     if all(piece is None for piece in pieces):
         return None
     filled = [
@@ -64,7 +64,7 @@ def stack_corners(
 
 
 def _safe(text: str) -> str:
-    """``text`` with all but letters, digits, ``_``, ``-``, ``.`` replaced; 80 characters max."""
+    """Replace all but letters, digits, ``_``, ``-`` and ``.``; 80 characters at most."""
     kept = "".join(
         c if c.isascii() and (c.isalnum() or c in "_-.") else "_" for c in text[:_LETTERS]
     )
@@ -72,7 +72,7 @@ def _safe(text: str) -> str:
 
 
 def unique_names(names: Iterable[str]) -> list[str]:
-    """Safe names, later ones told apart by a number."""
+    """Return safe names, later ones told apart by a number."""
     taken: set[str] = set()
     reached: dict[str, int] = {}
     result: list[str] = []

@@ -1,16 +1,34 @@
-"""How large triangles are, and how far they reach."""
+"""How large triangles are, which way they face, and how far they reach."""
 
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from ..mesh import FloatArray, Mesh
+
+#: The corner after each of a triangle's three.
+FOLLOWING = [1, 2, 0]
+
+
+def doubled_normals(corners: FloatArray) -> FloatArray:
+    """Return each triangle's normal times twice its area [m2], shape [n, 3].
+
+    Args:
+        corners: positions [m], shape [n, 3, 3].
+    """
+    first = corners[:, 0]
+    return np.asarray(np.cross(corners[:, 1] - first, corners[:, 2] - first))
+
+
+def areas_of(corners: FloatArray) -> FloatArray:
+    """Return the area of each triangle [m2], shape [n]; ``corners`` [m] have shape [n, 3, 3]."""
+    return np.asarray(np.linalg.norm(doubled_normals(corners), axis=1) / 2.0)
 
 
 def face_areas(mesh: Mesh) -> FloatArray:
     """Return the area of every face [m2], shape [face_count]."""
-    a, b, c = (mesh.vertices[mesh.faces[:, corner]] for corner in range(3))
-    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0)
+    return areas_of(mesh.vertices[mesh.faces])
 
 
 def ends_of(corners: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -27,3 +45,31 @@ def ends_of(corners: FloatArray) -> tuple[FloatArray, FloatArray]:
     low = np.minimum(np.minimum(first, second), third)
     high = np.maximum(np.maximum(first, second), third)
     return low, high
+
+
+def meet_box(corners: FloatArray, low: FloatArray, high: FloatArray) -> npt.NDArray[np.bool_]:
+    """Tell which triangles meet an axis-aligned box, by separating axes (Akenine-Moller 2001).
+
+    Args:
+        corners: [m], shape [n, 3, 3].
+        low: the box's lower corner [m], shape [3].
+        high: its upper corner [m].
+
+    Returns:
+        Shape [n].
+    """
+    half = (high - low) / 2.0
+    local = corners - (low + high) / 2.0
+    edges = local[:, FOLLOWING] - local
+    least, most = ends_of(local)
+    normals = np.cross(edges[:, 0], edges[:, 1])
+    offsets = np.abs(np.einsum("nk,nk->n", normals, local[:, 0]))
+    across = np.cross(np.eye(3), edges[:, :, None]).reshape(-1, 9, 3)
+    heights = np.einsum("nak,nck->nca", across, local)
+    reach = np.abs(across) @ half
+    lowest, highest = ends_of(heights)
+    return np.asarray(
+        ((least <= half) & (most >= -half)).all(axis=1)
+        & (offsets <= np.abs(normals) @ half)
+        & ((lowest <= reach) & (highest >= -reach)).all(axis=1)
+    )

@@ -7,13 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..articulation import Articulation, Part
+from ..articulation import Articulation
 
 
 def welded(
     articulation: Articulation, joints: Collection[str], onto: Mapping[str, int] | None = None
 ) -> Articulation:
-    """The same object without some of its joints: what they moved belongs to what they hung on.
+    """Return the object without some joints: what they moved joins what they hung on.
 
     Args:
         articulation: any.
@@ -32,16 +32,15 @@ def welded(
     kept = [index for index, top in enumerate(group) if top == index]
     new = {old: index for index, old in enumerate(kept)}
     parts = tuple(
-        Part(
-            articulation.parts[top].name,
-            np.concatenate(
+        replace(
+            articulation.parts[top],
+            faces=np.concatenate(
                 [
                     articulation.parts[index].faces
                     for index in range(len(group))
                     if group[index] == top
                 ]
             ),
-            articulation.parts[top].confidence,
         )
         for top in kept
     )

@@ -16,7 +16,7 @@ NEAR_SHARE = 0.03
 
 
 def lying_on(articulation: Articulation, joints: Collection[str]) -> dict[str, int]:
-    """By joint, the part that most of what its own part shows lies near; without one, none.
+    """Return by joint the part that most of its own part's surface lies near, if any.
 
     Args:
         articulation: parts and joints, as modelled.

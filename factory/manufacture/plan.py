@@ -11,7 +11,7 @@ from ..articulation import Articulation, Joint, JointKind
 from ..geometry.welding import welded
 from .hinges import at_front_edge
 from .lying import lying_on
-from .solids.plates import plates
+from .solids.skin import plates
 
 Pair = tuple[str, str]
 #: Thin fronts of meshes of more faces are built at once: carved mouldings take minutes to search.
@@ -107,7 +107,7 @@ def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
 
 
 def dispensable_joints(articulation: Articulation, share: float) -> Spare:
-    """Joints without which the object is still worth having, should they turn out to be wrong.
+    """Find joints without which the object is still worth having, should they be wrong.
 
     Small ones; and of joints that were guessed all but the best: a guess that is blocked is a
     wrong guess. Never all that there are.
@@ -131,7 +131,7 @@ def dispensable_joints(articulation: Articulation, share: float) -> Spare:
 
 
 def _moved_shares(articulation: Articulation) -> dict[str, float]:
-    """Diagonal of all that each movable joint moves, over the object's; 0 of empty carriers."""
+    """Return the diagonal of all that each joint moves over the object's; 0 of empty carriers."""
     moved: list[set[int]] = [{part} for part in range(len(articulation.parts))]
     for joint in reversed(articulation.joints):
         moved[joint.parent] |= moved[joint.child]

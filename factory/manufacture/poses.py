@@ -36,7 +36,7 @@ def relative_poses(
             for q in np.linspace(joint.lower, joint.lower + share * joint.range, steps + 1)[1:]
         ]
     # Of these two alone: a keyboard has a hundred parts, each of which asks about all others.
-    above_a, above_b = (_joints_above(articulation, part)[::-1] for part in (a, b))
+    above_a, above_b = (joints_above(articulation, part)[::-1] for part in (a, b))
     return [
         np.asarray(np.linalg.inv(_pose(above_a, given)) @ _pose(above_b, given)) for given in values
     ]
@@ -44,13 +44,13 @@ def relative_poses(
 
 def joints_between(articulation: Articulation, a: int, b: int) -> list[Joint]:
     """Return the joints that move one of two parts and not the other."""
-    above_a, above_b = ({j.name for j in _joints_above(articulation, part)} for part in (a, b))
+    above_a, above_b = ({j.name for j in joints_above(articulation, part)} for part in (a, b))
     between = above_a ^ above_b
     return [joint for joint in articulation.movable_joints if joint.name in between]
 
 
-def _joints_above(articulation: Articulation, part: int) -> list[Joint]:
-    """From the one that holds a part up to the root's."""
+def joints_above(articulation: Articulation, part: int) -> list[Joint]:
+    """Return the joints from the one that holds a part up to the root's."""
     found = []
     joint = articulation.parent_joint(part)
     while joint is not None:
@@ -68,7 +68,7 @@ def _pose(joints: list[Joint], values: dict[str, float]) -> FloatArray:
 
 
 def jointed(articulation: Articulation, a: int, b: int) -> bool:
-    """Whether one of two parts is held in the other by a joint, or by several without a body.
+    """Return whether one of two parts is held in the other: by a joint, or over empty links.
 
     A cap that turns and lifts hangs on a link without geometry between its two joints.
     """
@@ -77,5 +77,5 @@ def jointed(articulation: Articulation, a: int, b: int) -> bool:
 
 def held_by(articulation: Articulation, part: int) -> int | None:
     """Return the next part above one that has a body; ``None`` if there is none."""
-    holders = (joint.parent for joint in _joints_above(articulation, part))
+    holders = (joint.parent for joint in joints_above(articulation, part))
     return next((part for part in holders if len(articulation.parts[part].faces)), None)

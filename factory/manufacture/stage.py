@@ -37,7 +37,7 @@ FINISH = Stage(
 def manufacture(
     articulation: Articulation, plan: Plan, intake: Intake, stages: Stages
 ) -> tuple[Asset, tuple[Finding, ...]]:
-    """Everything a simulator needs beside the joints, and the factory's own findings about it.
+    """Make all that a simulator needs beside the joints; with the factory's own findings.
 
     Where its joints are best held no simulator asks: see :func:`with_targets`.
 
@@ -68,7 +68,7 @@ def manufacture(
 def _hulls(
     planned: Articulation, known: Sequence[PartHulls | None], plan: Plan, stages: Stages
 ) -> tuple[tuple[PartHulls, ...], list[Finding]]:
-    """Of every part, joined where the asset has many of them; and what was joined."""
+    """Decompose every part, joined where the asset has many hulls; and say what was joined."""
     config = stages.config
     rooms = Rooms(planned)
     plain = decompose(planned, config.decompose, stages.store, known, plan.hollow, rooms)
@@ -91,7 +91,7 @@ def _hulls(
 
 
 def _aims(plan: Plan, hulls: HullsConfig) -> list[tuple[int, float]]:
-    """How many hulls there may be, and joined with how many times the error, one after another."""
+    """Return how many hulls there may be, joined with how many times the error, in order."""
     if plan.fewer is not None:
         return [(plan.fewer, hulls.coarsest)]
     return [] if plan.closely else [(hulls.wanted, hulls.coarse), (hulls.most, hulls.coarsest)]
@@ -200,7 +200,7 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
 def _inertials(
     articulation: Articulation, pieces: tuple[PartHulls, ...], density: float, config: BuildConfig
 ) -> list[Inertial]:
-    """One inertial per part; a carrier weighs a share of its load, so children come first."""
+    """Weigh every part; a carrier weighs a share of its load, so children come first."""
     inertials: dict[int, Inertial] = {}
     for part in reversed(range(len(articulation.parts))):
         if len(articulation.parts[part].faces):

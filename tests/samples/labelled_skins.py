@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import trimesh
 
+from asset_factory.factory.articulate.locate import located
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.mesh import Mesh
 
@@ -33,7 +34,8 @@ def labelled(vertices, faces, patches, joints):
         label[patch(middles)] = index
     names = ("body", *(f"panel_{index}" for index in range(1, len(patches) + 1)))
     parts = tuple(Part(name, np.flatnonzero(label == i)) for i, name in enumerate(names))
-    return Articulation(Mesh.from_triangles(vertices, faces), parts, tuple(joints), "test")
+    mesh = Mesh.from_triangles(vertices, faces)
+    return located(Articulation(mesh, parts, tuple(joints), "test"))
 
 
 def front(low, high):

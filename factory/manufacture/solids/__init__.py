@@ -1,8 +1,7 @@
 """Bodies for parts that have none: panels, hollows, drawers and lids, convex as they are made.
 
-``skin.py`` says which parts are patches of a skin, ``plates.py`` which are fronts with nothing
-behind them; ``build.py`` is the step. ``views.py`` and ``lattice.py`` look at the skin,
-``panel.py`` and ``bump.py`` say what a part is, ``cavity.py`` what is hollow behind it,
-``pieces.py`` cuts ``matter.py`` into convex pieces, ``seam.py`` and ``surfaces.py`` make what is
-seen.
+``skin.py`` says which parts are patches of a one-piece mesh, or fronts with nothing behind them;
+``build.py`` is the step. ``panel.py``, ``bump.py`` and ``lattice.py`` measure the mesh,
+``cavity.py`` says what is hollow behind a panel, ``pieces.py`` cuts ``matter.py`` into convex
+pieces, ``seam.py`` and ``surfaces.py`` make what is seen.
 """

@@ -12,7 +12,7 @@ from ...mesh import FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from .box import Box
 from .carve import surface_points
-from .knobs import clear_of_bumps, give_way, keep_clear
+from .knobs import CLEAR_M, clear_of_bumps, give_way, keep_clear
 from .lattice import closed_up, marked
 from .matter import INSIDE, PATH, Matter
 from .pieces import MOST_CORNERS, convex_pieces
@@ -20,8 +20,6 @@ from .reach import reaching
 from .sweep import entered, hung, motions
 from .work import Workpiece
 
-#: Around what turns or slides within its host, before the exact cut [m].
-CLEAR_M = 0.003
 #: Hinges moved by less than this are not spoken of [m].
 MOVED_M = 0.002
 #: A part of so few cells along its longest side is one hull.
@@ -60,7 +58,7 @@ def block_insides(work: Workpiece, part: int, points: FloatArray) -> None:
 
 
 def make_rest(work: Workpiece, most: int) -> None:
-    """Pieces of what is neither panel nor knob; where it passes, its neighbours keep clear."""
+    """Make what is neither panel nor knob; where it passes, its neighbours keep clear."""
     for part in sorted(work.rest, reverse=True):
         points = surface_points(work, part)
         if not len(points):
@@ -113,7 +111,7 @@ def hang_panels(work: Workpiece) -> None:
 
 
 def make_body(work: Workpiece, part: int, most: int) -> None:
-    """Pieces of the body, or of another part that nothing moves: walls around what is free."""
+    """Make the body, or another part that nothing moves: walls around what is free."""
     points = _standing_points(work, part)
     block_insides(work, part, points)
     blocked = work.blocked(part)
@@ -124,7 +122,7 @@ def make_body(work: Workpiece, part: int, most: int) -> None:
 
 
 def _standing_points(work: Workpiece, part: int) -> FloatArray:
-    """Points of the skin of what holds panels and knobs, away from all of them [m], [n, 3]."""
+    """Return points of the skin of what holds panels and knobs, away from these [m], [n, 3]."""
     points = surface_points(work, part)
     return points[~_in_free(work, points) & clear_of_bumps(work, part, points)]
 

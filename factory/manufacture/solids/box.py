@@ -32,7 +32,7 @@ class Box:
 
     @property
     def size(self) -> FloatArray:
-        """Side lengths [m], shape [3]."""
+        """Return the side lengths [m], shape [3]."""
         return np.asarray(self.high - self.low)
 
     @property
@@ -41,7 +41,7 @@ class Box:
         return bool((self.size <= 0.0).any())
 
     def holds(self, points: npt.ArrayLike, margin: float = 0.0) -> BoolArray:
-        """Which of some points [m], shape [..., 3], lie in it or within ``margin`` [m] of it."""
+        """Return which points [m], shape [..., 3], lie in it or within ``margin`` [m] of it."""
         low = self.low - margin
         high = self.high + margin
         x, y, z = np.moveaxis(np.asarray(points), -1, 0)
@@ -49,7 +49,7 @@ class Box:
         return np.asarray(within & (z >= low[2]) & (z <= high[2]))
 
     def grown(self, margin: npt.ArrayLike) -> Box:
-        """With every side moved out by ``margin`` [m], one or shape [3]."""
+        """Return the box with every side moved out by ``margin`` [m], one or shape [3]."""
         return Box(self.low - np.asarray(margin), self.high + np.asarray(margin))
 
     def within(self, other: Box) -> Box:
@@ -69,5 +69,5 @@ class Box:
         return np.array(list(itertools.product(*zip(self.low, self.high, strict=True))))
 
     def hull(self) -> Hull | None:
-        """As a convex piece; ``None`` if it is thinner than what engines take."""
+        """Return the box as a convex piece; ``None`` if it is thinner than what engines take."""
         return None if self.empty else hull_of(self.corners)

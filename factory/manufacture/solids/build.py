@@ -11,6 +11,7 @@ import numpy as np
 from ...articulation import Articulation
 from ...asset import Hull, InnerSurface
 from ...config import SolidsConfig
+from ...geometry.posing import rotated
 from ...mesh import FloatArray
 from ...runtime.keys import Stage
 from ..decompose.convex import aspect
@@ -21,7 +22,6 @@ from .clear import cleared
 from .frame import turned_hull, working_frame
 from .knobs import make_bumps, planes_of_bumps
 from .lattice import Lattice, enclosed
-from .panel import PanelKind
 from .recognize import cut_bases, recognize, recognize_bumps
 from .skin import parts_to_build, skin_parts
 from .visible import bump_surfaces, hull_surfaces, meshed, panel_surfaces
@@ -30,7 +30,7 @@ from .work import Workpiece, host_of
 #: Its version is raised when the same skin would get other solids.
 SOLIDS = Stage(
     "solids",
-    version=9,
+    version=10,
     settings=("solids",),
     libraries=("numpy", "scipy", "manifold3d", "pillow"),
 )
@@ -61,7 +61,7 @@ def solids(articulation: Articulation, config: SolidsConfig, fronts: bool = Fals
     """
     parts = parts_to_build(articulation, fronts)
     turn = working_frame(articulation, parts)
-    work = _prepared(_turned(articulation, turn), parts, config)
+    work = _prepared(_rotated(articulation, turn), parts, config)
     if not work.whole.any():
         note = "the skin encloses nothing that could be made solid: its parts are decomposed as is"
         plain = replace(articulation, notes=(*articulation.notes, note))
@@ -72,7 +72,7 @@ def solids(articulation: Articulation, config: SolidsConfig, fronts: bool = Fals
         # A body of its own, a rack of wire: what it is made of is known better than cells tell.
         work.hulls[part] = ()
     _shown(work)
-    made = _turned(meshed(work), turn.T)
+    made = _rotated(meshed(work), turn.T)
     pieces = tuple(
         _piece(tuple(turned_hull(hull, turn.T) for hull in work.hulls[index]), len(part.faces))
         for index, part in enumerate(made.parts)
@@ -137,8 +137,8 @@ def _prepared(
 
 
 def _made(work: Workpiece) -> None:
-    """Every part's pieces; panels first, what holds them last."""
-    order = sorted(work.panels, key=lambda part: work.panels[part].kind is PanelKind.LID)
+    """Make every part's pieces; panels first, what holds them last."""
+    order = sorted(work.panels, key=lambda part: work.panels[part].is_lid)
     share_out(work)
     for part in order:
         carve_panel(work, part)
@@ -154,7 +154,7 @@ def _made(work: Workpiece) -> None:
 
 
 def _shown(work: Workpiece) -> None:
-    """Every part's inner faces."""
+    """Add every part's inner faces."""
     for part in work.panels:
         panel_surfaces(work, part)
     for part in work.bumps:
@@ -163,16 +163,8 @@ def _shown(work: Workpiece) -> None:
         hull_surfaces(work, part, work.hulls.get(part, ()))
 
 
-def _turned(articulation: Articulation, turn: FloatArray) -> Articulation:
-    if np.array_equal(turn, np.eye(3)):
-        return articulation
-    matrix = np.eye(4)
-    matrix[:3, :3] = turn
-    joints = tuple(
-        replace(joint, axis=turn @ joint.axis, origin=turn @ joint.origin)
-        for joint in articulation.joints
-    )
-    return replace(articulation, mesh=articulation.mesh.transformed(matrix), joints=joints)
+def _rotated(articulation: Articulation, turn: FloatArray) -> Articulation:
+    return articulation if np.array_equal(turn, np.eye(3)) else rotated(articulation, turn)
 
 
 def _piece(hulls: tuple[Hull, ...], faces: int) -> PartHulls | None:

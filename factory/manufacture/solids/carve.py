@@ -15,10 +15,11 @@ from ..decompose.outside import outside
 from .box import Box
 from .cavity import hollow
 from .drawer import drawer_box
+from .frame import turned_hull
 from .knobs import clear_of_bumps, keep_clear
 from .lattice import closed_up, marked
 from .matter import INSIDE, PATH, Matter
-from .panel import FlatPanel, PanelKind
+from .panel import FlatPanel
 from .pieces import convex_pieces
 from .reach import FAR_M, reaching
 from .slab import FLUSH_M, FrontRelief, handles, relief
@@ -44,7 +45,7 @@ SPACING = 1.5
 def gaps(panel: FlatPanel, joint_axis: FloatArray, gap: float) -> FloatArray:
     """Return how far the carving reaches beyond each edge of a panel [m], shape [4]."""
     margin = np.full(4, gap)
-    if panel.kind is PanelKind.DRAWER:
+    if panel.slides:
         return margin
     along = int(np.abs((panel.side.frame @ joint_axis)[:2]).argmax())
     across = 1 - along
@@ -117,7 +118,7 @@ def carve_panel(work: Workpiece, part: int) -> None:
 
 
 def make_slab(work: Workpiece, part: int) -> None:
-    """A panel's pieces: its slab, hollowed where it is thick, and its handles."""
+    """Make a panel's pieces: its slab, hollowed where it is thick, and its handles."""
     panel = work.panels[part]
     frame = panel.side.frame
     points = surface_points(work, part)
@@ -139,7 +140,7 @@ def make_slab(work: Workpiece, part: int) -> None:
         kept = kept[~box.holds(kept, -1e-9)]
     matter = Matter(work.lattice, solid & (blocked == 0), whole, blocked, kept @ frame)
     pieces = reaching(matter, convex_pieces(matter, MOST_PIECES))
-    hulls = [*pieces, *(_turned(hull, frame) for hull in proud)]
+    hulls = [*pieces, *(turned_hull(hull, frame.T) for hull in proud)]
     hulls += _behind_slab(work, part, hulls, behind @ frame, len(points))
     work.hulls[part] = tuple(hulls)
     keep_clear(work, part)
@@ -170,7 +171,7 @@ def _behind_slab(
 def _behind_face(
     work: Workpiece, panel: FlatPanel, face: FrontRelief
 ) -> tuple[BoolArray, BoolArray]:
-    """Cells of a slab: behind its face and before its back; and all that lies behind its face."""
+    """Return a slab's cells, between its face and its back, and all cells behind its face."""
     frame = panel.side.frame
     lattice = work.lattice
     plain = Box(np.append(panel.low, -np.inf), np.append(panel.high, np.inf))
@@ -186,13 +187,8 @@ def _behind_face(
     return solid, inside
 
 
-def _turned(hull: Hull, frame: FloatArray) -> Hull:
-    # A panel's frame is left-handed: the faces turn round.
-    return Hull(hull.vertices @ frame, hull.faces[:, ::-1])
-
-
 def _lid_hollow(work: Workpiece, panel: FlatPanel) -> tuple[Box, ...]:
-    if panel.kind is not PanelKind.LID or panel.thickness < THICK_LID_M:
+    if not panel.is_lid or panel.thickness < THICK_LID_M:
         return ()
     frame = panel.side.frame * np.array([[1.0], [1.0], [-1.0]])
     room = _inner(work, (panel.part, 0), LID_WALL_M)
@@ -252,15 +248,15 @@ def hollow_behind(work: Workpiece, part: int) -> None:
         if len(corners):
             room[work.lattice.span(Box.around(corners).grown(wall))] = False
     boxes = hollow(work.lattice, room, column, frame)
-    if not boxes or not (work.filled[part] or panel.kind is PanelKind.DRAWER):
+    if not boxes or not (work.filled[part] or panel.slides):
         return
     work.hollows[part] = boxes
     for box in boxes:
         span = work.lattice.span(box.turned(frame.T))
-        moves = PATH if panel.kind is PanelKind.DRAWER else INSIDE
+        moves = PATH if panel.slides else INSIDE
         work.block_box(0, box.turned(frame.T), moves)
         work.owner[span] = np.where(work.owner[span] == 0, -1, work.owner[span])
-    if panel.kind is PanelKind.DRAWER:
+    if panel.slides:
         _give_box(work, panel, boxes)
 
 
@@ -271,7 +267,7 @@ def _filled_behind(work: Workpiece, column: Box, frame: FloatArray) -> bool:
 
 
 def _own_inside(work: Workpiece) -> BoolArray:
-    """The empty cells that the skin shuts in on five sides: the inside that the input has."""
+    """Return the empty cells that the skin shuts in on five sides."""
     walls = marked(work.lattice, surface_points(work, 0))
     return np.asarray(closed_up(work.whole | walls) & ~walls & ~work.whole)
 

@@ -18,8 +18,6 @@ from .work import Workpiece
 #: Between the pieces of two parts, at rest and on the way [m].
 CLEARANCE_M = 0.0025
 POSES = 31
-#: Where the whole way would take too much.
-AT_REST = 1
 #: Parts that would lose more are in each other's way: their pieces are left for the judge to see.
 LEAST_LEFT = 0.5
 
@@ -31,7 +29,8 @@ def cleared(work: Workpiece) -> dict[int, tuple[Hull, ...]]:
     for a, b in combinations(range(len(articulation.parts)), 2):
         if not (hulls[a] and hulls[b]):
             continue
-        for poses in (POSES, AT_REST):
+        # At rest only, where the whole way would take too much.
+        for poses in (POSES, 1):
             before = (hulls[a], hulls[b])
             way = _relative(articulation, a, b, poses)
             after = cut_apart_along(*before, way, CLEARANCE_M)
@@ -59,6 +58,6 @@ def _enough(before: list[Hull], after: list[Hull]) -> bool:
 
 
 def _bodies(hulls: list[Hull]) -> list[Hull]:
-    """Without slivers, unless there is nothing else."""
+    """Drop slivers, unless there is nothing else."""
     thick = [hull for hull in hulls if np.ptp(hull.vertices, axis=0).min() > 0.001]
     return thick or hulls

@@ -6,6 +6,7 @@ import numpy as np
 
 from ...articulation import Articulation, rotation_about
 from ...asset import Hull
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray
 
 #: Smaller angles are those of faces, not of the object [rad].
@@ -15,11 +16,11 @@ LEVEL = 0.3
 
 
 def working_frame(articulation: Articulation, parts: tuple[int, ...]) -> FloatArray:
-    """Rows of the frame in which most upright faces of some parts look along an axis, [3, 3]."""
+    """Return the frame (rows) along whose axes most upright faces of some parts look, [3, 3]."""
     mesh = articulation.mesh
     faces = np.concatenate([articulation.parts[part].faces for part in parts])
     corners = mesh.vertices[mesh.faces[faces]]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = doubled_normals(corners)
     area = np.linalg.norm(normals, axis=1)
     upright = np.abs(normals[:, 2]) < LEVEL * area
     normals = normals[upright]
@@ -37,7 +38,8 @@ def working_frame(articulation: Articulation, parts: tuple[int, ...]) -> FloatAr
 
 
 def turned_hull(hull: Hull, rotation: FloatArray) -> Hull:
-    """Return a hull turned by a rotation, shape [3, 3]."""
+    """Return a hull turned, or mirrored, by ``rotation``, shape [3, 3]."""
     if np.array_equal(rotation, np.eye(3)):
         return hull
-    return Hull(hull.vertices @ rotation.T, hull.faces)
+    faces = hull.faces[:, ::-1] if np.linalg.det(rotation) < 0.0 else hull.faces
+    return Hull(hull.vertices @ rotation.T, faces)

@@ -51,6 +51,6 @@ def _bare(mesh: Mesh) -> Mesh:
 
 
 def _dressed(mesh: Mesh, source: Mesh) -> Mesh:
-    """With the source's own materials, which come first, as the source has them."""
+    """Give a mesh the source's own materials, which come first, as the source has them."""
     own = source.materials
     return replace(mesh, materials=(*own, *mesh.materials[len(own) :]))

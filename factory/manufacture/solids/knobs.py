@@ -30,7 +30,7 @@ PANEL_LEFT = 0.9
 
 
 def planes_of_bumps(bumps: dict[int, Bump], joints: list[Joint]) -> list[list[float]]:
-    """Where the lattice must have planes for rooms to end by knobs and buttons [m], per axis."""
+    """Return, per axis, where the lattice needs planes for rooms to end by knobs [m]."""
     planes: list[list[float]] = [[], [], []]
     for part, bump in bumps.items():
         room = _box(_passed(bump, joints[part - 1]))
@@ -48,7 +48,7 @@ def planes_of_bumps(bumps: dict[int, Bump], joints: list[Joint]) -> list[list[fl
 
 
 def make_bumps(work: Workpiece) -> None:
-    """Knobs, buttons and wheels as one hull each, with room in what holds them."""
+    """Make knobs, buttons and wheels, one hull each, with room in what holds them."""
     for part, bump in work.bumps.items():
         work.hulls[part] = (bump.hull,)
         host = work.host(part)
@@ -65,7 +65,7 @@ def _way(joint: Joint) -> list[FloatArray]:
 
 
 def _passed(bump: Bump, joint: Joint) -> FloatArray:
-    """Its corners all along its way [m], shape [n, 3]."""
+    """Return its corners all along its way [m], shape [n, 3]."""
     return _moved(bump.hull.vertices, _way(joint))
 
 
@@ -79,7 +79,7 @@ def _box(points: FloatArray) -> Box:
 
 
 def _free_above(work: Workpiece, host: int, bump: Bump) -> None:
-    """What the skin has around a knob above its base is no part of what it stands on."""
+    """Take from a host the cells around a knob above its base."""
     if bump.normal is None:
         return
     around = work.lattice.span(_box(bump.hull.vertices))
@@ -94,7 +94,7 @@ def _free_above(work: Workpiece, host: int, bump: Bump) -> None:
 
 
 def clear_of_bumps(work: Workpiece, host: int, points: FloatArray) -> BoolArray:
-    """Which points of a host's skin [m] lie clear of the way of all knobs on it, shape [n]."""
+    """Return which points of a host's skin [m] lie clear of the ways of its knobs, shape [n]."""
     clear = np.ones(len(points), dtype=bool)
     for part, bump in work.bumps.items():
         if work.host(part) != host:
@@ -133,7 +133,7 @@ def _all_around(hulls: tuple[Hull, ...], passed: FloatArray) -> tuple[Hull, ...]
 
 
 def _around(hull: Hull, passed: FloatArray) -> list[Hull]:
-    """What is left of a hull: cut by one plane where that takes little, else several pieces."""
+    """Cut a hull by one plane where that takes little, else into several pieces."""
     room = hull_of(passed)
     met = None if room is None else meeting(hull, room, np.eye(4))
     if met is None or met.depth <= -CLEAR_M:

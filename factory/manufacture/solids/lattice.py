@@ -35,7 +35,7 @@ class Lattice:
 
     @classmethod
     def over(cls, bounds: FloatArray, cells: int, planes: list[list[float]]) -> Lattice:
-        """Even cells over a box, with some planes exactly where they are wanted.
+        """Return even cells over a box, with some planes exactly where they are wanted.
 
         Args:
             bounds: corners [m], shape [2, 3].
@@ -77,7 +77,7 @@ class Lattice:
 
     @cached_property
     def volumes(self) -> FloatArray:
-        """Of every cell [m3], shape [nx, ny, nz]."""
+        """Return the volume of every cell [m3], shape [nx, ny, nz]."""
         x, y, z = (np.diff(each) for each in self.lines)
         return np.asarray(x[:, None, None] * y[None, :, None] * z[None, None, :])
 
@@ -90,7 +90,7 @@ class Lattice:
         return x, y, z
 
     def below(self, planes: FloatArray, span: Span, margin: float = 0.0) -> BoolArray:
-        """Cells of a span whose centres lie below all of some planes, or so little above them.
+        """Return which cells of a span have their centres below all of some planes.
 
         Those of one column lie between two heights: columns are looked at, not cells.
 
@@ -151,7 +151,7 @@ def marked(lattice: Lattice, points: FloatArray) -> BoolArray:
 
 
 def closed_up(whole: BoolArray) -> BoolArray:
-    """Cells within the skin or shut in by it: met in at least five of the six axis directions."""
+    """Return the cells of a skin or shut in by it: met in at least five of six directions."""
     met = np.zeros(whole.shape, dtype=np.int8)
     for axis in range(3):
         met += np.logical_or.accumulate(whole, axis=axis)

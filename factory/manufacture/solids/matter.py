@@ -67,13 +67,13 @@ class Matter:
 
     @cached_property
     def corners(self) -> BoolArray:
-        """Corners of cells that touch the matter and lie within the skin; one more each way."""
+        """Return cells' corners that touch the matter within the skin; one more each way."""
         outside = any_around(np.pad(~self.whole, 1, constant_values=True))[1:-1, 1:-1, 1:-1]
         return np.asarray(any_around(self.solid) & ~outside)
 
     @cached_property
     def sampled(self) -> tuple[FloatArray, FloatArray]:
-        """Centres of some cells that must stay free [m], and the weighted volume of each [m3]."""
+        """Return centres of some cells that must stay free [m] and their weighted volumes [m3]."""
         cells = np.argwhere(self.free)
         stride = max(len(cells) // SAMPLE, 1)
         chosen = cells[:: stride | 1]
@@ -83,7 +83,7 @@ class Matter:
 
 
 def any_around(cells: BoolArray) -> BoolArray:
-    """For each corner of cells whether any of the cells around it is set, one more each way."""
+    """Return for each corner of cells whether any cell around it is set, one more each way."""
     result = cells
     for axis in range(3):
         pad = [(1, 1) if axis == other else (0, 0) for other in range(3)]

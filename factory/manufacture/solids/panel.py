@@ -1,31 +1,29 @@
-"""Which movable parts are panels: doors, drawers' fronts and lids, seen straight from one side."""
+"""Doors, drawers' fronts and lids, measured straight from the side that they close."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import StrEnum
 
 import numpy as np
 from scipy import ndimage
 
 from ...articulation import Joint, JointKind
-from ...geometry.crossings import BoolArray, Side
+from ...geometry.crossings import BoolArray, Raster, Side
+from ...geometry.elevations import PIXELS, Elevation, elevation
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, IntArray, Mesh
+from ...part import Panel
 from .box import Box
-from .views import PartView
 
 #: A part that fills less of its rectangle is no panel.
 LEAST_FILL = 0.5
-#: Nor is one that is less wide than this [m], or than this share of the object.
-LEAST_SIDE_M = 0.03
-LEAST_SIDE_SHARE = 0.03
 #: Rows and columns that hold fewer of its pixels than this share of the fullest are its frayed rim.
 FRAYED = 0.3
 #: Where nothing lies beyond an edge within this distance, no frame does [m].
 BESIDE_M = 0.012
 #: How much further a panel without a frame reaches: nothing may be left standing there [m].
 BEYOND_M = 0.015
-#: Cosine above which directions are alike.
+#: What opens along a direction does so to this cosine; what lies across one, to less than that.
 ALONG = 0.9
 ACROSS = 0.35
 #: A rim of a door is believed between these [m].
@@ -40,12 +38,36 @@ LID_M = 0.03
 SOLID_M = 0.008
 
 
-class PanelKind(StrEnum):
-    """What a panel closes."""
+@dataclass(frozen=True)
+class PartView:
+    """A side's picture; arrays have shape [rows, columns], row 0 lowest.
 
-    DOOR = "door"
-    DRAWER = "drawer"
-    LID = "lid"
+    Attributes:
+        side: that is looked at; its frame's axes are right ``u``, up ``v`` and away ``w``.
+        part: which part is seen; -1: nothing.
+        depth: of what is seen, along the side's ``w`` [m]; infinite where there is nothing.
+        picture: colours and normals.
+    """
+
+    side: Side
+    part: IntArray
+    depth: FloatArray
+    picture: Elevation
+
+    @property
+    def raster(self) -> Raster:
+        """Return where its pixels lie."""
+        return self.picture.raster
+
+
+def look(mesh: Mesh, face_part: IntArray, side: Side) -> PartView:
+    """Return one side's view of a mesh whose faces belong to parts, shape [face_count]."""
+    picture = elevation(mesh, side, PIXELS)
+    seen: BoolArray = picture.seen
+    part = np.where(seen, face_part[picture.face], -1)
+    return PartView(
+        side, part, np.where(seen, picture.depth + picture.raster.near, np.inf), picture
+    )
 
 
 @dataclass(frozen=True)
@@ -54,37 +76,45 @@ class FlatPanel:
 
     Attributes:
         part: index.
-        kind: see :class:`PanelKind`.
+        slides: whether it is a drawer's front; else a door's, or a lid.
         side: that it faces.
         low, high: its rectangle (right, up) [m], shape [2] each.
         front: depth at which most of it begins [m].
         back: depth of its plane back [m].
-        open: whether no frame lies beyond its left, right, lower and upper edge, shape [4].
         rule: where the back comes from.
-        frame: depth at which the frame begins beyond each edge [m], shape [4]; infinite where
-            there is none.
+        frame: depth at which the frame begins beyond its left, right, lower and upper edge [m],
+            shape [4]; infinite where there is none.
         shared: whether another panel begins at each edge, shape [4].
     """
 
     part: int
-    kind: PanelKind
+    slides: bool
     side: Side
     low: FloatArray
     high: FloatArray
     front: float
     back: float
-    open: BoolArray
     rule: str
     frame: FloatArray
     shared: BoolArray
 
     @property
+    def open(self) -> BoolArray:
+        """Return whether no frame lies beyond each edge, shape [4]."""
+        return np.isinf(self.frame)
+
+    @property
+    def is_lid(self) -> bool:
+        """Return whether it closes an object from above."""
+        return self.side is Side.TOP
+
+    @property
     def thickness(self) -> float:
-        """From most of the front to the back [m]."""
+        """Return how far its back lies behind most of its front [m]."""
         return self.back - self.front
 
     def reach(self, margin: FloatArray | float, back: float) -> Box:
-        """The column in front of ``back`` [m], framed edges moved out by ``margin`` [m], [4]."""
+        """Return the column before ``back`` [m], framed edges moved out by ``margin`` [m], [4]."""
         out = np.where(self.open, BEYOND_M, margin)
         return Box(
             np.array([self.low[0] - out[0], self.low[1] - out[2], -np.inf]),
@@ -92,44 +122,20 @@ class FlatPanel:
         )
 
 
-def facing(joint: Joint, part: int, views: dict[Side, PartView]) -> PartView | None:
-    """The side on which a joint opens its part, if it is a panel's joint and the part is seen."""
-    best: tuple[float, PartView] | None = None
-    for view in views.values():
-        outward = -view.side.frame[2]
-        seen = view.part == part
-        along = float(joint.axis @ outward)
-        if not seen.any() or joint.kind is JointKind.CONTINUOUS:
-            continue
-        if joint.kind is JointKind.PRISMATIC:
-            worth = 1.0 if along > ALONG and joint.upper > -joint.lower else 0.0
-        else:
-            worth = _swings(joint, view, seen, outward) if abs(along) < ACROSS else 0.0
-        score = worth * float(seen.sum()) * view.pixel**2
-        if score > 0.0 and (best is None or score > best[0]):
-            best = score, view
-    return best[1] if best else None
-
-
-def _swings(joint: Joint, view: PartView, seen: BoolArray, outward: FloatArray) -> float:
-    """Return how much of the first motion of what is seen goes outward, 0 to 1."""
-    rows, columns = np.nonzero(seen)
-    local = np.array(
-        [view.columns[columns].mean(), view.rows[rows].mean(), float(np.mean(view.depth[seen]))]
-    )
-    motion = np.cross(joint.axis, local @ view.side.frame - joint.origin)
-    length = float(np.linalg.norm(motion))
-    turn = joint.upper + joint.lower
-    if length == 0.0 or turn <= 0.0 or joint.range > 2.0 * np.pi - 0.1:
-        return 0.0
-    share = float(motion @ outward) / length
-    return share if share > 0.3 else 0.0
+def opens(joint: Joint, panel: Panel) -> bool:
+    """Tell whether a joint moves a panel out of the side that it closes."""
+    if joint.kind is JointKind.PRISMATIC:
+        return float(joint.axis @ panel.outward) > ALONG
+    motion = np.cross(joint.axis, panel.center - joint.origin) * (joint.upper + joint.lower)
+    swings = float(motion @ panel.outward) > ACROSS * float(np.linalg.norm(motion))
+    across = abs(float(joint.axis @ panel.outward)) < ACROSS
+    return joint.kind is JointKind.REVOLUTE and across and swings
 
 
 def find_panel(
     mesh: Mesh, faces: IntArray, part: int, joint: Joint, view: PartView
 ) -> FlatPanel | None:
-    """Return what is known of a part as a panel that faces a view.
+    """Measure a part that is a panel, on the view that it faces.
 
     Args:
         mesh: the whole skin.
@@ -139,35 +145,34 @@ def find_panel(
         view: of the side on which it opens.
 
     Returns:
-        ``None`` where it is none: ragged, tiny, or thicker than wide.
+        ``None`` where it is none after all: ragged, or thicker than wide.
     """
     seen = view.part == part
     rectangle = _rectangle(view, seen)
     if rectangle is None:
         return None
     low, high = rectangle
-    rows, columns = view.window(low, high)
-    smallest = max(LEAST_SIDE_M, LEAST_SIDE_SHARE * float(mesh.extents.max()))
-    if (high - low).min() < smallest or seen[rows, columns].mean() < LEAST_FILL:
+    rows, columns = view.raster.window(low, high)
+    if seen[rows, columns].size == 0 or seen[rows, columns].mean() < LEAST_FILL:
         return None
     face = smoothed(view, seen)[rows, columns]
     known = np.isfinite(face)
     front = float(np.percentile(face[known], 20))
     deepest = float(np.percentile(face[known], 95))
-    kind = _kind(joint, view.side)
+    is_lid = view.side is Side.TOP
     rim = _rim(mesh, faces, view, (low, high))
     far = float((mesh.bounds @ view.side.frame.T)[:, 2].max())
-    back, rule = _back(kind, front, deepest, rim, far)
-    if back - front > float((high - low).max()) and kind is not PanelKind.LID:
+    back, rule = _back(is_lid, front, deepest, rim, far)
+    if back - front > float((high - low).max()) and not is_lid:
         return None
     frame = _frames(view, part, low, high, back)
-    bare = ~np.isfinite(frame)
     shared = np.zeros(4, dtype=bool)
-    return FlatPanel(part, kind, view.side, low, high, front, back, bare, rule, frame, shared)
+    slides = joint.kind is JointKind.PRISMATIC and not is_lid
+    return FlatPanel(part, slides, view.side, low, high, front, back, rule, frame, shared)
 
 
 def smoothed(view: PartView, seen: BoolArray) -> FloatArray:
-    """Depth of a part without what stands out of it, [rows, columns]; NaN where it is not seen.
+    """Return the depth of a part without what stands out of it, [rows, columns]; NaN: not seen.
 
     A grey closing of depth: a handle is nearer than what surrounds it.
     """
@@ -187,12 +192,6 @@ def smoothed(view: PartView, seen: BoolArray) -> FloatArray:
     return result
 
 
-def _kind(joint: Joint, side: Side) -> PanelKind:
-    if side is Side.TOP:
-        return PanelKind.LID
-    return PanelKind.DRAWER if joint.kind is JointKind.PRISMATIC else PanelKind.DOOR
-
-
 def _rectangle(view: PartView, seen: BoolArray) -> tuple[FloatArray, FloatArray] | None:
     label, count = ndimage.label(ndimage.binary_closing(seen, np.ones((5, 5), dtype=bool)))
     if not count:
@@ -201,10 +200,10 @@ def _rectangle(view: PartView, seen: BoolArray) -> tuple[FloatArray, FloatArray]
     sizes[0] = 0
     kept = seen & np.isin(label, np.flatnonzero(sizes >= 0.05 * sizes.max()))
     ends = []
-    for axis, at in ((0, view.columns), (1, view.rows)):
+    for axis, at in ((0, view.raster.right), (1, view.raster.up)):
         profile = kept.sum(axis=axis)
         full = np.flatnonzero(profile >= FRAYED * np.percentile(profile[profile > 0], 90))
-        ends.append((at[full[0]] - view.pixel / 2.0, at[full[-1]] + view.pixel / 2.0))
+        ends.append((at[full[0]] - view.raster.pixel / 2.0, at[full[-1]] + view.raster.pixel / 2.0))
     return np.array([ends[0][0], ends[1][0]]), np.array([ends[0][1], ends[1][1]])
 
 
@@ -213,12 +212,12 @@ def _rim(
 ) -> float | None:
     """Return the depth down to which nine tenths of the faces around a part's rim reach [m]."""
     corners = (mesh.vertices @ view.side.frame.T)[mesh.faces[faces]]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = doubled_normals(corners)
     area = np.linalg.norm(normals, axis=1)
     middle = corners.mean(axis=1)
     low, high = rectangle
     inset = np.minimum(middle[:, :2] - low, high - middle[:, :2]).min(axis=1)
-    near = np.abs(inset) < max(THINNEST_M, 3.0 * view.pixel)
+    near = np.abs(inset) < max(THINNEST_M, 3.0 * view.raster.pixel)
     level = np.abs(normals[:, 2]) < 0.5 * area
     chosen = near & level
     if area[chosen].sum() <= 0.0:
@@ -232,17 +231,16 @@ def _rim(
 
 
 def _back(
-    kind: PanelKind, front: float, deepest: float, rim: float | None, far: float
+    is_lid: bool, front: float, deepest: float, rim: float | None, far: float
 ) -> tuple[float, str]:
     room = far - front
     thickness = None if rim is None else rim - front
-    lid = kind is PanelKind.LID
-    most = 0.6 * room if lid else min(max(THICKEST_M, THICKEST_SHARE * room), 0.4 * room)
+    most = 0.6 * room if is_lid else min(max(THICKEST_M, THICKEST_SHARE * room), 0.4 * room)
     if thickness is not None and THINNEST_M <= thickness <= most:
         back = rim if rim is not None else front
         rule = "rim"
     else:
-        back = front + min(LID_M if lid else DOOR_M, 0.4 * room)
+        back = front + min(LID_M if is_lid else DOOR_M, 0.4 * room)
         rule = "kind"
     if back < deepest + SOLID_M:
         back = min(deepest + SOLID_M, front + 0.7 * room)
@@ -253,22 +251,22 @@ def _back(
 def _frames(
     view: PartView, part: int, low: FloatArray, high: FloatArray, back: float
 ) -> FloatArray:
-    """Depth of what lies beyond each edge, nearer than the panel's back; infinite: nothing."""
-    step = max(BESIDE_M, 3.0 * view.pixel)
+    """Return how deep lies what is beyond each edge, before the panel's back; infinite: nothing."""
+    step = max(BESIDE_M, 3.0 * view.raster.pixel)
     inner = 0.05 * (high - low)
     frames = np.full(4, np.inf)
     for edge in range(4):
         axis = edge // 2
         start = low + inner
         end = high - inner
-        gap = 0.5 * view.pixel
+        gap = 0.5 * view.raster.pixel
         if edge % 2:
             start[axis] = high[axis] + gap
             end[axis] = high[axis] + step
         else:
             start[axis] = low[axis] - step
             end[axis] = low[axis] - gap
-        window = view.window(start, end)
+        window = view.raster.window(start, end)
         depth = view.depth[window]
         beside = (depth < back + SOLID_M) & (view.part[window] != part)
         if beside.size and beside.mean() > 0.2:

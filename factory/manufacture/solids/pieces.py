@@ -110,7 +110,7 @@ def convex_pieces(matter: Matter, most: int) -> tuple[Hull, ...]:
 
 
 def _islands(solid: BoolArray) -> list[Span]:
-    """Boxes around what hangs together, if they do not overlap; else one around all of it."""
+    """Return boxes around what hangs together; one around all of it where these overlap."""
     label, count = ndimage.label(solid)
     if not count:
         return []
@@ -147,7 +147,7 @@ def _node(matter: Matter, span: Span, points: FloatArray) -> _Node | None:
 
 
 def _foils(matter: Matter, span: Span, points: FloatArray) -> Iterator[tuple[Hull, float]]:
-    """A sheet, made thick to either side, and what that fills wrongly [m3]; none if not flat."""
+    """Yield a flat sheet, made thick to either side, and what that fills wrongly [m3]."""
     if len(points) < 3:
         return
     _, spread, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
@@ -179,7 +179,7 @@ def _box(lattice: Lattice, span: Span) -> Box:
 
 
 def _corners(matter: Matter, span: Span) -> FloatArray:
-    """Corners of cells between planes that touch the matter and lie within the skin [m]."""
+    """Return corners of cells that touch the matter and lie within the skin [m]."""
     touching = any_around(matter.solid[span])
     wide = tuple(slice(max(part.start - 1, 0), part.stop + 1) for part in span)
     outside = any_around(np.pad(~matter.whole[wide], 1, constant_values=True))
@@ -207,7 +207,7 @@ def _ends(corners: BoolArray) -> BoolArray:
 
 @lru_cache(maxsize=4)
 def _directions(count: int) -> npt.NDArray[np.float32]:
-    """Unit vectors evenly over the sphere, the axes and their diagonals, shape [n, 3]."""
+    """Return unit vectors evenly over the sphere, the axes and their diagonals, shape [n, 3]."""
     index = np.arange(count) + 0.5
     height = 1.0 - 2.0 * index / count
     turn = np.pi * (1.0 + np.sqrt(5.0)) * index
@@ -220,7 +220,7 @@ def _directions(count: int) -> npt.NDArray[np.float32]:
 
 
 def _extreme(points: FloatArray, count: int) -> FloatArray:
-    """The outermost of many points, seen from many directions, each in the box's own scale."""
+    """Return the outermost of many points, seen from many directions, in their box's scale."""
     if len(points) <= count:
         return points
     size = np.maximum(np.ptp(points, axis=0), 1e-9)
@@ -256,7 +256,7 @@ def _filled(lattice: Lattice, weights: Weights, span: Span, planes: FloatArray) 
 
 
 def _within(planes: FloatArray, corners: FloatArray, step: float) -> FloatArray:
-    """Planes below which cells' centres lie in a hull; of one thinner than cells, those it crosses.
+    """Return planes below which a hull fills cells; of one thinner than cells, those it crosses.
 
     Args:
         planes: of the hull, outward normals and offsets, shape [n, 4].
@@ -319,7 +319,7 @@ def _nearby(matter: Matter, span: Span) -> _Nearby:
 
 
 def _cost(matter: Matter, nearby: _Nearby, span: Span) -> float:
-    """What is still wrong in some cells: their hull where it must be cut again, and its waste.
+    """Estimate what is still wrong in some cells: a hull that must be cut again, and its waste.
 
     A quick estimate: the corners of cells beside the box's own count as its own.
     """

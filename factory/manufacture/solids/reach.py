@@ -21,7 +21,7 @@ MOST_POINTS = 40
 
 
 def reaching(matter: Matter, hulls: Sequence[Hull]) -> tuple[Hull, ...]:
-    """The same pieces, stretched where that fills next to nothing that must stay free or is air.
+    """Stretch pieces where that fills next to nothing that must stay free or is air.
 
     Args:
         matter: that they are pieces of.
@@ -38,19 +38,23 @@ def reaching(matter: Matter, hulls: Sequence[Hull]) -> tuple[Hull, ...]:
 
 def _stretched(matter: Matter, hull: Hull, points: FloatArray) -> Hull:
     filled = _filled(matter, hull)
+    distance = outside([hull], points)
     for _ in range(MOST_POINTS):
-        distance = outside([hull], points)
-        points = points[distance > FAR_M]
+        far = distance > FAR_M
+        points = points[far]
+        distance = distance[far]
         if not len(points):
             break
-        farthest = int(distance[distance > FAR_M].argmax())
+        farthest = int(distance.argmax())
         wider = hull_of(np.concatenate([hull.vertices, points[farthest : farthest + 1]]))
         points = np.delete(points, farthest, axis=0)
+        distance = np.delete(distance, farthest)
         if wider is None:
             continue
         wider = limit_vertices(wider, MOST_CORNERS)
         if _filled(matter, wider) <= filled + matter.trifle:
             hull = wider
+            distance = outside([hull], points)
     return hull
 
 

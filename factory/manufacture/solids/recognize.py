@@ -1,4 +1,4 @@
-"""What each part is, and the skin cut along the panels' outlines."""
+"""The panels among some parts, and the skin cut along their outlines."""
 
 from __future__ import annotations
 
@@ -7,15 +7,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind
-from ...geometry.crossings import BoolArray, Side
+from ...geometry.crossings import BoolArray, Side, side_facing
 from ...geometry.posing import face_parts
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray
+from ..poses import joints_above
 from .box import Box
 from .bump import Bump, find_bump
-from .panel import FlatPanel, PanelKind, facing, find_panel
+from .panel import FlatPanel, PartView, find_panel, look, opens
 from .seam import CutSkin, cut
 from .skin import border
-from .views import PartView, look
 
 #: Panels nearer to one another than this share a seam [m].
 SEAM_M = 0.012
@@ -41,7 +42,7 @@ class Recognized:
 
 
 def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float) -> Recognized:
-    """Tell panels among some parts and cut the skin along them.
+    """Measure the panels among some parts and cut the skin along them.
 
     A part whose faces all lie within what another panel claims is no panel, and keeps them.
 
@@ -57,8 +58,11 @@ def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float)
     panels: dict[int, FlatPanel] = {}
     for index in parts:
         joint = articulation.joints[index - 1]
-        view = facing(joint, index, views) if joint.movable else None
-        if view is None or _on_panel(articulation, index, panels):
+        given = articulation.parts[index].panel
+        if given is None or not opens(joint, given) or _on_panel(articulation, index, panels):
+            continue
+        view = views.get(side_facing(given.outward))
+        if view is None or not (view.part == index).any():
             continue
         panel = find_panel(mesh, articulation.parts[index].faces, index, joint, view)
         if panel is not None:
@@ -75,12 +79,8 @@ def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float)
 
 
 def _on_panel(articulation: Articulation, part: int, panels: dict[int, FlatPanel]) -> bool:
-    above = articulation.joints[part - 1].parent
-    while above:
-        if above in panels:
-            return True
-        above = articulation.joints[above - 1].parent
-    return False
+    """Return whether a part hangs on a panel, directly or not."""
+    return any(joint.parent in panels for joint in joints_above(articulation, part))
 
 
 def _apart(panels: dict[int, FlatPanel]) -> dict[int, FlatPanel]:
@@ -112,7 +112,7 @@ def _ended(panel: FlatPanel, axis: int, at: float, above: bool) -> FlatPanel:
     shared = panel.shared.copy()
     shared[2 * axis + int(above)] = True
     frame[2 * axis + int(above)] = min(frame[2 * axis + int(above)], panel.front)
-    ended = replace(panel, frame=frame, open=~np.isfinite(frame), shared=shared)
+    ended = replace(panel, frame=frame, shared=shared)
     return replace(ended, high=ends) if above else replace(ended, low=ends)
 
 
@@ -136,7 +136,7 @@ def _claimed(skin: CutSkin, panel: FlatPanel, claimants: set[int], behind: float
     own = skin.part == panel.part
     part = skin.part.copy()
     part[inside & np.isin(part, list(claimants - {panel.part}))] = panel.part
-    fitted = _behind(panel, np.inf).holds(middles) & (panel.kind is not PanelKind.DRAWER)
+    fitted = _behind(panel, np.inf).holds(middles) & (not panel.slides)
     part[own & ~inside & ~fitted] = 0
     return skin.labelled(part)
 
@@ -151,8 +151,7 @@ def _behind(panel: FlatPanel, depth: float = OWN_BACK_M) -> Box:
 
 def _inner_side(skin: CutSkin, frame: FloatArray) -> BoolArray:
     """Return the triangles that look away from a side's viewer."""
-    edges = skin.corners[:, 1:] - skin.corners[:, :1]
-    normals = np.cross(edges[:, 0], edges[:, 1])
+    normals = doubled_normals(skin.corners)
     return np.asarray(normals @ frame[2] > 0.5 * np.linalg.norm(normals, axis=1))
 
 

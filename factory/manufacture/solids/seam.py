@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...geometry.crossings import BoolArray
-from ...geometry.triangles import ends_of
+from ...geometry.cutting import cut_at_zero
+from ...geometry.triangles import areas_of, ends_of
 from ...mesh import FloatArray, IntArray, Mesh
 from .box import Box
 
@@ -58,7 +59,7 @@ class CutSkin:
         return CutSkin(self.corners[which], self.face[which], self.weights[which], self.part[which])
 
     def joined(self, other: CutSkin) -> CutSkin:
-        """These triangles and those."""
+        """Return these triangles and those."""
         return CutSkin(
             np.concatenate([self.corners, other.corners]),
             np.concatenate([self.face, other.face]),
@@ -86,45 +87,12 @@ def cut(skin: CutSkin, normal: FloatArray, offset: float, which: BoolArray) -> C
     crossing = which & (low < 0.0) & (high > 0.0)
     if not crossing.any():
         return skin
-    return skin.chosen(~crossing).joined(_halved(skin.chosen(crossing), height[crossing]))
-
-
-def _halved(skin: CutSkin, height: FloatArray) -> CutSkin:
-    """Triangles that a plane crosses, as one triangle on one side and one or two on the other."""
-    sign = np.sign(height)
-    # The lone corner: the only one on its side; the others follow in the triangle's own order.
-    alone = np.where((sign > 0).sum(axis=1) == 1, (sign > 0).argmax(axis=1), (sign < 0).argmax(1))
-    turn = (alone[:, None] + np.arange(3)) % 3
-    rows = np.arange(len(turn))[:, None]
-    corners = skin.corners[rows, turn]
-    weights = skin.weights[rows, turn]
-    height = height[rows, turn]
-    pieces = [
-        _Edges(corners, weights, height).between(0, 1),
-        _Edges(corners, weights, height).between(0, 2),
-    ]
-    at = np.stack([corners[:, 0], corners[:, 1], corners[:, 2], pieces[0][0], pieces[1][0]], 1)
-    mixed = np.stack([weights[:, 0], weights[:, 1], weights[:, 2], pieces[0][1], pieces[1][1]], 1)
-    made = []
-    for triangle in ([0, 3, 4], [3, 1, 2], [3, 2, 4]):
-        made.append(CutSkin(at[:, triangle], skin.face, mixed[:, triangle], skin.part))
-    whole = made[0].joined(made[1]).joined(made[2])
-    edges = whole.corners[:, 1:] - whole.corners[:, :1]
-    area = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
-    return whole.chosen(area > 1e-14)
-
-
-@dataclass(frozen=True)
-class _Edges:
-    corners: FloatArray
-    weights: FloatArray
-    height: FloatArray
-
-    def between(self, first: int, second: int) -> tuple[FloatArray, FloatArray]:
-        """Return where the edge between two corners crosses the plane."""
-        a = self.height[:, first]
-        b = self.height[:, second]
-        share = np.clip(a / np.where(a == b, 1.0, a - b), 0.0, 1.0)[:, None]
-        at = self.corners[:, first] + share * (self.corners[:, second] - self.corners[:, first])
-        mixed = self.weights[:, first] + share * (self.weights[:, second] - self.weights[:, first])
-        return at, mixed
+    halved = skin.chosen(crossing)
+    pieces = cut_at_zero(height[crossing])
+    made = CutSkin(
+        pieces.spread(halved.corners),
+        halved.face[pieces.whole],
+        pieces.spread(halved.weights),
+        halved.part[pieces.whole],
+    )
+    return skin.chosen(~crossing).joined(made.chosen(areas_of(made.corners) > 5e-15))

@@ -1,18 +1,30 @@
-"""Which parts are patches of one surface rather than bodies of their own."""
+"""Which parts get a body by construction: patches of one surface, and bare front plates."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from ...articulation import Articulation
-from ...geometry.crossings import BoolArray
+from ...articulation import Articulation, JointKind
+from ...geometry.crossings import BoolArray, Crossings, Raster, Side, crossings, side_facing
+from ...geometry.edges import shared_edges
 from ...geometry.posing import face_parts
 from ...mesh import FloatArray, IntArray, Mesh
-from .plates import bare_fronts, plates
+from ...part import Proposer
+from .panel import opens
 
 #: A part is a patch of a skin where it shares so much of its border with other parts, of the
 #: diagonal of its own box. Bodies of their own share none: every edge of theirs has two own faces.
 SHARED_BORDER = 0.25
+#: A drawer deeper than this share of the object has a box of its own.
+PLATE = 0.3
+#: A door is in front of something solid where so many rays meet a surface within this share of the
+#: object's depth behind it.
+SOLID = 0.6
+NEAR = 0.06
+#: Along the longest extent of an object [pixels].
+PIXELS = 96
+#: Of a part's rectangle this is left out on every side: frames, rims, hinges.
+INSET = 0.15
 
 
 def skin_parts(articulation: Articulation) -> tuple[int, ...]:
@@ -49,16 +61,10 @@ def border(mesh: Mesh, part: IntArray) -> tuple[IntArray, IntArray]:
     Returns:
         Vertices, shape [n, 2], and the two parts, shape [n, 2].
     """
-    edges = np.sort(mesh.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    owner = np.repeat(part, 3)
-    order = np.lexsort((edges[:, 1], edges[:, 0]))
-    edges = edges[order]
-    owner = owner[order]
-    starts = np.flatnonzero(np.r_[True, (np.diff(edges, axis=0) != 0).any(axis=1)])
-    pairs = starts[np.diff(np.r_[starts, len(edges)]) == 2]
-    both = np.stack([owner[pairs], owner[pairs + 1]], axis=1)
+    shared = shared_edges(mesh.faces)
+    both = part[shared.faces]
     apart: BoolArray = both[:, 0] != both[:, 1]
-    return edges[pairs][apart], both[apart]
+    return shared.vertices[apart], both[apart]
 
 
 def _shared_border(mesh: Mesh, part: IntArray, count: int) -> FloatArray:
@@ -68,3 +74,69 @@ def _shared_border(mesh: Mesh, part: IntArray, count: int) -> FloatArray:
     for column in range(2):
         np.add.at(shared, both[:, column], length)
     return shared
+
+
+def plates(articulation: Articulation) -> dict[int, Side]:
+    """Return the thin panels of upright sides, hung on the body, and the side of each.
+
+    Stated parts are none: what was modelled so is meant so.
+    """
+    found = {}
+    for joint in articulation.joints:
+        part = articulation.parts[joint.child]
+        stated = part.source is not None and part.source.proposer is Proposer.ANNOTATION
+        if stated or joint.parent or not part.kind.closes_side or part.panel is None:
+            continue
+        if not opens(joint, part.panel):
+            continue
+        away = part.panel.frame[2]
+        depth = float(np.ptp(articulation.part_mesh(joint.child).vertices @ away))
+        if depth <= PLATE * float(np.ptp(articulation.mesh.vertices @ away)):
+            found[joint.child] = side_facing(part.panel.outward)
+    return found
+
+
+def bare_fronts(articulation: Articulation) -> tuple[int, ...]:
+    """Return drawers that are front plates alone, and doors of what is solid behind them."""
+    found = plates(articulation)
+    slides = {part for part in found if articulation.joints[part - 1].kind is JointKind.PRISMATIC}
+    mesh = articulation.mesh
+    crossed = {
+        side: crossings(mesh, Raster.around(mesh, side, PIXELS))
+        for side in {found[part] for part in found if part not in slides}
+    }
+    return tuple(
+        part
+        for part, side in found.items()
+        if part in slides or _solid_behind(articulation, part, crossed[side]) >= SOLID
+    )
+
+
+def _solid_behind(articulation: Articulation, part: int, crossed: Crossings) -> float:
+    """Return the share of a plate soon behind which there is a surface of something else."""
+    mesh = articulation.mesh
+    side = crossed.raster.side
+    own = np.zeros(len(mesh.faces), dtype=np.bool_)
+    own[articulation.parts[part].faces] = True
+    local = articulation.part_mesh(part).vertices @ side.frame.T
+    window = _window(crossed.raster, local)
+    far = float(local[:, 2].max()) - crossed.raster.near
+    reach = far + NEAR * float(np.ptp(mesh.vertices @ side.frame[2]))
+    mine = own[crossed.face]
+    front = np.full(crossed.raster.rows * crossed.raster.columns, np.inf)
+    np.minimum.at(front, crossed.pixel[mine], crossed.depth[mine])
+    behind = ~mine & (crossed.depth > front[crossed.pixel]) & (crossed.depth <= reach)
+    met = np.zeros(len(front), dtype=np.bool_)
+    met[crossed.pixel[behind]] = True
+    looked = window & np.isfinite(front)
+    return float(met[looked].mean()) if looked.any() else 0.0
+
+
+def _window(raster: Raster, local: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    """Return the pixels well within a part's rectangle, shape [rows * columns]."""
+    low = local[:, :2].min(axis=0)
+    high = local[:, :2].max(axis=0)
+    inset = INSET * (high - low)
+    window = np.zeros((raster.rows, raster.columns), dtype=np.bool_)
+    window[raster.window(low + inset, high - inset)] = True
+    return window.ravel()

@@ -11,9 +11,8 @@ from ...asset import Hull
 from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray
 from ..decompose.convex import hull_of, limit_vertices
-from .panel import FlatPanel, smoothed
+from .panel import FlatPanel, PartView, smoothed
 from .pieces import MOST_CORNERS
-from .views import PartView
 
 #: What stands out of a panel's face further than this is a handle [m].
 PROUD_M = 0.008
@@ -42,23 +41,12 @@ class FrontRelief:
 
     def above(self, local: FloatArray) -> FloatArray:
         """Return how far points of the panel's frame, shape [n, 3], stand out of the face [m]."""
-        rows, columns = self._pixels(local)
-        plain = self.plain[rows, columns]
+        plain = self.plain[self.view.raster.nearest(local)]
         return np.asarray(np.where(np.isfinite(plain), plain - local[:, 2], -np.inf))
 
     def blob(self, local: FloatArray) -> FloatArray:
         """Return which blob points lie in, shape [n]; 0: none."""
-        rows, columns = self._pixels(local)
-        return np.asarray(self.blobs[rows, columns])
-
-    def _pixels(self, local: FloatArray) -> tuple[FloatArray, FloatArray]:
-        view = self.view
-        rows = np.rint((local[:, 1] - view.rows[0]) / view.pixel).astype(np.int64)
-        columns = np.rint((local[:, 0] - view.columns[0]) / view.pixel).astype(np.int64)
-        return (
-            np.clip(rows, 0, len(view.rows) - 1),
-            np.clip(columns, 0, len(view.columns) - 1),
-        )
+        return np.asarray(self.blobs[self.view.raster.nearest(local)])
 
 
 def relief(view: PartView, panel: FlatPanel) -> FrontRelief:

@@ -96,33 +96,26 @@ def rectangle(box: Box) -> FloatArray:
 
 
 def outline_of(points: FloatArray) -> FloatArray:
-    """Convex outline of points seen from the front, (right, up), counter-clockwise [n, 2]."""
+    """Return the convex outline of points, (right, up), counter-clockwise, shape [n, 2]."""
     section = manifold3d.CrossSection.hull_points(np.asarray(points[:, :2], dtype=np.float64))
     polygons = section.to_polygons()
     return np.asarray(polygons[0]) if polygons else np.zeros((0, 2))
 
 
 def inside_of(boxes: Sequence[Box], mouth: float) -> Triangles:
-    """The walls of hollows, seen from within, without the mouth that lies at one depth [m]."""
-    solid = _union(boxes)
-    mesh = solid.to_mesh64()
-    points = np.asarray(mesh.vert_properties)[:, :3]
-    triangles = points[np.asarray(mesh.tri_verts, dtype=np.int64)]
+    """Return the walls of hollows, seen from within, but for the mouth at one depth [m]."""
+    triangles = outside_of(boxes)
     closed = (np.abs(triangles[:, :, 2] - mouth) < SAME_M).all(axis=1)
     return flipped(triangles[~closed])
 
 
 def outside_of(boxes: Sequence[Box]) -> Triangles:
-    """Return the surface of boards."""
+    """Return the surface of all boxes together, seen from outside."""
     if not boxes:
         return np.zeros((0, 3, 3))
-    mesh = _union(boxes).to_mesh64()
-    points = np.asarray(mesh.vert_properties)[:, :3]
-    return np.asarray(points[np.asarray(mesh.tri_verts, dtype=np.int64)])
-
-
-def _union(boxes: Sequence[Box]) -> manifold3d.Manifold:
     solids = [
         manifold3d.Manifold.cube(box.size.tolist()).translate(box.low.tolist()) for box in boxes
     ]
-    return manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add)
+    mesh = manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add).to_mesh64()
+    points = np.asarray(mesh.vert_properties)[:, :3]
+    return np.asarray(points[np.asarray(mesh.tri_verts, dtype=np.int64)])

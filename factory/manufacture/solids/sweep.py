@@ -13,7 +13,7 @@ from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray
 from .box import Box
 from .lattice import Lattice
-from .panel import FlatPanel, PanelKind
+from .panel import FlatPanel
 
 #: Poses along a joint.
 POSES = 40
@@ -26,7 +26,7 @@ BEHIND_M = 0.0015
 
 
 def motions(joint: Joint, count: int = POSES) -> list[FloatArray]:
-    """Motions along a joint from closed to open, [4, 4] each; the smaller ones lie closer."""
+    """Return motions along a joint from closed to open, [4, 4] each; the smaller lie closer."""
     if joint.kind is JointKind.FIXED:
         return [np.eye(4)]
     share = np.linspace(0.0, 1.0, count)
@@ -38,7 +38,7 @@ def motions(joint: Joint, count: int = POSES) -> list[FloatArray]:
 def entered(
     lattice: Lattice, hulls: Sequence[Hull], poses: list[FloatArray], margin: float
 ) -> BoolArray:
-    """Cells whose centres come to lie in moving hulls, or within ``margin`` [m] of them."""
+    """Return cells whose centres come within ``margin`` [m] of moving hulls."""
     marked = np.zeros(lattice.shape, dtype=bool)
     for hull in hulls:
         planes = hull.planes
@@ -61,7 +61,7 @@ def hung(
     ``given`` where the input's own line does; else at the outer edge by the hinge, at the depth of
     the frame beside it, or behind a slab that has none; whichever enters least of what stands.
     """
-    if not joint.turns or panel.kind is PanelKind.DRAWER:
+    if not joint.turns or panel.slides:
         return joint, "given"
     tried = [(joint, "given"), *_lines(panel, joint)]
     best = (np.inf, joint, "given")

@@ -7,13 +7,15 @@ from dataclasses import replace
 import numpy as np
 
 from ...articulation import Articulation
-from ...asset import Hull, InnerSurface
+from ...asset import Hull
 from ...geometry.colors import linear_of
 from ...geometry.crossings import BoolArray
 from ...geometry.rows import distinct_rows
+from ...geometry.triangles import areas_of
 from ...mesh import FloatArray, IntArray, Material, Mesh
 from ..decompose.outside import outside
 from .box import Box
+from .drawer import WALL_M
 from .panel import FlatPanel
 from .seam import CutSkin
 from .surfaces import (
@@ -37,55 +39,46 @@ SPREAD = np.array([(i, j, 12 - i - j) for i in range(1, 12, 3) for j in range(1,
 
 
 def panel_surfaces(work: Workpiece, part: int) -> None:
-    """Back and rim of a panel, the opening that it leaves, what is hollow, a drawer's box."""
+    """Add a panel's back and rim, the opening that it leaves, hollows, and a drawer's box."""
     panel = work.panels[part]
-    frame = panel.side.frame
-    name = work.name(part)
-    body = work.name(0)
-    own = work.skin.corners[work.skin.part == part] @ frame.T
+    own = work.skin.corners[work.skin.part == part] @ panel.side.frame.T
     column = panel.reach(0.0, panel.back)
     edges = boundary(own)
-    thickness = round(float(panel.thickness), 4)
+    thickness = panel.thickness
     strips = rim(edges, column, panel.back, ~panel.open)
-    work.add(part, strips, panel, InnerSurface(name, "rim", panel.rule, thickness))
+    work.add(part, strips, "rim", panel.rule, panel=panel, thickness=thickness)
     start = panel.back + work.config.behind_m
-    opening = flipped(rim(edges, column, start, ~panel.shared & ~panel.open))
-    record = InnerSurface(body, "opening", panel.rule, thickness)
-    work.add(0, _backed(work, panel, opening), panel, record)
-    outline = outline_of(own.reshape(-1, 3)[:, :2])
-    outline = _clipped(outline, panel)
+    opening = _backed(work, panel, flipped(rim(edges, column, start, ~panel.shared & ~panel.open)))
+    work.add(0, opening, "opening", panel.rule, panel=panel, thickness=thickness)
+    outline = _clipped(outline_of(own.reshape(-1, 3)[:, :2]), panel)
     if len(outline) < 3:
         return
     inner = work.lids.get(part, ())
-    holes = [rectangle(inner[0])] if inner else []
-    back = plate(outline, holes, panel.back)
-    work.add(part, back, panel, InnerSurface(name, "slab back", panel.rule, thickness))
+    back = plate(outline, [rectangle(box) for box in inner[:1]], panel.back)
+    work.add(part, back, "slab back", panel.rule, panel=panel, thickness=thickness)
     hollows = work.hollows.get(part, ())
-    mouth = [rectangle(hollows[0])] if hollows else []
-    ring = flipped(plate(outline, mouth, start))
     wall = work.config.wall_m
-    invented = work.closed_behind(part)
-    if invented:
-        record = InnerSurface(body, "frame", panel.rule, wall)
-        work.add(0, _backed(work, panel, ring), panel, record)
-    if hollows and invented:
-        depth = round(float(hollows[-1].high[2] - hollows[0].low[2]), 4)
-        walls = inside_of(hollows, hollows[0].low[2])
-        work.add(0, walls, panel, InnerSurface(body, "hollow", "walls", wall, depth))
+    if work.closed_behind(part):
+        ring = flipped(plate(outline, [rectangle(box) for box in hollows[:1]], start))
+        ring = _backed(work, panel, ring)
+        work.add(0, ring, "frame", panel.rule, panel=panel, thickness=wall)
+        if hollows:
+            walls = inside_of(hollows, hollows[0].low[2])
+            depth = hollows[-1].high[2] - hollows[0].low[2]
+            work.add(0, walls, "hollow", "walls", panel=panel, thickness=wall, depth=depth)
     if inner:
-        depth = round(float(inner[0].high[2] - inner[-1].low[2]), 4)
         walls = inside_of(inner, inner[0].high[2])
-        work.add(part, walls, panel, InnerSurface(name, "lid hollow", "walls", wall, depth))
+        depth = inner[0].high[2] - inner[-1].low[2]
+        work.add(part, walls, "lid hollow", "walls", panel=panel, thickness=wall, depth=depth)
     boards = work.boards.get(part, ())
     if boards:
-        depth = round(float(boards[0].size[2]), 4)
-        work.add(
-            part, outside_of(boards), panel, InnerSurface(name, "drawer box", "hollow", 0.01, depth)
-        )
+        box = outside_of(boards)
+        depth = boards[0].size[2]
+        work.add(part, box, "drawer box", "hollow", panel=panel, thickness=WALL_M, depth=depth)
 
 
 def _backed(work: Workpiece, panel: FlatPanel, triangles: FloatArray) -> FloatArray:
-    """Those of some triangles around a panel that lie on the body's pieces for the most part."""
+    """Return the triangles around a panel that lie mostly on the body's pieces."""
     if not len(triangles):
         return triangles
     points = np.einsum("kc,ncd->nkd", SPREAD, triangles).reshape(-1, 3) @ panel.side.frame
@@ -102,11 +95,11 @@ def _clipped(outline: FloatArray, panel: FlatPanel) -> FloatArray:
 
 
 def bump_surfaces(work: Workpiece, part: int) -> None:
-    """The base of a knob, or all of a wheel."""
+    """Add the base of a knob, or all of a wheel."""
     bump = work.bumps[part]
     corners = bump.hull.vertices[bump.hull.faces]
     if bump.normal is None:
-        work.add(part, corners, None, InnerSurface(work.name(part), "wheel", bump.rule))
+        work.add(part, corners, "wheel", bump.rule)
         return
     own = work.skin.corners[work.skin.part == part]
     edges = boundary(own)
@@ -119,9 +112,8 @@ def bump_surfaces(work: Workpiece, part: int) -> None:
         return
     lid = outline[:, :1] * across + outline[:, 1:] * along + bump.base * bump.normal
     fan = np.stack([np.repeat(lid[:1], len(lid) - 2, axis=0), lid[2:], lid[1:-1]], axis=1)
-    record = InnerSurface(work.name(part), "knob base", bump.rule)
-    work.add(part, fan, None, record)
-    work.add(work.host(part), flipped(fan), None, replace(record, part=work.name(work.host(part))))
+    work.add(part, fan, "knob base", bump.rule)
+    work.add(work.host(part), flipped(fan), "knob base", bump.rule)
 
 
 def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -132,12 +124,11 @@ def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def hull_surfaces(work: Workpiece, part: int, hulls: tuple[Hull, ...]) -> None:
-    """All of a part's pieces: of one whose own skin is only a shred."""
+    """Add all of a part's pieces, where its own skin is only a shred."""
     triangles = [hull.vertices[hull.faces] for hull in hulls]
-    own = _areas(work.skin.corners[work.skin.part == part]).sum()
-    if triangles and own < SHRED * sum(_areas(each).sum() for each in triangles):
-        record = InnerSurface(work.name(part), "body", "pieces")
-        work.add(part, np.concatenate(triangles), None, record)
+    own = areas_of(work.skin.corners[work.skin.part == part]).sum()
+    if triangles and own < SHRED * sum(areas_of(each).sum() for each in triangles):
+        work.add(part, np.concatenate(triangles), "body", "pieces")
 
 
 def kept_skin(work: Workpiece) -> CutSkin:
@@ -170,7 +161,7 @@ def meshed(work: Workpiece) -> Articulation:
     material = [mesh.face_material[skin.face]]
     for index, triangles in sorted(work.added.items()):
         inner = np.concatenate(triangles)
-        inner = inner[_areas(inner) > 1e-12]
+        inner = inner[areas_of(inner) > 1e-12]
         material.append(np.full(len(inner), _material(work, index, materials)))
         corners.append(inner)
         part.append(np.full(len(inner), index))
@@ -190,13 +181,8 @@ def meshed(work: Workpiece) -> Articulation:
     return replace(work.source, mesh=made, parts=parts, joints=tuple(work.joints))
 
 
-def _areas(corners: FloatArray) -> FloatArray:
-    a, b, c = corners.transpose(1, 0, 2)
-    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0)
-
-
 def _mixed(values: FloatArray | None, skin: CutSkin, count: int) -> FloatArray | None:
-    """Corner values of pieces of triangles; none (NaN) for the triangles that follow them."""
+    """Return corner values of pieces of triangles, and NaN for ``count`` triangles after them."""
     if values is None:
         return None
     mixed = np.einsum("nkc,ncd->nkd", skin.weights, values[skin.face])

@@ -11,13 +11,13 @@ from ...asset import Hull, InnerSurface
 from ...config import SolidsConfig
 from ...geometry.crossings import BoolArray, Side
 from ...mesh import FloatArray, IntArray
+from ..poses import held_by
 from .box import Box
 from .bump import Bump
 from .lattice import Lattice
 from .matter import Weights
-from .panel import FlatPanel
+from .panel import FlatPanel, PartView
 from .seam import CutSkin
-from .views import PartView
 
 
 @dataclass
@@ -70,7 +70,7 @@ class Workpiece:
     notes: list[str] = field(default_factory=list)
 
     def name(self, part: int) -> str:
-        """Of a part."""
+        """Return a part's name."""
         return self.source.parts[part].name
 
     def host(self, part: int) -> int:
@@ -78,7 +78,7 @@ class Workpiece:
         return host_of(self.source, part)
 
     def closed_behind(self, part: int) -> bool:
-        """Whether what lies behind a panel is filled, so that an opening would end in a face."""
+        """Return whether what lies behind a panel is filled, so that its opening ends in a face."""
         return self.filled.get(part, True)
 
     def block(self, part: int, cells: BoolArray, weight: int) -> None:
@@ -87,7 +87,7 @@ class Workpiece:
         self.free[part] = np.where(cells, np.maximum(known, weight), known).astype(np.uint8)
 
     def block_box(self, part: int, box: Box, weight: int) -> None:
-        """The same of the cells in a box."""
+        """Say how badly the cells in a box must stay free of a part's pieces."""
         known = self.blocked(part)
         span = self.lattice.span(box)
         known[span] = np.maximum(known[span], weight)
@@ -99,21 +99,37 @@ class Workpiece:
         return self.free[part]
 
     def add(
-        self, part: int, triangles: FloatArray, panel: FlatPanel | None, record: InnerSurface
+        self,
+        part: int,
+        triangles: FloatArray,
+        kind: str,
+        rule: str,
+        *,
+        panel: FlatPanel | None = None,
+        thickness: float | None = None,
+        depth: float | None = None,
     ) -> None:
-        """A surface of a part; its triangles in the panel's frame, if one is given."""
+        """Add a surface of a part, and a record of it; nothing where it has no triangles.
+
+        Args:
+            part: index.
+            triangles: [m], shape [n, 3, 3]; in the panel's frame, if one is given.
+            kind: as of :class:`~asset_factory.factory.asset.InnerSurface`, with what follows.
+            rule: where its place comes from.
+            panel: in whose frame the triangles are.
+            thickness: of the matter behind it [m].
+            depth: of a hollow or a box [m].
+        """
         if not len(triangles):
             return
         turned = triangles if panel is None else triangles @ panel.side.frame
         if panel is not None and np.linalg.det(panel.side.frame) < 0.0:
             turned = turned[:, ::-1]
         self.added.setdefault(part, []).append(turned)
-        self.records.append(record)
+        sizes = (None if each is None else round(float(each), 4) for each in (thickness, depth))
+        self.records.append(InnerSurface(self.name(part), kind, rule, *sizes))
 
 
 def host_of(articulation: Articulation, part: int) -> int:
-    """Return the nearest part with faces that a part hangs on."""
-    above = articulation.joints[part - 1].parent
-    while above and not len(articulation.parts[above].faces):
-        above = articulation.joints[above - 1].parent
-    return above
+    """Return the nearest part with faces that a part hangs on, or the root."""
+    return held_by(articulation, part) or 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import hypot
 
 
 @dataclass(frozen=True)
@@ -20,6 +21,7 @@ class Gripper:
         palm: half its size along the closing direction, and across it.
         palm_depth: of the palm, away from the object.
         gaps: free space behind an edge that a finger hooks, best first.
+        off: how far from a surface a finger is that lies against it.
         arm: half the width of what follows the palm.
         arm_reach: how far from the point the way out of the object is looked at.
     """
@@ -34,8 +36,19 @@ class Gripper:
     palm: tuple[float, float] = (0.10, 0.03)
     palm_depth: float = 0.08
     gaps: tuple[float, ...] = (0.02, 0.012)
+    off: float = 0.0005
     arm: float = 0.04
     arm_reach: float = 1.0
+
+    @property
+    def length(self) -> float:
+        """Return how far it reaches back from its fingertips [m]."""
+        return self.finger_length + self.palm_depth
+
+    @property
+    def reach(self) -> float:
+        """Return the distance from the fingertips within which all of it lies [m]."""
+        return hypot(*self.palm, self.length)
 
 
 GRIPPER = Gripper()

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-import numpy as np
-from trimesh.triangles import closest_point
+from dataclasses import replace
 
-from ...articulation import Articulation, Joint
-from ...asset import Handle
+import numpy as np
+
+from ...articulation import Articulation
+from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray, IntArray
+from ...part import Handle
 from .protrusions import (
     LOOKS_OUT,
     ProtrudingFront,
@@ -17,7 +19,7 @@ from .protrusions import (
     opening_direction,
     protrusions,
 )
-from .shape import BoolArray, PartShape, lever, shape_of, turns_on_the_spot, velocity
+from .shape import Moving, PartShape, across, middle_of, nearest_point, nearest_points, shape_of
 
 #: Faces within this angle of the one that is held, and level with it, are part of the same patch.
 SAME_SIDE = float(np.cos(np.radians(5.0)))
@@ -47,103 +49,87 @@ def find_handle(articulation: Articulation, part: int) -> Handle | None:
     shape = shape_of(articulation, part)
     if not len(shape.faces):
         return None
-    handle = _found(joint, shape)
+    handle = _find(Moving(joint, shape))
     own = np.isin(shape.faces, articulation.parts[part].faces)
     if not own.any() or np.isin(handle.faces, articulation.parts[part].faces).any():
         return handle
     # Whoever looks for a handle looks on the link that moves, not on those fixed to it.
-    faces = np.union1d(handle.faces, _patch(shape.only(own), handle.point, handle.normal))
-    return Handle(handle.point, handle.normal, handle.pull, faces, handle.source)
+    patch = _patch(shape.only(own), handle.point, handle.normal)
+    return replace(handle, faces=np.union1d(handle.faces, patch))
 
 
-def _found(joint: Joint, shape: PartShape) -> Handle:
-    if turns_on_the_spot(joint, shape):
-        return _far_handle(joint, shape, "rim")
-    front = front_of(shape, opening_direction(joint, shape))
-    for chosen in protrusions(joint, shape, front):
-        return _protruding_handle(joint, shape, front, chosen)
-    if joint.turns:
-        return _far_handle(joint, shape, "far_edge")
+def _find(moving: Moving) -> Handle:
+    shape = moving.shape
+    if moving.spins:
+        return _far_handle(moving, "rim")
+    front = front_of(shape, opening_direction(moving))
+    for chosen in protrusions(moving, front):
+        return _protruding_handle(moving, front, chosen)
+    if moving.joint.turns:
+        return _far_handle(moving, "far_edge")
     on_panel = looking(shape, front.outward) & (
         np.abs(front.height.max(axis=1) - front.level) <= front.tolerance
     )
-    return _handle_near(joint, shape, on_panel, _mean(shape, on_panel), front.outward, "front")
+    middle = shape.only(on_panel).center if on_panel.any() else shape.center
+    return _handle_near(moving, on_panel, middle, front.outward, "front")
 
 
-def _protruding_handle(
-    joint: Joint, shape: PartShape, front: ProtrudingFront, chosen: IntArray
-) -> Handle:
+def _protruding_handle(moving: Moving, front: ProtrudingFront, chosen: IntArray) -> Handle:
+    shape = moving.shape
     outward = front.outward
     height = front.height
     top = np.zeros(len(shape.faces), dtype=bool)
     top[chosen] = True
     ahead = top & (shape.normals @ outward > LOOKS_OUT)
     # The front of the grip, not its feet: what looks out within the outer half of its reach.
-    outer = height.mean(axis=1) > (height[chosen].min() + height[chosen].max()) / 2.0
-    target = ahead & outer if (ahead & outer).any() else top
-    middle = shape.corners[chosen].reshape(-1, 3)
-    point = (middle.min(axis=0) + middle.max(axis=0)) / 2.0
+    outer = ahead & (height.mean(axis=1) > (height[chosen].min() + height[chosen].max()) / 2.0)
+    target: BoolArray = outer if outer.any() else top
+    point = middle_of(shape.corners[chosen])
     point = point + outward * (float(height[chosen].max()) - point @ outward)
-    handle = _handle_near(joint, shape, target, point, outward, "protrusion")
-    return Handle(
-        handle.point, handle.normal, handle.pull, np.sort(shape.faces[chosen]), handle.source
-    )
+    handle = _handle_near(moving, target, point, outward, "protrusion")
+    return replace(handle, faces=np.sort(shape.faces[chosen]))
 
 
-def _far_handle(joint: Joint, shape: PartShape, source: str) -> Handle:
+def _far_handle(moving: Moving, source: str) -> Handle:
     """Return the middle of what is furthest from the axis."""
-    reach = float(lever(joint, shape.corners).max())
-    edge = lever(joint, shape.corners).max(axis=1) >= (1.0 - 0.02) * reach
-    points = shape.corners[edge].reshape(-1, 3)
-    points = points[lever(joint, points) >= (1.0 - 0.02) * reach]
+    shape = moving.shape
+    farthest = 0.98 * moving.rim
+    reach = moving.lever(shape.corners)
+    points = shape.corners[reach >= farthest]
     if source == "rim":
         # Every point of a rim is as good: the one highest up, or first, keeps the choice stable.
         target = points[np.lexsort((points[:, 1], points[:, 0], -np.round(points[:, 2], 4)))[0]]
     else:
-        target = (points.min(axis=0) + points.max(axis=0)) / 2.0
-    radial = target - joint.origin - ((target - joint.origin) @ joint.axis) * joint.axis
-    radial = radial / np.linalg.norm(radial)
-    far = lever(joint, shape.centers) >= 0.5 * reach
+        target = middle_of(points)
+    radial = across(target - moving.joint.origin, moving.joint.axis)
+    far = moving.lever(shape.centers) >= 0.5 * moving.rim
     outer = far & (shape.normals @ radial > LOOKS_OUT)
-    return _handle_near(joint, shape, outer if outer.any() else edge, target, radial, source)
-
-
-def _mean(shape: PartShape, chosen: BoolArray) -> FloatArray:
-    if not chosen.any():
-        return shape.center
-    return np.asarray(shape.areas[chosen] @ shape.centers[chosen] / shape.areas[chosen].sum())
+    edge = np.asarray((reach >= farthest).any(axis=1))
+    return _handle_near(moving, outer if outer.any() else edge, target, radial, source)
 
 
 def _handle_near(
-    joint: Joint,
-    shape: PartShape,
-    target: BoolArray,
-    point: FloatArray,
-    outward: FloatArray,
-    source: str,
+    moving: Moving, target: BoolArray, point: FloatArray, outward: FloatArray, source: str
 ) -> Handle:
     """Return the point of the target faces nearest to ``point``, and what pulling there does."""
+    shape = moving.shape
     faces = np.flatnonzero(target) if target.any() else np.arange(len(shape.faces))
-    on_surface = closest_point(shape.corners[faces], np.tile(point, (len(faces), 1)))
-    nearest = int(np.linalg.norm(on_surface - point, axis=1).argmin())
-    contact = on_surface[nearest]
-    normal = shape.normals[faces[nearest]]
-    pull = velocity(joint, contact)
-    length = float(np.linalg.norm(pull))
-    if not length > 0.0:
-        pull = joint.axis
-        length = 1.0
+    contact, number = nearest_point(shape.corners[faces], point)
+    normal = shape.normals[faces[number]]
+    pull = moving.pull(contact)
     held = _patch(shape, contact, normal)
     return Handle(
-        contact, normal if normal @ outward >= 0.0 else -normal, pull / length, held, source
+        contact,
+        normal if normal @ outward >= 0.0 else -normal,
+        pull if pull.any() else moving.joint.axis,
+        held,
+        source,
     )
 
 
 def _patch(shape: PartShape, point: FloatArray, normal: FloatArray) -> IntArray:
-    """Mesh faces, sorted, of the flat patch of a shape that holds or is nearest to ``point``."""
-    distance = np.linalg.norm(
-        closest_point(shape.corners, np.tile(point, (len(shape.corners), 1))) - point, axis=1
-    )
+    """Return the mesh faces, sorted, of the flat patch that holds or is nearest to ``point``."""
+    _, distance = nearest_points(shape.corners, point)
     # Of faces that meet in the point, the one that looks the right way.
     near = distance <= distance.min() + LEVEL_M
     seed = int(np.where(near, np.abs(shape.normals @ normal), -1.0).argmax())

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...articulation import Joint
+from ...asset import Target
 from ...mesh import FloatArray
 from .gripper import GRIPPER
-from .poses import Pose, far_enough, pull_at
-from .shape import PartShape, place
-from .surroundings import HandView, Neighbourhood, Surroundings, neighbourhood
+from .poses import Pose
+from .shape import Moving
+from .surroundings import HandView, Surroundings
 
 #: What the kinds are worth beside each other.
 WORTH = {"grasp": 1.0, "hook": 0.6, "push": 0.55}
@@ -32,11 +32,6 @@ FROM_BELOW = 0.5
 IN_THE_GROUND = 0.3
 #: Upward component of a normal below which a hand would have to come from below.
 STRAIGHT_UP = -0.8
-#: What a hand fills: within this of a place so far before the point that it comes to; and any way
-#: it may lie there [m].
-HAND_REACH = 0.13
-HAND_AHEAD = 0.05
-ANY_HAND_REACH = 0.165
 #: A hand that cannot come straight along an edge leans [rad]; past the edge, the tip reaching
 #: behind it [m].
 TILT = float(np.pi / 4)
@@ -53,46 +48,62 @@ THIN = 0.8
 
 
 @dataclass(frozen=True)
-class Hold:
-    """One way to hold one place, as :class:`~asset_factory.factory.asset.Target`, object frame."""
-
-    kind: str
-    point: FloatArray
-    normal: FloatArray
-    pull: FloatArray
-    fingers: FloatArray
-    opening: float
-    score: float
-
-
-@dataclass(frozen=True)
 class HoldSearch:
-    """A joint, what it moves and what is around."""
+    """A joint with what it moves, and what is around.
 
-    joint: Joint
-    shape: PartShape
+    Attributes:
+        part: index of the part that is held.
+        moving: the joint, and the part's surface.
+        everything: around it.
+    """
+
+    part: int
+    moving: Moving
     everything: Surroundings
 
-    def near(self, point: FloatArray, normal: FloatArray | None = None) -> Neighbourhood:
-        """Return what a hand at a point may meet: one that comes against ``normal``, or any."""
-        if normal is None:
-            return neighbourhood(self.everything, self.shape.parts, point, ANY_HAND_REACH)
-        return neighbourhood(
-            self.everything, self.shape.parts, point, HAND_REACH, HAND_AHEAD * normal
-        )
+    def view(self, point: FloatArray, axes: FloatArray, reach: float = GRIPPER.reach) -> HandView:
+        """Look at what a hand at a point may meet, in a frame whose axes are rows."""
+        return self.everything.view(self.moving.shape.parts, point, axes, reach)
+
+    def target(
+        self,
+        kind: str,
+        point: FloatArray,
+        normal: FloatArray,
+        fingers: FloatArray,
+        worth: float,
+        *,
+        opening: float = 0.0,
+        at: FloatArray | None = None,
+    ) -> Target:
+        """Return a place to hold, which a hand comes to against ``normal``.
+
+        Args:
+            kind: of the hold.
+            point: where [m], shape [3].
+            normal: unit, shape [3].
+            fingers: unit direction along which they close, shape [3].
+            worth: 0 to 1, wherever it is.
+            opening: of the gripper [m].
+            at: what of the part is pulled [m], shape [3]; by default the point.
+        """
+        pulled = point if at is None else at
+        pull = self.moving.pull(pulled)
+        score = WORTH[kind] * worth * self.worth(pulled, normal)
+        name = self.moving.joint.name
+        return Target(name, self.part, kind, point, normal, pull, fingers, opening, score)
 
     def worth(self, point: FloatArray, normal: FloatArray) -> float:
-        """Return how good a place to pull it is, and how easily reached, 0 to 1."""
-        worth = 0.25 + 0.75 * float(place(self.joint, self.shape, point))
+        """Rate a place, 0 to 1: how well it is pulled there, and how easily reached."""
+        worth = 0.25 + 0.75 * float(self.moving.place(point))
         if normal[2] < STRAIGHT_UP:
             worth *= FROM_BELOW
-        hand = point + normal * (GRIPPER.finger_length + GRIPPER.palm_depth)
-        return worth * (
-            IN_THE_GROUND if hand[2] < self.everything.bounds[0, 2] + GRIPPER.palm[1] else 1.0
-        )
+        hand = point + normal * GRIPPER.length
+        above_ground = hand[2] >= self.everything.bounds[0, 2] + GRIPPER.palm[1]
+        return worth * (1.0 if above_ground else IN_THE_GROUND)
 
     def arm_is_free(self, point: FloatArray, axes: FloatArray) -> bool:
-        """Whether what follows a palm gets out of the object; the third axis leads away from it."""
+        """Tell whether what follows a palm gets out of the object, along the third axis."""
         low, high = self.everything.bounds
         # How far the box around everything goes on in that direction.
         ahead = axes[2]
@@ -100,25 +111,22 @@ class HoldSearch:
             way = np.where(
                 np.abs(ahead) > 1e-9, (np.where(ahead > 0.0, high, low) - point) / ahead, np.inf
             )
-        start = GRIPPER.finger_length + GRIPPER.palm_depth
         end = min(float(way.min()), GRIPPER.arm_reach)
-        if end <= start:
+        if end <= GRIPPER.length:
             return True
-        view = neighbourhood(self.everything, self.shape.parts, point, GRIPPER.arm_reach).view(axes)
         half = GRIPPER.arm
-        return view.free(np.array([-half, -half, start]), np.array([half, half, end]))
+        view = self.view(point, axes, GRIPPER.arm_reach)
+        return view.free(np.array([-half, -half, GRIPPER.length]), np.array([half, half, end]))
 
 
-def grasp(task: HoldSearch, pose: Pose) -> Hold | None:
-    """The best way to close two fingers around what is at a pose; ``None`` if there is none."""
-    near = task.near(pose.point, pose.normal)
-    frames = (
-        np.stack([fingers, np.cross(pose.normal, fingers), pose.normal]) for fingers in pose.fingers
-    )
-    return _best(_closed(task, pose, near.view(axes)) for axes in frames)
+def grasp(task: HoldSearch, pose: Pose) -> Target | None:
+    """Return the best way to close two fingers around what is at a pose; ``None`` if none is."""
+    axes = [np.stack([each, np.cross(pose.normal, each), pose.normal]) for each in pose.fingers]
+    view = task.view(pose.point, axes[0])
+    return _best(_closed(task, pose, view.turned(each)) for each in axes)
 
 
-def _closed(task: HoldSearch, pose: Pose, view: HandView) -> Hold | None:
+def _closed(task: HoldSearch, pose: Pose, view: HandView) -> Target | None:
     half = GRIPPER.finger_width / 2.0
     window = GRIPPER.widest / 2.0 + GRIPPER.finger_thickness
     room = GRIPPER.finger_thickness + 2.0 * GRIPPER.play
@@ -133,10 +141,9 @@ def _closed(task: HoldSearch, pose: Pose, view: HandView) -> Hold | None:
         high = float(held[0, 1])
         if high - low > GRIPPER.widest - 2.0 * GRIPPER.play:
             continue
-        reach = (half, GRIPPER.finger_length + GRIPPER.palm_depth)
         sides = ((high, high + room), (low - room, low))
         if all(
-            view.free(np.array([a, -reach[0], -depth]), np.array([b, reach[0], reach[1]]))
+            view.free(np.array([a, -half, -depth]), np.array([b, half, GRIPPER.length]))
             for a, b in sides
         ):
             return _rated_grasp(task, pose, view, (low, high, depth), depth_worth)
@@ -145,7 +152,7 @@ def _closed(task: HoldSearch, pose: Pose, view: HandView) -> Hold | None:
 
 def _rated_grasp(
     task: HoldSearch, pose: Pose, view: HandView, grip: tuple[float, float, float], worth: float
-) -> Hold | None:
+) -> Target | None:
     """Return a grip (lower and upper end of what is held, and how deep [m]) as a hold."""
     low, high, depth = grip
     middle = (low + high) / 2.0
@@ -156,9 +163,9 @@ def _rated_grasp(
     # What turns between the fingers is held as well there as at its rim.
     spins = _spins(task, point, width)
     reach = point + fingers * width / 2.0 if spins else point
-    if not far_enough(task.joint, task.shape, reach):
+    if not task.moving.far_enough(reach):
         return None
-    pull = pull_at(task.joint, reach)
+    pull = task.moving.pull(reach)
     firm = max(
         abs(float(fingers @ pull)),
         float(normal @ pull) if pose.protrudes else 0.0,
@@ -176,23 +183,12 @@ def _rated_grasp(
         worth *= PALM
     if not task.arm_is_free(point, view.axes):
         worth *= ARM
-    return Hold(
-        "grasp",
-        point,
-        normal,
-        pull,
-        fingers,
-        width,
-        WORTH["grasp"] * worth * task.worth(reach, normal),
-    )
+    return task.target("grasp", point, normal, fingers, worth, opening=width, at=reach)
 
 
 def _spins(task: HoldSearch, point: FloatArray, width: float) -> bool:
     """Return whether the joint's axis runs between the fingers."""
-    joint = task.joint
-    return bool(
-        joint.turns and np.linalg.norm(np.cross(joint.axis, point - joint.origin)) < width / 2.0
-    )
+    return bool(task.moving.joint.turns and task.moving.lever(point) < width / 2.0)
 
 
 def _surface_at(view: HandView, middle: float, depth: float) -> FloatArray:
@@ -207,15 +203,13 @@ def _surface_at(view: HandView, middle: float, depth: float) -> FloatArray:
 
 def exposed(task: HoldSearch, point: FloatArray, outward: FloatArray) -> bool:
     """Return whether there is any room for a fingertip before a point of the surface."""
-    side = _sideways(task, outward)
-    view = neighbourhood(task.everything, task.shape.parts, point, 2.0 * min(GRIPPER.gaps)).view(
-        np.stack([side, np.cross(outward, side), outward])
-    )
-    half = min(GRIPPER.gaps) / 4.0
-    return view.free(np.array([-half, -half, 0.0005]), np.array([half, half, min(GRIPPER.gaps)]))
+    room = min(GRIPPER.gaps)
+    view = task.view(point, _frame(task, outward), 2.0 * room)
+    half = room / 4.0
+    return view.free(np.array([-half, -half, GRIPPER.off]), np.array([half, half, room]))
 
 
-def poke(task: HoldSearch, point: FloatArray, outward: FloatArray) -> Hold | None:
+def poke(task: HoldSearch, point: FloatArray, outward: FloatArray) -> Target | None:
     """Return how to push a place that faces against the opening: straight, hooked, or ``None``.
 
     Args:
@@ -223,26 +217,22 @@ def poke(task: HoldSearch, point: FloatArray, outward: FloatArray) -> Hold | Non
         point: on the surface [m], shape [3].
         outward: the surface's normal there, shape [3].
     """
-    pull = pull_at(task.joint, point)
-    near = task.near(point)
-    side = _sideways(task, outward)
+    axes = _frame(task, outward)
+    view = task.view(point, axes)
     half = GRIPPER.finger_width / 2.0
-    length = GRIPPER.finger_length + GRIPPER.palm_depth
-    axes = np.stack([side, np.cross(outward, side), outward])
-    view = near.view(axes)
-    if view.free(np.array([-half, -half, 0.0005]), np.array([half, half, length])):
+    if view.free(np.array([-half, -half, GRIPPER.off]), np.array([half, half, GRIPPER.length])):
         if not task.arm_is_free(point, axes):
             return None
-        worth = WORTH["push"] * (1.0 if _palm_is_free(view, half) else PALM)
-        return Hold("push", point, outward, pull, side, 0.0, worth * task.worth(point, outward))
+        return task.target("push", point, outward, axes[0], 1.0 if _palm_is_free(view) else PALM)
     across = (axes[0], -axes[0], axes[1], -axes[1])
-    return _best(
-        _hooked(task, near, (point, outward, pull), ahead, 0.0) for ahead in across
-    ) or _best(_hooked(task, near, (point, outward, pull), ahead, TILT) for ahead in across)
+    return _best(_hooked(task, view, outward, ahead, 0.0) for ahead in across) or _best(
+        _hooked(task, view, outward, ahead, TILT) for ahead in across
+    )
 
 
-def _best(holds: Iterable[Hold | None]) -> Hold | None:
-    best: Hold | None = None
+def _best(holds: Iterable[Target | None]) -> Target | None:
+    """Return the first hold that no later one beats; ``None`` if there is none."""
+    best: Target | None = None
     for hold in holds:
         if hold is not None and (best is None or hold.score > best.score + 1e-6):
             best = hold
@@ -250,48 +240,42 @@ def _best(holds: Iterable[Hold | None]) -> Hold | None:
 
 
 def _hooked(
-    task: HoldSearch,
-    near: Neighbourhood,
-    contact: tuple[FloatArray, FloatArray, FloatArray],
-    ahead: FloatArray,
-    tilt: float,
-) -> Hold | None:
+    task: HoldSearch, near: HandView, outward: FloatArray, ahead: FloatArray, tilt: float
+) -> Target | None:
     """Return a finger that comes against ``ahead``, its side towards the surface.
 
     Args:
         task: what is to be opened.
         near: what is around the point.
-        contact: point [m], the surface's normal there, and where the point goes.
+        outward: the surface's normal there.
         ahead: across the normal; from there the hand comes.
         tilt: how far the hand leans out over the edge that it hooks [rad], as it must in a hollow.
     """
-    point, outward, pull = contact
     away = np.cos(tilt) * ahead - np.sin(tilt) * outward
     axes = np.stack([np.cos(tilt) * outward + np.sin(tilt) * ahead, np.cross(ahead, outward), away])
-    view = near.view(axes)
+    view = near.turned(axes)
     half = GRIPPER.finger_width / 2.0
-    length = GRIPPER.finger_length + GRIPPER.palm_depth
     # Points lie within the edge; a leaning finger passes just outside it.
     start = (EDGE_M * np.sin(tilt), EDGE_M * np.cos(tilt)) if tilt else (0.0, 0.0)
     tip = start[1] - (TIP_M if tilt else 0.5 * half)
+    side = start[0] + GRIPPER.off
     palm = np.array([GRIPPER.palm[1], GRIPPER.palm[0], 0.0])
     floor = np.array([start[0], 0.0, tip + GRIPPER.finger_length])
     for gap, gap_worth in zip(GRIPPER.gaps, GAP_WORTH, strict=True):
-        near_side = start[0] + 0.0005
         # The tip passes the point: it hooks, rather than touches.
         if not view.free(
-            np.array([near_side, -half, tip]), np.array([near_side + gap, half, length])
+            np.array([side, -half, tip]), np.array([side + gap, half, GRIPPER.length])
         ):
             continue
-        if not task.arm_is_free(point, axes):
+        if not task.arm_is_free(near.point, axes):
             return None
         free = view.free(floor - palm, floor + palm + [0.0, 0.0, GRIPPER.palm_depth])
-        worth = WORTH["hook"] * gap_worth * (1.0 if free else PALM) * (LEANING if tilt else 1.0)
-        return Hold("hook", point, away, pull, axes[1], 0.0, worth * task.worth(point, away))
+        worth = gap_worth * (1.0 if free else PALM) * (LEANING if tilt else 1.0)
+        return task.target("hook", near.point, away, axes[1], worth)
     return None
 
 
-def _palm_is_free(view: HandView, half: float) -> bool:
+def _palm_is_free(view: HandView) -> bool:
     base = GRIPPER.finger_length
     (long, short) = GRIPPER.palm
     return any(
@@ -300,16 +284,11 @@ def _palm_is_free(view: HandView, half: float) -> bool:
     )
 
 
-def _sideways(task: HoldSearch, outward: FloatArray) -> FloatArray:
-    """Return a direction across ``outward`` that fits the joint, shape [3]."""
-    candidates = (
-        task.joint.axis,
-        np.array([0.0, 0.0, 1.0]),
-        np.array([1.0, 0.0, 0.0]),
-        np.array([0.0, 1.0, 0.0]),
-    )
-    for candidate in candidates:
-        rest = candidate - (candidate @ outward) * outward
-        if np.linalg.norm(rest) > 0.3:
-            return np.asarray(rest / np.linalg.norm(rest))
+def _frame(task: HoldSearch, outward: FloatArray) -> FloatArray:
+    """Return a hand's axes, as rows: across ``outward`` to fit the joint, and ``outward``."""
+    for candidate in (task.moving.joint.axis, *np.eye(3)[[2, 0, 1]]):
+        side = candidate - (candidate @ outward) * outward
+        if np.linalg.norm(side) > 0.3:
+            side = side / np.linalg.norm(side)
+            return np.stack([side, np.cross(outward, side), outward])
     raise AssertionError("three axes, one normal")

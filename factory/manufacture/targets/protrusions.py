@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
-from ...articulation import Joint
+from ...geometry.crossings import BoolArray
+from ...geometry.edges import label_linked
 from ...geometry.rows import distinct_rows
 from ...mesh import FloatArray, IntArray
-from .shape import BoolArray, PartShape, place, velocity
+from .shape import Moving, PartShape
 
 #: Faces within this angle of the panel's normal look outwards.
 LOOKS_OUT = float(np.cos(np.radians(30.0)))
@@ -50,11 +49,12 @@ def front_of(shape: PartShape, outward: FloatArray) -> ProtrudingFront:
     return ProtrudingFront(outward, height, level, tolerance)
 
 
-def opening_direction(joint: Joint, shape: PartShape) -> FloatArray:
-    """Normal of the part's front: the most common face direction that opening leads, [3]."""
-    ahead_of = velocity(joint, shape.center)
+def opening_direction(moving: Moving) -> FloatArray:
+    """Return the normal of the part's front: the most common face direction ahead of it, [3]."""
+    shape = moving.shape
+    ahead_of = moving.velocity(shape.center)
     forward = ahead_of / np.linalg.norm(ahead_of)
-    if not joint.turns:
+    if not moving.joint.turns:
         return np.asarray(forward)
     # Sheets may face either way.
     normals = shape.normals * np.where(shape.normals @ forward < 0.0, -1.0, 1.0)[:, None]
@@ -77,11 +77,12 @@ def looking(shape: PartShape, outward: FloatArray) -> BoolArray:
     return np.asarray(np.abs(shape.normals @ outward) > LOOKS_OUT)
 
 
-def protrusions(joint: Joint, shape: PartShape, front: ProtrudingFront) -> list[IntArray]:
-    """Everything that sticks out of a front, the best handle first; face indices into the shape.
+def protrusions(moving: Moving, front: ProtrudingFront) -> list[IntArray]:
+    """Find everything that sticks out of a front, the best handle first: faces of the shape.
 
-    The best is what stands out furthest at the best :func:`~.shape.place` to pull.
+    The best one stands out furthest at the best place to pull.
     """
+    shape = moving.shape
     height = front.height
     level = front.level
     tolerance = front.tolerance
@@ -103,7 +104,7 @@ def protrusions(joint: Joint, shape: PartShape, front: ProtrudingFront) -> list[
         reach = float(height[group].max()) - level
         covered = _outline(shape.only(group), front.outward) / whole
         if reach >= tolerance and covered <= HANDLE_SHARE:
-            rated.append((reach * float(place(joint, shape, corners.mean(axis=0))), group))
+            rated.append((reach * float(moving.place(corners.mean(axis=0))), group))
     return [group for _, group in sorted(rated, key=lambda pair: -pair[0])]
 
 
@@ -119,7 +120,7 @@ def _outline(shape: PartShape, outward: FloatArray) -> float:
 
 
 def _panel(shape: PartShape, outward: FloatArray, height: FloatArray) -> tuple[float, float]:
-    """Level of the front along ``outward`` [m], and how far from it still counts as it [m]."""
+    """Return the level of the front along ``outward`` [m], and how far from it is still it [m]."""
     size = float(np.ptp(shape.corners.reshape(-1, 3), axis=0).max())
     tolerance = float(np.clip(LEVEL_SHARE * size, *LEVEL_BOUNDS_M))
     flat = looking(shape, outward)
@@ -140,25 +141,21 @@ def _panel(shape: PartShape, outward: FloatArray, height: FloatArray) -> tuple[f
 
 
 def component_labels(faces: IntArray) -> IntArray:
-    """Component of each face, connected by shared vertices."""
+    """Return each face's component, connected by shared vertices, shape [face_count]."""
     used, compact = np.unique(faces, return_inverse=True)
     corners = compact.reshape(-1, 3)
     links = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]]])
-    graph = coo_matrix((np.ones(len(links)), links.T), shape=(len(used), len(used)))
-    return np.asarray(connected_components(graph, directed=False)[1][corners[:, 0]], dtype=np.int64)
+    return label_linked(len(used), links)[corners[:, 0]]
 
 
 def _groups(shape: PartShape, candidates: IntArray) -> list[IntArray]:
-    """Return the candidates by component, components whose boxes touch taken together."""
+    """Group the candidates by component, components whose boxes touch taken together."""
     label = component_labels(shape.welded[candidates])
     count = int(label.max()) + 1
     low = np.full((count, 3), np.inf)
     high = np.full((count, 3), -np.inf)
     np.minimum.at(low, label, shape.corners[candidates].min(axis=1) - TOUCH_M / 2.0)
     np.maximum.at(high, label, shape.corners[candidates].max(axis=1) + TOUCH_M / 2.0)
-    touching = np.asarray(
-        (low[:, None] <= high[None]).all(axis=2) & (high[:, None] >= low[None]).all(axis=2),
-        dtype=np.int64,
-    )
-    merged = connected_components(coo_matrix(touching), directed=False)[1][label]
+    touching = (low[:, None] <= high[None]).all(axis=2) & (high[:, None] >= low[None]).all(axis=2)
+    merged = label_linked(count, np.argwhere(touching))[label]
     return [candidates[merged == value] for value in np.unique(merged)]

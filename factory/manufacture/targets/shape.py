@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
+from trimesh.triangles import closest_point
 
 from ...articulation import Articulation, Joint, JointKind
+from ...geometry.crossings import BoolArray
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, IntArray
-
-BoolArray = npt.NDArray[np.bool_]
 
 #: A part whose centre is this much nearer to its axis than its rim turns on the spot, like a knob.
 KNOB_SHARE = 0.25
+#: Share of the way from the axis to the rim within which nobody can move anything.
+NEAR_HINGE = 0.15
 
 
 @dataclass(frozen=True)
@@ -49,7 +52,7 @@ class PartShape:
     @property
     def middle(self) -> FloatArray:
         """Return the middle of the box around it [m], shape [3]."""
-        return np.asarray((self.corners.min(axis=(0, 1)) + self.corners.max(axis=(0, 1))) / 2.0)
+        return middle_of(self.corners)
 
     def only(self, chosen: IntArray | BoolArray) -> PartShape:
         """Return some of its faces."""
@@ -63,6 +66,66 @@ class PartShape:
         )
 
 
+@dataclass(frozen=True)
+class Moving:
+    """A joint and the surface that it moves."""
+
+    joint: Joint
+    shape: PartShape
+
+    def velocity(self, points: FloatArray) -> FloatArray:
+        """Return the velocity of points per unit of joint speed, opening; shape of ``points``."""
+        if self.joint.turns:
+            return np.asarray(np.cross(self.joint.axis, points - self.joint.origin))
+        return np.broadcast_to(self.joint.axis, points.shape)
+
+    def pull(self, point: FloatArray) -> FloatArray:
+        """Return the unit direction in which opening first moves a point; zero on the axis, [3]."""
+        speed = self.velocity(point)
+        length = float(np.linalg.norm(speed))
+        return np.asarray(speed / length) if length > 1e-6 else np.zeros(3)
+
+    def lever(self, points: FloatArray) -> FloatArray:
+        """Return the distance of points, shape [..., 3], from the joint's axis [m]."""
+        return np.asarray(
+            np.linalg.norm(np.cross(self.joint.axis, points - self.joint.origin), axis=-1)
+        )
+
+    @cached_property
+    def rim(self) -> float:
+        """Return how far the surface reaches from the joint's axis [m]."""
+        return float(self.lever(self.shape.corners).max())
+
+    @property
+    def spins(self) -> bool:
+        """Return whether the middle lies so near the axis that turning takes it nowhere."""
+        return bool(
+            self.joint.turns and float(self.lever(self.shape.middle)) < KNOB_SHARE * self.rim
+        )
+
+    def far_enough(self, points: FloatArray) -> BoolArray:
+        """Return which points, [..., 3], are so far from a hinge that a pull moves anything."""
+        if not self.joint.turns:
+            return np.ones(points.shape[:-1], dtype=bool)
+        return np.asarray(self.lever(points) >= NEAR_HINGE * self.rim)
+
+    def place(self, points: FloatArray) -> FloatArray:
+        """Rate places to pull, 0 to 1: far from a hinge, near the middle of a drawer.
+
+        Args:
+            points: [m], shape [..., 3].
+
+        Returns:
+            One number for each point, shape [...].
+        """
+        if self.joint.turns:
+            return np.asarray(self.lever(points) / max(self.rim, 1e-12))
+        offset = points - self.shape.middle
+        aside = offset - (offset @ self.joint.axis)[..., None] * self.joint.axis
+        size = np.ptp(self.shape.corners, axis=(0, 1)).max()
+        return np.asarray(1.0 / (1.0 + np.linalg.norm(aside, axis=-1) / size))
+
+
 def shape_of(articulation: Articulation, part: int) -> PartShape:
     """Return the surface of a part and of those fixed below it; faces without area are left out."""
     carried = {part}
@@ -73,7 +136,7 @@ def shape_of(articulation: Articulation, part: int) -> PartShape:
     mesh = articulation.mesh
     faces = np.concatenate([articulation.parts[i].faces for i in parts])
     corners = mesh.vertices[mesh.faces[faces]]
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    cross = doubled_normals(corners)
     double = np.linalg.norm(cross, axis=1)
     real = double > 0.0
     normals = cross[real] / double[real, None]
@@ -82,41 +145,38 @@ def shape_of(articulation: Articulation, part: int) -> PartShape:
     )
 
 
-def velocity(joint: Joint, points: FloatArray) -> FloatArray:
-    """Velocity of the part's points per unit of joint speed, opening, at rest; as ``points``."""
-    if joint.turns:
-        return np.asarray(np.cross(joint.axis, points - joint.origin))
-    return np.broadcast_to(joint.axis, points.shape)
+def middle_of(points: FloatArray) -> FloatArray:
+    """Return the middle of the box around points, shape [..., 3]; shape [3]."""
+    flat = points.reshape(-1, 3)
+    return np.asarray((flat.min(axis=0) + flat.max(axis=0)) / 2.0)
 
 
-def lever(joint: Joint, points: FloatArray) -> FloatArray:
-    """Return the distance from the joint's axis [m]."""
-    return np.asarray(np.linalg.norm(np.cross(joint.axis, points - joint.origin), axis=-1))
+def across(vector: FloatArray, normal: FloatArray) -> FloatArray:
+    """Return the unit direction of a vector's part across a unit ``normal``, shape [3].
+
+    Zero if hardly any of it lies across.
+    """
+    rest = vector - (vector @ normal) * normal
+    length = float(np.linalg.norm(rest))
+    return (
+        np.asarray(rest / length) if length > 0.1 * float(np.linalg.norm(vector)) else np.zeros(3)
+    )
 
 
-def turns_on_the_spot(joint: Joint, shape: PartShape) -> bool:
-    """Return whether the part's middle lies so near the axis that turning takes it nowhere."""
-    rim = float(lever(joint, shape.corners).max())
-    return bool(joint.turns and float(lever(joint, shape.middle)) < KNOB_SHARE * rim)
-
-
-def place(joint: Joint, shape: PartShape, points: FloatArray) -> FloatArray:
-    """Return how good places to pull are, 0 to 1: far from a hinge, near the middle of a drawer.
+def nearest_points(triangles: FloatArray, point: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return each triangle's point nearest to ``point`` [m], shape [n, 3], and how far it is [m].
 
     Args:
-        joint: moves the shape.
-        shape: what is pulled.
-        points: [m], shape [..., 3].
-
-    Returns:
-        One number for each point, shape [...].
+        triangles: corners [m], shape [n, 3, 3].
+        point: [m], shape [3].
     """
-    if joint.turns:
-        return np.asarray(
-            lever(joint, points) / max(float(lever(joint, shape.corners).max()), 1e-12)
-        )
-    offset = points - shape.middle
-    across = offset - (offset @ joint.axis)[..., None] * joint.axis
-    return np.asarray(
-        1.0 / (1.0 + np.linalg.norm(across, axis=-1) / np.ptp(shape.corners, axis=(0, 1)).max())
-    )
+    on_surface = closest_point(triangles, np.tile(point, (len(triangles), 1)))
+    return on_surface, np.linalg.norm(on_surface - point, axis=1)
+
+
+def nearest_point(triangles: FloatArray, point: FloatArray) -> tuple[FloatArray, int]:
+    """Return the point of some triangles nearest to ``point`` [m], and the triangle's number."""
+    on_surface, distance = nearest_points(triangles, point)
+    # Rounded, so that of triangles that share the point it is the first, turned as they may be.
+    number = int(np.round(distance, 9).argmin())
+    return np.asarray(on_surface[number]), number

@@ -40,7 +40,7 @@ class StandingPlace:
 
 
 def standing_place(asset: Asset, joint: Joint, target: Target) -> StandingPlace | None:
-    """The place nearest to comfort that reaches the closed object's target, clear of its sweep.
+    """Find the place nearest to comfort that reaches a closed object's target, clear of its way.
 
     Args:
         asset: closed, but for the joint.
@@ -72,7 +72,7 @@ def standing_place(asset: Asset, joint: Joint, target: Target) -> StandingPlace 
 
 
 def _aim(asset: Asset, closed: dict[str, float], target: Target) -> tuple[FloatArray, FloatArray]:
-    """The target's place [m] and a level unit direction away from the object, joints closed."""
+    """Return where the target is [m] and a level unit direction away from the object, closed."""
     pose = asset.articulation.poses(closed)[target.part]
     point = pose[:3, :3] @ target.point + pose[:3, 3]
     vertices = asset.articulation.mesh.vertices
@@ -87,7 +87,7 @@ def _aim(asset: Asset, closed: dict[str, float], target: Target) -> tuple[FloatA
 
 
 def _outlines(asset: Asset, joint: Joint, closed: dict[str, float]) -> list[FloatArray]:
-    """Convex ground outlines of everything closed, and of what the joint moves along its way."""
+    """Return convex ground outlines of all that is closed, and of what the joint moves."""
     articulation = asset.articulation
     moved = {joint.child}
     for other in articulation.joints:

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...articulation import Articulation
+from ...asset import Hull
+from ...geometry.crossings import BoolArray
+from ...geometry.cutting import clip_to_box
 from ...geometry.posing import face_parts
-from ...geometry.triangles import ends_of
+from ...geometry.triangles import ends_of, meet_box
 from ...mesh import FloatArray, IntArray
-from .clipping import clipped
-from .shape import BoolArray
-
-if TYPE_CHECKING:
-    from ...asset import Hull
+from ..decompose.convex import depth_below
 
 #: What only touches a box is not in it [m].
 TOUCH_M = 1e-5
@@ -59,18 +57,29 @@ class Surroundings:
         near = ((low <= points.max(axis=0)) & (high >= points.min(axis=0))).all(axis=1)
         # Most hulls are nowhere near, and asking all of their planes is what takes long.
         for hull in np.flatnonzero(near).tolist():
-            planes = self.hulls[hull].planes
-            found |= (points @ planes[:, :3].T < planes[:, 3] - TOUCH_M).all(axis=1)
+            found |= depth_below(self.hulls[hull], points) > TOUCH_M
         return found
 
-    def around(self, point: FloatArray, reach: float) -> IntArray:
-        """Return the triangles whose boxes come within ``reach`` of a point along every axis."""
+    def view(
+        self, own: Sequence[int], point: FloatArray, axes: FloatArray, reach: float
+    ) -> HandView:
+        """Look at what lies near a point, in the frame of a hand there.
+
+        Args:
+            own: parts that are taken hold of.
+            point: [m], shape [3].
+            axes: of the frame, as rows, shape [3, 3].
+            reach: how far to look along each axis of the object frame [m].
+        """
         low, high = self.boxes
-        return np.flatnonzero(((low <= point + reach) & (high >= point - reach)).all(axis=1))
+        rows = np.flatnonzero(((low <= point + reach) & (high >= point - reach)).all(axis=1))
+        return HandView(
+            self, point, axes, self.triangles[rows], np.isin(self.parts[rows], list(own))
+        )
 
 
 def surroundings_of(articulation: Articulation, hulls: Sequence[Sequence[Hull]]) -> Surroundings:
-    """Return the meshes and hulls of all parts.
+    """Gather the meshes and hulls of all parts.
 
     Args:
         articulation: at rest.
@@ -102,19 +111,28 @@ class HandView:
         everything: where the triangles come from.
         point: the frame's origin [m], shape [3].
         axes: the frame's axes as rows, shape [3, 3].
-        local: triangles near the point in the frame [m], shape [near_count, 3, 3].
+        near: triangles near the point, object frame [m], shape [near_count, 3, 3].
         own: which of them belong to what is taken hold of, shape [near_count].
     """
 
     everything: Surroundings
     point: FloatArray
     axes: FloatArray
-    local: FloatArray
+    near: FloatArray
     own: BoolArray
+
+    def turned(self, axes: FloatArray) -> HandView:
+        """Return the same surroundings in a frame with other axes (rows)."""
+        return replace(self, axes=axes)
+
+    @cached_property
+    def _local(self) -> FloatArray:
+        """Return the triangles in the frame [m], shape [near_count, 3, 3]."""
+        return np.asarray((self.near - self.point) @ self.axes.T)
 
     @cached_property
     def _boxes(self) -> tuple[FloatArray, FloatArray]:
-        return ends_of(self.local)
+        return ends_of(self._local)
 
     def _met(self, low: FloatArray, high: FloatArray) -> BoolArray:
         """Return the triangles whose boxes meet a box."""
@@ -127,18 +145,18 @@ class HandView:
         high = high - TOUCH_M
         if (high <= low).any():
             return True
-        met = self.local[self._met(low, high)]
+        met = self._local[self._met(low, high)]
         # Most boxes that are not free hold a corner, which is soon seen.
         if len(met) and (
-            ((met >= low) & (met <= high)).all(axis=2).any() or len(clipped(met, low, high))
+            ((met >= low) & (met <= high)).all(axis=2).any() or meet_box(met, low, high).any()
         ):
             return False
         probes = (low + high) / 2.0 + PROBES * (high - low) * 0.9
         return not self.everything.inside(self.point + probes @ self.axes).any()
 
     def within(self, low: FloatArray, high: FloatArray) -> FloatArray:
-        """The own geometry in a box of the frame: triangles cut to it [m], shape [any, 3, 3]."""
-        return clipped(self.local[self.own & self._met(low, high)], low, high)
+        """Return the own geometry in a box of the frame: triangles cut to it [m], [any, 3, 3]."""
+        return clip_to_box(self._local[self.own & self._met(low, high)], low, high)
 
     def spans(self, low: FloatArray, high: FloatArray, gap: float) -> FloatArray:
         """Return what of the own geometry lies in a box, along the first axis.
@@ -157,41 +175,3 @@ class HandView:
         new = np.concatenate([[True], starts[1:] > ends[:-1] + gap])
         last = np.concatenate([new[1:], [True]])
         return np.stack([starts[new], ends[last]], axis=1)
-
-
-@dataclass(frozen=True)
-class Neighbourhood:
-    """Everything near a point, to be viewed in several frames."""
-
-    everything: Surroundings
-    point: FloatArray
-    near: FloatArray
-    own: BoolArray
-
-    def view(self, axes: FloatArray) -> HandView:
-        """Return the same in the frame of the given axes (rows)."""
-        return HandView(
-            self.everything, self.point, axes, (self.near - self.point) @ axes.T, self.own
-        )
-
-
-def neighbourhood(
-    everything: Surroundings,
-    own: Sequence[int],
-    point: FloatArray,
-    reach: float,
-    shift: FloatArray | None = None,
-) -> Neighbourhood:
-    """Return what lies near a point.
-
-    Args:
-        everything: around it.
-        own: parts that are taken hold of.
-        point: [m], shape [3].
-        reach: how far to look [m].
-        shift: from the point to the middle of what is looked at [m], shape [3]; none if ``None``.
-    """
-    rows = everything.around(point if shift is None else point + shift, reach)
-    return Neighbourhood(
-        everything, point, everything.triangles[rows], np.isin(everything.parts[rows], list(own))
-    )

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 from modelled_furniture import board
 
+from asset_factory.factory.articulate.locate import located
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, rotation_about
+from asset_factory.factory.geometry.posing import rotated
 from asset_factory.factory.manufacture.hinges import at_front_edge
 from asset_factory.factory.manufacture.plan import Plan, as_planned, dispensable_joints
 from asset_factory.factory.mesh import concatenate
@@ -36,7 +38,8 @@ def inset_door(**changed: object) -> Articulation:
         confidence=0.9,
     )
     parts = (Part("base", np.arange(12)), Part("door", np.arange(12, 36)))
-    return Articulation(mesh, parts, (replace(hinge, **changed),), "auto")  # type: ignore[arg-type]
+    joints = (replace(hinge, **changed),)  # type: ignore[arg-type]
+    return located(Articulation(mesh, parts, joints, "auto"))
 
 
 def farthest_left(door: Articulation, joint: Joint) -> float:
@@ -62,13 +65,8 @@ def test_at_its_back_edge_an_inset_door_turns_into_the_frame_at_its_front_edge_n
 def test_the_front_edge_is_found_whichever_way_the_door_faces(turn: float) -> None:
     door = inset_door()
     rotation = rotation_about([0.0, 0.0, 1.0], turn)
-    matrix = np.eye(4)
-    matrix[:3, :3] = rotation
-    (given,) = door.joints
-    turned = replace(given, axis=rotation @ given.axis, origin=rotation @ given.origin)
-    hung = at_front_edge(
-        replace(door, mesh=door.mesh.transformed(matrix), joints=(turned,)), turned
-    )
+    turned = rotated(door, rotation)
+    hung = at_front_edge(turned, turned.joints[0])
     assert hung is not None
     assert hung.origin == pytest.approx(rotation @ [LEFT, 0.0, 0.3])
 

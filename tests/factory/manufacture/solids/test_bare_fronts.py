@@ -8,36 +8,38 @@ import numpy as np
 import pytest
 from modelled_furniture import board, drawer_chest, fridge
 
+from asset_factory.factory.articulate.locate import located
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.config import SolidsConfig
 from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.solids.build import solids
-from asset_factory.factory.manufacture.solids.plates import bare_fronts
+from asset_factory.factory.manufacture.solids.skin import bare_fronts
 from asset_factory.factory.mesh import Mesh, concatenate
 
 OUT = np.array([0.0, -1.0, 0.0])
+UP = np.array([0.0, 0.0, 1.0])
+
+
+SLIDE = Joint("slide", JointKind.PRISMATIC, 0, 1, OUT, np.zeros(3), upper=0.3)
+
+
+def moving(mesh: Mesh, pieces: tuple[int, ...], joint: Joint) -> Articulation:
+    """A mesh of which some pieces move."""
+    own = np.isin(connected_components(mesh), pieces)
+    parts = (Part("base", np.flatnonzero(~own)), Part("drawer", np.flatnonzero(own)))
+    return located(Articulation(mesh, parts, (joint,), "test"))
 
 
 def with_drawer(mesh: Mesh, *pieces: int) -> Articulation:
     """A mesh of which some pieces slide towards the viewer."""
-    own = np.isin(connected_components(mesh), pieces)
-    parts = (Part("base", np.flatnonzero(~own)), Part("drawer", np.flatnonzero(own)))
-    joint = Joint("slide", JointKind.PRISMATIC, 0, 1, OUT, np.zeros(3), upper=0.3)
-    return Articulation(mesh, parts, (joint,), "test")
+    return moving(mesh, pieces, SLIDE)
 
 
 def with_door(mesh: Mesh, *pieces: int) -> Articulation:
     """The same with a hinge at the right."""
-    made = with_drawer(mesh, *pieces)
-    hinge = replace(
-        made.joints[0],
-        kind=JointKind.REVOLUTE,
-        axis=np.array([0.0, 0.0, 1.0]),
-        origin=np.array([mesh.bounds[1, 0], 0.0, 0.0]),
-        upper=1.5,
-    )
-    return replace(made, joints=(hinge,))
+    at = np.array([mesh.bounds[1, 0], 0.0, 0.0])
+    return moving(mesh, pieces, Joint("hinge", JointKind.REVOLUTE, 0, 1, UP, at, upper=1.5))
 
 
 def hollow_case() -> list[Mesh]:
@@ -110,9 +112,8 @@ def test_a_front_gets_no_box_where_a_tray_of_its_own_slides() -> None:
         Part(name, np.flatnonzero(of))
         for name, of in (("base", piece < 5), ("drawer", piece == 5), ("tray", piece > 5))
     )
-    slide = with_drawer(mesh, 5).joints[0]
-    joints = (slide, replace(slide, name="tray_slide", child=2))
-    made = solids(Articulation(mesh, parts, joints, "test"), SolidsConfig())
+    joints = (SLIDE, replace(SLIDE, name="tray_slide", child=2))
+    made = solids(located(Articulation(mesh, parts, joints, "test")), SolidsConfig())
     assert "drawer box" not in {each.kind for each in made.surfaces}
 
 
@@ -124,9 +125,8 @@ def test_a_handle_taken_for_a_drawer_of_its_own_keeps_its_faces() -> None:
         Part(name, np.flatnonzero(of))
         for name, of in (("base", piece < 5), ("bar", piece == 6), ("drawer", piece == 5))
     )
-    slide = with_drawer(mesh, 5).joints[0]
-    joints = (slide, replace(slide, name="second_slide", child=2))
-    made = solids(Articulation(mesh, parts, joints, "test"), SolidsConfig())
+    joints = (SLIDE, replace(SLIDE, name="second_slide", child=2))
+    made = solids(located(Articulation(mesh, parts, joints, "test")), SolidsConfig())
     assert all(len(part.faces) for part in made.articulation.parts)
 
 
@@ -138,10 +138,11 @@ def test_a_button_in_a_door_has_room_to_be_pressed() -> None:
     piece = connected_components(hung.mesh)
     parts = tuple(Part(name, np.flatnonzero(piece == at)) for at, name in enumerate("abc"))
     press = Joint("press", JointKind.PRISMATIC, 1, 2, -OUT, np.zeros(3), upper=0.015)
-    made = solids(replace(hung, parts=parts, joints=(*hung.joints, press)), SolidsConfig())
+    pressed = Articulation(hung.mesh, parts, (*hung.joints, press), "test")
+    made = solids(located(pressed), SolidsConfig())
     assert made.pieces[1] is not None
-    pressed = button.vertices + 0.015 * press.axis
-    inner = 0.5 * pressed + 0.5 * pressed.mean(axis=0)
+    inside = button.vertices + 0.015 * press.axis
+    inner = 0.5 * inside + 0.5 * inside.mean(axis=0)
     assert max(depth_below(hull, inner).max() for hull in made.pieces[1].hulls) < 0.0
     assert sum(hull.volume for hull in made.pieces[1].hulls) > 0.9 * 0.6 * 0.06 * 1.2
 
@@ -155,8 +156,7 @@ def test_a_body_behind_a_front_is_left_to_decomposition() -> None:
         Part(name, np.flatnonzero(of))
         for name, of in (("base", piece < 5), ("drawer", piece == 5), ("rack", piece > 5))
     )
-    slide = with_drawer(mesh, 5).joints[0]
-    joints = (slide, replace(slide, name="rack_slide", child=2))
-    made = solids(Articulation(mesh, parts, joints, "test"), SolidsConfig())
+    joints = (SLIDE, replace(SLIDE, name="rack_slide", child=2))
+    made = solids(located(Articulation(mesh, parts, joints, "test")), SolidsConfig())
     assert made.pieces[2] is None
     assert len(made.articulation.parts[2].faces) == len(parts[2].faces)

@@ -7,8 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from labelled_skins import SIZE, box_skin, chest, cupboard
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, rotation_about
 from asset_factory.factory.config import SolidsConfig
+from asset_factory.factory.geometry import posing
 from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.solids.box import Box
@@ -276,15 +277,8 @@ def test_a_plate_with_a_hole_has_the_area_of_what_is_left() -> None:
 
 @pytest.mark.parametrize("degrees", [0.0, 20.0, -35.0])
 def test_the_working_frame_undoes_a_turn_about_the_vertical(degrees: float) -> None:
-    turn = np.eye(4)
-    turn[:2, :2] = [
-        [np.cos(np.radians(degrees)), -np.sin(np.radians(degrees))],
-        [np.sin(np.radians(degrees)), np.cos(np.radians(degrees))],
-    ]
     given_tree = chest()
-    turned = Articulation(
-        given_tree.mesh.transformed(turn), given_tree.parts, given_tree.joints, "test"
-    )
+    turned = posing.turned(given_tree, float(np.radians(degrees)))
     frame = working_frame(turned, (1, 2))
-    back = frame @ turn[:3, :3]
+    back = frame @ rotation_about([0.0, 0.0, 1.0], np.radians(degrees))
     assert np.abs(back).max(axis=1) == pytest.approx(np.ones(3), abs=1e-3)

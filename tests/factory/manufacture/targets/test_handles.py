@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 from trimesh.triangles import closest_point
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.geometry.posing import rotated
 from asset_factory.factory.manufacture.targets.handles import find_handle
 from asset_factory.factory.mesh import Material, Mesh, concatenate
 from asset_factory.learn.objects import fused_like, make_object
@@ -178,22 +179,8 @@ def test_the_root_and_fixed_parts_have_no_handle() -> None:
 @pytest.mark.parametrize("category", ["cabinet", "oven"])
 def test_turning_the_object_turns_its_handles(category: str) -> None:
     articulation = make_object(category, 0)
-    matrix = np.eye(4)
-    matrix[:3, :3] = Rotation.from_euler("zyx", [70.0, 0.0, 0.0], degrees=True).as_matrix()
-    joints = tuple(
-        Joint(
-            j.name,
-            j.kind,
-            j.parent,
-            j.child,
-            matrix[:3, :3] @ j.axis,
-            matrix[:3, :3] @ j.origin,
-            j.lower,
-            j.upper,
-        )
-        for j in articulation.joints
-    )
-    turned = Articulation(articulation.mesh.transformed(matrix), articulation.parts, joints, "test")
+    rotation = Rotation.from_euler("zyx", [70.0, 0.0, 0.0], degrees=True).as_matrix()
+    turned = rotated(articulation, rotation)
     for joint in articulation.movable_joints:
         before = find_handle(articulation, joint.child)
         after = find_handle(turned, joint.child)

@@ -1,0 +1,74 @@
+"""Triangles cut along planes and to boxes: what is inside stays, exactly."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from plain_solids import box
+from target_worlds import PLAIN
+
+from asset_factory.factory.geometry.cutting import clip_to_box, cut_at_zero
+from asset_factory.factory.geometry.triangles import meet_box
+
+
+def area(triangles: np.ndarray) -> float:
+    edges = triangles[:, 1:] - triangles[:, :1]
+    return float(np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum() / 2.0)
+
+
+def surface(low: float, high: float) -> np.ndarray:
+    solid = box((low, high), (low, high), (low, high), PLAIN)
+    return solid.vertices[solid.faces]
+
+
+def test_the_surface_of_a_cube_in_a_smaller_box_is_what_a_knife_leaves() -> None:
+    inside = clip_to_box(
+        surface(0.0, 1.0), np.array([-1.0, -1.0, -1.0]), np.array([0.25, 2.0, 2.0])
+    )
+    np.testing.assert_allclose(area(inside), 1.0 + 4 * 0.25)
+    assert inside[..., 0].max() == 0.25
+
+
+def test_a_box_within_a_solid_holds_nothing_of_its_surface() -> None:
+    assert not len(clip_to_box(surface(0.0, 1.0), np.full(3, 0.4), np.full(3, 0.6)))
+
+
+@settings(max_examples=40)
+@given(st.integers(0, 2**32 - 1))
+def test_two_halves_make_the_whole(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    triangles = rng.uniform(-1.0, 1.0, (12, 3, 3))
+    cut = rng.uniform(-0.5, 0.5)
+    low = np.full(3, -0.8)
+    high = np.full(3, 0.8)
+    whole = clip_to_box(triangles, low, high)
+    left = clip_to_box(triangles, low, np.array([cut, 0.8, 0.8]))
+    right = clip_to_box(triangles, np.array([cut, -0.8, -0.8]), high)
+    np.testing.assert_allclose(area(left) + area(right), area(whole), atol=1e-9)
+    assert (np.abs(whole) <= 0.8 + 1e-9).all()
+
+
+@settings(max_examples=40)
+@given(st.integers(0, 2**32 - 1))
+def test_triangles_that_meet_a_box_are_those_of_which_it_holds_some(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    triangles = rng.uniform(-1.0, 1.0, (1, 1, 3)) + rng.uniform(-0.6, 0.6, (20, 3, 3))
+    low = np.array([-0.3, -0.2, -0.4])
+    high = np.array([0.1, 0.3, 0.2])
+    some = [bool(len(clip_to_box(triangle[None], low, high))) for triangle in triangles]
+    assert meet_box(triangles, low, high).tolist() == some
+
+
+def test_pieces_keep_what_is_linear_on_their_triangles() -> None:
+    triangles = surface(0.0, 1.0)
+    height = triangles[:, :, 0] - 0.3
+    pieces = cut_at_zero(height)
+    made = pieces.spread(triangles)
+    np.testing.assert_allclose(area(made), area(triangles))
+    lifted = pieces.spread(height[..., None])[..., 0]
+    np.testing.assert_allclose(lifted, made[:, :, 0] - 0.3, atol=1e-12)
+    assert ((lifted > -1e-9).all(axis=1) | (lifted < 1e-9).all(axis=1)).all()
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    wound = np.cross(made[:, 1] - made[:, 0], made[:, 2] - made[:, 0])
+    assert (np.einsum("ij,ij->i", wound, normals[pieces.whole]) > 0.0).all()
