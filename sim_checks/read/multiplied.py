@@ -32,7 +32,8 @@ def refuse_multiplied(path: Path, document: ET.Element) -> None:
     Raises:
         DescriptionError: ``too_large``, or what is wrong with an inner document.
     """
-    model = read_model(path.resolve(), document, path.parent.resolve())
+    folder = path.parent.resolve()
+    model = read_model(folder / path.name, document, folder)
     counts = _ElementCount(model, {}).all
     for what, most in MOST.items():
         if counts[what] > most:

@@ -14,17 +14,16 @@ from ..annotation import Annotation
 from ..files import InputFiles
 from ..intake import Intake, Provenance
 from ..licenses import require_allowed
-from ..limits import require_sensible_size, unreadable
+from ..limits import require_sensible_size
 from ..naming import safe_name, well_formed
 from ..orientation import parse_up, rotation_to_z_up
+from ..rejecting import rejecting
 from ..sidecar import Sidecar, read_sidecar
 from ..sizes import guess_category, normalised, scale_by_size
 from .imported import Imported
 from .mjcf import import_mjcf
 from .urdf import import_urdf
 from .xml_source import read_xml
-
-"""Raised when the same files and settings would give another intake."""
 
 
 def load_description(path: Path, config: IntakeConfig) -> Intake:
@@ -95,20 +94,12 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
 
 
 def _imported(path: Path, config: IntakeConfig) -> Imported:
-    """Run a reader on a file from anybody: whatever it trips over is a fault of the file."""
     root = read_xml(path, config.max_bytes)
-    try:
-        with np.errstate(all="ignore"):
-            if root.tag == "robot":
-                return import_urdf(root, path, config)
-            if root.tag == "mujoco":
-                return import_mjcf(root, path, config)
-    except (InputRejected, TimeoutError, ChildProcessError):
-        raise
-    except MemoryError as error:
-        raise InputRejected("too_large", f"{path.name}: does not fit into memory") from error
-    except Exception as error:
-        raise unreadable(path.name, f"{type(error).__name__}: {error}") from error
+    with rejecting(path.name, path.parent), np.errstate(all="ignore"):
+        if root.tag == "robot":
+            return import_urdf(root, path, config)
+        if root.tag == "mujoco":
+            return import_mjcf(root, path, config)
     raise InputRejected(
         "unreadable", f"{path.name}: begins with <{root.tag[:80]}>, want <robot> or <mujoco>"
     )
