@@ -167,18 +167,19 @@ def _shape(geom: CompiledGeom, model: CompiledModel, material: Material) -> Mesh
     if geom.mesh >= 0:
         mesh = model.meshes[geom.mesh]
         return Mesh.from_triangles(mesh.vertices, mesh.faces, material)
+    shape = None
     match geom.shape:
         case "box":
-            return primitives.box(2.0 * geom.size, material)
+            shape = primitives.box(2.0 * geom.size, material)
         case "sphere":
-            return primitives.ellipsoid((radius, radius, radius), material)
+            shape = primitives.ellipsoid((radius, radius, radius), material)
         case "ellipsoid":
-            return primitives.ellipsoid(geom.size, material)
+            shape = primitives.ellipsoid(geom.size, material)
         case "cylinder":
-            return primitives.cylinder(radius, 2.0 * half, material)
+            shape = primitives.cylinder(radius, 2.0 * half, material)
         case "capsule":
-            return primitives.capsule(radius, 2.0 * half, material)
-    return None
+            shape = primitives.capsule(radius, 2.0 * half, material)
+    return shape
 
 
 def _images(model: CompiledModel, folder: Path, config: IntakeConfig) -> dict[int, Texture]:
