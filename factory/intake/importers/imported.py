@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mesh import FloatArray, Mesh
+from ...mesh import Mesh
 from ..annotation import AnnotatedJoint
 
 
@@ -49,14 +49,6 @@ def rigid_groups(count: int, welds: list[tuple[int, int]]) -> list[int]:
         if low != high:
             group = [low if g == high else g for g in group]
     return group
-
-
-def rigid(rotation: FloatArray, translation: FloatArray) -> FloatArray:
-    """Return the 4x4 matrix of a rotation, shape [3, 3], then a translation [m], shape [3]."""
-    matrix = np.eye(4)
-    matrix[:3, :3] = rotation
-    matrix[:3, 3] = translation
-    return matrix
 
 
 def fixed(name: str, parent: int, child: int) -> AnnotatedJoint:

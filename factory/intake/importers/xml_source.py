@@ -6,13 +6,9 @@ from pathlib import Path
 from urllib.parse import unquote
 from xml.etree.ElementTree import Element
 
-import numpy as np
-
-from asset_factory.sim_checks.description import ABSURD, DescriptionError
+from asset_factory.sim_checks.description import DescriptionError
 from asset_factory.sim_checks.read.document import is_file, locate, parse_xml, read_document
 
-from ...errors import InputRejected
-from ...mesh import FloatArray
 from ...runtime.store import digest_bytes
 from ..reads import ABSENT, note_read
 from ..rejecting import rejecting
@@ -30,30 +26,6 @@ def read_xml(path: Path, max_bytes: int) -> Element:
         text = read_document(path, max_bytes)
         note_read(path, digest_bytes(text))
         return parse_xml(text, path.name)
-
-
-def numbers(text: str | None, count: int, default: tuple[float, ...], where: str) -> FloatArray:
-    """Return ``count`` numbers of an attribute, or ``default`` where it is absent, shape [count].
-
-    Commas between them are read as spaces, as other readers do.
-
-    Raises:
-        InputRejected: ``unreadable``: not that many numbers, or one beyond ABSURD; ``where`` opens
-            the sentence.
-    """
-    if text is None or not text.strip():
-        return np.asarray(default, dtype=np.float64)
-    try:
-        values = np.array([float(word) for word in text.replace(",", " ").split()])
-    except ValueError:
-        values = np.zeros(0)
-    # NaN compares as false.
-    if values.shape != (count,) or not (np.abs(values) <= ABSURD).all():
-        said = repr(text[:80])
-        raise InputRejected(
-            "unreadable", f"{where}: is {said}, want {count} finite numbers up to {ABSURD:g}"
-        )
-    return values
 
 
 def find_reference(reference: str, folder: Path, where: str) -> Path:
