@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from asset_factory.sim_checks.processes.isolation import WarmChild
+from asset_factory.sim_checks.read.native import ask_of
 from asset_factory.sim_checks.read.usd.layers import require_inside
-from asset_factory.sim_checks.read.usd.refusing import ask_of
 from asset_factory.sim_checks.read.usd.shapes import PhysicsSurface
 from asset_factory.sim_checks.read.usd.stage import PhysicsStage, read_stage, require_library
 
