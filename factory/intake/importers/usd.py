@@ -112,8 +112,7 @@ def _annotated(
         raise InputRejected("empty", f"{name}: holds no surface that is shown")
     transform = np.eye(4)
     transform[:3, :3] = stage.metres * rotation_to_z_up(stage.up)
-    bodies = [body for body, mesh in pieces for _ in range(len(mesh.faces))]
-    annotation = annotation_of(stage, bodies, transform, name)
+    annotation = annotation_of(stage, pieces, transform, name)
     return concatenate([mesh for _, mesh in pieces]), annotation, transform
 
 
