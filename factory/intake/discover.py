@@ -8,12 +8,12 @@ from contextlib import suppress
 from pathlib import Path
 from xml.parsers import expat
 
+from asset_factory.sim_checks.read.document import inside
 from asset_factory.sim_checks.read.regular import open_regular
 from asset_factory.sim_checks.read.usd.layers import is_usd
 
 from ..errors import ConfigError
 from ..runtime.layout import ASSETS, DATABASE, REJECTED, WITHDRAWN
-from .files import lies_below
 from .formats.catalog import is_mesh
 from .references import References
 
@@ -25,7 +25,7 @@ MAIN_LAYERS = ("instance", "model", "asset")
 
 
 def find_inputs(paths: Sequence[Path]) -> tuple[Path, ...]:
-    """Mesh files and robot descriptions, each once, folders searched to any depth in sorted order.
+    """Find mesh files and robot descriptions, each once, in folders of any depth, in sorted order.
 
     A mesh that a description (``.urdf``, or ``.xml`` with the root ``mujoco``) in its folder or
     above refers to, under whatever suffix, or that lies in or below a subfolder from which it takes
@@ -83,7 +83,7 @@ def _inputs_below(folder: Path) -> Iterator[Path]:
             name for name in subfolders if not name.startswith(".") and name not in made
         )
         candidates = [here / name for name in sorted(names) if not name.startswith(".")]
-        candidates = [c for c in candidates if c.is_file() and lies_below(c, real)]
+        candidates = [c for c in candidates if c.is_file() and inside(c, real)]
         descriptions = [c for c in candidates if is_description(c)]
         named: set[str] = set()
         stems = {c.stem for c in candidates}
@@ -116,7 +116,7 @@ def _taken(reference: str, subfolders: frozenset[str]) -> tuple[str, str]:
 
 
 def _root_tag(path: Path) -> str | None:
-    """The name of an XML file's root element; ``None`` if there is none near its beginning."""
+    """Return the name of an XML file's root element; ``None`` if none is near its beginning."""
     tags: list[str] = []
     parser = expat.ParserCreate(namespace_separator=" ")
     parser.StartElementHandler = lambda tag, _: tags.append(tag)

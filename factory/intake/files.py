@@ -7,6 +7,7 @@ import re
 from contextlib import suppress
 from pathlib import Path
 
+from asset_factory.sim_checks.read.document import inside
 from asset_factory.sim_checks.read.regular import open_regular
 
 from ..config import IntakeConfig
@@ -42,12 +43,12 @@ class InputFiles:
 
     @property
     def digests(self) -> tuple[str, ...]:
-        """SHA-256 of each file read, in that order."""
+        """Return the SHA-256 of each file read, in that order."""
         return tuple(self._digests)
 
     @property
     def digest(self) -> str:
-        """SHA-256 over the files read, in the order they were read; of one file, its own digest."""
+        """Return the SHA-256 over the files read, in that order; of one file, its own digest."""
         if len(self._digests) == 1:
             return self._digests[0]
         return digest_bytes("\n".join(self._digests).encode())
@@ -106,22 +107,14 @@ class InputFiles:
         if _SCHEME.match(plain) or _DRIVE.match(plain) or plain.startswith("/"):
             raise _external(reference, "is absolute")
         path = base / plain
-        if not lies_below(path, self._real_root):
+        if not inside(path, self._real_root):
             note_link_out(path, self._root)
             raise _external(reference, "leads outside the input's folder")
         return path
 
     def read_reference(self, reference: str, base: Path) -> bytes:
-        """The content of the file ``reference`` names. Raises as :meth:`find` and :meth:`read`."""
+        """Return the content of a file referred to; raise as :meth:`find` and :meth:`read`."""
         return self.read(self.find(reference, base))
-
-
-def lies_below(path: Path, folder: Path) -> bool:
-    """Return whether a path, every link in it followed, lies in ``folder``, a resolved path."""
-    # Path.resolve raises at links in a circle.
-    with suppress(OSError, ValueError):
-        return Path(os.path.realpath(path)).is_relative_to(folder)
-    return False
 
 
 def is_there(path: Path) -> bool:

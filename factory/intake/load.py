@@ -17,7 +17,7 @@ from .loading import load_mesh
 #: Its version is raised when some input would be loaded otherwise.
 LOAD = Stage(
     "load",
-    version=6,
+    version=7,
     settings=("intake",),
     libraries=("numpy", "scipy", "trimesh", "manifold3d", "pillow", "mujoco"),
     data=("categories.toml",),

@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import resource
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from ..processes.isolation import Failure, Outcome
+from ..description import DescriptionError
+from ..processes.isolation import Failure, Limits, Outcome, WarmChild
 
+T = TypeVar("T")
+#: Time only ends what hangs, and is no verdict.
+LIMITS = Limits(wall_s=120.0, memory_bytes=4 * 2**30)
+#: MuJoCo's compiler has a limit of memory of its own.
+COMPILE_LIMITS = Limits(wall_s=120.0, memory_bytes=8 * 2**30)
 #: Of MuJoCo's compiler, beyond what the process holds before [bytes]; real objects take 0.1 GiB.
 COMPILER_BYTES = 2 * 2**30
 #: Of USD's library, which maps its files as well, and of what is made of them.
@@ -18,9 +24,43 @@ READER_BYTES = 3 * 2**30
 _WORDS = ("Could not allocate memory", "Caught an unknown exception")
 
 
+def read_apart(function: Callable[[Path], T], path: Path) -> T:
+    """Call what has MuJoCo compile a file, in a child that may crash; errors of :func:`ask_of`."""
+    with WarmChild() as child:
+        return ask_of(child, path.name, function, path, limits=COMPILE_LIMITS)
+
+
+def ask_of(
+    child: WarmChild, name: str, function: Callable[..., T], *args: Any, limits: Limits = LIMITS
+) -> T:
+    """Call a native reader in a child; a file that it dies of twice cannot be read.
+
+    Args:
+        child: to be asked.
+        name: of the file, which opens the sentence.
+        function: as for :meth:`WarmChild.call`.
+        *args: its arguments.
+        limits: of each call.
+
+    Raises:
+        DescriptionError: what the function raises, ``unreadable`` or ``too_large``.
+        TimeoutError, ChildProcessError: nobody can say; see :func:`require_word`.
+    """
+    outcome = child.call(function, *args, limits=limits)
+    if outcome.failure is Failure.CRASHED and not outcome.killed:
+        outcome = child.call(function, *args, limits=limits)
+    if isinstance(outcome.error, DescriptionError):
+        raise outcome.error
+    require_word(outcome, name)
+    if outcome.failure is not None:
+        code = "too_large" if isinstance(outcome.error, MemoryError) else "unreadable"
+        raise DescriptionError(code, f"{name}: its reader fails: {outcome.detail}")
+    return outcome.unwrap()
+
+
 @contextmanager
 def memory_bounded(most: int) -> Iterator[None]:
-    """Within this, the process may take so much more address space; only in a killable child.
+    """Limit how much more address space the process may take; only in a killable child.
 
     Raises:
         MemoryError: it asked for more.

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from asset_factory.sim_checks.read import primitives
+
 from ...mesh import FloatArray, Material, Mesh
 
 SECTIONS = 32
@@ -13,10 +15,8 @@ RINGS = 16
 
 def box(size: npt.ArrayLike, material: Material) -> Mesh:
     """Return an axis-aligned box of side lengths ``size`` [m], shape [3], centred at the origin."""
-    corners = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
-    quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
-    faces = [triangle for a, b, c, d in quads for triangle in ((a, b, c), (a, c, d))]
-    return Mesh.from_triangles(corners * np.asarray(size, dtype=np.float64), faces, material)
+    vertices, faces = primitives.box(np.asarray(size, dtype=np.float64))
+    return Mesh.from_triangles(vertices, faces, material)
 
 
 def cylinder(radius: float, length: float, material: Material) -> Mesh:
@@ -37,14 +37,14 @@ def ellipsoid(radii: npt.ArrayLike, material: Material) -> Mesh:
 
 
 def capsule(radius: float, length: float, material: Material) -> Mesh:
-    """A cylinder along z of ``radius``, ``length`` [m] with half spheres as ends, centred at 0."""
+    """Return a cylinder along z of ``radius``, ``length`` [m] with half spheres as ends, at 0."""
     angles = np.linspace(-np.pi / 2.0, 0.0, RINGS // 2 + 1)
     low = np.stack([radius * np.cos(angles), radius * np.sin(angles) - length / 2.0], axis=1)
     return _revolved(np.concatenate([low, low[::-1] * [1.0, -1.0]]), material)
 
 
 def _revolved(profile: FloatArray, material: Material) -> Mesh:
-    """A profile of (radius, height) [m] from the bottom pole to the top pole, turned about z."""
+    """Turn a profile of (radius, height) [m], from the bottom pole to the top pole, about z."""
     angles = np.arange(SECTIONS) * (2.0 * np.pi / SECTIONS)
     circle = np.stack([np.cos(angles), np.sin(angles), np.zeros(SECTIONS)], axis=1)
     rings = [

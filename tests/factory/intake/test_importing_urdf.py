@@ -121,18 +121,6 @@ def test_commas_between_numbers_are_read_as_others_read_them_and_told(tmp_path: 
     assert refused(tmp_path, moved.replace("2.0, 1.0,1.0", "2,0 1 1,0")).code == "unreadable"
 
 
-def test_package_addresses_mean_the_longest_tail_below_the_folder(tmp_path: Path) -> None:
-    (tmp_path / "meshes").mkdir()
-    (tmp_path / "meshes" / "tetra.obj").write_text(TETRA)
-    for address in (
-        "package://some_robot/meshes/tetra.obj",
-        "model://some_robot/meshes/tetra.obj",
-        "meshes/tetra.obj",
-    ):
-        visual = f'<visual><geometry><mesh filename="{address}"/></geometry></visual>'
-        assert len(lift(tmp_path, link("base", visual)).mesh.faces) == 4
-
-
 def test_materials_are_found_by_name_and_in_place(tmp_path: Path) -> None:
     def colored(material: str) -> str:
         return f'<visual><geometry><box size="1 1 1"/></geometry>{material}</visual>'
@@ -299,14 +287,6 @@ def test_what_cannot_be_used_is_refused_with_a_code_and_a_name(
     assert error.code == code
     assert says in error.message
     assert str(tmp_path) not in error.message
-
-
-def test_a_link_to_a_file_outside_the_folder_is_refused(tmp_path: Path) -> None:
-    (tmp_path / "inside").mkdir()
-    (tmp_path / "tetra.obj").write_text(TETRA)
-    (tmp_path / "inside" / "tetra.obj").symlink_to(tmp_path / "tetra.obj")
-    visual = '<visual><geometry><mesh filename="tetra.obj"/></geometry></visual>'
-    assert refused(tmp_path / "inside", link("a", visual)).code == "external_reference"
 
 
 def test_too_many_faces_are_refused_with_the_number(tmp_path: Path) -> None:

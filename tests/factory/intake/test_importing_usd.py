@@ -12,7 +12,6 @@ from usda import CABINET, stage
 
 from asset_factory.factory.articulate.annotated import articulator_for
 from asset_factory.factory.config import BuildConfig
-from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.load import load
 
 
@@ -31,11 +30,3 @@ def test_its_parts_and_joints_come_with_it_in_metres_and_z_up(tmp_path: Path) ->
     assert [part.name for part in cabinet.parts] == ["base", "door"]
     (hinge,) = cabinet.movable_joints
     np.testing.assert_allclose([hinge.lower, hinge.upper], [0.0, np.pi / 2.0], atol=1e-6)
-
-
-def test_a_stage_that_shows_nothing_or_is_none_is_refused(tmp_path: Path) -> None:
-    config = BuildConfig()
-    for text, code in ((stage(""), "empty"), ("no usd", "unreadable")):
-        with pytest.raises(InputRejected) as caught:
-            load(written(tmp_path, text), config.intake)
-        assert caught.value.code == code

@@ -150,7 +150,7 @@ def test_every_file_that_a_urdf_names_is_looked_at(
     text = BOX_URDF.format(*parts)
     for away in ("../", f"{folder.parent}/", f"file://{folder.parent}/", "https://example.org/"):
         assert code_of(folder, text.format(away), "asset.urdf") == "outside_folder"
-    for near in ("", "meshes/", "package://some/meshes/"):
+    for near in ("", "meshes/", "package://some/meshes/", "model://some/meshes/"):
         assert code_of(folder, text.format(near), "asset.urdf") is None
 
 
