@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
-
-import numpy as np
-import numpy.typing as npt
+from functools import partial
 
 from ...articulation import Articulation
 from ...asset import Hull
@@ -15,9 +12,9 @@ from ...config import BuildConfig, DecomposeConfig
 from ...errors import InputRejected
 from ...mesh import Mesh
 from ...runtime.keys import Stage
+from ...runtime.stages import Stages
 from ...runtime.store import Store
-from .convex import aspect
-from .part import PartPieces, split_part
+from .part import split_part
 from .room import Room, Rooms
 
 #: Its version is raised when the same part would get other hulls.
@@ -27,8 +24,6 @@ DECOMPOSE = Stage(
     settings=("decompose",),
     libraries=("coacd", "vhacdx", "manifold3d", "scipy"),
 )
-#: Hulls longer than this many times their thickness are refused by PhysX on the GPU.
-OBLONG_ASPECT = 64.0
 #: When a part needs too many hulls, the error is doubled this often before it is given up.
 COARSER_ROUNDS = 2
 
@@ -45,14 +40,12 @@ class PartHulls:
             convex); ``built`` (made solid from a skin, not found in it).
         degraded: one sentence for each thing given up on the way; empty when all went well.
         exact: the hulls' union is the part's own volume, no more and no less.
-        oblong: hulls more than 64 times as long as thin, which PhysX on the GPU refuses.
     """
 
     hulls: tuple[Hull, ...]
     method: str
     degraded: tuple[str, ...] = ()
     exact: bool = False
-    oblong: int = 0
 
 
 def decompose(
@@ -91,7 +84,7 @@ def decompose(
             continue
         room = rooms.around(index)
         work = _Work(part.name, articulation.part_mesh(index), room, part.name in hollow)
-        results.append(_cached(work, config, store))
+        results.append(_remembered(work, config, store))
     return tuple(results)
 
 
@@ -112,27 +105,23 @@ class _Work:
     hollow: bool
 
 
-def _cached(work: _Work, config: DecomposeConfig, store: Store | None) -> PartHulls:
-    if store is None:
-        return _decompose_part(work, config)
+def _remembered(work: _Work, config: DecomposeConfig, store: Store | None) -> PartHulls:
+    """Return the hulls of one part, from the store where they were made before."""
     build = BuildConfig(decompose=config)
     how = ("hollow",) if work.hollow else ()
     key = DECOMPOSE.key(build, work.mesh.vertices, work.mesh.faces, work.room.points, *how)
-    kept = store.load(key)
-    if kept is not None:
-        return unpacked(kept)
-    result = _decompose_part(work, config)
-    store.save(key, packed(result))
-    return result
+    make = partial(_decompose_part, work, config)
+    return Stages(build, store).recall("decompose", PartHulls, key, make)
 
 
 def error_for(mesh: Mesh, config: DecomposeConfig) -> float:
-    """How far hulls may be off a part's surface, away from others [m]: more on larger parts."""
+    """Return how far hulls may be off a part's surface, away from others [m]: more on larger."""
     most = max(config.error_m, config.coarsest_m)
     return min(max(config.error_m, config.error_share * mesh.diagonal), most)
 
 
 def _decompose_part(work: _Work, config: DecomposeConfig) -> PartHulls:
+    """Return the hulls of one part, with growing error until they are few enough."""
     name = work.name
     mesh = work.mesh
     degraded: list[str] = []
@@ -148,7 +137,9 @@ def _decompose_part(work: _Work, config: DecomposeConfig) -> PartHulls:
             )
         count = len(pieces.hulls)
         if count <= config.max_hulls:
-            return _finished(pieces, degraded)
+            exact = pieces.exact and not degraded
+            degraded += pieces.degraded
+            return PartHulls(pieces.hulls, pieces.method, tuple(degraded), exact)
         if attempt < COARSER_ROUNDS:
             degraded.append(
                 f"{count} hulls at an error of {1000 * error_m:g} mm, "
@@ -164,41 +155,4 @@ def _decompose_part(work: _Work, config: DecomposeConfig) -> PartHulls:
         value=float(count),
         unit="hulls",
         limit=float(config.max_hulls),
-    )
-
-
-def _finished(pieces: PartPieces, degraded: list[str]) -> PartHulls:
-    return PartHulls(
-        hulls=pieces.hulls,
-        method=pieces.method,
-        degraded=(*degraded, *pieces.degraded),
-        exact=pieces.exact and not degraded,
-        oblong=sum(aspect(hull) > OBLONG_ASPECT for hull in pieces.hulls),
-    )
-
-
-def packed(result: PartHulls) -> dict[str, npt.NDArray[Any]]:
-    """As arrays, for the store."""
-    return {
-        "vertices": np.concatenate([h.vertices for h in result.hulls]),
-        "vertex_counts": np.array([len(h.vertices) for h in result.hulls], dtype=np.int64),
-        "faces": np.concatenate([h.faces for h in result.hulls]),
-        "face_counts": np.array([len(h.faces) for h in result.hulls], dtype=np.int64),
-        "method": np.array(result.method),
-        "degraded": np.array(result.degraded, dtype=np.str_),
-        "exact": np.array(result.exact),
-        "oblong": np.array(result.oblong),
-    }
-
-
-def unpacked(kept: Mapping[str, npt.NDArray[Any]]) -> PartHulls:
-    """Return the inverse of :func:`packed`."""
-    vertices = np.split(kept["vertices"], np.cumsum(kept["vertex_counts"])[:-1])
-    faces = np.split(kept["faces"], np.cumsum(kept["face_counts"])[:-1])
-    return PartHulls(
-        hulls=tuple(Hull(v, f) for v, f in zip(vertices, faces, strict=True)),
-        method=str(kept["method"]),
-        degraded=tuple(str(s) for s in kept["degraded"]),
-        exact=bool(kept["exact"]),
-        oblong=int(kept["oblong"]),
     )

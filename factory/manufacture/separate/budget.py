@@ -11,11 +11,11 @@ import numpy.typing as npt
 from ...articulation import Joint
 from ...asset import Hull
 from ...config import SeparateConfig
-from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, Mesh
 from ..decompose.convex import depth_below
 from ..decompose.outside import ROUNDING_M, outside
 from ..decompose.solids import manifold_of_hull, union
+from ..decompose.spread import spread_over
 
 #: Points spread over a part's visible surface, by area; its corners are looked at besides.
 SPREAD = 1500
@@ -45,17 +45,8 @@ class SeenSurface:
 
     @classmethod
     def of(cls, mesh: Mesh) -> SeenSurface:
-        """Sampled, always in the same way."""
-        generator = np.random.default_rng(0)
-        areas = face_areas(mesh)
-        chosen = generator.choice(len(areas), SPREAD, p=areas / areas.sum())
-        u, v = np.sort(generator.random((2, SPREAD)), axis=0)
-        a, b, c = np.moveaxis(mesh.vertices[mesh.faces[chosen]], 1, 0)
-        spread = u[:, None] * a + (v - u)[:, None] * b + (1.0 - v)[:, None] * c
-        corners = mesh.vertices
-        if len(corners) > MOST_CORNERS:
-            corners = corners[generator.choice(len(corners), MOST_CORNERS, replace=False)]
-        return cls(np.concatenate([spread, corners]), SPREAD, mesh.diagonal)
+        """Sample a mesh that has an area."""
+        return cls(spread_over(mesh, SPREAD, MOST_CORNERS), SPREAD, mesh.diagonal)
 
     def beyond(self, hulls: Sequence[Hull]) -> FloatArray:
         """Return how far each point lies beyond a face plane of every hull [m], shape [n].

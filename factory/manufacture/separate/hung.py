@@ -53,7 +53,7 @@ def at_an_edge(surface: SeenSurface | None, joint: Joint, config: SeparateConfig
         return False
     arms = _arms(surface, joint)
     near = max(float(np.linalg.norm(arms, axis=1).min()), _reach(arms)[1])
-    return near <= planed_limit(config, surface.diagonal)
+    return near <= trimmed_limit(config, surface.diagonal)
 
 
 def about_its_middle(surface: SeenSurface | None, joint: Joint) -> bool:
@@ -81,7 +81,7 @@ def seat_roundness(
     return float(reach.min() / max(float(reach.max()), 1e-9))
 
 
-def planed_limit(config: SeparateConfig, diagonal: float) -> float:
+def trimmed_limit(config: SeparateConfig, diagonal: float) -> float:
     """Return how much may be planed off a part of this diagonal [m], in [m]."""
     return max(config.tolerance_m, min(config.planed_m, config.planed_share * diagonal))
 
