@@ -69,7 +69,7 @@ def slabs(
 
 
 def _outward_sign(corners: FloatArray, vectors: FloatArray, center: FloatArray) -> float:
-    """1 if the faces look away from what they surround, -1 if towards it."""
+    """Return 1 if the faces look away from what they surround, -1 if towards it."""
     middles = corners.mean(axis=1)
     area = np.linalg.norm(vectors, axis=1)
     own = middles - np.average(middles, axis=0, weights=np.maximum(area, 1e-300))
@@ -149,7 +149,7 @@ def _cost(first: _Patch, second: _Patch, error_m: float) -> float:
 
 
 def _outline(points: FloatArray, direction: FloatArray) -> tuple[float, float]:
-    """Area [m2] and length [m] of the convex outline of points seen along a unit direction."""
+    """Return the area [m2] and length [m] of points' convex outline, seen along a direction."""
     flat = points @ _across(*direction.tolist())
     try:
         found = ConvexHull(flat - flat[0])

@@ -1,4 +1,4 @@
-"""What a cut takes of what can be seen, and how much of that a joiner would plane off."""
+"""What a cut takes of what can be seen, and how much of that a joiner would trim."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ class Excuse:
     hinges: Sequence[Joint]
 
     def holds(self, points: FloatArray, config: SeparateConfig) -> npt.NDArray[np.bool_]:
-        """Which points lie in the other part, or as near as they may come to it, shape [n]."""
+        """Tell which points lie in the other part, or as near as they may come to it, shape [n]."""
         return outside(self.other, points) < config.clearance_m
 
 
@@ -166,7 +166,7 @@ def _bared(
     excuse: Excuse,
     config: SeparateConfig,
 ) -> tuple[float, float, float]:
-    """The shares of a surface that are bared and not hidden, bared, and untouched: see `Loss`."""
+    """Return the shares of a surface bared and not hidden, bared, and untouched: see `Loss`."""
     # Most lie within a hull that no cut touched, which is known.
     out = surface.beyond(after)[: surface.spread] > ROUNDING_M
     points = surface.points[: surface.spread][out]
@@ -208,13 +208,13 @@ def overdone(
     limits: CutLimits,
     config: SeparateConfig,
 ) -> str | None:
-    """Why a cut between two parts takes too much, or what can be seen; ``None`` if it does neither.
+    """Say why a cut takes too much, or what can be seen; ``None`` if it does neither.
 
     Args:
         names: of both.
         losses: of both.
         solid: whether each encloses a volume to speak of: the slabs over an open surface come and
-            go whole, and a thin sheet is planed to half of itself.
+            go whole, and a thin sheet is cut back to half of itself.
         limits: for the two.
         config: the other limits.
     """
@@ -247,7 +247,7 @@ def overdone(
 
 
 def too_bare(names: Sequence[str], losses: Sequence[Loss], config: SeparateConfig) -> str | None:
-    """Why a part would be left with too little of its surface covered, by all cuts together."""
+    """Say why a part would be left with too little of its surface covered, by all cuts."""
     for name, each in zip(names, losses, strict=True):
         if each.untouched > config.most_untouched:
             return (

@@ -20,6 +20,8 @@ SHARES = (0.0, 0.5, 1.0)
 #: Directions with a smaller cosine are unlike one another; so many of those are tried, too.
 ALIKE = 0.7
 UNLIKE = 3
+#: What is nearer than the clearance by less is so by rounding [m].
+ROUNDING_M = 1e-5
 #: Volumes that differ by less than this share do so by rounding.
 ROUNDING_SHARE = 1e-9
 #: Corners this near to a plane lie on it [m].
@@ -50,7 +52,7 @@ class HullMeeting:
 
     @property
     def depth(self) -> float:
-        """Upper bound of the penetration depth [m]: only face normals are tested, no edge pairs."""
+        """Return an upper bound of the penetration depth [m]: face normals only, no edge pairs."""
         return float(self.reaches[0])
 
 
@@ -61,7 +63,7 @@ def meeting(
     most: int = 6,
     behind: FloatArray | None = None,
 ) -> HullMeeting:
-    """The best separating face normals of two hulls; of two that overlap also some unlike those.
+    """Find the face normals that separate two hulls best; if they overlap, some unlike those too.
 
     Args:
         a: the first.
@@ -98,22 +100,10 @@ def _with_others(directions: FloatArray, order: IntArray, best: IntArray) -> Int
     return best
 
 
-def stand_apart(a: Hull, b: Hull, clearance_m: float) -> bool:
-    """Return whether a face normal of one separates two hulls by a clearance [m].
-
-    The same as asking for the depth of their :func:`meeting`, but each hull's ends along its own
-    normals are known.
-    """
-    return any(
-        bool(((points @ planes[:, :3].T).min(axis=0) - planes[:, 3] >= clearance_m).any())
-        for points, planes in ((b.vertices, a.planes), (a.vertices, b.planes))
-    )
-
-
 def cut_apart(
     a: Hull, b: Hull, pose: FloatArray, met: HullMeeting, clearance_m: float
 ) -> tuple[Hull | None, Hull | None]:
-    """Both hulls after the cut that takes the least of them and leaves ``clearance_m`` between.
+    """Cut two hulls so that the least goes and ``clearance_m`` is left between.
 
     Hulls that barely meet give as they are thick: a sheet gives next to nothing. Where one lies
     deep in the other, every direction is tried with the cut all in the first, all in the second and
@@ -151,7 +141,7 @@ def _thicker_gives(a: Hull, b: Hull, pose: FloatArray, direction: FloatArray) ->
 
 
 def given_way(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
-    """The same as :func:`clipped`, but a sheet of which hardly any would be left is moved instead.
+    """Clip a hull, but move a sheet of which hardly any would be left.
 
     It stands for a surface whose other side nobody knows; shaved away it would leave a hole.
     """
@@ -163,7 +153,7 @@ def given_way(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
 
 
 def volumes_below(hull: Hull, normals: FloatArray, offsets: FloatArray) -> FloatArray:
-    """Volumes of what :func:`clipped` leaves of a hull at each of several planes [m3], shape [n].
+    """Return the volume of a hull that :func:`clipped` leaves at each plane [m3], shape [n].
 
     By the divergence theorem, seen from a point of the plane, from where the cut face takes no
     room: a triangle counts by the share of it that lies below.
@@ -190,7 +180,7 @@ def volumes_below(hull: Hull, normals: FloatArray, offsets: FloatArray) -> Float
 
 
 def clipped(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
-    """The part of a hull with ``normal . x <= offset`` [m]; ``None`` if no volume is left."""
+    """Return what of a hull has ``normal . x <= offset`` [m]; ``None`` if no volume is left."""
     height = hull.vertices @ normal - offset
     # Where an edge that all but lies in the plane crosses it, last digits would say.
     height[np.abs(height) < FLUSH_M] = 0.0

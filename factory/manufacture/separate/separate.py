@@ -7,8 +7,6 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from operator import is_
 
-import numpy as np
-
 from ...articulation import Articulation
 from ...asset import Hull
 from ...config import SeparateConfig
@@ -20,10 +18,11 @@ from ..hinges import is_crooked
 from .along import Sides, carved_apart_along, cut_apart_along, hull_depth
 from .between import Cut, cut_between
 from .budget import Loss, too_bare
+from .clip import ROUNDING_M
 from .hung import HUB_SHARE, ROUND_SHARE
 from .outcome import CutBack, Pair, Separation, SeparationRefusal
 from .pair import PartPair, Workpieces
-from .pits import TURNED_ROOM, Pit, swept_share
+from .pits import TURNED_ROOM, Pit, seen_from, swept_share
 from .turned import Turned
 
 #: A part of whose surface a cut would bare more than this is kept whole in a socket, of so many
@@ -33,8 +32,6 @@ SOCKET_SHARE = 0.05
 SOCKET_PIECES = 24
 SOCKET_RIM = 0.01
 SOCKET_DEEP = 0.01
-#: What is nearer than the clearance by less is so by rounding [m].
-ROUNDING_M = 1e-5
 #: A plane that made room in one corner of a hull cuts through all of it: what is convex again but
 #: for this is joined [m].
 EXACT_M = 1e-4
@@ -223,11 +220,9 @@ def _pits(pair: PartPair) -> list[Pit]:
     """Return pits for what turns in its own place, or slides no deeper than it stands out."""
     if not pair.well_hung:
         return []
-    from_holder = [
-        pose if pair.holder == 0 else np.asarray(np.linalg.inv(pose)) for pose in pair.poses
-    ]
     turns = any(joint.turns for joint in pair.joints)
-    if turns and swept_share(*pair.held, from_holder) > TURNED_ROOM:
+    way = seen_from(pair.holder, pair.poses)
+    if turns and swept_share(*pair.held, way) > TURNED_ROOM:
         return []
     if not pair.goes_in_flush:
         return []
