@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -12,7 +12,7 @@ from ...config import BuildConfig, DecomposeConfig
 from ...errors import InputRejected
 from ...mesh import Mesh
 from ...runtime.keys import Stage
-from ...runtime.stages import Stages
+from ...runtime.packing import pack, unpack
 from ...runtime.store import Store
 from .part import split_part
 from .room import Room, Rooms
@@ -20,7 +20,7 @@ from .room import Room, Rooms
 #: Its version is raised when the same part would get other hulls.
 DECOMPOSE = Stage(
     "decompose",
-    version=7,
+    version=8,
     settings=("decompose",),
     libraries=("coacd", "vhacdx", "manifold3d", "scipy"),
 )
@@ -73,6 +73,7 @@ def decompose(
         Unjudged: an engine hung, or somebody ended it.
     """
     rooms = rooms or Rooms(articulation)
+    build = BuildConfig(decompose=config)
     results = []
     for index, part in enumerate(articulation.parts):
         given = known[index] if known else None
@@ -82,36 +83,24 @@ def decompose(
         if not len(part.faces):
             results.append(PartHulls((), "none", (), True))
             continue
+        mesh = articulation.part_mesh(index)
         room = rooms.around(index)
-        work = _Work(part.name, articulation.part_mesh(index), room, part.name in hollow)
-        results.append(_remembered(work, config, store))
+        how = ("hollow",) if part.name in hollow else ()
+        key = DECOMPOSE.key(build, mesh.vertices, mesh.faces, room.points, *how)
+        make = partial(_decompose_part, part.name, mesh, config, room, bool(how))
+        results.append(recalled(store, key, make))
     return tuple(results)
 
 
-@dataclass(frozen=True)
-class _Work:
-    """One part to be decomposed.
-
-    Attributes:
-        name: of the part.
-        mesh: what is seen of it.
-        room: that other parts take.
-        hollow: see :func:`decompose`.
-    """
-
-    name: str
-    mesh: Mesh
-    room: Room
-    hollow: bool
-
-
-def _remembered(work: _Work, config: DecomposeConfig, store: Store | None) -> PartHulls:
-    """Return the hulls of one part, from the store where they were made before."""
-    build = BuildConfig(decompose=config)
-    how = ("hollow",) if work.hollow else ()
-    key = DECOMPOSE.key(build, work.mesh.vertices, work.mesh.faces, work.room.points, *how)
-    make = partial(_decompose_part, work, config)
-    return Stages(build, store).recall("decompose", PartHulls, key, make)
+def recalled(store: Store | None, key: str, make: Callable[[], PartHulls]) -> PartHulls:
+    """Return the hulls of a part that a store keeps, else make them, and keep them there."""
+    kept = None if store is None else store.load(key)
+    if kept is not None:
+        return unpack(PartHulls, kept)
+    made = make()
+    if store is not None:
+        store.save(key, pack(made))
+    return made
 
 
 def error_for(mesh: Mesh, config: DecomposeConfig) -> float:
@@ -120,15 +109,15 @@ def error_for(mesh: Mesh, config: DecomposeConfig) -> float:
     return min(max(config.error_m, config.error_share * mesh.diagonal), most)
 
 
-def _decompose_part(work: _Work, config: DecomposeConfig) -> PartHulls:
+def _decompose_part(
+    name: str, mesh: Mesh, config: DecomposeConfig, room: Room, hollow: bool
+) -> PartHulls:
     """Return the hulls of one part, with growing error until they are few enough."""
-    name = work.name
-    mesh = work.mesh
     degraded: list[str] = []
     error_m = error_for(mesh, config)
     count = 0
     for attempt in range(COARSER_ROUNDS + 1):
-        pieces = split_part(mesh.vertices, mesh.faces, error_m, config, work.room, work.hollow)
+        pieces = split_part(mesh.vertices, mesh.faces, error_m, config, room, hollow)
         if pieces is None:
             raise InputRejected(
                 "decomposition_failed",

@@ -8,10 +8,9 @@ from functools import partial
 from ...config import BuildConfig
 from ...runtime.keys import Stage
 from ...runtime.packing import contents
-from ...runtime.stages import Stages
 from ...runtime.store import Store
 from .convex import limit_vertices
-from .decompose import PartHulls
+from .decompose import PartHulls, recalled
 from .merge import merge
 from .methods import slot_of
 from .room import NOWHERE, Room, Rooms
@@ -19,7 +18,7 @@ from .room import NOWHERE, Room, Rooms
 #: Its version is raised when the same hulls would be joined otherwise.
 FEWER = Stage(
     "fewer",
-    version=3,
+    version=4,
     settings=("decompose.error_m", "decompose.max_vertices"),
     libraries=("manifold3d", "scipy"),
 )
@@ -54,7 +53,6 @@ def fewer(
     Returns:
         The parts, and the error [m] of each one that was joined, by its index.
     """
-    stages = Stages(config, store)
     joined = list(pieces)
     errors_m: dict[int, float] = {}
     many = sorted(range(len(pieces)), key=lambda part: -len(pieces[part].hulls))
@@ -67,7 +65,7 @@ def fewer(
                 room = rooms.around(part) if rooms else NOWHERE
                 key = FEWER.key(config, *contents(pieces[part]), error_m, room.points)
                 make = partial(_joined, pieces[part], error_m, config, room)
-                joined[part] = stages.recall("fewer", PartHulls, key, make)
+                joined[part] = recalled(store, key, make)
                 if len(joined[part].hulls) < len(pieces[part].hulls):
                     errors_m[part] = error_m
     return tuple(joined), errors_m

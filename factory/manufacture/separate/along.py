@@ -9,8 +9,7 @@ import numpy as np
 
 from ...asset import Hull
 from ...mesh import FloatArray
-from .carve import carved
-from .clip import cut_apart, meeting
+from .clip import carved, cut_apart, meeting
 
 #: For each piece more a cut must lose less, by this share.
 PIECE_SHARE = 0.25

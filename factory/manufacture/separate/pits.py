@@ -18,8 +18,7 @@ from ...mesh import FloatArray
 from ..decompose.convex import hull_of
 from ..decompose.solids import manifold_of_hull, union
 from .along import Sides, hull_depth, near_pairs
-from .carve import carved
-from .clip import clipped
+from .clip import carved, clipped
 
 #: Most pieces that are kept of one hull around a pit: a floor and walls around what is round.
 MOST_WALLS = 10
