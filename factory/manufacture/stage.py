@@ -180,11 +180,11 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
             value=round(depth * 1000, 4),
             unit="mm",
         )
-    for pair, planed in separation.planed.items():
+    for pair, trimmed in separation.trimmed.items():
         told = " and ".join(
             f"{each.depth_m * 1000:.1f} mm of {each.part!r} ({each.share:.1%} of it, "
             f"{each.area:.1%} of its surface)"
-            for each in planed
+            for each in trimmed
         )
         yield Finding(
             "planed",
@@ -192,7 +192,7 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
             f"so that {pair[0]!r} and {pair[1]!r} are clear of one another, their collision "
             f"geometry was planed where that can be seen: {told}",
             parts=pair,
-            value=round(max(each.depth_m for each in planed) * 1000, 4),
+            value=round(max(each.depth_m for each in trimmed) * 1000, 4),
             unit="mm",
         )
 

@@ -2,51 +2,38 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import numpy.typing as npt
+
+from ...config import DecomposeConfig
 
 Triangles = tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]
 
 
-@dataclass(frozen=True)
-class Search:
-    """CoACD's settings for one call.
+def coacd_pieces(solid: Triangles, error_m: float, config: DecomposeConfig) -> list[Triangles]:
+    """Return the convex pieces of a closed manifold. Call through ``run_isolated`` only.
 
-    Attributes:
+    Args:
+        solid: its vertices [m] and faces.
         error_m: largest concavity left [m].
-        resolution: surface samples for the concavity.
-        iterations, nodes, depth: of the Monte Carlo tree search.
-        seed: of the search.
+        config: the surface samples, and the tree search's settings.
     """
-
-    error_m: float
-    resolution: int
-    iterations: int
-    nodes: int
-    depth: int
-    seed: int
-
-
-def coacd_pieces(solid: Triangles, search: Search) -> list[Triangles]:
-    """Return the convex pieces of a closed manifold. Call through ``run_isolated`` only."""
     import coacd  # heavy, native, and only ever loaded in the child
 
     coacd.set_log_level("off")
     vertices, faces = solid
     pieces = coacd.run_coacd(
         coacd.Mesh(vertices, faces),
-        threshold=search.error_m,
+        threshold=error_m,
         max_convex_hull=-1,
         # Its preprocessing is a voxel remesh that thickens boards by millimetres; the gate replaces
         # it.
         preprocess_mode="off",
-        resolution=search.resolution,
-        mcts_iterations=search.iterations,
-        mcts_nodes=search.nodes,
-        mcts_max_depth=search.depth,
-        seed=search.seed,
+        resolution=config.resolution,
+        mcts_iterations=config.iterations,
+        mcts_nodes=config.nodes,
+        mcts_max_depth=config.search_depth,
+        seed=config.seed,
         real_metric=True,
     )
     return [(np.asarray(v, dtype=np.float64), np.asarray(f, dtype=np.int64)) for v, f in pieces]

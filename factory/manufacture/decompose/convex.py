@@ -16,7 +16,7 @@ THINNEST_M = 1e-5
 
 
 def hull_of(points: FloatArray) -> Hull | None:
-    """The convex hull of ``points`` [m], shape [n, 3]; ``None`` if they are (nearly) coplanar.
+    """Return the convex hull of points [m], shape [n, 3]; ``None`` if they are (nearly) coplanar.
 
     Of the points as they are written, in one order: last digits, which are others on every
     processor, would decide how flat faces are cut into triangles, and all that follows from it.
@@ -35,9 +35,7 @@ def hull_of(points: FloatArray) -> Hull | None:
     corners = np.unique(found.simplices)
     faces = np.searchsorted(corners, found.simplices)
     vertices = points[corners]
-    normals = np.cross(
-        vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]]
-    )
+    normals = area_vectors(vertices[faces])
     inward = np.einsum("ij,ij->i", normals, found.equations[:, :3]) < 0.0
     faces[inward] = faces[inward][:, ::-1]
     # A body is at least as thick as twice its volume over its surface: mostly that is enough, with
@@ -50,15 +48,24 @@ def hull_of(points: FloatArray) -> Hull | None:
         return None
 
 
+def area_vectors(corners: FloatArray) -> FloatArray:
+    """Return the normals of triangles, twice as long as their areas [m2], shape [n, 3].
+
+    Args:
+        corners: [m], shape [n, 3, 3].
+    """
+    return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+
+
 def canonical_faces(faces: IntArray) -> IntArray:
-    """Faces in one order: each starts at its smallest index, rows sorted. Same hull, same bytes."""
+    """Put faces in one order, each from its smallest index on: the same hull has the same bytes."""
     first = faces.argmin(axis=1)
     turned = np.take_along_axis(faces, (first[:, None] + np.arange(3)) % 3, axis=1)
     return np.asarray(turned[np.lexsort(turned.T[::-1])], dtype=np.int64)
 
 
 def thickness(vertices: FloatArray, planes: FloatArray) -> float:
-    """Least width of a convex body over its face normals [m]; ``planes`` of qhull, [n, 4]."""
+    """Return the least width of a convex body over its face normals [m]; ``planes``: [n, 4]."""
     heights = vertices @ planes[:, :3].T
     return float((heights.max(axis=0) - heights.min(axis=0)).min())
 
@@ -77,7 +84,7 @@ def depth_below(hull: Hull, points: FloatArray) -> FloatArray:
 
 
 def surface_points(vertices: FloatArray, faces: IntArray) -> FloatArray:
-    """Corners, edge midpoints and centroids of triangles, shape [n, 3]: where dents show."""
+    """Return triangles' corners, edge midpoints and centroids, where dents show, shape [n, 3]."""
     corners = vertices[faces]
     middles = (corners + np.roll(corners, 1, axis=1)) / 2.0
     return np.concatenate(
@@ -90,19 +97,10 @@ def concavity(vertices: FloatArray, faces: IntArray, hull: Hull) -> float:
     return float(depth_below(hull, surface_points(vertices, faces)).max())
 
 
-def aspect(hull: Hull) -> float:
-    """Return the longest over shortest side of the tightest box along the hull's principal axes."""
-    centered = hull.vertices - hull.vertices.mean(axis=0)
-    _, _, axes = np.linalg.svd(centered, full_matrices=False)
-    sides = np.ptp(centered @ axes.T, axis=0)
-    return float(sides.max() / max(float(sides.min()), 1e-12))
-
-
 def limit_vertices(hull: Hull, limit: int) -> Hull:
-    """A hull of at most ``limit`` of the hull's own corners: it is inside, so clearance stays.
+    """Return a hull of at most ``limit`` of a hull's corners: it is inside, so clearance stays.
 
-    Corners are taken farthest first: each next one is the corner farthest outside the hull of those
-        taken.
+    Each next corner that is taken is the one farthest outside the hull of those before it.
     """
     if len(hull.vertices) <= limit:
         return hull
@@ -121,8 +119,7 @@ def limit_vertices(hull: Hull, limit: int) -> Hull:
 
 
 def _extreme_corners(points: FloatArray) -> list[int]:
-    # The extremes along the principal axes and their diagonals: never coplanar for a body of any
-    # thickness.
+    """Return the extremes along principal axes and diagonals: a body's are never coplanar."""
     centered = points - points.mean(axis=0)
     _, _, axes = np.linalg.svd(centered, full_matrices=False)
     signs = np.array(

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 from manifold3d import Manifold
 
-from ...asset import Hull
 from ...geometry.rows import distinct_rows
 from ...mesh import FloatArray, IntArray
-from .convex import THINNEST_M, concavity, hull_of
+from .convex import THINNEST_M, area_vectors, concavity, hull_of
+from .pieces import NOTHING, SolidPieces
 from .pockets import fills_little
 from .solids import LEAST_VOLUME_M3, triangles_of
 
@@ -27,30 +27,17 @@ PLANES_TRIED = 24
 REFLEX_EDGES = 400
 
 
-@dataclass(frozen=True)
-class Cut:
-    """A solid's convex pieces.
-
-    Attributes:
-        hulls: their union covers the solid.
-        exact: and is no larger.
-    """
-
-    hulls: tuple[Hull, ...]
-    exact: bool
-
-
-def as_one(solid: Manifold, error_m: float, slot_m: float | None = None) -> Cut | None:
-    """The solid as one hull if that fills little, see ``fills_little``; ``None`` otherwise."""
+def as_one(solid: Manifold, error_m: float, slot_m: float | None = None) -> SolidPieces | None:
+    """Return a solid as one hull if that fills little, see ``fills_little``; else ``None``."""
     vertices, faces = triangles_of(solid)
     hull = hull_of(vertices)
     if hull is None:
         return None
     dent = concavity(vertices, faces, hull)
     convex = dent <= flatness(vertices) and solid.volume() >= CONVEX_SHARE * hull.volume
-    return (
-        Cut((hull,), exact=convex) if convex or fills_little(hull, solid, error_m, slot_m) else None
-    )
+    if convex:
+        return SolidPieces((hull,), "exact", exact=True)
+    return SolidPieces((hull,), "single") if fills_little(hull, solid, error_m, slot_m) else None
 
 
 def flatness(vertices: FloatArray) -> float:
@@ -60,7 +47,7 @@ def flatness(vertices: FloatArray) -> float:
 
 def cut_along_faces(
     solid: Manifold, error_m: float, most: int, slot_m: float | None = None
-) -> Cut | None:
+) -> SolidPieces | None:
     """Return the convex pieces of a solid made of flat faces.
 
     Each piece is cut along that plane of one of its inward edges which leaves the least volume
@@ -77,30 +64,28 @@ def cut_along_faces(
         The pieces; ``None`` if the solid is curved or needs more than ``most``.
     """
     waiting = list(solid.decompose())
-    exact = True
-    hulls: list[Hull] = []
+    found = NOTHING
     while waiting:
         piece = waiting.pop()
         if piece.volume() <= LEAST_VOLUME_M3 or hull_of(triangles_of(piece)[0]) is None:
             continue
         whole = as_one(piece, error_m, slot_m)
         if whole is not None:
-            hulls += whole.hulls
-            exact = exact and whole.exact
+            found += whole
             continue
         halves = _best_cut(piece)
-        if halves is None or len(hulls) + len(waiting) + len(halves) > most:
+        if halves is None or len(found.hulls) + len(waiting) + len(halves) > most:
             return None
         waiting += halves
-    return Cut(tuple(hulls), exact)
+    several = not found.exact and len(found.hulls) > 1
+    return replace(found, method="cut") if several else found
 
 
 def opened(solid: Manifold, cavity: Manifold) -> list[Manifold]:
     """Return a solid without a cavity, in pieces that are each one connected surface.
 
     An enclosed cavity has a surface of its own, which no step after this one would tell from a
-        second body: the
-    solid is cut along one of the cavity's largest faces, or through its middle.
+    second body: the solid is cut along one of the cavity's largest faces, or through its middle.
     """
     hollow = solid - cavity
     pieces = list(hollow.decompose())
@@ -108,7 +93,7 @@ def opened(solid: Manifold, cavity: Manifold) -> list[Manifold]:
         return pieces
     vertices, faces = triangles_of(cavity)
     corners = vertices[faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = area_vectors(corners)
     area = np.linalg.norm(normals, axis=1)
     kept = area > 1e-12 * area.max()
     offsets = np.einsum("ij,ij->i", normals, corners[:, 0])[kept] / area[kept]
@@ -125,6 +110,7 @@ def opened(solid: Manifold, cavity: Manifold) -> list[Manifold]:
 
 
 def _best_cut(piece: Manifold) -> list[Manifold] | None:
+    """Return what the plane that wastes least leaves of a piece; ``None`` if none divides it."""
     # The first cut through a ring leaves as much waste as before, so the least waste wins, not less
     # waste.
     best = None
@@ -159,6 +145,8 @@ def _halves(piece: Manifold, normal: FloatArray, offset: float) -> list[Manifold
 def _stretch(
     direction: FloatArray, start: float, layer: float
 ) -> Callable[[FloatArray], FloatArray]:
+    """Return what moves points that end at a layer back to its plane."""
+
     def stretched(points: FloatArray) -> FloatArray:
         ends = points @ direction - start < 0.1 * layer
         return np.asarray(points - layer * np.outer(ends, direction))
@@ -167,13 +155,14 @@ def _stretch(
 
 
 def _waste(pieces: list[Manifold]) -> float:
+    """Return the volume between pieces and their hulls [m3]."""
     return float(sum(piece.hull().volume() - piece.volume() for piece in pieces))
 
 
 def _candidate_planes(vertices: FloatArray, faces: IntArray) -> list[tuple[FloatArray, float]]:
     """Return the planes through inward edges, those with the longest and sharpest edges first."""
     corners = vertices[faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = area_vectors(corners)
     area = np.linalg.norm(normals, axis=1)
     normals = normals / np.maximum(area, 1e-300)[:, None]
     left, right, ends = _edges(faces)
@@ -193,7 +182,7 @@ def _candidate_planes(vertices: FloatArray, faces: IntArray) -> list[tuple[Float
 
 
 def _edges(faces: IntArray) -> tuple[IntArray, IntArray, IntArray]:
-    """For each edge its two faces and its ends, directed as in the first face."""
+    """Return each edge's two faces and its ends, directed as in the first face."""
     starts = faces.ravel()
     ends = np.roll(faces, -1, axis=1).ravel()
     owner = np.repeat(np.arange(len(faces)), 3)
@@ -208,6 +197,7 @@ def _edges(faces: IntArray) -> tuple[IntArray, IntArray, IntArray]:
 def _heaviest(
     normals: FloatArray, offsets: FloatArray, weight: FloatArray, size: float
 ) -> list[tuple[FloatArray, float]]:
+    """Return the planes of the most weight, by normal and offset."""
     # One plane per direction and place, whichever side its faces look to.
     sign = np.sign(np.take_along_axis(normals, np.abs(normals).argmax(axis=1)[:, None], axis=1))
     key = np.round(

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
-
-import numpy as np
-import numpy.typing as npt
+from functools import partial
 
 from ...articulation import Articulation
 from ...asset import Hull
@@ -15,20 +12,18 @@ from ...config import BuildConfig, DecomposeConfig
 from ...errors import InputRejected
 from ...mesh import Mesh
 from ...runtime.keys import Stage
+from ...runtime.packing import pack, unpack
 from ...runtime.store import Store
-from .convex import aspect
-from .part import PartPieces, split_part
+from .part import split_part
 from .room import Room, Rooms
 
 #: Its version is raised when the same part would get other hulls.
 DECOMPOSE = Stage(
     "decompose",
-    version=7,
+    version=8,
     settings=("decompose",),
     libraries=("coacd", "vhacdx", "manifold3d", "scipy"),
 )
-#: Hulls longer than this many times their thickness are refused by PhysX on the GPU.
-OBLONG_ASPECT = 64.0
 #: When a part needs too many hulls, the error is doubled this often before it is given up.
 COARSER_ROUNDS = 2
 
@@ -45,14 +40,12 @@ class PartHulls:
             convex); ``built`` (made solid from a skin, not found in it).
         degraded: one sentence for each thing given up on the way; empty when all went well.
         exact: the hulls' union is the part's own volume, no more and no less.
-        oblong: hulls more than 64 times as long as thin, which PhysX on the GPU refuses.
     """
 
     hulls: tuple[Hull, ...]
     method: str
     degraded: tuple[str, ...] = ()
     exact: bool = False
-    oblong: int = 0
 
 
 def decompose(
@@ -80,6 +73,7 @@ def decompose(
         Unjudged: an engine hung, or somebody ended it.
     """
     rooms = rooms or Rooms(articulation)
+    build = BuildConfig(decompose=config)
     results = []
     for index, part in enumerate(articulation.parts):
         given = known[index] if known else None
@@ -89,57 +83,41 @@ def decompose(
         if not len(part.faces):
             results.append(PartHulls((), "none", (), True))
             continue
+        mesh = articulation.part_mesh(index)
         room = rooms.around(index)
-        work = _Work(part.name, articulation.part_mesh(index), room, part.name in hollow)
-        results.append(_cached(work, config, store))
+        how = ("hollow",) if part.name in hollow else ()
+        key = DECOMPOSE.key(build, mesh.vertices, mesh.faces, room.points, *how)
+        make = partial(_decompose_part, part.name, mesh, config, room, bool(how))
+        results.append(recalled(store, key, make))
     return tuple(results)
 
 
-@dataclass(frozen=True)
-class _Work:
-    """One part to be decomposed.
-
-    Attributes:
-        name: of the part.
-        mesh: what is seen of it.
-        room: that other parts take.
-        hollow: see :func:`decompose`.
-    """
-
-    name: str
-    mesh: Mesh
-    room: Room
-    hollow: bool
-
-
-def _cached(work: _Work, config: DecomposeConfig, store: Store | None) -> PartHulls:
-    if store is None:
-        return _decompose_part(work, config)
-    build = BuildConfig(decompose=config)
-    how = ("hollow",) if work.hollow else ()
-    key = DECOMPOSE.key(build, work.mesh.vertices, work.mesh.faces, work.room.points, *how)
-    kept = store.load(key)
+def recalled(store: Store | None, key: str, make: Callable[[], PartHulls]) -> PartHulls:
+    """Return the hulls of a part that a store keeps, else make them, and keep them there."""
+    kept = None if store is None else store.load(key)
     if kept is not None:
-        return unpacked(kept)
-    result = _decompose_part(work, config)
-    store.save(key, packed(result))
-    return result
+        return unpack(PartHulls, kept)
+    made = make()
+    if store is not None:
+        store.save(key, pack(made))
+    return made
 
 
 def error_for(mesh: Mesh, config: DecomposeConfig) -> float:
-    """How far hulls may be off a part's surface, away from others [m]: more on larger parts."""
+    """Return how far hulls may be off a part's surface, away from others [m]: more on larger."""
     most = max(config.error_m, config.coarsest_m)
     return min(max(config.error_m, config.error_share * mesh.diagonal), most)
 
 
-def _decompose_part(work: _Work, config: DecomposeConfig) -> PartHulls:
-    name = work.name
-    mesh = work.mesh
+def _decompose_part(
+    name: str, mesh: Mesh, config: DecomposeConfig, room: Room, hollow: bool
+) -> PartHulls:
+    """Return the hulls of one part, with growing error until they are few enough."""
     degraded: list[str] = []
     error_m = error_for(mesh, config)
     count = 0
     for attempt in range(COARSER_ROUNDS + 1):
-        pieces = split_part(mesh.vertices, mesh.faces, error_m, config, work.room, work.hollow)
+        pieces = split_part(mesh.vertices, mesh.faces, error_m, config, room, hollow)
         if pieces is None:
             raise InputRejected(
                 "decomposition_failed",
@@ -148,7 +126,9 @@ def _decompose_part(work: _Work, config: DecomposeConfig) -> PartHulls:
             )
         count = len(pieces.hulls)
         if count <= config.max_hulls:
-            return _finished(pieces, degraded)
+            exact = pieces.exact and not degraded
+            degraded += pieces.degraded
+            return PartHulls(pieces.hulls, pieces.method, tuple(degraded), exact)
         if attempt < COARSER_ROUNDS:
             degraded.append(
                 f"{count} hulls at an error of {1000 * error_m:g} mm, "
@@ -164,41 +144,4 @@ def _decompose_part(work: _Work, config: DecomposeConfig) -> PartHulls:
         value=float(count),
         unit="hulls",
         limit=float(config.max_hulls),
-    )
-
-
-def _finished(pieces: PartPieces, degraded: list[str]) -> PartHulls:
-    return PartHulls(
-        hulls=pieces.hulls,
-        method=pieces.method,
-        degraded=(*degraded, *pieces.degraded),
-        exact=pieces.exact and not degraded,
-        oblong=sum(aspect(hull) > OBLONG_ASPECT for hull in pieces.hulls),
-    )
-
-
-def packed(result: PartHulls) -> dict[str, npt.NDArray[Any]]:
-    """As arrays, for the store."""
-    return {
-        "vertices": np.concatenate([h.vertices for h in result.hulls]),
-        "vertex_counts": np.array([len(h.vertices) for h in result.hulls], dtype=np.int64),
-        "faces": np.concatenate([h.faces for h in result.hulls]),
-        "face_counts": np.array([len(h.faces) for h in result.hulls], dtype=np.int64),
-        "method": np.array(result.method),
-        "degraded": np.array(result.degraded, dtype=np.str_),
-        "exact": np.array(result.exact),
-        "oblong": np.array(result.oblong),
-    }
-
-
-def unpacked(kept: Mapping[str, npt.NDArray[Any]]) -> PartHulls:
-    """Return the inverse of :func:`packed`."""
-    vertices = np.split(kept["vertices"], np.cumsum(kept["vertex_counts"])[:-1])
-    faces = np.split(kept["faces"], np.cumsum(kept["face_counts"])[:-1])
-    return PartHulls(
-        hulls=tuple(Hull(v, f) for v, f in zip(vertices, faces, strict=True)),
-        method=str(kept["method"]),
-        degraded=tuple(str(s) for s in kept["degraded"]),
-        exact=bool(kept["exact"]),
-        oblong=int(kept["oblong"]),
     )

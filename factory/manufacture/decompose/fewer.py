@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 from ...config import BuildConfig
 from ...runtime.keys import Stage
 from ...runtime.packing import contents
 from ...runtime.store import Store
-from .convex import aspect, limit_vertices
-from .decompose import OBLONG_ASPECT, PartHulls, packed, unpacked
+from .convex import limit_vertices
+from .decompose import PartHulls, recalled
 from .merge import merge
 from .methods import slot_of
 from .room import NOWHERE, Room, Rooms
@@ -17,7 +18,7 @@ from .room import NOWHERE, Room, Rooms
 #: Its version is raised when the same hulls would be joined otherwise.
 FEWER = Stage(
     "fewer",
-    version=3,
+    version=4,
     settings=("decompose.error_m", "decompose.max_vertices"),
     libraries=("manifold3d", "scipy"),
 )
@@ -37,7 +38,7 @@ def fewer(
     store: Store | None = None,
     rooms: Rooms | None = None,
 ) -> tuple[tuple[PartHulls, ...], dict[int, float]]:
-    """The same parts with their hulls joined, those of most hulls first, until all are few enough.
+    """Join the hulls of parts, those of most hulls first, until all together are few enough.
 
     Where even the largest error leaves more, the asset keeps those.
 
@@ -62,35 +63,19 @@ def fewer(
             if len(pieces[part].hulls) >= FEW:
                 error_m = times * config.decompose.error_m
                 room = rooms.around(part) if rooms else NOWHERE
-                joined[part] = _kept(pieces[part], error_m, config, store, room)
+                key = FEWER.key(config, *contents(pieces[part]), error_m, room.points)
+                make = partial(_joined, pieces[part], error_m, config, room)
+                joined[part] = recalled(store, key, make)
                 if len(joined[part].hulls) < len(pieces[part].hulls):
                     errors_m[part] = error_m
     return tuple(joined), errors_m
 
 
-def _kept(
-    piece: PartHulls, error_m: float, config: BuildConfig, store: Store | None, room: Room
-) -> PartHulls:
-    if store is None:
-        return _joined(piece, error_m, config, room)
-    key = FEWER.key(config, *contents(piece), error_m, room.points)
-    known = store.load(key)
-    if known is not None:
-        return unpacked(known)
-    made = _joined(piece, error_m, config, room)
-    store.save(key, packed(made))
-    return made
-
-
 def _joined(piece: PartHulls, error_m: float, config: BuildConfig, room: Room) -> PartHulls:
+    """Return one part with its hulls joined, up to an error [m]; itself where none can be."""
     slot_m = slot_of(config.decompose) if error_m <= GENTLE * config.decompose.error_m else None
     merged = merge(list(piece.hulls), error_m, slot_m, room)
     if len(merged) == len(piece.hulls):
         return piece
     hulls = tuple(limit_vertices(hull, config.decompose.max_vertices) for hull in merged)
-    return replace(
-        piece,
-        hulls=hulls,
-        exact=False,
-        oblong=sum(aspect(hull) > OBLONG_ASPECT for hull in hulls),
-    )
+    return replace(piece, hulls=hulls, exact=False)

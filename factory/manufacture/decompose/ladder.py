@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 from manifold3d import Manifold
@@ -15,8 +15,9 @@ from asset_factory.sim_checks.report import KILLED, OUT_OF_TIME
 from ...asset import Hull
 from ...config import DecomposeConfig
 from ...errors import Unjudged
-from .child import Search, Triangles, coacd_pieces, vhacd_pieces
+from .child import Triangles, coacd_pieces, vhacd_pieces
 from .convex import hull_of
+from .pieces import NOTHING, SolidPieces
 from .simplify import simplified
 from .solids import manifold_of_hull, triangles_of, union
 
@@ -32,25 +33,17 @@ VOXEL_FACTOR = 2.0
 
 
 @dataclass(frozen=True)
-class Rung:
-    """What one solid came to.
+class _Attempt:
+    """One engine that is asked.
 
     Attributes:
-        hulls: pieces that together cover the solid.
-        method: ``coacd``, ``vhacd`` or ``hull``.
-        degraded: a sentence for each attempt before this one that failed, and for what was given
-            up.
-        searched: pieces that engines made of it, all attempts together: what their time goes by.
+        name: of the engine and how it is asked.
+        method: as in :class:`SolidPieces`.
+        run: asks it, in a child process.
+        outside_m: how far its pieces may lie outside the solid, on average [m].
+        too_much: why it is not asked; empty if it is.
     """
 
-    hulls: tuple[Hull, ...]
-    method: str
-    degraded: tuple[str, ...] = ()
-    searched: int = 0
-
-
-@dataclass(frozen=True)
-class _Attempt:
     name: str
     method: str
     run: Callable[[], Outcome[list[Triangles]]]
@@ -58,8 +51,8 @@ class _Attempt:
     too_much: str = ""
 
 
-def climb_down(solid: Manifold, error_m: float, config: DecomposeConfig) -> Rung | None:
-    """Return the hulls of one connected solid by the first method that gives acceptable ones.
+def search(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces:
+    """Return the pieces of one connected solid by the first engine that gives acceptable ones.
 
     Args:
         solid: a closed manifold [m], too curved to be cut along its own faces.
@@ -67,7 +60,8 @@ def climb_down(solid: Manifold, error_m: float, config: DecomposeConfig) -> Rung
         config: limits of the child processes, the search's seed and the face limit.
 
     Returns:
-        ``None`` if the solid is so thin that not even its convex hull is a body.
+        One convex hull where no engine does; nothing if the solid is so thin that not even that is
+        a body. A sentence tells of each engine that failed.
 
     Raises:
         ImportError: an engine is not installed.
@@ -75,40 +69,31 @@ def climb_down(solid: Manifold, error_m: float, config: DecomposeConfig) -> Rung
             import.
         Unjudged: an engine hung, or somebody ended it; a clock makes no hulls coarser.
     """
-    degraded: list[str] = []
+    degraded: tuple[str, ...] = ()
     searched = 0
     for attempt in _attempts(solid, error_m, config):
-        if attempt.too_much:
-            degraded.append(f"{attempt.name}: {attempt.too_much}")
-            continue
-        outcome = _believed(attempt)
-        if outcome.failure is not None:
-            degraded.append(f"{attempt.name}: {outcome.failure}, {outcome.detail}")
-            continue
-        searched += len(outcome.value or [])
-        hulls = [
-            hull for vertices, _ in outcome.value or [] if (hull := hull_of(vertices)) is not None
-        ]
-        fault = complaint(solid, hulls, attempt.outside_m)
+        found: list[Triangles] = []
+        fault: str | None = attempt.too_much
+        if not fault:
+            found, fault = _answer(attempt)
+        searched += len(found)
+        hulls = [hull for vertices, _ in found if (hull := hull_of(vertices)) is not None]
+        fault = fault or complaint(solid, hulls, attempt.outside_m)
         if fault is None:
-            return Rung(tuple(hulls), attempt.method, tuple(degraded), searched)
-        degraded.append(f"{attempt.name}: {fault}")
+            return SolidPieces(tuple(hulls), attempt.method, False, degraded, searched)
+        degraded += (f"{attempt.name}: {fault}",)
     whole = hull_of(triangles_of(solid)[0])
     if whole is None:
-        return None
-    return Rung(
-        (whole,),
-        "hull",
-        (*degraded, "one convex hull stands for a solid that is not convex"),
-        searched,
-    )
+        return NOTHING
+    degraded += ("one convex hull stands for a solid that is not convex",)
+    return SolidPieces((whole,), "hull", False, degraded, searched)
 
 
-def _believed(attempt: _Attempt) -> Outcome[list[Triangles]]:
-    """Return what comes of an attempt on every machine: an answer, a crash that repeats, no memory.
+def _answer(attempt: _Attempt) -> tuple[list[Triangles], str | None]:
+    """Ask an engine: its pieces, or why it has none on any machine.
 
     Raises:
-        ImportError, RuntimeError, Unjudged: as :func:`climb_down`.
+        ImportError, RuntimeError, Unjudged: as :func:`search`.
     """
     outcome = attempt.run()
     if outcome.failure is Failure.CRASHED and not (outcome.killed or outcome.exited):
@@ -122,57 +107,53 @@ def _believed(attempt: _Attempt) -> Outcome[list[Triangles]]:
         raise Unjudged(Finding("decomposition_timeout", Severity.HARD, message, cause=OUT_OF_TIME))
     if outcome.killed:
         raise Unjudged(Finding("decomposition_killed", Severity.HARD, message, cause=KILLED))
-    return outcome
+    if outcome.failure is not None:
+        return [], f"{outcome.failure}, {outcome.detail}"
+    return outcome.value or [], None
 
 
 def _attempts(solid: Manifold, error_m: float, config: DecomposeConfig) -> Iterator[_Attempt]:
-    search = Search(
-        error_m=error_m,
-        resolution=config.resolution,
-        iterations=config.iterations,
-        nodes=config.nodes,
-        depth=config.search_depth,
-        seed=config.seed,
-    )
+    """Yield every engine, the most faithful first."""
+    limits = Limits(wall_s=config.wall_s, memory_bytes=config.memory_bytes)
     fine = simplified(solid, config.max_faces, 0.1 * error_m)
-    yield _by_coacd("CoACD", solid, fine, config, search)
+    yield _by_coacd("CoACD", solid, fine, error_m, config, limits)
     coarse = simplified(solid, config.max_faces // 4, 0.5 * error_m)
-    doubled = replace(search, error_m=2.0 * error_m)
     name = "CoACD on a coarser mesh with twice the error"
-    yield _by_coacd(name, solid, coarse, config, doubled)
+    yield _by_coacd(name, solid, coarse, 2.0 * error_m, config, limits)
     most = min(config.max_hulls, 64)
-    run = partial(run_isolated, vhacd_pieces, triangles_of(fine), most, limits=_limits(config))
+    run = partial(run_isolated, vhacd_pieces, triangles_of(fine), most, limits=limits)
     yield _Attempt("V-HACD", "vhacd", run, VOXEL_FACTOR * error_m)
 
 
 def _by_coacd(
-    name: str, solid: Manifold, light: Manifold, config: DecomposeConfig, search: Search
+    name: str,
+    solid: Manifold,
+    light: Manifold,
+    error_m: float,
+    config: DecomposeConfig,
+    limits: Limits,
 ) -> _Attempt:
-    """CoACD on a lighter solid, unless that is intricate.
+    """Return CoACD on a lighter solid, unless that is intricate.
 
     Args:
         name: of the attempt.
         solid: a closed manifold [m].
         light: the same, simplified as far as it stays closed.
-        config: limits, and the most faces.
-        search: CoACD's settings.
+        error_m: largest concavity left [m].
+        config: the most faces, and CoACD's settings.
+        limits: of the child process.
     """
-    half = 0.5 * search.error_m
     # One pass leaves what the next one takes away.
-    within = solid.simplify(half).simplify(half)
+    within = solid.simplify(0.5 * error_m).simplify(0.5 * error_m)
     given = light if light.num_tri() <= config.max_faces else within
     too_much = ""
     if within.num_tri() > INTRICATE or not 0 < given.num_tri() <= config.max_faces:
         too_much = (
-            f"simplified by {1000 * search.error_m:.3g} mm it has {within.num_tri()} faces, "
+            f"simplified by {1000 * error_m:.3g} mm it has {within.num_tri()} faces, "
             f"want at most {INTRICATE}"
         )
-    run = partial(run_isolated, coacd_pieces, triangles_of(given), search, limits=_limits(config))
-    return _Attempt(name, "coacd", run, search.error_m, too_much)
-
-
-def _limits(config: DecomposeConfig) -> Limits:
-    return Limits(wall_s=config.wall_s, memory_bytes=config.memory_bytes)
+    run = partial(run_isolated, coacd_pieces, triangles_of(given), error_m, config, limits=limits)
+    return _Attempt(name, "coacd", run, error_m, too_much)
 
 
 def complaint(solid: Manifold, hulls: list[Hull], outside_m: float) -> str | None:

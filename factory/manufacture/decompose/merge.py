@@ -10,7 +10,7 @@ from manifold3d import Manifold
 
 from ...asset import Hull
 from ...mesh import FloatArray
-from .convex import hull_of
+from .convex import area_vectors, hull_of
 from .pockets import fills_little
 from .room import NOWHERE, Room
 from .solids import manifold_of_hull
@@ -38,7 +38,7 @@ class _Cluster:
 def merge(
     hulls: list[Hull], error_m: float, slot_m: float | None = None, room: Room = NOWHERE
 ) -> list[Hull]:
-    """Return the fewer hulls over the same geometry.
+    """Join hulls where that fills little.
 
     Pairs are joined, the one that fills least first, as long as the joined hull's surface stays
     within ``error_m`` of the hulls it was made from, see ``fills_little``.
@@ -138,18 +138,13 @@ def _offer(
 
 
 def _cost(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> float:
-    """Volume filled by joining two clusters [m3]; infinite where that is soon seen to be wrong."""
+    """Return the volume that joining two clusters fills [m3]; infinite where that is soon wrong."""
     error_m = yardstick.error_m
     hull = _joined(first, second) if yardstick.looks > 0 else None
     if hull is None:
         return np.inf
     corners = hull.vertices[hull.faces]
-    area = (
-        np.linalg.norm(
-            np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
-        ).sum()
-        / 2.0
-    )
+    area = np.linalg.norm(area_vectors(corners), axis=1).sum() / 2.0
     middles = corners.mean(axis=1)
     filled = hull.volume - first.hull.volume - second.hull.volume
     if filled > error_m * float(area) or _gap(first, second, middles) > error_m:
@@ -168,6 +163,6 @@ def _allowed(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> bool:
 
 
 def _gap(first: _Cluster, second: _Cluster, points: FloatArray) -> float:
-    """At most the largest distance of ``points`` from both clusters [m]: a cheap early exit."""
+    """Return at most the largest distance of points from both clusters [m]: a cheap early exit."""
     outside = [(points @ c.planes[:, :3].T - c.planes[:, 3]).max(axis=1) for c in (first, second)]
     return float(np.minimum(*outside).max())

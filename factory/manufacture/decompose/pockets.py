@@ -7,7 +7,7 @@ from manifold3d import Manifold
 from scipy.spatial import HalfspaceIntersection, QhullError
 
 from ...asset import Hull
-from .convex import depth_below, hull_of, thickness
+from .convex import area_vectors, depth_below, hull_of, thickness
 from .solids import LEAST_VOLUME_M3, manifold_of_hull, triangles_of
 
 #: Pockets below this share of a cube of the error's side are dust.
@@ -46,7 +46,7 @@ def fills_little(hull: Hull, solid: Manifold, error_m: float, slot_m: float | No
 
 
 def shrunk(hull: Hull, depth_m: float) -> Manifold | None:
-    """What of a hull is deeper than ``depth_m`` below its surface [m]; ``None`` if nothing is."""
+    """Return what of a hull is deeper than ``depth_m`` below its surface; ``None`` if nothing."""
     planes = hull.planes
     # Offset from the vertices' mean: by far the most hulls are deep enough there.
     center = hull.vertices.mean(axis=0)
@@ -61,6 +61,7 @@ def shrunk(hull: Hull, depth_m: float) -> Manifold | None:
 
 
 def _narrow(pocket: Manifold, hull: Hull, error_m: float, slot_m: float) -> bool:
+    """Tell whether a pocket below a hull's surface is a shallow dent or a narrow slot."""
     vertices, faces = triangles_of(pocket)
     around = hull_of(vertices)
     if around is None:
@@ -74,7 +75,7 @@ def _narrow(pocket: Manifold, hull: Hull, error_m: float, slot_m: float) -> bool
     heights = around.vertices @ planes[:, :3].T
     across = planes[int(np.ptp(heights, axis=0).argmin()), :3]
     corners = vertices[faces]
-    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    areas = area_vectors(corners)
     mouth = depth_below(hull, corners.mean(axis=1)) < 1.01 * SKIN_SHARE * error_m
     area = float(np.linalg.norm(areas[mouth], axis=1).sum())
     faces_it = float(np.abs(areas[mouth] @ across).sum())

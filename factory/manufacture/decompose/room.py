@@ -12,11 +12,11 @@ from manifold3d import Manifold
 from ...articulation import Articulation
 from ...asset import Hull
 from ...geometry.rows import distinct_rows
-from ...geometry.triangles import face_areas
-from ...mesh import FloatArray, Mesh
+from ...mesh import FloatArray
 from ..poses import relative_poses
 from .convex import depth_below
-from .winding import inside
+from .solids import inside
+from .spread import spread_over
 
 #: Points spread over another part's visible surface; its corners are looked at besides, up to as
 #: many.
@@ -32,6 +32,7 @@ ENTERED_M = 0.001
 
 
 def _nowhere() -> FloatArray:
+    """Return no points, shape [0, 3]."""
     return np.zeros((0, 3))
 
 
@@ -89,7 +90,7 @@ class Rooms:
         self._spread: dict[int, FloatArray] = {}
 
     def around(self, part: int) -> Room:
-        """Of one part, by its index: looked for once."""
+        """Return what others take of one part's room, by its index: looked for once."""
         if part not in self._found:
             self._found[part] = self._around(part)
         return self._found[part]
@@ -117,7 +118,7 @@ class Rooms:
     def _points_of(self, part: int) -> FloatArray:
         if part not in self._spread:
             mesh = self._articulation.part_mesh(part)
-            self._spread[part] = _spread(mesh) if len(mesh.faces) else _nowhere()
+            self._spread[part] = spread_over(mesh, SPREAD, SPREAD)
         return self._spread[part]
 
 
@@ -126,25 +127,9 @@ def _moved(points: FloatArray, pose: FloatArray) -> FloatArray:
 
 
 def _corners(points: FloatArray) -> FloatArray:
-    """Of the box around points, shape [8, 3]."""
+    """Return the corners of the box around points, shape [8, 3]."""
     ends = np.stack([points.min(axis=0), points.max(axis=0)])
     return np.stack(np.meshgrid(*ends.T, indexing="ij"), axis=-1).reshape(-1, 3)
-
-
-def _spread(mesh: Mesh) -> FloatArray:
-    """Return the points over a surface by area, then corners; always the same ones."""
-    generator = np.random.default_rng(0)
-    areas = face_areas(mesh)
-    if not areas.sum() > 0.0:
-        return _nowhere()
-    chosen = generator.choice(len(areas), SPREAD, p=areas / areas.sum())
-    u, v = np.sort(generator.random((2, SPREAD)), axis=0)
-    a, b, c = np.moveaxis(mesh.vertices[mesh.faces[chosen]], 1, 0)
-    spread = u[:, None] * a + (v - u)[:, None] * b + (1.0 - v)[:, None] * c
-    corners = mesh.vertices[np.unique(mesh.faces)]
-    if len(corners) > SPREAD:
-        corners = corners[generator.choice(len(corners), SPREAD, replace=False)]
-    return np.concatenate([spread, corners])
 
 
 def _thinned(points: FloatArray) -> FloatArray:

@@ -11,7 +11,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from ...asset import Hull
 from ...mesh import FloatArray
-from .convex import hull_of
+from .convex import area_vectors, hull_of
 from .solids import OpenSurface, neighbours
 
 #: Share of its outline's convex hull that a flat patch may leave empty, for rounding's sake.
@@ -56,7 +56,7 @@ def slabs(
         One hull per patch; patches too small to be anything are left out.
     """
     corners = surface.vertices[surface.faces]
-    vectors = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2.0
+    vectors = area_vectors(corners) / 2.0
     inward = -_outward_sign(corners, vectors, center)
     patches = _grow(surface, vectors, error_m)
     hulls = []
@@ -69,7 +69,7 @@ def slabs(
 
 
 def _outward_sign(corners: FloatArray, vectors: FloatArray, center: FloatArray) -> float:
-    """1 if the faces look away from what they surround, -1 if towards it."""
+    """Return 1 if the faces look away from what they surround, -1 if towards it."""
     middles = corners.mean(axis=1)
     area = np.linalg.norm(vectors, axis=1)
     own = middles - np.average(middles, axis=0, weights=np.maximum(area, 1e-300))
@@ -149,7 +149,7 @@ def _cost(first: _Patch, second: _Patch, error_m: float) -> float:
 
 
 def _outline(points: FloatArray, direction: FloatArray) -> tuple[float, float]:
-    """Area [m2] and length [m] of the convex outline of points seen along a unit direction."""
+    """Return the area [m2] and length [m] of points' convex outline, seen along a direction."""
     flat = points @ _across(*direction.tolist())
     try:
         found = ConvexHull(flat - flat[0])

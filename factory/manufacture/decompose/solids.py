@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import manifold3d
 import numpy as np
+import numpy.typing as npt
 from manifold3d import Manifold
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import breadth_first_order, connected_components
@@ -13,10 +14,13 @@ from scipy.sparse.csgraph import breadth_first_order, connected_components
 from ...asset import Hull
 from ...geometry.rows import distinct_rows
 from ...mesh import FloatArray, IntArray
+from .convex import area_vectors
 
 #: Less volume than this is nothing to collide with [m3]: a cube of a tenth of a millimetre.
 LEAST_VOLUME_M3 = 1e-12
 LEAST_FACES = 4
+#: Points that are held against a solid at once.
+TOGETHER = 64
 
 
 @dataclass(frozen=True)
@@ -102,7 +106,7 @@ def flipped(manifold: Manifold) -> Manifold:
 
 
 def union(solids: list[Manifold]) -> Manifold:
-    """Boolean union; empty for none."""
+    """Return the boolean union; empty for none."""
     return Manifold.batch_boolean(solids, manifold3d.OpType.Add) if solids else Manifold()
 
 
@@ -135,11 +139,8 @@ def gate(vertices: FloatArray, faces: IntArray) -> Gated:
 
 
 def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
-    corners = vertices[faces]
-    area = np.linalg.norm(
-        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
-    )
-    faces = faces[area > 0.0]
+    """Return the faces that have an area, each once, whichever corner it begins with."""
+    faces = faces[np.linalg.norm(area_vectors(vertices[faces]), axis=1) > 0.0]
     first = faces.argmin(axis=1)
     turned = np.take_along_axis(faces, (first[:, None] + np.arange(3)) % 3, axis=1)
     kept, _ = distinct_rows(turned)
@@ -147,7 +148,7 @@ def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
 
 
 def _groups(faces: IntArray, vertex_count: int) -> list[IntArray]:
-    """Face indices of each set of faces connected through vertices, in first-face order."""
+    """Return the faces of each set that is connected through vertices, in first-face order."""
     links = np.concatenate([faces[:, :2], faces[:, 1:]])
     graph = coo_matrix(
         (np.ones(len(links), dtype=bool), (links[:, 0], links[:, 1])), shape=(vertex_count,) * 2
@@ -163,7 +164,7 @@ def _by_label(label: IntArray) -> list[IntArray]:
 
 
 def two_sided_patches(faces: IntArray) -> list[IntArray]:
-    """Faces split where over two meet at an edge, back sides dropped, each patch wound one way.
+    """Split faces where over two meet at an edge; drop back sides, wind each patch one way.
 
     Args:
         faces: shape [m, 3].
@@ -185,7 +186,7 @@ def two_sided_patches(faces: IntArray) -> list[IntArray]:
 
 
 def neighbours(faces: IntArray) -> tuple[IntArray, IntArray]:
-    """Pairs of faces at edges that exactly two share, [n, 2], and whether they wind alike."""
+    """Return the pairs of faces at edges that two share, [n, 2], and whether they wind alike."""
     starts = faces[:, [0, 1, 2]].ravel()
     ends = faces[:, [1, 2, 0]].ravel()
     owner = np.repeat(np.arange(len(faces)), 3)
@@ -199,7 +200,7 @@ def neighbours(faces: IntArray) -> tuple[IntArray, IntArray]:
 
 
 def _flips(count: int, pairs: IntArray, agrees: IntArray, label: IntArray) -> IntArray:
-    """Which faces to turn so that each patch is wound like its first face, shape [count], bool."""
+    """Tell which faces to turn to wind each patch like its first face, shape [count], bool."""
     disagreeing = 2
     weight = np.where(agrees, 1, disagreeing).astype(np.int8)
     rows, columns = np.concatenate([pairs, pairs[:, ::-1]]).T
@@ -221,7 +222,7 @@ def _compact(vertices: FloatArray, faces: IntArray) -> OpenSurface:
 
 
 def _inside_out(closed: list[Manifold]) -> tuple[list[Manifold], list[Manifold]]:
-    """Positive bodies and cavities among closed ones of either sign."""
+    """Return the bodies and the cavities among closed manifolds of either sign."""
     positive = [m for m in closed if m.volume() > LEAST_VOLUME_M3]
     negative = [flipped(m) for m in closed if m.volume() < -LEAST_VOLUME_M3]
     # Largest first: a body that is itself inverted may hold cavities wound the right way round.
@@ -247,3 +248,27 @@ def contains(outer: Manifold, inner: Manifold) -> bool:
     ):
         return False
     return float((inner - outer).volume()) <= 1e-3 * float(inner.volume())
+
+
+def inside(solid: Manifold, points: FloatArray) -> npt.NDArray[np.bool_]:
+    """Return which points [m], shape [n, 3], lie in a solid, by its winding number, shape [n].
+
+    The solid angles are those of van Oosterom and Strackee 1983.
+    """
+    vertices, faces = triangles_of(solid)
+    found = np.zeros(len(points), dtype=bool)
+    for start in range(0, len(points), TOGETHER):
+        arms = vertices[faces][None] - points[start : start + TOGETHER, None, None]
+        lengths = np.linalg.norm(arms, axis=3)
+        a, b, c = np.moveaxis(arms, 2, 0)
+        la, lb, lc = np.moveaxis(lengths, 2, 0)
+        over = np.einsum("ijk,ijk->ij", a, np.cross(b, c))
+        under = (
+            la * lb * lc
+            + np.einsum("ijk,ijk->ij", a, b) * lc
+            + np.einsum("ijk,ijk->ij", b, c) * la
+            + np.einsum("ijk,ijk->ij", c, a) * lb
+        )
+        angles = 2.0 * np.arctan2(over, under).sum(axis=1)
+        found[start : start + TOGETHER] = np.abs(angles) > 2.0 * np.pi
+    return found

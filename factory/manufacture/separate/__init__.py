@@ -14,7 +14,7 @@ What is never cut: what a part runs into away from its hinge, and more than a jo
 off. A cut there would hide a fault of the asset.
 """
 
-from .outcome import Planed, Separation, SeparationRefusal
+from .outcome import CutBack, Separation, SeparationRefusal
 from .separate import separate
 
-__all__ = ["Planed", "Separation", "SeparationRefusal", "separate"]
+__all__ = ["CutBack", "Separation", "SeparationRefusal", "separate"]

@@ -9,8 +9,7 @@ import numpy as np
 
 from ...asset import Hull
 from ...mesh import FloatArray
-from .carve import carved
-from .clip import cut_apart, meeting
+from .clip import carved, cut_apart, meeting
 
 #: For each piece more a cut must lose less, by this share.
 PIECE_SHARE = 0.25
@@ -53,7 +52,7 @@ def steps_along(poses: Sequence[FloatArray]) -> list[Step]:
 
 
 def _even(before: FloatArray, pose: FloatArray, other: FloatArray) -> bool:
-    """Whether a step is as long as the one that leads to it, or on from it, and none turns."""
+    """Tell whether a step is as long as the one that leads to it, or on from it, and none turns."""
     if not all(np.array_equal(pose[:3, :3], each[:3, :3]) for each in (before, other)):
         return False
     step = pose[:3, 3] - before[:3, 3]
@@ -81,7 +80,7 @@ def cut_apart_along(
         for step in steps:
             for i, j in near_pairs(solids_a, solids_b, step.pose, clearance_m, step.behind):
                 before = solids_a[i], solids_b[j]
-                solids_a[i], solids_b[j] = _planed(*before, [step], clearance_m)
+                solids_a[i], solids_b[j] = _cut_by_planes(*before, [step], clearance_m)
                 moved |= any(map(_moved, before, (solids_a[i], solids_b[j])))
         if not moved:
             break
@@ -161,27 +160,27 @@ def _apart(
     clearance_m: float,
     whole: tuple[float, float],
 ) -> Sides:
-    """Two hulls in as few pieces as it takes: both cut by planes, pose by pose, or one carved."""
+    """Cut two hulls apart in the cheapest way: both by planes, pose by pose, or one carved."""
     depths = [meeting(one, other, step.pose, behind=step.behind).depth for step in way]
     met = [step for step, depth in zip(way, depths, strict=True) if depth > -clearance_m]
     if not met:
         return [one], [other]
-    first, second = _planed(one, other, met, clearance_m)
-    planed = [first] if first else [], [second] if second else []
+    first, second = _cut_by_planes(one, other, met, clearance_m)
+    by_planes = [first] if first else [], [second] if second else []
     if max(depths) <= clearance_m:
-        return planed
+        return by_planes
     # All the room that either takes as the other sees it.
     ahead = np.concatenate([_seen(other, step.pose, step.behind) for step in met])
     back = np.concatenate([_seen(one, *_from_the_other(step)) for step in met])
     ways: tuple[Sides, ...] = (
-        planed,
+        by_planes,
         (carved(one, ahead, clearance_m), [other]),
         ([one], carved(other, back, clearance_m)),
     )
     return min(ways, key=lambda sides: _cost(sides, (one, other), whole))
 
 
-def _planed(
+def _cut_by_planes(
     one: Hull | None, other: Hull | None, way: list[Step], clearance_m: float
 ) -> tuple[Hull | None, Hull | None]:
     for step in way:
@@ -194,7 +193,7 @@ def _planed(
 
 
 def _moved(before: Hull | None, after: Hull | None) -> bool:
-    """Return whether a hull is as large as before, but elsewhere."""
+    """Tell whether a hull is as large as before, but elsewhere."""
     if before is None or after is None or before is after:
         return False
     return after.volume > (1.0 - 1e-6) * before.volume

@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from ...articulation import Articulation
-from ...asset import Hull
 from ...mesh import FloatArray
 from ..poses import joints_between, relative_poses
-from .along import near_pairs
+from .along import Sides, hull_depth
 from .budget import SeenSurface
-from .clip import meeting
 from .hung import reach_m
 
 #: After a cut all of a hinge's way is looked at, in steps so long at the end of its arm [m],
@@ -24,14 +22,13 @@ LEAVING_STEP_M = 0.0015
 #: Hulls may be as near as this between two poses: PyBullet feels what is nearer [m].
 LEAST_M = 0.002
 
-Sides = tuple[list[Hull], list[Hull]]
 Cut = Callable[..., Sides]
 
 
 def poses_between(
     articulation: Articulation, parts: tuple[int, int], mover: SeenSurface, count: int
 ) -> list[FloatArray]:
-    """Poses between those of hinges, near enough for a sheet at an arm's end to meet another.
+    """Return poses between those of hinges, so near that a sheet at an arm's end meets another.
 
     Args:
         articulation: parts and joints.
@@ -56,7 +53,7 @@ def poses_between(
 def cut_between(
     cut: Cut, before: Sides, after: Sides, way: Sequence[FloatArray], between: Sequence[FloatArray]
 ) -> Sides | None:
-    """Hulls of two parts cut anew where they are too near to one another between two poses.
+    """Cut hulls of two parts anew where they are too near to one another between two poses.
 
     Args:
         cut: hulls at some poses.
@@ -71,21 +68,10 @@ def cut_between(
     found = None
     poses = list(way)
     for _ in range(MOST_LOOKS):
-        missed = _too_near(*(found or after), between)
+        hulls = found or after
+        missed = [pose for pose in between if hull_depth(*hulls, pose, LEAST_M) > -LEAST_M]
         if not missed:
             break
         poses += missed
         found = cut(*before, poses)
-    return found
-
-
-def _too_near(
-    a: Sequence[Hull], b: Sequence[Hull], poses: Sequence[FloatArray]
-) -> list[FloatArray]:
-    """Return the poses at which two hulls of two parts come too near to one another."""
-    found = []
-    for pose in poses:
-        near = near_pairs(a, b, pose, LEAST_M)
-        if any(meeting(a[i], b[j], pose).depth > -LEAST_M for i, j in near):
-            found.append(pose)
     return found

@@ -1,4 +1,4 @@
-"""What a cut takes of what can be seen, and how much of that a joiner would plane off."""
+"""What a cut takes of what can be seen, and how much of that a joiner would trim."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ import numpy.typing as npt
 from ...articulation import Joint
 from ...asset import Hull
 from ...config import SeparateConfig
-from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, Mesh
 from ..decompose.convex import depth_below
 from ..decompose.outside import ROUNDING_M, outside
 from ..decompose.solids import manifold_of_hull, union
+from ..decompose.spread import spread_over
 
 #: Points spread over a part's visible surface, by area; its corners are looked at besides.
 SPREAD = 1500
@@ -45,17 +45,8 @@ class SeenSurface:
 
     @classmethod
     def of(cls, mesh: Mesh) -> SeenSurface:
-        """Sampled, always in the same way."""
-        generator = np.random.default_rng(0)
-        areas = face_areas(mesh)
-        chosen = generator.choice(len(areas), SPREAD, p=areas / areas.sum())
-        u, v = np.sort(generator.random((2, SPREAD)), axis=0)
-        a, b, c = np.moveaxis(mesh.vertices[mesh.faces[chosen]], 1, 0)
-        spread = u[:, None] * a + (v - u)[:, None] * b + (1.0 - v)[:, None] * c
-        corners = mesh.vertices
-        if len(corners) > MOST_CORNERS:
-            corners = corners[generator.choice(len(corners), MOST_CORNERS, replace=False)]
-        return cls(np.concatenate([spread, corners]), SPREAD, mesh.diagonal)
+        """Sample a mesh that has an area."""
+        return cls(spread_over(mesh, SPREAD, MOST_CORNERS), SPREAD, mesh.diagonal)
 
     def beyond(self, hulls: Sequence[Hull]) -> FloatArray:
         """Return how far each point lies beyond a face plane of every hull [m], shape [n].
@@ -92,7 +83,7 @@ class Excuse:
     hinges: Sequence[Joint]
 
     def holds(self, points: FloatArray, config: SeparateConfig) -> npt.NDArray[np.bool_]:
-        """Which points lie in the other part, or as near as they may come to it, shape [n]."""
+        """Tell which points lie in the other part, or as near as they may come to it, shape [n]."""
         return outside(self.other, points) < config.clearance_m
 
 
@@ -175,7 +166,7 @@ def _bared(
     excuse: Excuse,
     config: SeparateConfig,
 ) -> tuple[float, float, float]:
-    """The shares of a surface that are bared and not hidden, bared, and untouched: see `Loss`."""
+    """Return the shares of a surface bared and not hidden, bared, and untouched: see `Loss`."""
     # Most lie within a hull that no cut touched, which is known.
     out = surface.beyond(after)[: surface.spread] > ROUNDING_M
     points = surface.points[: surface.spread][out]
@@ -217,13 +208,13 @@ def overdone(
     limits: CutLimits,
     config: SeparateConfig,
 ) -> str | None:
-    """Why a cut between two parts takes too much, or what can be seen; ``None`` if it does neither.
+    """Say why a cut takes too much, or what can be seen; ``None`` if it does neither.
 
     Args:
         names: of both.
         losses: of both.
         solid: whether each encloses a volume to speak of: the slabs over an open surface come and
-            go whole, and a thin sheet is planed to half of itself.
+            go whole, and a thin sheet is cut back to half of itself.
         limits: for the two.
         config: the other limits.
     """
@@ -256,7 +247,7 @@ def overdone(
 
 
 def too_bare(names: Sequence[str], losses: Sequence[Loss], config: SeparateConfig) -> str | None:
-    """Why a part would be left with too little of its surface covered, by all cuts together."""
+    """Say why a part would be left with too little of its surface covered, by all cuts."""
     for name, each in zip(names, losses, strict=True):
         if each.untouched > config.most_untouched:
             return (

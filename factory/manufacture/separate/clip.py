@@ -1,4 +1,4 @@
-"""Two convex hulls that meet, cut by planes until there is a gap between them."""
+"""Convex hulls that meet, cut by planes until there is a gap between them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from ...asset import Hull
 from ...mesh import FloatArray, IntArray
 from ...runtime.numbers import DECIMALS
-from ..decompose.convex import hull_of
+from ..decompose.convex import area_vectors, hull_of
 
 #: A hull no thicker than this is a sheet [m].
 SHEET_M = 0.003
@@ -20,12 +20,22 @@ SHARES = (0.0, 0.5, 1.0)
 #: Directions with a smaller cosine are unlike one another; so many of those are tried, too.
 ALIKE = 0.7
 UNLIKE = 3
+#: What is nearer than the clearance by less is so by rounding [m].
+ROUNDING_M = 1e-5
 #: Volumes that differ by less than this share do so by rounding.
 ROUNDING_SHARE = 1e-9
 #: Corners this near to a plane lie on it [m].
 FLUSH_M = 1e-7
 #: Lengths that are the same to so many decimals differ by rounding [m].
 ROUNDING_DECIMALS = 12
+
+#: Most pieces that are kept of one hull.
+MOST_PIECES = 4
+#: Of the room's planes those that leave most of the hull outside, by its farthest corner.
+PLANES_TRIED = 8
+#: Pieces of less than this share of the hull, or thinner than this [m], are splinters.
+SPLINTER_SHARE = 0.01
+SPLINTER_M = 0.002
 
 
 @dataclass(frozen=True)
@@ -50,7 +60,7 @@ class HullMeeting:
 
     @property
     def depth(self) -> float:
-        """Upper bound of the penetration depth [m]: only face normals are tested, no edge pairs."""
+        """Return an upper bound of the penetration depth [m]: face normals only, no edge pairs."""
         return float(self.reaches[0])
 
 
@@ -61,7 +71,7 @@ def meeting(
     most: int = 6,
     behind: FloatArray | None = None,
 ) -> HullMeeting:
-    """The best separating face normals of two hulls; of two that overlap also some unlike those.
+    """Find the face normals that separate two hulls best; if they overlap, some unlike those too.
 
     Args:
         a: the first.
@@ -98,22 +108,10 @@ def _with_others(directions: FloatArray, order: IntArray, best: IntArray) -> Int
     return best
 
 
-def stand_apart(a: Hull, b: Hull, clearance_m: float) -> bool:
-    """Return whether a face normal of one separates two hulls by a clearance [m].
-
-    The same as asking for the depth of their :func:`meeting`, but each hull's ends along its own
-    normals are known.
-    """
-    return any(
-        bool(((points @ planes[:, :3].T).min(axis=0) - planes[:, 3] >= clearance_m).any())
-        for points, planes in ((b.vertices, a.planes), (a.vertices, b.planes))
-    )
-
-
 def cut_apart(
     a: Hull, b: Hull, pose: FloatArray, met: HullMeeting, clearance_m: float
 ) -> tuple[Hull | None, Hull | None]:
-    """Both hulls after the cut that takes the least of them and leaves ``clearance_m`` between.
+    """Cut two hulls so that the least goes and ``clearance_m`` is left between.
 
     Hulls that barely meet give as they are thick: a sheet gives next to nothing. Where one lies
     deep in the other, every direction is tried with the cut all in the first, all in the second and
@@ -151,7 +149,7 @@ def _thicker_gives(a: Hull, b: Hull, pose: FloatArray, direction: FloatArray) ->
 
 
 def given_way(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
-    """The same as :func:`clipped`, but a sheet of which hardly any would be left is moved instead.
+    """Clip a hull, but move a sheet of which hardly any would be left.
 
     It stands for a surface whose other side nobody knows; shaved away it would leave a hole.
     """
@@ -163,7 +161,7 @@ def given_way(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
 
 
 def volumes_below(hull: Hull, normals: FloatArray, offsets: FloatArray) -> FloatArray:
-    """Volumes of what :func:`clipped` leaves of a hull at each of several planes [m3], shape [n].
+    """Return the volume of a hull that :func:`clipped` leaves at each plane [m3], shape [n].
 
     By the divergence theorem, seen from a point of the plane, from where the cut face takes no
     room: a triangle counts by the share of it that lies below.
@@ -177,7 +175,7 @@ def volumes_below(hull: Hull, normals: FloatArray, offsets: FloatArray) -> Float
     points = hull.vertices - center
     levels = offsets - normals @ center
     corners = points[hull.faces]
-    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    areas = area_vectors(corners)
     heights = (points @ normals.T - levels)[hull.faces]
     heights.sort(axis=1)
     low, middle, high = heights.transpose(1, 0, 2)
@@ -190,7 +188,7 @@ def volumes_below(hull: Hull, normals: FloatArray, offsets: FloatArray) -> Float
 
 
 def clipped(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
-    """The part of a hull with ``normal . x <= offset`` [m]; ``None`` if no volume is left."""
+    """Return what of a hull has ``normal . x <= offset`` [m]; ``None`` if no volume is left."""
     height = hull.vertices @ normal - offset
     # Where an edge that all but lies in the plane crosses it, last digits would say.
     height[np.abs(height) < FLUSH_M] = 0.0
@@ -205,3 +203,45 @@ def clipped(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
     first = hull.vertices[edges[crossing, 0]]
     second = hull.vertices[edges[crossing, 1]]
     return hull_of(np.concatenate([hull.vertices[height <= 0.0], first + share * (second - first)]))
+
+
+def carved(
+    solid: Hull,
+    room: FloatArray,
+    clearance_m: float,
+    most: int = MOST_PIECES,
+    least_m3: float | None = None,
+) -> list[Hull]:
+    """Return what is left of a hull outside some room, as convex pieces.
+
+    Piece by piece the largest that one plane of the room leaves outside is kept.
+
+    Args:
+        solid: the hull.
+        room: points whose convex hull is to be free [m], shape [n, 3].
+        clearance_m: to be left around it [m].
+        most: pieces that are kept.
+        least_m3: smaller pieces are splinters [m3]; otherwise a share of the hull.
+    """
+    around = hull_of(room)
+    if around is None:
+        return []
+    planes = around.planes.copy()
+    planes[:, 3] += clearance_m
+    least = SPLINTER_SHARE * solid.volume if least_m3 is None else least_m3
+    kept: list[Hull] = []
+    rest: Hull | None = solid
+    while rest is not None and len(kept) < most:
+        heights = (rest.vertices @ planes[:, :3].T).max(axis=0) - planes[:, 3]
+        tried = np.argsort(-heights, kind="stable")[:PLANES_TRIED]
+        tried = tried[heights[tried] > SPLINTER_M]
+        outside = volumes_below(rest, -planes[tried, :3], -planes[tried, 3])
+        if not (outside >= least).any():
+            break
+        plane = int(tried[outside.argmax()])
+        piece = clipped(rest, -planes[plane, :3], -float(planes[plane, 3]))
+        if piece is None:
+            break
+        kept.append(piece)
+        rest = clipped(rest, planes[plane, :3], float(planes[plane, 3]))
+    return kept

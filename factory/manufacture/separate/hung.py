@@ -30,7 +30,7 @@ HUB_SHARE = 0.6
 def well_hung(
     surface: SeenSurface | None, joint: Joint, holder: Sequence[Hull], config: SeparateConfig
 ) -> bool:
-    """Whether a joint runs straight, and turns its part about an edge, its middle or its seat.
+    """Tell whether a joint runs straight, and turns its part about an edge, its middle or its seat.
 
     Args:
         surface: of the part that it moves; ``None`` for a carrier.
@@ -48,16 +48,16 @@ def well_hung(
 
 
 def at_an_edge(surface: SeenSurface | None, joint: Joint, config: SeparateConfig) -> bool:
-    """Whether a part reaches to its axis, and no further beyond it than may be planed off."""
+    """Tell whether a part reaches to its axis, and no further beyond it than may be cut back."""
     if surface is None:
         return False
     arms = _arms(surface, joint)
     near = max(float(np.linalg.norm(arms, axis=1).min()), _reach(arms)[1])
-    return near <= planed_limit(config, surface.diagonal)
+    return near <= trimmed_limit(config, surface.diagonal)
 
 
 def about_its_middle(surface: SeenSurface | None, joint: Joint) -> bool:
-    """Return whether a part reaches about as far to one side of its axis as to the other."""
+    """Tell whether a part reaches about as far to one side of its axis as to the other."""
     if surface is None:
         return True
     ahead, behind = _reach(_arms(surface, joint))
@@ -67,7 +67,7 @@ def about_its_middle(surface: SeenSurface | None, joint: Joint) -> bool:
 def seat_roundness(
     surface: SeenSurface, joint: Joint, holder: Sequence[Hull], near_m: float
 ) -> float:
-    """How near a part touches what holds it on one side of its axis, as a share of the farthest.
+    """Return how near its axis a part touches what holds it on its worst side, over the farthest.
 
     1: it turns in a round seat. A lever whose arm stands out to one side of a collar has one; a
     door has none, however it is hung, nor a lever whose axis lies beside the collar: 0.
@@ -81,8 +81,8 @@ def seat_roundness(
     return float(reach.min() / max(float(reach.max()), 1e-9))
 
 
-def planed_limit(config: SeparateConfig, diagonal: float) -> float:
-    """Return how much may be planed off a part of this diagonal [m], in [m]."""
+def trimmed_limit(config: SeparateConfig, diagonal: float) -> float:
+    """Return how much may be cut back of a part of this diagonal [m], in [m]."""
     return max(config.tolerance_m, min(config.planed_m, config.planed_share * diagonal))
 
 
@@ -92,13 +92,13 @@ def reach_m(surface: SeenSurface, joint: Joint) -> float:
 
 
 def _arms(surface: SeenSurface, joint: Joint) -> FloatArray:
-    """From a joint's axis to each point of a surface, across the axis [m], shape [n, 3]."""
+    """Return the arms from a joint's axis to each point, across the axis [m], shape [n, 3]."""
     arms = surface.points - joint.origin
     return np.asarray(arms - np.outer(arms @ joint.axis, joint.axis))
 
 
 def _reach(arms: FloatArray) -> tuple[float, float]:
-    """How far from an axis points reach towards their middle [m], and how far beyond the axis."""
+    """Return how far points reach from an axis towards their middle, and beyond the axis [m]."""
     middle = (arms.min(axis=0) + arms.max(axis=0)) / 2.0
     along = arms @ middle / max(float(np.linalg.norm(middle)), 1e-9)
     return float(along.max()), -float(along.min())

@@ -27,7 +27,7 @@ class SeparationRefusal:
 
 
 @dataclass(frozen=True)
-class Planed:
+class CutBack:
     """What was taken off a part that can be seen.
 
     Attributes:
@@ -53,10 +53,10 @@ class Separation:
         hidden: pair of part names -> how deep the parts themselves overlap at rest [m],
             where that is more than decomposition explains and what is hidden was taken out of the
             collision geometry.
-        planed: pair of part names -> what was taken off where it can be seen.
+        trimmed: pair of part names -> what was taken off where it can be seen.
     """
 
     pieces: tuple[PartHulls, ...]
     refused: Mapping[Pair, SeparationRefusal] = field(default_factory=dict)
     hidden: Mapping[Pair, float] = field(default_factory=dict)
-    planed: Mapping[Pair, tuple[Planed, ...]] = field(default_factory=dict)
+    trimmed: Mapping[Pair, tuple[CutBack, ...]] = field(default_factory=dict)

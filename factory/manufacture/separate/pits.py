@@ -17,9 +17,8 @@ from ...asset import Hull
 from ...mesh import FloatArray
 from ..decompose.convex import hull_of
 from ..decompose.solids import manifold_of_hull, union
-from .along import near_pairs
-from .carve import carved
-from .clip import clipped, stand_apart
+from .along import Sides, hull_depth, near_pairs
+from .clip import carved, clipped
 
 #: Most pieces that are kept of one hull around a pit: a floor and walls around what is round.
 MOST_WALLS = 10
@@ -46,51 +45,36 @@ class Pit:
 
     def __call__(
         self, a: Sequence[Hull], b: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
-    ) -> tuple[list[Hull], list[Hull]]:
+    ) -> Sides:
         """See :func:`~.along.cut_apart_along`; only the holder's hulls are cut."""
-        if self.holder == 0:
-            return self._dug(a, b, poses, clearance_m), list(b)
-        back = [np.asarray(np.linalg.inv(pose)) for pose in poses]
-        return list(a), self._dug(b, a, back, clearance_m)
-
-    def _dug(
-        self,
-        holder: Sequence[Hull],
-        mover: Sequence[Hull],
-        poses: Sequence[FloatArray],
-        clearance_m: float,
-    ) -> list[Hull]:
-        near = _met(holder, mover, poses, clearance_m)
-        left = list(holder)
-        for group in [near] if self.at_once else [[hull] for hull in near]:
-            points = np.concatenate([hull.vertices for hull in group] or [np.zeros((0, 3))])
-            body = hull_of(points)
-            if body is not None:
-                left = dug_around(left, body, poses, clearance_m)
-        return left
+        sides = list(a), list(b)
+        mover = sides[1 - self.holder]
+        way = seen_from(self.holder, poses)
+        near = {
+            number
+            for pose in way
+            for _, number in near_pairs(sides[self.holder], mover, pose, clearance_m)
+        }
+        bodies: list[Hull | None] = [mover[number] for number in sorted(near)]
+        if self.at_once and near:
+            bodies = [hull_of(np.concatenate([mover[number].vertices for number in sorted(near)]))]
+        for body in bodies:
+            room = None if body is None else _room(body, way)
+            if room is not None:
+                holder = sides[self.holder]
+                holder[:] = [piece for hull in holder for piece in _around(hull, room, clearance_m)]
+        return sides
 
 
-def dug_around(
-    holder: Sequence[Hull], body: Hull, poses: Sequence[FloatArray], clearance_m: float
-) -> list[Hull]:
-    """Return what is left of hulls around all the room that a convex body takes.
-
-    Args:
-        holder: hulls, object frame at rest.
-        body: that moves in them.
-        poses: of the body as seen from them, [4, 4] each.
-        clearance_m: to be left around it [m].
-    """
-    room = _room([body], poses)
-    if room is None:
-        return list(holder)
-    return [piece for hull in holder for piece in _around(hull, room, clearance_m)]
+def seen_from(holder: int, poses: Sequence[FloatArray]) -> Sequence[FloatArray]:
+    """Return the same poses as the part of that number, 0 or 1, sees the other."""
+    return poses if holder == 0 else [np.asarray(np.linalg.inv(pose)) for pose in poses]
 
 
 def swept_share(
     holder: Sequence[Hull], mover: Sequence[Hull], poses: Sequence[FloatArray]
 ) -> float:
-    """How many times the room that a part takes in its holder as modelled it needs on its way.
+    """Return how many times the room it takes in its holder as modelled a part needs on its way.
 
     Args:
         holder: hulls, object frame at rest.
@@ -145,7 +129,7 @@ def _spare(heights: FloatArray, before: list[tuple[float, float]], travel: float
 def _before(
     holder: Sequence[Hull], points: FloatArray, direction: FloatArray
 ) -> list[tuple[float, float]]:
-    """From where to where along a direction hulls lie in the shadow of points [m]."""
+    """Return from where to where along a direction hulls lie in the shadow of points [m]."""
     across = np.linalg.svd(direction[None])[2][1:]
     found = []
     for hull in holder:
@@ -158,23 +142,15 @@ def _before(
     return found
 
 
-def _met(
-    holder: Sequence[Hull], mover: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
-) -> list[Hull]:
-    """Return the hulls of the mover that come near the holder anywhere on their way."""
-    met = {j for pose in poses for _, j in near_pairs(holder, mover, pose, clearance_m)}
-    return [mover[j] for j in sorted(met)]
-
-
-def _room(hulls: Sequence[Hull], poses: Sequence[FloatArray]) -> Hull | None:
-    """Return all the room that hulls take on their way, as one."""
-    points = np.concatenate([hull.vertices for hull in hulls])
-    return hull_of(np.concatenate([points @ pose[:3, :3].T + pose[:3, 3] for pose in poses]))
+def _room(hull: Hull, poses: Sequence[FloatArray]) -> Hull | None:
+    """Return all the room that a hull takes on its way, as one."""
+    moved = [hull.vertices @ pose[:3, :3].T + pose[:3, 3] for pose in poses]
+    return hull_of(np.concatenate(moved))
 
 
 def _around(piece: Hull, room: Hull, clearance_m: float) -> list[Hull]:
     """Return what is left of a hull around a room; the hull itself where they do not meet."""
-    if stand_apart(piece, room, clearance_m):
+    if hull_depth([piece], [room], np.eye(4), clearance_m) <= -clearance_m:
         return [piece]
     corners = room.vertices
     low = corners.min(axis=0) - clearance_m
@@ -185,7 +161,7 @@ def _around(piece: Hull, room: Hull, clearance_m: float) -> list[Hull]:
 
 
 def _taken(holder: Sequence[Hull], mover: Sequence[Hull], poses: Sequence[FloatArray]) -> float:
-    """Volume of the holder's hulls within the room that each hull of the mover takes [m3]."""
-    rooms = [room for hull in mover if (room := _room([hull], poses)) is not None]
+    """Return the volume of the holder's hulls in the room of each hull of the mover [m3]."""
+    rooms = [room for hull in mover if (room := _room(hull, poses)) is not None]
     room = union([manifold_of_hull(each) for each in rooms])
     return sum(float((manifold_of_hull(hull) ^ room).volume()) for hull in holder)

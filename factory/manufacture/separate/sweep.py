@@ -10,8 +10,7 @@ import numpy as np
 from ...articulation import Articulation, Joint
 from ...asset import Hull
 from ...mesh import FloatArray
-from .along import near_pairs
-from .clip import meeting
+from .along import hull_depth
 
 #: Poses along a joint that are looked at.
 POSES = 33
@@ -60,15 +59,13 @@ def _deepening(
     enough_m: float,
     gap_m: float,
 ) -> float:
+    """Return how much deeper than at the first pose hulls of two parts get [m], see above."""
     if not ones or not others:
         return 0.0
-    rest = None
+    rest = hull_depth(ones, others, poses[0], gap_m) + gap_m
     worst = 0.0
-    for pose in poses:
-        met = near_pairs(ones, others, pose, gap_m)
-        depth = max([0.0, *(meeting(ones[i], others[j], pose).depth + gap_m for i, j in met)])
-        rest = depth if rest is None else rest
-        worst = max(worst, depth - rest)
+    for pose in poses[1:]:
+        worst = max(worst, hull_depth(ones, others, pose, gap_m) + gap_m - rest)
         if worst > enough_m:
             break
     return worst

@@ -16,13 +16,11 @@ import numpy as np
 from ...articulation import Joint
 from ...asset import Hull
 from ...mesh import FloatArray
-from .along import cut_apart_along, near_pairs
-from .clip import ROUNDING_SHARE, SHARES, clipped, meeting
+from .along import cut_apart_along, hull_depth, near_pairs
+from .clip import ROUNDING_M, ROUNDING_SHARE, SHARES, clipped
 
 #: A cylinder is cut as a prism of so many sides.
 SIDES = 72
-#: What is nearer than the clearance by less is so by rounding [m].
-ROUNDING_M = 1e-5
 
 Hulls = tuple[Hull | None, Hull | None]
 
@@ -46,15 +44,18 @@ class Turned:
         for (i, j), way in sorted(_ways(a, b, poses, clearance_m).items()):
             one = ones[i]
             other = others[j]
-            if one is not None and other is not None and _near(one, other, way, clearance_m):
+            if one is None or other is None:
+                continue
+            depths = (hull_depth([one], [other], pose, clearance_m) for pose in way)
+            if any(depth > ROUNDING_M - clearance_m for depth in depths):
                 ones[i], others[j] = self._best(one, other, clearance_m)
         left = [[hull for hull in hulls if hull is not None] for hulls in (ones, others)]
         return cut_apart_along(left[0], left[1], poses, clearance_m)
 
     def _best(self, one: Hull, other: Hull, clearance_m: float) -> Hulls:
-        """Two hulls cut apart across the axis or around it, off either or both: what leaves most.
+        """Cut two hulls apart across the axis or around it, off either or both: what leaves most.
 
-        Of those that leave as much the first.
+        Of cuts that leave as much the first.
         """
         best: Hulls = (None, None)
         most = -np.inf
@@ -119,7 +120,7 @@ class Turned:
         return left
 
     def _arms(self, hull: Hull) -> FloatArray:
-        """From the axis to each corner, across it [m], shape [n, 3]."""
+        """Return the arms from the axis to each corner, across it [m], shape [n, 3]."""
         arms = hull.vertices - self.joint.origin
         return np.asarray(arms - np.outer(arms @ self.joint.axis, self.joint.axis))
 
@@ -135,16 +136,11 @@ def _ways(
     return found
 
 
-def _near(one: Hull, other: Hull, way: Sequence[FloatArray], clearance_m: float) -> bool:
-    """Return whether two hulls come nearer to one another than they may."""
-    return any(meeting(one, other, pose).depth > ROUNDING_M - clearance_m for pose in way)
-
-
 def _volume(hulls: Hulls) -> float:
     """Return what is left of two hulls [m3]."""
     return sum(hull.volume for hull in hulls if hull is not None)
 
 
 def _less(hulls: Hulls, most: float) -> bool:
-    """Return whether two hulls are less than ``most`` [m3], by more than rounding."""
+    """Tell whether two hulls are less than ``most`` [m3], by more than rounding."""
     return _volume(hulls) < most - ROUNDING_SHARE * abs(most)

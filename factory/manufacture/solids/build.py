@@ -14,8 +14,7 @@ from ...config import SolidsConfig
 from ...geometry.posing import rotated
 from ...mesh import FloatArray
 from ...runtime.keys import Stage
-from ..decompose.convex import aspect
-from ..decompose.decompose import OBLONG_ASPECT, PartHulls
+from ..decompose.decompose import PartHulls
 from .body import hang_panels, make_body, make_rest, share_out
 from .carve import carve_panel, hollow_behind, make_slab, planes_of_panels
 from .clear import cleared
@@ -172,5 +171,4 @@ def _piece(hulls: tuple[Hull, ...], faces: int) -> PartHulls | None:
         return PartHulls((), "none", (), True)
     if not hulls:
         return None
-    oblong = sum(aspect(hull) > OBLONG_ASPECT for hull in hulls)
-    return PartHulls(hulls, "built", (), False, oblong)
+    return PartHulls(hulls, "built")

@@ -9,8 +9,7 @@ from ...asset import Hull
 from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray
 from ..decompose.convex import depth_below, hull_of
-from ..separate.carve import carved
-from ..separate.clip import clipped, meeting
+from ..separate.clip import carved, clipped, meeting
 from .box import Box
 from .bump import Bump
 from .matter import PATH

@@ -22,9 +22,12 @@ from asset_factory.factory.manufacture.decompose.convex import (
     surface_points,
 )
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls, decompose
-from asset_factory.factory.manufacture.decompose.methods import SolidPieces
+from asset_factory.factory.manufacture.decompose.methods import (
+    MOST_SEARCHED,
+    SolidPieces,
+    refined,
+)
 from asset_factory.factory.manufacture.decompose.outside import uncovered
-from asset_factory.factory.manufacture.decompose.refine import MOST_SEARCHED, refined
 from asset_factory.factory.manufacture.decompose.room import NOWHERE
 from asset_factory.factory.manufacture.decompose.solids import manifold_of, manifold_of_hull, union
 from asset_factory.factory.mesh import Mesh
@@ -118,9 +121,7 @@ def test_a_carrier_has_no_hulls() -> None:
 
 
 def test_coacd_covers_a_curved_solid_keeps_its_hole_and_repeats_itself() -> None:
-    first, again = (ladder.climb_down(torus_solid(), 0.01, CONFIG) for _ in range(2))
-    assert first is not None
-    assert again is not None
+    first, again = (ladder.search(torus_solid(), 0.01, CONFIG) for _ in range(2))
     assert (first.method, first.degraded) == ("coacd", ())
     assert uncovered(first.hulls, surface_points(*torus())) < 0.002
     assert max(depth_below(hull, np.zeros((1, 3))).max() for hull in first.hulls) < -0.03
@@ -241,7 +242,7 @@ def test_too_many_hulls_reject_with_the_numbers() -> None:
     )
 
 
-def test_a_crashing_engine_costs_a_rung_and_leaves_a_sentence(
+def test_a_crashing_engine_costs_a_found_and_leaves_a_sentence(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     asked = []
@@ -253,13 +254,12 @@ def test_a_crashing_engine_costs_a_rung_and_leaves_a_sentence(
         return Outcome([], None, "", "", 0.1)
 
     monkeypatch.setattr(ladder, "run_isolated", broken)
-    rung = ladder.climb_down(torus_solid(), 0.01, CONFIG)
-    assert rung is not None
-    assert (rung.method, len(rung.hulls)) == ("hull", 1)
+    found = ladder.search(torus_solid(), 0.01, CONFIG)
+    assert (found.method, len(found.hulls)) == ("hull", 1)
     # A crash is believed when it comes again.
     assert asked == [ladder.coacd_pieces] * 4 + [ladder.vhacd_pieces]
-    assert "SIGSEGV" in rung.degraded[0]
-    assert len(rung.degraded) == 4
+    assert "SIGSEGV" in found.degraded[0]
+    assert len(found.degraded) == 4
 
 
 @pytest.mark.parametrize(
@@ -313,15 +313,14 @@ def test_coacd_is_asked_of_what_is_simple_within_the_error_only(
     monkeypatch.setattr(ladder, "run_isolated", counted)
     intricate = manifold_of(*blob(70))
     assert intricate is not None
-    rung = ladder.climb_down(intricate, 0.01, DecomposeConfig())
-    assert rung is not None
+    found = ladder.search(intricate, 0.01, DecomposeConfig())
     assert [function for function, _ in asked] == [ladder.vhacd_pieces]
-    assert "faces, want at most 1300" in rung.degraded[0]
+    assert "faces, want at most 1300" in found.degraded[0]
     asked.clear()
     # The same with many more faces that say nothing more.
     smooth = torus_solid().refine(8)
     assert smooth.num_tri() > 30_000
-    ladder.climb_down(smooth, 0.01, DecomposeConfig())
+    ladder.search(smooth, 0.01, DecomposeConfig())
     assert [function for function, _ in asked] == [ladder.coacd_pieces] * 2 + [ladder.vhacd_pieces]
     assert all(faces <= 2000 for _, faces in asked)
 
@@ -376,16 +375,13 @@ def test_a_program_that_cannot_start_children_is_not_taken_for_a_bad_mesh(
     )
     monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: gone)
     with pytest.raises(ImportError):
-        ladder.climb_down(torus_solid(), 0.01, CONFIG)
+        ladder.search(torus_solid(), 0.01, CONFIG)
 
 
 def test_coacd_that_takes_too_long_is_killed() -> None:
-    search = ladder.Search(
-        error_m=1e-4, resolution=20000, iterations=2000, nodes=50, depth=4, seed=0
-    )
-    outcome = run_isolated(
-        ladder.coacd_pieces, torus(), search, limits=Limits(wall_s=30.0, cpu_s=1.0)
-    )
+    slow = DecomposeConfig(resolution=20000, iterations=2000, nodes=50, search_depth=4)
+    limits = Limits(wall_s=30.0, cpu_s=1.0)
+    outcome = run_isolated(ladder.coacd_pieces, torus(), 1e-4, slow, limits=limits)
     assert outcome.failure == "crashed"
     assert outcome.seconds < 30.0
 

@@ -11,7 +11,6 @@ from manifold3d import Manifold
 
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.manufacture.decompose.convex import (
-    aspect,
     depth_below,
     hull_of,
     limit_vertices,
@@ -69,10 +68,6 @@ def test_a_limited_hull_lies_inside_and_loses_little() -> None:
     assert depth_below(sphere, few.vertices).min() >= -1e-9
     assert few.volume > 0.85 * sphere.volume
     assert limit_vertices(few, 64) is few
-
-
-def test_a_board_of_two_metres_is_oblong() -> None:
-    assert aspect(hull_box((2.0, 0.5, 0.02))) == pytest.approx(100.0, rel=1e-6)
 
 
 def test_a_hull_may_fill_dents_and_slots_within_the_error_and_nothing_wider() -> None:

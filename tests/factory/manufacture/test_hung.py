@@ -99,7 +99,7 @@ STOP = box((-0.02, 0.1, 0.28), (0.02, 0.14, 0.338))
 def test_what_a_lever_scrapes_on_its_way_is_planed_off():
     tree, result = cut(LEVER, TURN, [*POST, STOP])
     assert result.refused == {}
-    assert 0.005 < max(each.depth_m for each in result.planed[PAIR]) < CONFIG.scraped_m
+    assert 0.005 < max(each.depth_m for each in result.trimmed[PAIR]) < CONFIG.scraped_m
     assert deepest(tree, result) == 0.0
 
 

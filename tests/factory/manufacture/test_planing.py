@@ -64,10 +64,10 @@ def cut(hinge, door=DOOR):
 def test_a_hinge_in_the_edge_gets_the_room_that_its_corner_needs():
     tree, result = cut(HINGE)
     assert result.refused == {}
-    planed = result.planed[("body", "door")]
+    trimmed = result.trimmed[("body", "door")]
     # Half the thickness and the clearance, less the gap that is there, off either.
-    assert 0.005 < sum(each.depth_m for each in planed) < THICK / 2 + CONFIG.clearance_m
-    assert all(each.area < CONFIG.planed_area for each in planed)
+    assert 0.005 < sum(each.depth_m for each in trimmed) < THICK / 2 + CONFIG.clearance_m
+    assert all(each.area < CONFIG.planed_area for each in trimmed)
     hulls = [list(piece.hulls) for piece in result.pieces]
     way = relative_poses(tree, 0, 1, 200)
     assert max(hull_depth(*hulls, pose) for pose in way) == 0.0

@@ -7,7 +7,7 @@ import trimesh
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls
-from asset_factory.factory.manufacture.separate.rejoin import with_hulls
+from asset_factory.factory.manufacture.separate.separate import with_hulls
 
 
 def block(size, center=(0.0, 0.0, 0.0)):

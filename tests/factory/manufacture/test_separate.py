@@ -125,7 +125,7 @@ def test_a_round_stem_that_nearly_fills_its_column_is_kept_whole_in_a_socket():
     hulls = [Hull(mesh.vertices, mesh.faces) for mesh in (column, stem)]
     result = separate(tree, pieces_of(*hulls), [("base", "mover")], CONFIG, 64)
     assert result.refused == {}
-    assert result.planed == {}
+    assert result.trimmed == {}
     assert result.pieces[1].hulls[0].volume == pytest.approx(hulls[1].volume, rel=1e-6)
     after = [list(piece.hulls) for piece in result.pieces]
     way = relative_poses(tree, 0, 1, 60)
@@ -151,7 +151,7 @@ def test_a_slot_in_something_large_may_be_as_deep_as_it_is_large():
     result = separate(tree, pieces, [("base", "mover")], CONFIG, 64)
     assert result.refused == {}
     assert result.pieces[1].hulls[0].volume == pytest.approx(mover.volume, rel=1e-6)
-    (slot,) = result.planed[("base", "mover")]
+    (slot,) = result.trimmed[("base", "mover")]
     assert slot.depth_m == pytest.approx(0.025 + CONFIG.clearance_m, abs=1e-4)
     assert slot.area < 0.01
 

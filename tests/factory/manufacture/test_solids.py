@@ -12,7 +12,7 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asset_factory.factory.manufacture.decompose.caps import capped
+from asset_factory.factory.manufacture.decompose.openings import capped
 from asset_factory.factory.manufacture.decompose.simplify import simplified
 from asset_factory.factory.manufacture.decompose.solids import (
     closes,

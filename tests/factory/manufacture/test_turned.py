@@ -15,7 +15,8 @@ from asset_factory.factory.manufacture.separate import separate
 from asset_factory.factory.manufacture.separate.along import cut_apart_along, hull_depth
 from asset_factory.factory.manufacture.separate.budget import SeenSurface
 from asset_factory.factory.manufacture.separate.hung import ROUND_SHARE, seat_roundness
-from asset_factory.factory.manufacture.separate.separate import _Bench
+from asset_factory.factory.manufacture.separate.pair import PartPair, Workpieces
+from asset_factory.factory.manufacture.separate.separate import finer_cuts
 from asset_factory.factory.manufacture.separate.turned import Turned
 from asset_factory.factory.mesh import Mesh, concatenate
 
@@ -136,23 +137,23 @@ def test_a_knob_has_a_round_seat_and_a_lid_on_a_box_has_none():
     assert 0.3 < roundness([lid], [box]) < ROUND_SHARE
 
 
+def is_turned(joint, deep_m):
+    """Whether surfaces of revolution are tried about a joint of a knob that stands so deep."""
+    hulls = [list(hulls_of([*RING, *FLOOR])), list(hulls_of(KNOB))]
+    pair = PartPair.of(Workpieces(object_of(joint), hulls, CONFIG), ("body", "knob"))
+    return any(isinstance(cut, Turned) for cut in finer_cuts(pair, deep_m))
+
+
 @pytest.mark.parametrize(
     ("off", "deep_m", "turned_free"),
     [(0.0, 0.0, True), (0.2, 0.0, False), (0.2, 0.003, True), (0.5, 0.003, False)],
 )
 def test_a_hub_that_stands_deep_in_its_holder_may_sit_less_in_the_middle(off, deep_m, turned_free):
     joint = replace(TURN, origin=off * RADIUS * ALONG)
-    bench = _Bench(
-        object_of(joint), [list(hulls_of([*RING, *FLOOR])), list(hulls_of(KNOB))], CONFIG
-    )
-    cuts = bench._finer_cuts(0, 1, deep_m)
-    assert any(isinstance(cut, Turned) for cut in cuts) == turned_free
+    assert is_turned(joint, deep_m) == turned_free
 
 
 def test_a_hub_about_a_crooked_axis_has_to_sit_in_the_middle():
     axis = rotation_about(ALONG, np.radians(10.0)) @ UP
     joint = replace(TURN, axis=axis, origin=0.2 * RADIUS * ALONG)
-    bench = _Bench(
-        object_of(joint), [list(hulls_of([*RING, *FLOOR])), list(hulls_of(KNOB))], CONFIG
-    )
-    assert not any(isinstance(cut, Turned) for cut in bench._finer_cuts(0, 1, 0.003))
+    assert not is_turned(joint, 0.003)

@@ -1,0 +1,33 @@
+"""Points spread over a surface, always the same ones."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...geometry.triangles import face_areas
+from ...mesh import FloatArray, Mesh
+
+
+def spread_over(mesh: Mesh, count: int, most_corners: int) -> FloatArray:
+    """Return points over a surface [m], shape [n, 3]: ``count`` by area, then corners.
+
+    Args:
+        mesh: none of its vertices unused.
+        count: points by area; they stand for equal areas each.
+        most_corners: of more, so many are drawn.
+
+    Returns:
+        No points over what has no area.
+    """
+    generator = np.random.default_rng(0)
+    areas = face_areas(mesh)
+    if not areas.sum() > 0.0:
+        return np.zeros((0, 3))
+    chosen = generator.choice(len(areas), count, p=areas / areas.sum())
+    u, v = np.sort(generator.random((2, count)), axis=0)
+    a, b, c = np.moveaxis(mesh.vertices[mesh.faces[chosen]], 1, 0)
+    spread = u[:, None] * a + (v - u)[:, None] * b + (1.0 - v)[:, None] * c
+    corners = mesh.vertices
+    if len(corners) > most_corners:
+        corners = corners[generator.choice(len(corners), most_corners, replace=False)]
+    return np.concatenate([spread, corners])

@@ -1,0 +1,254 @@
+"""Two parts that are to be cut apart: how they move against one another, what a cut may take."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from manifold3d import Manifold
+
+from ...articulation import Articulation, Joint
+from ...asset import Hull
+from ...config import SeparateConfig
+from ...mesh import FloatArray
+from ..hinges import is_crooked
+from ..poses import held_by, jointed, joints_between, relative_poses
+from .along import Sides, hull_depth
+from .between import poses_between
+from .budget import CutLimits, Excuse, Loss, SeenSurface, loss, overdone
+from .clip import SHEET_M
+from .hung import at_an_edge, seat_roundness, trimmed_limit, well_hung
+from .overlap import overlap_m, part_solids, thickness_m
+from .pits import stands_out_m
+
+#: Hulls that get so much deeper along a joint are in each other's way, however fat they are [m].
+HOPELESS_M = 0.06
+#: A slide no longer than this is a button, which is pressed into what it stands on [m].
+PRESSED_M = 0.012
+
+
+@dataclass(frozen=True)
+class Workpieces:
+    """All parts that are worked on.
+
+    Attributes:
+        articulation: whose parts they are.
+        hulls: of each part, object frame at rest; a cut replaces those of two.
+        config: how far a cut may go.
+    """
+
+    articulation: Articulation
+    hulls: list[list[Hull]]
+    config: SeparateConfig
+
+    @cached_property
+    def solids(self) -> tuple[Manifold | None, ...]:
+        """Return each part as one solid; ``None`` if its surfaces enclose nothing."""
+        return part_solids(self.articulation)
+
+    @cached_property
+    def surfaces(self) -> tuple[SeenSurface | None, ...]:
+        """Return what is seen of each part; ``None`` of a carrier."""
+        return tuple(
+            SeenSurface.of(self.articulation.part_mesh(index)) if len(part.faces) else None
+            for index, part in enumerate(self.articulation.parts)
+        )
+
+    def holding(self, joint: Joint) -> list[Hull]:
+        """Return the hulls of what holds the part that a joint moves."""
+        holder = held_by(self.articulation, joint.child)
+        return [] if holder is None else self.hulls[holder]
+
+
+@dataclass(frozen=True)
+class PartPair:
+    """Two of them, as they are before they are cut apart.
+
+    Attributes:
+        bodies: all parts.
+        parts: indices of the two.
+        before: the hulls of both.
+    """
+
+    bodies: Workpieces
+    parts: tuple[int, int]
+    before: Sides
+
+    @classmethod
+    def of(cls, bodies: Workpieces, names: Iterable[str]) -> PartPair:
+        """Find two parts by their names."""
+        known = [part.name for part in bodies.articulation.parts]
+        a, b = map(known.index, names)
+        return cls(bodies, (a, b), (bodies.hulls[a], bodies.hulls[b]))
+
+    @cached_property
+    def poses(self) -> list[FloatArray]:
+        """Return where the second part is as seen from the first: at rest, closed, on all ways."""
+        return relative_poses(self.bodies.articulation, *self.parts, self.bodies.config.poses)
+
+    @cached_property
+    def joints(self) -> list[Joint]:
+        """Return the joints that move one part against the other."""
+        return joints_between(self.bodies.articulation, *self.parts)
+
+    @cached_property
+    def jointed(self) -> bool:
+        """Tell whether a joint holds one part in the other."""
+        return jointed(self.bodies.articulation, *self.parts)
+
+    @cached_property
+    def holder(self) -> int:
+        """Return which of the two holds the other: 0 or 1."""
+        a, b = self.parts
+        return 0 if held_by(self.bodies.articulation, b) == a else 1
+
+    @property
+    def held(self) -> tuple[list[Hull], list[Hull]]:
+        """Return the hulls of the one that holds, and those of the other."""
+        return self.before[self.holder], self.before[1 - self.holder]
+
+    @cached_property
+    def well_hung(self) -> bool:
+        """Tell whether one holds the other, and all joints move as people hang things."""
+        return self.jointed and all(
+            well_hung(self._moved_by(joint), joint, self.bodies.holding(joint), self.bodies.config)
+            for joint in self.joints
+        )
+
+    @cached_property
+    def hinges(self) -> list[Joint]:
+        """Return the joints at an edge of what they turn, the one against the other part."""
+        turning = [joint for joint in self.joints if joint.turns]
+        # What a crooked hinge needs is not cut back: its axis is to be mended.
+        if any(is_crooked(joint.axis) for joint in turning):
+            return []
+        config = self.bodies.config
+        return [joint for joint in turning if at_an_edge(self._moved_by(joint), joint, config)]
+
+    @cached_property
+    def pressed_m(self) -> float:
+        """Return how far a button goes into what holds it [m]; 0 for all that is no button."""
+        if len(self.joints) != 1 or self.joints[0].turns or not self.jointed:
+            return 0.0
+        travel = self.joints[0].range
+        button = self.well_hung and self.goes_in_flush
+        return travel if travel <= PRESSED_M or button else 0.0
+
+    @cached_property
+    def goes_in_flush(self) -> bool:
+        """Tell whether what slides goes into the other, no deeper than it stands out of it."""
+        slides = [joint for joint in self.joints if not joint.turns]
+        spare = [stands_out_m(*self.held, joint) for joint in slides]
+        return all(-self.bodies.config.tolerance_m <= each < np.inf for each in spare)
+
+    def seat_roundness(self, joint: Joint) -> float:
+        """Return how round the seat is that a joint turns in, see :func:`~.hung.seat_roundness`."""
+        surface = self._moved_by(joint)
+        if not joint.turns or surface is None:
+            return 0.0
+        near_m = self.bodies.config.clearance_m
+        return seat_roundness(surface, joint, self.bodies.holding(joint), near_m)
+
+    def poses_between(self) -> list[FloatArray]:
+        """Return poses between those that are cut at, where a long arm needs them."""
+        mover = self.bodies.surfaces[self.parts[1 - self.holder]]
+        if mover is None or not self.jointed:
+            return []
+        count = self.bodies.config.poses
+        return poses_between(self.bodies.articulation, self.parts, mover, count)
+
+    def losses(self, after: Sides) -> list[Loss]:
+        """Return what a cut takes of each that can be seen."""
+        found = []
+        sides = zip(self.parts, self.before, after, reversed(self.before), strict=True)
+        for part, old, new, other in sides:
+            surface = self.bodies.surfaces[part]
+            if surface is not None:
+                excuse = Excuse(other, self.jointed, self.hinges)
+                found.append(loss(surface, old, new, excuse, self.bodies.config))
+        return found
+
+    def overdone(self, losses: Sequence[Loss], share: float) -> str | None:
+        """Return why a cut takes too much, or what can be seen; ``None`` if it does neither.
+
+        Args:
+            losses: of both.
+            share: the largest of either's collision volume that may go.
+        """
+        config = self.bodies.config
+        limits = CutLimits(self._free_m, self._trimmed_m + config.clearance_m, share)
+        names = [self.bodies.articulation.parts[part].name for part in self.parts]
+        # Of a closed sheet more may go than of a solid, where it hangs at an edge of its own.
+        least_m = SHEET_M if self.hinges else 0.0
+        solid = [thickness_m(self.bodies.solids[part]) > least_m for part in self.parts]
+        return overdone(names, losses, solid, limits, config)
+
+    @cached_property
+    def solid(self) -> bool:
+        """Tell whether both parts enclose something: what they overlap is known, not guessed."""
+        return all(self.bodies.solids[part] is not None for part in self.parts)
+
+    @cached_property
+    def at_rest_m(self) -> float:
+        """Return how deep the two lie in one another at rest or closed [m]."""
+        return max(map(self._depth_m, self.poses[:2]))
+
+    def hopeless(self) -> str | None:
+        """Return why two parts may not be cut apart along their joints; ``None`` if they may.
+
+        What is hidden at rest may go, and what a hinge's own edge needs to turn. What else only
+        meets along the way is the joint's fault, and a cut would hide it.
+        """
+        config = self.bodies.config
+        limit = self._trimmed_m if self.hinges else config.tolerance_m
+        limit = max(limit, self._free_m - config.clearance_m, self.pressed_m)
+        what = "meshes"
+        if not self.solid:
+            what = "hulls"
+            # Hulls say little of parts; only of what no joint holds, and far beyond all doubt.
+            limit = np.inf if self.jointed else HOPELESS_M
+        stride = max(1, (len(self.poses) - 2) // config.overlap_poses)
+        for pose in [*self.poses[2::stride], self.poses[-1]] if limit < np.inf else []:
+            deeper = self._depth_m(pose) - self.at_rest_m
+            if deeper > limit:
+                return (
+                    f"as the joint moves, their {what} penetrate {deeper * 1000:.2f} mm deeper "
+                    f"than at rest; up to {limit * 1000:g} mm may be cut away"
+                )
+        return None
+
+    def _depth_m(self, pose: FloatArray) -> float:
+        """Return how deep the solids of both, else their hulls, lie in one another [m]."""
+        one, other = (self.bodies.solids[part] for part in self.parts)
+        if one is None or other is None:
+            return hull_depth(*self.before, pose)
+        return overlap_m(one, other, pose)
+
+    @cached_property
+    def _trimmed_m(self) -> float:
+        """Return how much may be cut off the two beside their hinge [m].
+
+        A share of what their hinge holds, or of the lesser one.
+        """
+        parts = [joint.child for joint in self.hinges] or self.parts
+        sizes = [each.diagonal for part in parts if (each := self.bodies.surfaces[part])]
+        return trimmed_limit(self.bodies.config, min(sizes, default=0.0))
+
+    @cached_property
+    def _free_m(self) -> float:
+        """Return how much may be cut off the two together where nothing excuses it [m].
+
+        What a joint that is hung straight runs into on its way is cut back like the edge beside a
+        hinge; a crooked joint is to be mended.
+        """
+        config = self.bodies.config
+        if not self.well_hung:
+            return config.bared_m
+        most = min(self._trimmed_m + config.clearance_m, config.scraped_m)
+        return max(config.bared_m, most)
+
+    def _moved_by(self, joint: Joint) -> SeenSurface | None:
+        """Return what is seen of the part that a joint moves."""
+        return self.bodies.surfaces[joint.child]
