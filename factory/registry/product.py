@@ -86,7 +86,7 @@ def finished(origin: Source, intake: Intake, made: Made, stages: Stages) -> Prod
         message=verdict.reason.message if verdict.reason else "",
         license=intake.provenance.license or "",
     )
-    told = BuildReport(verdict.report, made.plan.steps)
+    told = BuildReport(verdict.report, made.plan.repairs)
     bundle = made.bundle.folder
     if verdict.status is not Status.PASSED:
         _keep_shown(bundle)

@@ -12,6 +12,7 @@ from asset_factory.sim_checks import Report
 from asset_factory.sim_checks.reasons import GPU_LIMITS
 
 from ..errors import RegistryError
+from ..manufacture.repair import Repair, older_repair
 from ..runtime.layout import REPORT
 from ..runtime.store import NOT_A_FILE, digest_bytes, folder_digests, write_json
 from .entry import Entry, lasting_data
@@ -26,11 +27,11 @@ class BuildReport:
 
     Attributes:
         report: what the judge said, or why it was not asked.
-        repairs: what was changed before the judge said so, a sentence each.
+        repairs: what was changed before the judge said so.
     """
 
     report: Report
-    repairs: tuple[str, ...] = ()
+    repairs: tuple[Repair, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -79,9 +80,11 @@ class StoredReport:
         return "yes" if codes.isdisjoint(GPU_LIMITS) else "no"
 
     @property
-    def repairs(self) -> tuple[str, ...]:
-        """Return what was repaired, a sentence each."""
-        return tuple(self.data.get("repairs", ()))
+    def repairs(self) -> tuple[Repair, ...]:
+        """Return what was repaired. Raises KeyError, TypeError or ValueError where it is none."""
+        if "changes" in self.data:
+            return tuple(Repair.from_dict(each) for each in self.data["changes"])
+        return tuple(older_repair(str(sentence)) for sentence in self.data.get("repairs", ()))
 
     @property
     def files(self) -> dict[str, str]:
@@ -123,7 +126,8 @@ def write_report(folder: Path, entry: Entry, told: BuildReport, files: Mapping[s
     data = {
         **told.report.to_dict(),
         "id": entry.id,
-        "repairs": list(told.repairs),
+        "repairs": [repair.sentence for repair in told.repairs],
+        "changes": [repair.to_dict() for repair in told.repairs],
         "files": files,
         "entry": lasting_data(entry),
     }

@@ -20,11 +20,11 @@ from .repairs.separate import separate_hulls
 from .repairs.shorten import shorten_or_freeze
 from .validate import Verdict
 
-Repair = Callable[[RepairEvidence, Plan], Plan | None]
+Repairer = Callable[[RepairEvidence, Plan], Plan | None]
 
 #: Every repair, in the order in which they are tried; a round does the first that has something to
 #: change.
-REPAIRS: tuple[Repair, ...] = (
+REPAIRS: tuple[Repairer, ...] = (
     separate_hulls,
     exclude_knuckles,
     fit_closely,
@@ -37,12 +37,12 @@ REPAIRS: tuple[Repair, ...] = (
     shorten_or_freeze,
 )
 #: Those that change collision geometry only; all others change joints or parts.
-GEOMETRY: frozenset[Repair] = frozenset(
+GEOMETRY: frozenset[Repairer] = frozenset(
     {separate_hulls, exclude_knuckles, fit_closely, build_fronts, hollow_out}
 )
 
 
-def allowed(repair: Repair, kinds: str) -> bool:
+def allowed(repair: Repairer, kinds: str) -> bool:
     """Return whether a repair is among those that were asked for, one of ``REPAIR_KINDS``."""
     return kinds == "all" or (kinds == "geometry" and repair in GEOMETRY)
 

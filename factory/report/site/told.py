@@ -12,11 +12,12 @@ from asset_factory.sim_checks.config import PenetrationConfig
 
 from ...errors import InputRejected, RegistryError
 from ...export.manifest import Manifest
+from ...manufacture.repair import Repair
 from ...pictures.camera import Viewpoint
 from ...pictures.pictures import Fault
 from ...reasons import TABLES
 from ...registry import Entry
-from ...registry.report_file import StoredReport, read_report
+from ...registry.report_file import BuildReport, StoredReport, read_report
 from ...runtime.layout import ASSETS, MANIFEST, MODEL, REJECTED, URDF
 from ...scene.described import scene_of_file
 from ...scene.glb import glb_of
@@ -27,14 +28,6 @@ from .places import Places
 MEANINGS = {code: meaning for table in TABLES.values() for code, meaning in table.items()}
 #: Findings of other readings of the input have a section of their own.
 READING = "other_reading"
-#: What a repair did, by the first word of its sentence.
-REPAIRS = {
-    "cut": "hulls cut apart",
-    "excluded": "contact excluded",
-    "gave": "joint given up",
-    "ended": "range shortened",
-    "froze": "joint frozen",
-}
 _MAX_MANIFEST = 16_000_000
 _MAX_FINDINGS = 300
 _MESSAGE = 240
@@ -69,7 +62,7 @@ class AssetPage:
         manifest: ``asset.json``; ``None`` where there is none that can be read.
         findings: the hard ones first.
         readings: sentences on other readings of the input.
-        repairs: what was changed, a sentence each.
+        repairs: what was changed.
         places: poses and points that findings lead to.
         data: for the page's script, JSON data.
         folder: link to the asset's own folder; empty without one.
@@ -84,7 +77,7 @@ class AssetPage:
     manifest: Manifest | None = None
     findings: tuple[FindingTold, ...] = ()
     readings: tuple[str, ...] = ()
-    repairs: tuple[str, ...] = ()
+    repairs: tuple[Repair, ...] = ()
     data: Mapping[str, Any] = field(default_factory=dict)
     folder: str = ""
     clearance: float | None = None
@@ -107,7 +100,6 @@ class AssetPage:
         """Return what the grid says of it, JSON data."""
         entry = self.entry
         kinds = [] if self.scene is None else [joint.kind for joint in self.scene.movable]
-        words = {REPAIRS.get(step.split(" ", 1)[0], "other") for step in self.repairs}
         picture = "" if self.scene is None else "fault" if self.fault else "closed"
         return {
             "id": entry.id,
@@ -119,7 +111,7 @@ class AssetPage:
             "joints": entry.joints,
             "hulls": entry.hulls,
             "kinds": sorted(set(kinds)),
-            "repairs": sorted(words),
+            "repairs": sorted({repair.kind.label for repair in self.repairs}),
             "license": entry.license[:60],
             "tags": list(entry.tags),
             "clearance": None if self.clearance is None else round(self.clearance, 2),
@@ -148,15 +140,15 @@ def asset_page(root: Path, entry: Entry) -> AssetPage:
     """
     place = ASSETS if entry.status is Status.PASSED else REJECTED
     folder = root / place / entry.id
-    stored = read_report(folder)
-    report = _report(stored)
+    told = _told(read_report(folder))
+    report = told.report
     page = AssetPage(
         entry,
         report,
         manifest=_manifest(folder),
         findings=_findings(report, None),
         readings=tuple(f.message for f in report.findings if f.code == READING),
-        repairs=tuple(str(step) for step in stored.repairs),
+        repairs=told.repairs,
         folder=f"../../../{place}/{entry.id}/",
     )
     model = _model(folder)
@@ -219,9 +211,9 @@ def _plain(fault: Fault | None) -> dict[str, Any] | None:
     return {"values": dict(fault.values), "point": list(fault.point) if fault.point else None}
 
 
-def _report(stored: StoredReport) -> Report:
+def _told(stored: StoredReport) -> BuildReport:
     try:
-        return stored.report
+        return stored.told
     except (KeyError, TypeError, ValueError) as error:
         raise RegistryError(f"report.json: is none ({error})") from error
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...manufacture.plan import Plan
+from ...manufacture.repair import Repair, RepairKind
 from .evidence import RepairEvidence
 
 #: What says that parts are in one another's way.
@@ -18,11 +19,11 @@ def build_fronts(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     stuck = [finding for finding in evidence.hard if finding.code in STUCK]
     if not stuck:
         return None
-    step = f"built fronts and body anew: {', '.join(sorted(evidence.spare.fronts))}"
+    built = Repair(RepairKind.FRONTS_BUILT, parts=tuple(sorted(evidence.spare.fronts)))
     return replace(
         plan,
         build_fronts=True,
         separate=frozenset(),
         exclude=frozenset(),
-        steps=(*plan.steps, step),
+        repairs=(*plan.repairs, built),
     )

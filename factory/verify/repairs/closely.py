@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...manufacture.plan import Plan
+from ...manufacture.repair import Repair, RepairKind
 from .evidence import RepairEvidence
 
 
@@ -18,5 +19,5 @@ def fit_closely(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     joined = {part for each in evidence.found("hulls_joined") for part in each.parts}
     if not any(joined.intersection(each.parts or joined) for each in evidence.hard):
         return None
-    step = f"left the hulls of {', '.join(sorted(joined))} as many as they were: joined ones failed"
-    return replace(plan, closely=True, steps=(*plan.steps, step))
+    left = Repair(RepairKind.HULLS_NOT_JOINED, parts=tuple(sorted(joined)))
+    return replace(plan, closely=True, repairs=(*plan.repairs, left))

@@ -10,7 +10,8 @@ from asset_factory.sim_checks.measurements import MeasuredContact, MeasuredJoint
 
 from ...asset import Asset
 from ...config import RepairConfig
-from ...manufacture.plan import Pair, Spare
+from ...manufacture.plan import Spare
+from ...manufacture.repair import Pair
 from ..validate import Verdict
 
 
@@ -58,8 +59,3 @@ class RepairEvidence:
 def ordered(one: str, other: str) -> Pair:
     """Return two parts, in a fixed order."""
     return (min(one, other), max(one, other))
-
-
-def listed(pairs: frozenset[Pair]) -> str:
-    """Return the pairs of parts, for a sentence."""
-    return ", ".join(f"{a} and {b}" for a, b in sorted(pairs))

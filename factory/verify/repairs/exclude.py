@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...manufacture.plan import Plan
-from .evidence import RepairEvidence, listed, ordered
+from ...manufacture.repair import Repair, RepairKind
+from .evidence import RepairEvidence, ordered
 
 
 def exclude_knuckles(evidence: RepairEvidence, plan: Plan) -> Plan | None:
@@ -14,5 +15,5 @@ def exclude_knuckles(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     new = frozenset(found) - plan.exclude
     if not new:
         return None
-    step = f"excluded from contact in MuJoCo, as other engines do: {listed(new)}"
-    return replace(plan, exclude=plan.exclude | new, steps=(*plan.steps, step))
+    excluded = Repair(RepairKind.CONTACT_EXCLUDED, pairs=tuple(sorted(new)))
+    return replace(plan, exclude=plan.exclude | new, repairs=(*plan.repairs, excluded))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...manufacture.plan import Plan
+from ...manufacture.repair import Repair, RepairKind
 from .evidence import RepairEvidence
 
 
@@ -19,5 +20,5 @@ def hollow_out(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     new = frozenset(filled) - plan.hollow
     if not new:
         return None
-    step = f"left what is open in {', '.join(sorted(new))} open: its hulls filled it"
-    return replace(plan, hollow=plan.hollow | new, steps=(*plan.steps, step))
+    left = Repair(RepairKind.LEFT_HOLLOW, parts=tuple(sorted(new)))
+    return replace(plan, hollow=plan.hollow | new, repairs=(*plan.repairs, left))

@@ -1,11 +1,12 @@
-"""Cuts apart hulls that nearly touch, even where the judge tolerates it; engines do not."""
+"""Cut apart hulls that nearly touch, even where the validator tolerates it; engines do not."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 from ...manufacture.plan import Plan
-from .evidence import RepairEvidence, listed, ordered
+from ...manufacture.repair import Repair, RepairKind
+from .evidence import RepairEvidence, ordered
 
 
 def separate_hulls(evidence: RepairEvidence, plan: Plan) -> Plan | None:
@@ -18,5 +19,5 @@ def separate_hulls(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     new = frozenset(near) - plan.separate
     if not new:
         return None
-    step = f"cut the hulls apart of {listed(new)}"
-    return replace(plan, separate=plan.separate | new, steps=(*plan.steps, step))
+    cut = Repair(RepairKind.HULLS_CUT_APART, pairs=tuple(sorted(new)))
+    return replace(plan, separate=plan.separate | new, repairs=(*plan.repairs, cut))

@@ -1,0 +1,199 @@
+"""What one repair changed of an object, as a type; its sentence is written here alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+Pair = tuple[str, str]
+
+
+class RepairKind(StrEnum):
+    """What a repair does; the values are stored in reports."""
+
+    HULLS_CUT_APART = "hulls_cut_apart"
+    CONTACT_EXCLUDED = "contact_excluded"
+    HULLS_NOT_JOINED = "hulls_not_joined"
+    GUESSED_HINGE_MOVED = "guessed_hinge_moved"
+    AXIS_STRAIGHTENED = "axis_straightened"
+    HINGE_TO_FRONT_EDGE = "hinge_to_front_edge"
+    HINGE_TO_BACK_EDGE = "hinge_to_back_edge"
+    OPENING_REVERSED = "opening_reversed"
+    CLOSED_END_PULLED_IN = "closed_end_pulled_in"
+    FRONTS_BUILT = "fronts_built"
+    FRONTS_BUILT_AT_ONCE = "fronts_built_at_once"
+    LEFT_HOLLOW = "left_hollow"
+    OVERLAPPING_GIVEN_UP = "overlapping_given_up"
+    JOINT_GIVEN_UP = "joint_given_up"
+    RANGE_SHORTENED = "range_shortened"
+    JOINT_FROZEN = "joint_frozen"
+    OTHER = "other"
+
+    @property
+    def label(self) -> str:
+        """Return the kind in a few words, for a filter."""
+        return _WORDS[self][0]
+
+
+_AFTER = "it ran into something after {free_share:.0%}"
+#: A label for filters, and the sentence over a repair's fields.
+_WORDS: Mapping[RepairKind, tuple[str, str]] = {
+    RepairKind.HULLS_CUT_APART: ("hulls cut apart", "cut the hulls apart of {pairs}"),
+    RepairKind.CONTACT_EXCLUDED: (
+        "contact excluded",
+        "excluded from contact in MuJoCo, as other engines do: {pairs}",
+    ),
+    RepairKind.HULLS_NOT_JOINED: (
+        "hulls not joined",
+        "left the hulls of {parts} as many as they were: joined ones failed",
+    ),
+    RepairKind.GUESSED_HINGE_MOVED: (
+        "hinge moved",
+        "moved {joints} to the door's front edge: it ran into something",
+    ),
+    RepairKind.AXIS_STRAIGHTENED: (
+        "axis straightened",
+        "mended {joints}: its axis was {before:.1f} degrees off a principal direction; " + _AFTER,
+    ),
+    RepairKind.HINGE_TO_FRONT_EDGE: (
+        "hinge moved",
+        "mended {joints}: its hinge was {before:.1f} mm off its panel's front edge; " + _AFTER,
+    ),
+    RepairKind.HINGE_TO_BACK_EDGE: (
+        "hinge moved",
+        "mended {joints}: its hinge was {before:.1f} mm off its panel's back edge; " + _AFTER,
+    ),
+    RepairKind.OPENING_REVERSED: (
+        "opening reversed",
+        "mended {joints}: it opened inwards and is turned round; " + _AFTER,
+    ),
+    RepairKind.CLOSED_END_PULLED_IN: (
+        "closed end pulled in",
+        "began {joints} at {after:.4g} instead of {before:.4g} {unit}: "
+        "closed further it lies in something",
+    ),
+    RepairKind.FRONTS_BUILT: ("fronts built", "built fronts and body anew: {parts}"),
+    RepairKind.FRONTS_BUILT_AT_ONCE: (
+        "fronts built",
+        "built fronts and body anew, of {before:.0f} faces: {parts}",
+    ),
+    RepairKind.LEFT_HOLLOW: (
+        "left hollow",
+        "left what is open in {parts} open: its hulls filled it",
+    ),
+    RepairKind.OVERLAPPING_GIVEN_UP: (
+        "joint given up",
+        "gave up {joints}: {part} lies in {others}",
+    ),
+    RepairKind.JOINT_GIVEN_UP: ("joint given up", "gave up {joints}: {why}"),
+    RepairKind.RANGE_SHORTENED: (
+        "range shortened",
+        "ended {joints} at {after:.4g} instead of {before:.4g} {unit}: "
+        "it runs into something there",
+    ),
+    RepairKind.JOINT_FROZEN: ("joint frozen", "froze {joints}: {why}"),
+    RepairKind.OTHER: ("other", "{why}"),
+}
+#: Reports that hold sentences alone: a repair's kind by the first words of its sentence.
+_OLDER: Mapping[str, RepairKind] = {
+    "cut the": RepairKind.HULLS_CUT_APART,
+    "excluded from": RepairKind.CONTACT_EXCLUDED,
+    "left the": RepairKind.HULLS_NOT_JOINED,
+    "left what": RepairKind.LEFT_HOLLOW,
+    "built fronts": RepairKind.FRONTS_BUILT,
+    "began ": RepairKind.CLOSED_END_PULLED_IN,
+    "moved ": RepairKind.GUESSED_HINGE_MOVED,
+    "gave up": RepairKind.JOINT_GIVEN_UP,
+    "ended ": RepairKind.RANGE_SHORTENED,
+    "froze ": RepairKind.JOINT_FROZEN,
+}
+
+
+@dataclass(frozen=True)
+class Repair:
+    """One change that a repair made.
+
+    Attributes:
+        kind: what was done.
+        parts: names of the parts that it is about; of overlapping ones, the one given up first.
+        pairs: names of two parts each, sorted.
+        joints: names of the joints that it is about, sorted.
+        before, after: the number that was changed, or how far off it was, in ``unit``; ``None``
+            where no number was.
+        unit: of both; ``faces``, ``deg``, ``mm``, ``rad`` or ``m``.
+        free_share: of its range, how far the joint went before it ran into something.
+        code: of the finding that led to it.
+        why: that finding's message.
+        told: its sentence, of a repair that a report holds as a sentence alone.
+    """
+
+    kind: RepairKind
+    parts: tuple[str, ...] = ()
+    pairs: tuple[Pair, ...] = ()
+    joints: tuple[str, ...] = ()
+    before: float | None = None
+    after: float | None = None
+    unit: str = ""
+    free_share: float | None = None
+    code: str = ""
+    why: str = ""
+    told: str = ""
+
+    @property
+    def sentence(self) -> str:
+        """Return what was done and why, for people."""
+        if self.told:
+            return self.told
+        blocked = "it runs into something"
+        if self.free_share is not None:
+            blocked += f" after {self.free_share:.0%} of its range"
+        return _WORDS[self.kind][1].format(
+            parts=", ".join(self.parts),
+            pairs=", ".join(f"{a} and {b}" for a, b in self.pairs),
+            joints=", ".join(self.joints),
+            part=self.parts[0] if self.parts else "",
+            others=" and ".join(self.parts[1:]) or "another",
+            before=self.before,
+            after=self.after,
+            unit=self.unit,
+            free_share=self.free_share,
+            why=self.why or blocked,
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return JSON data, without what is empty."""
+        return {
+            name: list(value) if isinstance(value, tuple) else value
+            for name, value in vars(self).items()
+            if value not in ((), "", None)
+        }
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Repair:
+        """Return what :meth:`to_dict` wrote. Raises KeyError, TypeError or ValueError."""
+        kind = RepairKind(data["kind"])
+
+        def number(name: str) -> float | None:
+            return float(data[name]) if name in data else None
+
+        return cls(
+            kind,
+            parts=tuple(map(str, data.get("parts", ()))),
+            pairs=tuple((str(one), str(other)) for one, other in data.get("pairs", ())),
+            joints=tuple(map(str, data.get("joints", ()))),
+            before=number("before"),
+            after=number("after"),
+            unit=str(data.get("unit", "")),
+            free_share=number("free_share"),
+            code=str(data.get("code", "")),
+            why=str(data.get("why", "")),
+            told=str(data.get("told", "")),
+        )
+
+
+def older_repair(sentence: str) -> Repair:
+    """Return a repair of which a report holds the sentence alone."""
+    kinds = (kind for words, kind in _OLDER.items() if sentence.startswith(words))
+    return Repair(next(kinds, RepairKind.OTHER), told=sentence)
