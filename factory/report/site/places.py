@@ -14,8 +14,8 @@ from asset_factory.sim_checks.measurements import (
     penetrations,
 )
 
-from ...pictures.pictures import Fault
-from ...scene.scene import SceneGraph
+from ...display.pictures import Fault
+from ...display.scene import SceneGraph
 
 #: Of a pair that is judged like any other.
 PLAIN = "plain"

@@ -10,19 +10,19 @@ from typing import Any
 from asset_factory.sim_checks import Finding, Report, Severity, Status
 from asset_factory.sim_checks.config import PenetrationConfig
 
+from ...display.camera import Viewpoint
+from ...display.described import scene_of_file
+from ...display.glb import glb_of
+from ...display.pictures import Fault
+from ...display.scene import SceneGraph
+from ...display.stored import read_model, scene_from
 from ...errors import InputRejected, RegistryError
 from ...export.manifest import Manifest
 from ...manufacture.repair import Repair
-from ...pictures.camera import Viewpoint
-from ...pictures.pictures import Fault
 from ...reasons import TABLES
 from ...registry import Entry
 from ...registry.report_file import BuildReport, StoredReport, read_report
 from ...runtime.layout import ASSETS, MANIFEST, MODEL, REJECTED, URDF
-from ...scene.described import scene_of_file
-from ...scene.glb import glb_of
-from ...scene.scene import SceneGraph
-from ...scene.stored import read_model, scene_from
 from .places import Places
 
 MEANINGS = {code: meaning for table in TABLES.values() for code, meaning in table.items()}

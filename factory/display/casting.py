@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ..mesh import FloatArray
-from ..scene.scene import SceneGraph, SceneSurface
 from .camera import Camera, box_corners
+from .scene import SceneGraph, SceneSurface
 
 FloatRows = npt.NDArray[np.float32]
 #: No triangles are cast beyond so many: a picture is too small to show them.

@@ -12,9 +12,9 @@ from scipy.ndimage import binary_dilation, uniform_filter
 
 from ..geometry.colors import linear_of, srgb_of
 from ..mesh import FloatArray
-from ..scene.scene import SceneSurface
 from .camera import Camera
 from .casting import Caster, Hits, lengths
+from .scene import SceneSurface
 
 FloatRows = npt.NDArray[np.float32]
 #: Directions of light in the camera's axes (right, up, backward), and how strong [of 1].

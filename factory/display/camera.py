@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..mesh import FloatArray
-from ..scene.scene import SceneGraph, SceneSurface
+from .scene import SceneGraph, SceneSurface
 
 #: To the side of the front, and above [rad].
 ASIDE = 0.60
