@@ -83,7 +83,7 @@ def _drafts(
     judge: Judge,
     stages: Stages,
 ) -> Iterator[ReadingDraft]:
-    """Each reading as an asset, repaired and judged without simulators, up to so much work."""
+    """Yield each hypothesis as an asset, repaired, validated without simulators, within limits."""
     limits = stages.config.readings
     refused_first: InputRejected | None = None
     done = 0

@@ -149,7 +149,7 @@ def _show(summary: Summary, command: Build) -> None:
 
 
 def _write_summary(path: Path, summary: dict[str, Any]) -> None:
-    """Raises RegistryError: the output cannot be written."""
+    """Write ``summary.json``. Raises RegistryError: the output cannot be written."""
     try:
         write_json(path, summary)
     except OSError as error:
@@ -157,7 +157,7 @@ def _write_summary(path: Path, summary: dict[str, Any]) -> None:
 
 
 def wanted_inputs(command: Build) -> tuple[Path, ...]:
-    """The inputs that the flags name. Raises ConfigError: one is missing, or bad ``--since``."""
+    """Find the inputs that flags name. Raises ConfigError: one is missing, or bad ``--since``."""
     from ..intake.discover import find_inputs
     from ..intake.mirror import local_inputs
     from ..jobs.budget import modified_since, parse_since
@@ -195,7 +195,7 @@ def idle_retries(command: Build) -> Iterator[str]:
 
 
 def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
-    """The job that the flags ask for. Raises ConfigError: a bad flag, and what would be right."""
+    """Return the job that flags ask for. Raises ConfigError: a bad flag, and what is right."""
     from ..jobs import Budget, Executor, LocalExecutor
     from ..jobs.job import Job
     from ..jobs.memory import BUILD_BYTES

@@ -123,7 +123,7 @@ def _judged(
 
 
 def _described(paths: Sequence[Path]) -> list[tuple[Path, str | None]]:
-    """Every file to judge; in a folder with their path, to tell ``asset.urdf`` from another."""
+    """Yield every file to check, named by its path where several files may share a name."""
     found: list[tuple[Path, str | None]] = []
     for path in paths:
         if path.is_dir():

@@ -89,7 +89,7 @@ def _follow_on_terminal(console: Console, results: Iterable[Result], total: int)
 
 @contextmanager
 def counted(what: str) -> Iterator[Callable[[int, int], None]]:
-    """A progress bar on a terminal, and nothing elsewhere: to be told so many done, of so many."""
+    """Show a progress bar on a terminal, nothing elsewhere; it is told how many are done."""
     console = Terminal(stderr=True)
     columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
@@ -107,7 +107,7 @@ def _sentence(result: Result) -> str:
 
 
 def print_results(summary: Summary, output: Path) -> None:
-    """The table at the end of a build, and where to look."""
+    """Print the table at the end of a build, and where to look."""
     console = terminal()
     table = Table("asset", "parts", "joints", "hulls", "verdict", "reason")
     results = sorted(summary.results, key=lambda result: result.input)
@@ -137,7 +137,7 @@ def print_results(summary: Summary, output: Path) -> None:
 
 
 def print_prediction(data: dict[str, Any]) -> None:
-    """What moves in one input, by :func:`~asset_factory.factory.articulate.predict.predict`."""
+    """Print what :func:`~asset_factory.factory.articulate.predict.predict` says of an input."""
     console = terminal()
     if "rejected" in data:
         console.print(
@@ -169,7 +169,7 @@ def _or_dash(value: float | None) -> str:
 
 
 def print_report(report: Report) -> None:
-    """One judged file: its verdict and every finding."""
+    """Print one checked file: its verdict and every finding."""
     console = terminal()
     verdict = report.status
     judges = ", ".join(report.simulators) or "no simulator"
@@ -206,7 +206,7 @@ def _finding_line(finding: Finding) -> str:
 
 
 def print_entries(entries: tuple[Entry, ...]) -> None:
-    """All rows of a registry."""
+    """Print all rows of a registry."""
     table = Table("id", "category", "parts", "joints", "hulls", "status", "reason")
     for entry in entries:
         table.add_row(
@@ -222,7 +222,7 @@ def print_entries(entries: tuple[Entry, ...]) -> None:
 
 
 def print_entry(entry: Entry, folder: Path, report: Report) -> None:
-    """One asset with its findings."""
+    """Print one asset with its findings."""
     console = terminal()
     console.print(
         f"{entry.id}: {entry.parts} parts, {entry.joints} movable joints, {entry.hulls} hulls",
@@ -233,7 +233,7 @@ def print_entry(entry: Entry, folder: Path, report: Report) -> None:
 
 
 def print_weights(info: WeightsInfo) -> None:
-    """What a checkpoint holds."""
+    """Print what a checkpoint holds."""
     console = terminal()
     console.print(f"{info.file}: {info.network}", markup=False, soft_wrap=True)
     numbers = {

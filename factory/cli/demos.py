@@ -138,7 +138,7 @@ def _settings(command: Demos) -> Settings:
 
 
 def _wanted(command: Demos) -> list[RegisteredAsset]:
-    """Selected assets, each with its selected joints, by id; raises what the flags have wrong."""
+    """Select assets and their joints, by id; raises what the flags have wrong."""
     from asset_factory import envs
     from asset_factory.envs.assets import named, read_registry
     from asset_factory.envs.selection import Wanted, select

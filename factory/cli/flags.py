@@ -83,7 +83,7 @@ class EntryFilters:
 
 
 def reading_config(reading: Reading) -> BuildConfig:
-    """The configuration from the flags. Raises ConfigError: a bad flag, and what would be right."""
+    """Return the configuration that flags ask for. Raises ConfigError: a bad flag."""
     from ..articulate.settings import require_usable
     from ..intake.orientation import parse_up
 
@@ -107,7 +107,7 @@ def reading_config(reading: Reading) -> BuildConfig:
 
 
 def simulators_named(names: str) -> tuple[str, ...]:
-    """Simulators by name, comma-separated, or ``all``. Raises ConfigError that names all known."""
+    """Parse simulators, comma-separated, or ``all``. Raises ConfigError that names all known."""
     if names == "all":
         return USUAL
     chosen = tuple(dict.fromkeys(name.strip() for name in names.split(",") if name.strip()))
@@ -120,7 +120,7 @@ def simulators_named(names: str) -> tuple[str, ...]:
 
 
 def with_repairs(config: BuildConfig, kinds: str | None) -> BuildConfig:
-    """What ``--repairs`` asks for; ``None``: as configured. Raises ConfigError: no such kind."""
+    """Set what ``--repairs`` asks for; ``None``: as configured. Raises ConfigError."""
     if kinds is None:
         return config
     if kinds not in REPAIR_KINDS:
@@ -129,7 +129,7 @@ def with_repairs(config: BuildConfig, kinds: str | None) -> BuildConfig:
 
 
 def formats_asked(names: str) -> tuple[str, ...]:
-    """Formats by name, comma-separated. Raises ConfigError: one is not there or not installed."""
+    """Parse formats, comma-separated. Raises ConfigError: one is unknown or not installed."""
     from ..export.formats import formats_named
 
     asked = tuple(name.strip() for name in names.split(",") if name.strip())
@@ -137,7 +137,7 @@ def formats_asked(names: str) -> tuple[str, ...]:
 
 
 def workers_fitting(asked: int | None, each: int) -> int:
-    """As many workers as ``--workers`` asks for, or fewer where memory is short, which it says.
+    """Return how many workers to start: ``--workers``, or fewer (said) if memory is short.
 
     Args:
         asked: ``None``: as many as there are processors.
@@ -161,7 +161,7 @@ class Effort(Protocol):
 
     @property
     def seed(self) -> int:
-        """Of the first episode."""
+        """Return the seed of the first episode."""
 
     @property
     def timeout(self) -> float:

@@ -78,7 +78,7 @@ def run(command: Nightly) -> int:
 
 
 def night_config(command: Nightly) -> NightConfig:
-    """The night that the file and the flags ask for. Raises ConfigError for what cannot be."""
+    """Return the night that file and flags ask for. Raises ConfigError for what cannot be."""
     from ..jobs.nightly import settings
 
     here = Path.cwd()

@@ -52,7 +52,7 @@ def scene_of_file(path: Path) -> SceneGraph:
 
 
 def scene_of_description(description: Description, tree: Tree) -> SceneGraph:
-    """What a description shows: its links' visuals and hulls, its joints with their ranges."""
+    """Return a description's scene: its links' visuals and hulls, its joints with ranges."""
     names = (tree.root, *(joint.child for joint in tree.order))
     place = {name: index for index, name in enumerate(names)}
     joints = []

@@ -71,7 +71,7 @@ _COUNTS = tuple(f.name for f in fields(Entry) if f.type == "int")
 
 
 def lasting_data(entry: Entry) -> dict[str, Any]:
-    """JSON data of every field that does not change while the asset stays as it is."""
+    """Return JSON data of every field that does not change while the asset stays as it is."""
     return {name: value for name, value in asdict(entry).items() if name not in MUTABLE}
 
 

@@ -65,7 +65,7 @@ class Product:
 
     @property
     def entry(self) -> Entry:
-        """Its row."""
+        """Return its row."""
         return self.result.entry
 
 
@@ -105,7 +105,7 @@ def _keep_shown(bundle: Path) -> None:
 def refused(
     origin: Source, rejection: InputRejected, stages: Stages, shown: Path | None = None
 ) -> Product:
-    """The product of an input that could not become an asset at all; ``shown`` is kept of it."""
+    """Return the product of an input that could not become an asset; ``shown`` is kept of it."""
     finding = Finding(
         code=rejection.code,
         severity=Severity.HARD,
@@ -121,7 +121,7 @@ def refused(
 def stopped(
     origin: Source, unjudged: Unjudged, stages: Stages, shown: Path | None = None
 ) -> Product:
-    """The product of an input that got no verdict, as some step hung; ``shown`` is kept of it."""
+    """Return the product of an input that got no verdict; ``shown`` is kept of it."""
     entry, told = without_asset(origin, unjudged.finding, Status.UNJUDGED)
     return _product(origin, entry, told, shown, stages)
 
@@ -145,7 +145,7 @@ def without_asset(origin: Source, finding: Finding, status: Status) -> tuple[Ent
 
 
 def _key(origin: Source, status: Status, reason: Finding | None) -> str:
-    """Key of a result not to be redone: a verdict or a crash, but not what a clock stopped."""
+    """Return the key of a result not to be redone: a verdict or a crash, not a time-out."""
     built = source_key(origin)
     if status is not Status.UNJUDGED:
         return built

@@ -65,7 +65,7 @@ class Registry:
 
     @property
     def staging(self) -> Path:
-        """Half-made things, on the same file system as ``assets``."""
+        """Return the folder of half-made things, on the same file system as ``assets``."""
         return self.root / STAGING
 
     def staging_folder(self) -> AbstractContextManager[Path]:
@@ -216,7 +216,7 @@ class Registry:
             return self._entry(connection, asset_id)
 
     def known_key(self, key: str) -> Entry | None:
-        """The entry that was made from exactly this, if there is one and its files are there."""
+        """Find the entry that was made from exactly this, if its files are there."""
         return self.known_keys((key,)).get(key)
 
     def known_keys(self, keys: Sequence[str]) -> dict[str, Entry]:
@@ -279,7 +279,7 @@ class Registry:
 
 
 def _completed(entry: Entry, told: BuildReport, content: Path) -> Entry:
-    """The entry with what its files know better. Raises RegistryError if it cannot be an entry."""
+    """Complete an entry from its files. Raises RegistryError if it cannot be an entry."""
     hard = told.report.hard
     entry = replace(entry, message=entry.message or (hard[0].message if hard else ""))
     if not entry.license and (content / MANIFEST).is_file():

@@ -53,7 +53,7 @@ class StoredReport:
 
     @property
     def told(self) -> BuildReport:
-        """As it was registered. Raises KeyError, TypeError or ValueError where it is none."""
+        """Return it as registered. Raises KeyError, TypeError or ValueError if it is none."""
         return BuildReport(self.report, self.repairs)
 
     @property
@@ -73,7 +73,7 @@ class StoredReport:
 
     @property
     def gpu_ready(self) -> str:
-        """``yes`` or ``no``: whether PhysX takes its hulls on a GPU; empty if it did not pass."""
+        """Return ``yes`` or ``no``, whether PhysX takes its hulls on a GPU; empty if not passed."""
         if not self.passed:
             return ""
         codes = {str(finding["code"]) for finding in self.data.get("findings", ())}
@@ -88,7 +88,7 @@ class StoredReport:
 
     @property
     def files(self) -> dict[str, str]:
-        """SHA-256 of the asset's files when it was registered, by path.
+        """Return SHA-256 of the asset's files when it was registered, by path.
 
         Raises:
             ValueError: it has none, or they are no digests.
@@ -135,7 +135,7 @@ def write_report(folder: Path, entry: Entry, told: BuildReport, files: Mapping[s
 
 
 def file_digests(folder: Path) -> dict[str, str]:
-    """SHA-256 of every file of an asset but its report, by path within the folder, sorted."""
+    """Return SHA-256 of every file of an asset but its report, by path, sorted."""
     return folder_digests(folder, without=(REPORT,))
 
 

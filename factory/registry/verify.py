@@ -62,7 +62,7 @@ def _ids(registry: Registry, ids: Iterable[str] | None) -> list[str]:
 
 
 def _confirmed(registry: Registry, asset_id: str) -> list[Problem]:
-    """What is wrong with an asset, seen twice: at first somebody may have been publishing it."""
+    """Return what is wrong with an asset when looked at twice: it may be being published."""
     if not list(_problems(registry, asset_id)):
         return []
     still: AbstractContextManager[object] = nullcontext()

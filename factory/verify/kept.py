@@ -28,7 +28,7 @@ class Kept:
     worst_coverage: float
 
     def to_dict(self) -> dict[str, float]:
-        """For a report."""
+        """Return the shares as a report has them."""
         return {
             "range": round(self.range, 4),
             "coverage": round(self.coverage, 4),

@@ -43,7 +43,7 @@ class Rounds:
     stages: Stages
 
     def drafted(self) -> ReadingDraft:
-        """Judged without simulators, and repaired until nothing is left to repair.
+        """Make the hypothesis, validate it without simulators, and repair while a repair applies.
 
         Raises:
             InputRejected: nothing can be made of it.
@@ -55,7 +55,7 @@ class Rounds:
     def simulated(
         self, draft: ReadingDraft, others: tuple[Finding, ...]
     ) -> tuple[ReadingDraft, Verdict]:
-        """Judged in simulators too; what these alone refuse is repaired as well.
+        """Validate a draft in simulators too, and repair what these alone refuse.
 
         Args:
             draft: that passes without simulators, or the best there is.

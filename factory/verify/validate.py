@@ -157,7 +157,7 @@ def _judged(
 
 
 def _read_again(bundle: Bundle) -> Description | None:
-    """What the URDF says, where its examination was remembered; ``None`` if it cannot be read."""
+    """Read the URDF where its examination came from the cache; ``None`` if it cannot be read."""
     from asset_factory.sim_checks.read.read import read_here
 
     try:

@@ -71,7 +71,7 @@ empty if nobody tried |
 
 
 def card_text(entries: Sequence[Entry], tables: Mapping[str, bytes]) -> str:
-    """README.md; with the hub's front matter if there are tables for it."""
+    """Return README.md, with the hub's front matter if there are tables for it."""
     splits = Counter(entry.split for entry in entries)
     text = _TEXT.format(count=len(entries), **{split: splits[split] for split in SPLITS})
     lists = (
@@ -84,7 +84,7 @@ def card_text(entries: Sequence[Entry], tables: Mapping[str, bytes]) -> str:
 
 
 def licenses_text(entries: Sequence[Entry]) -> str:
-    """LICENSES.md: how many assets are under which terms, and which ones."""
+    """Return LICENSES.md: how many assets are under which terms, and which ones."""
     by_license: dict[str, list[str]] = {}
     for entry in entries:
         by_license.setdefault(entry.license or UNKNOWN, []).append(entry.id)

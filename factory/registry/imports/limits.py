@@ -31,7 +31,7 @@ class Tally:
         self._files = self._bytes = 0
 
     def add(self, name: str, size: int) -> None:
-        """One more file. Raises RegistryError if it is too large, or one too many."""
+        """Count one more file. Raises RegistryError if it is too large, or one too many."""
         limits = self._limits
         self._files = self._files + 1
         self._bytes = self._bytes + size
@@ -48,5 +48,5 @@ class Tally:
 
     @property
     def bytes(self) -> int:
-        """So far."""
+        """Return the bytes counted so far."""
         return self._bytes

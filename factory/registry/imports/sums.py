@@ -12,7 +12,7 @@ _MAX_BYTES = 2_000_000_000
 
 
 def read_sums(path: Path) -> dict[str, str]:
-    """SHA-256 by path. Raises RegistryError if the list is not there or not one."""
+    """Read SHA-256 by path. Raises RegistryError if the list is not there or not one."""
     try:
         if path.is_symlink() or path.stat().st_size > _MAX_BYTES:
             raise RegistryError(f"{path}: is no list of digests")

@@ -165,7 +165,7 @@ def _require_no_others(registry: Registry, source: Path, arrivals: Sequence[_Arr
 
 
 def _take_note(registry: Registry, arrival: _Arrival, content: Path) -> None:
-    """Tags add up; whether a robot opened it is taken over where nobody here knows."""
+    """Add an arrival's tags; take over whether a robot opened it where nobody here knows."""
     theirs = arrival.entry
     mine = registry.entry(theirs.id)
     tags = set(mine.tags) | set(read_note(note_path(content, theirs.id)).tags)

@@ -84,7 +84,7 @@ def sources_from(data: Mapping[str, Any]) -> dict[str, tuple[int, int]]:
 
 
 def _source(path: PurePath, roots: Sequence[PurePath]) -> str:
-    """The innermost root that an input lies below; the folder of one that is named itself."""
+    """Return the innermost root that an input lies below; its folder if it is named itself."""
     above = [root for root in roots if root in path.parents]
     return str(max(above, key=lambda root: len(root.parts), default=path.parent))
 

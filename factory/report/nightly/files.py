@@ -51,7 +51,7 @@ def unfinished(nights: Path) -> tuple[str, ...]:
 
 
 def chosen_name(nights: Path, wanted: str | None) -> str:
-    """The name of the night to run: as asked for, else one that goes on, else the next number.
+    """Choose the night to run: as asked for, else an unfinished one, else the next number.
 
     Raises:
         ConfigError: a name that cannot be a folder's, or of a night that is finished.
@@ -85,7 +85,7 @@ def read_night(folder: Path) -> Night | None:
 
 
 def read_sources(folder: Path) -> dict[str, tuple[int, int]]:
-    """How many inputs of each source passed in a night, of how many; empty where none says."""
+    """Read how many inputs of each source passed, of how many; empty where none says."""
     try:
         return sources_from(json.loads((folder / SUMMARY).read_text(encoding="utf-8")))
     except (OSError, ValueError, TypeError):

@@ -102,7 +102,7 @@ def _drift(source: SourceYield, rules: SourceRules) -> str:
 
 
 def _fall(night: Night, before: Night | None, changes: Changes, over: str) -> float:
-    """By how much the share that passed fell; 0 where one of the nights has none."""
+    """Return by how much the share that passed fell; 0 where one of the nights has none."""
     old = before.yielded if before else None
     new = night.yielded
     if over == SHARED_INPUTS:

@@ -70,7 +70,7 @@ class NightlyReport:
 
 
 def summary(report: NightlyReport) -> dict[str, Any]:
-    """JSON data of ``summary.json``; the attempts are in the table."""
+    """Return JSON data of ``summary.json``; the attempts are in the table."""
     attempts = report.attempts
     changes = report.changes
     return {

@@ -87,7 +87,7 @@ class Places:
         return found
 
     def ignored(self) -> list[tuple[str, str]]:
-        """Pairs of links that may overlap: knuckles of hinges, and what the file excludes."""
+        """Return pairs of links that may overlap: hinges, and what the file excludes."""
         contacts = (contact for measured in self._measured for contact in measured.contacts)
         return sorted({contact.links for contact in contacts if contact.kind != PLAIN})
 
@@ -97,7 +97,7 @@ class Places:
         return min(gaps, default=None)
 
     def _contacts(self, joint: str | None) -> Iterator[tuple[Mapping[str, float], MeasuredContact]]:
-        """Every measured contact with its pose; first those along the joint, if one is named."""
+        """Yield every measured contact with its pose; those along a named joint first."""
         for measured in self._measured:
             for each in measured.joints:
                 if each.joint == joint:

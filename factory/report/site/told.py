@@ -156,7 +156,7 @@ def asset_page(root: Path, entry: Entry) -> AssetPage:
 
 
 def with_model(page: AssetPage, model: bytes) -> AssetPage:
-    """The page of an asset with a model: findings lead to poses, and the script has its data.
+    """Return a page with a model: findings lead to poses, and the script has its data.
 
     Args:
         page: without one.

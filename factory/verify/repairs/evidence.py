@@ -38,7 +38,7 @@ class RepairEvidence:
 
     @property
     def codes(self) -> frozenset[str]:
-        """Codes of the findings that reject."""
+        """Return the codes of the findings that reject."""
         return frozenset(finding.code for finding in self.hard)
 
     def found(self, code: str) -> Iterator[Finding]:

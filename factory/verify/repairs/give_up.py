@@ -20,7 +20,7 @@ BY_A_GUESS = MAY_GO | {
 
 
 def give_up_guesses(evidence: RepairEvidence, plan: Plan) -> Plan | None:
-    """Of any two parts that overlap at rest the one worth less; else the one least of all.
+    """Give up, of two parts that overlap at rest, the one worth less; else the guess worth least.
 
     Nothing where a finding names no guess that could go.
     """

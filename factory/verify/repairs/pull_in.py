@@ -49,7 +49,7 @@ def pull_in(evidence: RepairEvidence, plan: Plan) -> Plan | None:
 
 
 def _free_from(asset: Asset, joint: Joint, least_share: float) -> float | None:
-    """The lowest limit from which on nothing gets deeper towards it; ``None`` if there is none."""
+    """Return the lowest limit towards which nothing gets deeper; ``None`` if there is none."""
     hulls = [body.hulls for body in asset.bodies]
     for value in np.linspace(joint.lower, 0.0, TRIED + 1)[1:]:
         if (joint.upper - value) < least_share * joint.range:
