@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
-import json
-import struct
+import os
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-import numpy.typing as npt
-
+from ..config import IntakeConfig
+from ..errors import InputRejected
+from ..intake.files import InputFiles
+from ..intake.formats.gltf_document import GltfDocument
 from .glb import HULLS, REPLACED, VISUALS, flipped
-from .gltf import BINARY_CHUNK, GENERATOR, JSON_CHUNK, MAGIC
+from .gltf import GENERATOR
 from .scene import SceneGraph, SceneJoint, SceneSurface
 
 MAX_BYTES = 512 * 2**20
-_DTYPES: dict[int, np.dtype[Any]] = {
-    5126: np.dtype("<f4"),
-    5125: np.dtype("<u4"),
-    5123: np.dtype("<u2"),
-}
-_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+#: What a file of at most so many bytes may hold; it refers to no other files.
+_LIMITS = replace(IntakeConfig(), max_bytes=MAX_BYTES, max_faces=MAX_BYTES)
+_NO_FOLDER = Path(os.devnull)
 
 
 def read_model(path: Path) -> bytes:
@@ -34,93 +32,63 @@ def read_model(path: Path) -> bytes:
     if path.is_symlink() or path.stat().st_size > MAX_BYTES:
         raise ValueError(f"{path.name}: want a file of at most {MAX_BYTES} bytes")
     data = path.read_bytes()
-    document, _ = _chunks(data)
-    if document.get("asset", {}).get("generator") != GENERATOR:
+    if _document(data).json.get("asset", {}).get("generator") != GENERATOR:
         raise ValueError(f"{path.name}: is another program's")
     return data
 
 
 def scene_from(data: bytes) -> SceneGraph:
     """Return the scene of such a file's bytes. Raises ValueError."""
+    document = _document(data)
     try:
-        document, binary = _chunks(data)
-        extras = document["extras"]
+        extras = document.json["extras"]
+        links = tuple(extras["links"])
+        shown = [
+            tuple(_surfaces(document, scene, len(links))) for scene in (VISUALS, HULLS, REPLACED)
+        ]
         joints = tuple(SceneJoint(**told) for told in extras["joints"])
-        visuals = tuple(_surfaces(document, binary, VISUALS, len(extras["links"])))
-        hulls = tuple(_surfaces(document, binary, HULLS, len(extras["links"])))
-        replaced = tuple(_surfaces(document, binary, REPLACED, len(extras["links"])))
-        return SceneGraph(extras["name"], tuple(extras["links"]), joints, visuals, hulls, replaced)
-    except (KeyError, IndexError, TypeError, AttributeError, struct.error, RecursionError) as error:
+        return SceneGraph(extras["name"], links, joints, *shown)
+    except (InputRejected, OSError, LookupError, TypeError, AttributeError) as error:
         raise ValueError(f"no scene of ours: {type(error).__name__}: {error}") from error
 
 
-def _chunks(data: bytes) -> tuple[dict[str, Any], bytes]:
-    if data[:4] != MAGIC or len(data) < 20:
+def _document(data: bytes) -> GltfDocument:
+    if data[:4] != b"glTF":
         raise ValueError("no GLB file")
-    length, kind = struct.unpack_from("<II", data, 12)
-    if kind != JSON_CHUNK:
-        raise ValueError("a GLB file begins with JSON")
-    document = json.loads(data[20 : 20 + length])
-    if not isinstance(document, dict):
-        raise ValueError("a GLB file begins with an object")
-    rest = 20 + length
-    if rest == len(data):
-        return document, b""
-    size, kind = struct.unpack_from("<II", data, rest)
-    if kind != BINARY_CHUNK:
-        raise ValueError("a GLB file ends with binary data")
-    return document, data[rest + 8 : rest + 8 + size]
+    try:
+        return GltfDocument(data, _NO_FOLDER, InputFiles(_NO_FOLDER, _LIMITS))
+    except (InputRejected, LookupError, TypeError, AttributeError) as error:
+        raise ValueError(f"no GLB file: {error}") from error
 
 
-def _surfaces(
-    document: dict[str, Any], binary: bytes, which: int, links: int
-) -> Iterator[SceneSurface]:
-    if which >= len(document["scenes"]):
+def _surfaces(document: GltfDocument, which: int, links: int) -> Iterator[SceneSurface]:
+    scenes = document.items("scenes")
+    if which >= len(scenes):
         return
     # The nodes of a chain stand one after another behind their root, in the order of links.
-    first = document["scenes"][which]["nodes"][0] + 1
-    for link, node in enumerate(document["nodes"][first : first + links]):
-        if "mesh" not in node:
-            continue
-        for primitive in document["meshes"][node["mesh"]]["primitives"]:
-            yield _surface(document, binary, primitive, link)
+    first = scenes[which]["nodes"][0] + 1
+    for link in range(links):
+        node = document.get("nodes", first + link)
+        if "mesh" in node:
+            for primitive in document.get("meshes", node["mesh"])["primitives"]:
+                yield _surface(document, primitive, link)
 
 
-def _surface(
-    document: dict[str, Any], binary: bytes, primitive: dict[str, Any], link: int
-) -> SceneSurface:
-    names = primitive["attributes"]
-
-    def array(name: str) -> npt.NDArray[Any] | None:
-        return _array(document, binary, names[name]) if name in names else None
-
-    look = document["materials"][primitive["material"]]["pbrMetallicRoughness"]
+def _surface(document: GltfDocument, primitive: dict[str, Any], link: int) -> SceneSurface:
+    arrays = {name: document.accessor(at) for name, at in primitive["attributes"].items()}
+    look = document.get("materials", primitive["material"])["pbrMetallicRoughness"]
     image = None
     if "baseColorTexture" in look:
-        texture = document["textures"][look["baseColorTexture"]["index"]]
-        image = _view(document, binary, document["images"][texture["source"]]["bufferView"])
-    uv = array("TEXCOORD_0")
+        texture = document.get("textures", look["baseColorTexture"]["index"])
+        image = document.image_bytes(texture["source"])
+    uv = arrays.get("TEXCOORD_0")
     red, green, blue, alpha = (float(value) for value in look["baseColorFactor"])
     return SceneSurface(
         link,
-        _array(document, binary, names["POSITION"]),
-        _array(document, binary, primitive["indices"]).reshape(-1, 3),
-        array("NORMAL"),
+        arrays["POSITION"],
+        document.accessor(primitive["indices"]).reshape(-1, 3),
+        arrays.get("NORMAL"),
         None if uv is None else flipped(uv),
         (red, green, blue, alpha),
         image,
     )
-
-
-def _array(document: dict[str, Any], binary: bytes, index: int) -> npt.NDArray[Any]:
-    accessor = document["accessors"][index]
-    dtype = _DTYPES[accessor["componentType"]]
-    width = _WIDTHS[accessor["type"]]
-    values: npt.NDArray[Any] = np.frombuffer(_view(document, binary, accessor["bufferView"]), dtype)
-    return values.reshape(-1, width) if width > 1 else values
-
-
-def _view(document: dict[str, Any], binary: bytes, index: int) -> bytes:
-    view = document["bufferViews"][index]
-    start = view["byteOffset"]
-    return binary[start : start + view["byteLength"]]
