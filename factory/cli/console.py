@@ -29,6 +29,7 @@ from ..runtime.layout import ASSETS, REJECTED, SUMMARY
 from ..runtime.terminal import Terminal, one_line
 
 STATUS_STYLE = {Status.PASSED: "green", Status.REJECTED: "red", Status.UNJUDGED: "yellow"}
+_SEVERITIES = {Severity.HARD: ("red", "error"), Severity.SOFT: ("yellow", "warning")}
 #: In a table of more inputs than this, those known from before are left out.
 LISTED = 100
 
@@ -129,7 +130,7 @@ def print_results(summary: Summary, output: Path) -> None:
     console.print(
         f"{len(results)} inputs: {summary.count(Status.PASSED)} passed, "
         f"{summary.count(Status.REJECTED)} rejected, "
-        f"{summary.count(Status.UNJUDGED)} could not be judged.",
+        f"{summary.count(Status.UNJUDGED)} could not be validated.",
         soft_wrap=True,
     )
     where = f"Assets: {output / ASSETS}   reports of the others: {output / REJECTED}"
@@ -172,9 +173,9 @@ def print_report(report: Report) -> None:
     """Print one checked file: its verdict and every finding."""
     console = terminal()
     verdict = report.status
-    judges = ", ".join(report.simulators) or "no simulator"
+    engines = ", ".join(report.simulators) or "no simulator"
     heading = (
-        f"[{STATUS_STYLE[verdict]}]{verdict}[/] {escape(report.description)} [dim]({judges})[/]"
+        f"[{STATUS_STYLE[verdict]}]{verdict}[/] {escape(report.description)} [dim]({engines})[/]"
     )
     console.print(heading, soft_wrap=True)
     for finding in report.findings:
@@ -197,11 +198,10 @@ def _disagreement_line(disagreement: Disagreement) -> str:
 
 
 def _finding_line(finding: Finding) -> str:
-    style = "red" if finding.severity is Severity.HARD else "yellow"
+    style, severity = _SEVERITIES[finding.severity]
     where = f" [{finding.simulator}]" if finding.simulator else ""
     return (
-        f"[{style}]{finding.severity}[/] {escape(finding.code)}{escape(where)}: "
-        f"{escape(finding.message)}"
+        f"[{style}]{severity}[/] {escape(finding.code)}{escape(where)}: {escape(finding.message)}"
     )
 
 

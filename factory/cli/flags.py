@@ -1,9 +1,10 @@
-"""Flags that several commands share: how inputs are read, and who judges."""
+"""Flags that several commands share: how inputs are loaded, and what validates them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
 from typing import Annotated, Any, Protocol
 
 import tyro
@@ -15,6 +16,7 @@ from ..articulate.catalog import ARTICULATORS
 from ..config import REPAIR_KINDS, BuildConfig
 from ..errors import ConfigError
 from ..presets import load_config
+from ..registry import Entry, Registry
 from ..registry.entry import SOLVED
 from ..registry.rows import Filters
 from ..registry.split import SPLITS
@@ -24,7 +26,7 @@ DEFAULT_SIMULATORS = "sapien"
 
 
 @dataclass(frozen=True)
-class Reading:
+class InputFlags:
     """How inputs are loaded, and who says what moves."""
 
     articulator: str = "auto"
@@ -57,7 +59,7 @@ class EntryFilters:
     category: str | None = None
     """Of the object."""
     reason: str | None = None
-    """Code of the first hard finding."""
+    """Code of the first finding that is an error."""
     tag: str | None = None
     """One of their tags."""
     split: str | None = None
@@ -82,28 +84,56 @@ class EntryFilters:
         return Filters(**values)
 
 
-def reading_config(reading: Reading) -> BuildConfig:
+@dataclass(frozen=True, kw_only=True)
+class OfRegistry:
+    """A command on a registry."""
+
+    output: Path
+    """The registry's folder."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Printed:
+    """A command that prints."""
+
+    json: bool = False
+    """Print JSON."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OfPassed(OfRegistry):
+    """A command on some assets of a registry."""
+
+    wanted: tyro.conf.OmitArgPrefixes[EntryFilters] = field(default_factory=EntryFilters)
+    """Which assets; those that passed, if no status is given."""
+
+    def entries(self) -> Iterator[Entry]:
+        """Yield the assets that are wanted. Raises ConfigError for what no asset can be."""
+        return Registry(self.output).walk(self.wanted.filters(status="passed"))
+
+
+def input_config(flags: InputFlags) -> BuildConfig:
     """Return the configuration that flags ask for. Raises ConfigError: a bad flag."""
     from ..articulate.settings import require_usable
     from ..intake.orientation import parse_up
 
-    config = load_config(reading.config)
-    if reading.articulator not in ARTICULATORS:
+    config = load_config(flags.config)
+    if flags.articulator not in ARTICULATORS:
         raise ConfigError(
-            f"--articulator: no articulator {reading.articulator!r}; "
+            f"--articulator: no articulator {flags.articulator!r}; "
             f"there are {', '.join(ARTICULATORS)}"
         )
-    if reading.height is not None and not reading.height > 0.0:
-        raise ConfigError(f"--height: is {reading.height:g} m, want more than 0")
-    up = reading.up if reading.up == "auto" else parse_up(reading.up)
-    intake = replace(config.intake, up=up, height=reading.height)
+    if flags.height is not None and not flags.height > 0.0:
+        raise ConfigError(f"--height: is {flags.height:g} m, want more than 0")
+    up = flags.up if flags.up == "auto" else parse_up(flags.up)
+    intake = replace(config.intake, up=up, height=flags.height)
     asked = ("checkpoint", "features", "points", "samples")
     given: dict[str, Any] = {
-        name: getattr(reading, name) for name in asked if getattr(reading, name) is not None
+        name: getattr(flags, name) for name in asked if getattr(flags, name) is not None
     }
     particulate = replace(config.particulate, **given)
-    require_usable(particulate, needed=reading.articulator == "particulate")
-    return replace(config, articulator=reading.articulator, intake=intake, particulate=particulate)
+    require_usable(particulate, needed=flags.articulator == "particulate")
+    return replace(config, articulator=flags.articulator, intake=intake, particulate=particulate)
 
 
 def simulators_named(names: str) -> tuple[str, ...]:

@@ -12,11 +12,11 @@ from tyro.conf import Positional
 from ..errors import AssetFactoryError, ConfigError, Exit
 from ..runtime.terminal import complain, say
 from . import console
-from .flags import Reading, reading_config
+from .flags import InputFlags, Printed, input_config
 
 
 @dataclass(frozen=True)
-class Predict:
+class Predict(Printed):
     """Say what moves in one input, and how, without making anything of it.
 
     Exit codes: 0 there is an answer; 1 the input was rejected; 3 no answer came; 2 wrong usage.
@@ -26,9 +26,7 @@ class Predict:
 
     input: Positional[Path]
     """A mesh file, a URDF or an MJCF file."""
-    json: bool = False
-    """Print JSON."""
-    reading: tyro.conf.OmitArgPrefixes[Reading] = field(default_factory=Reading)
+    loading: tyro.conf.OmitArgPrefixes[InputFlags] = field(default_factory=InputFlags)
     """How it is loaded, and who says what moves."""
 
 
@@ -38,7 +36,7 @@ def run(command: Predict) -> int:
 
     from ..articulate.predict import predict
 
-    config = reading_config(command.reading)
+    config = input_config(command.loading)
     if not command.input.is_file():
         raise ConfigError(f"{command.input}: no such file; want a mesh, a URDF or an MJCF file")
     limits = Limits(wall_s=config.asset_wall_s, memory_bytes=config.asset_memory_bytes)

@@ -39,9 +39,7 @@ def print_problems(problems: Sequence[Problem], assets: int) -> None:
     for kind, _ in Counter(problem.kind for problem in problems).most_common():
         _lines(kind, [problem.message for problem in problems if problem.kind == kind])
     wrong = {problem.id for problem in problems}
-    unknown = {problem.id for problem in problems} - wrong
-    more = f"; {len(unknown)} have no digests to compare with" if unknown else ""
-    say(f"{assets} entries: {len(wrong)} are not as they were published{more}")
+    say(f"{assets} entries: {len(wrong)} are not as they were published")
 
 
 def print_freed(freed: Freed) -> None:

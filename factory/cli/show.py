@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict, dataclass
-from pathlib import Path
 
 from tyro.conf import Positional
 
@@ -13,21 +12,18 @@ from ..registry import Registry
 from ..runtime.layout import MANIFEST
 from ..runtime.terminal import say
 from . import console
+from .flags import OfRegistry, Printed
 
 
 @dataclass(frozen=True)
-class Show:
-    """Show one asset: its files, its joints, and what the judge said.
+class Show(Printed, OfRegistry):
+    """Show one asset: its files, its joints, and what the validator said.
 
     Example: factory show fridge-264720b5fe --output out/
     """
 
     id: Positional[str]
     """As `factory list` prints it."""
-    output: Path
-    """The registry's folder."""
-    json: bool = False
-    """Print JSON."""
 
 
 def run(command: Show) -> int:

@@ -6,7 +6,7 @@ import json
 import os
 import sqlite3
 from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
@@ -20,8 +20,8 @@ from .database import connected, writing
 from .entry import SOLVED, Entry, entry_from, lasting_data, require_tags
 from .folders import read_record
 from .notes import Note, fingerprint, note_path, read_note, write_note
-from .opening import make_registry, open_registry
 from .placing import place, remove, sync_tree
+from .rebuild import make_registry, open_registry
 from .report_file import BuildReport, file_digests, read_report, write_report
 from .rows import Filters
 from .staging import held_folder
@@ -153,21 +153,32 @@ class Registry:
 
     def forget(self, asset_id: str, *, except_id: str = "") -> None:
         """Drop an entry and its files, if there is one and it is not ``except_id``."""
-        places = (self.assets / asset_id, self.rejected / asset_id)
-        if asset_id == except_id or (
-            self.find(asset_id) is None and not any(place.exists() for place in places)
-        ):
+        if asset_id == except_id or (self.find(asset_id) is None and not self._folders(asset_id)):
             return
-        # The row goes first and for good: no reader is sent to a folder that is gone.
+        with self.staging_folder() as staging, self.unlisted(asset_id) as folders:
+            if folders is None:
+                return
+            for number, folder in enumerate(folders):
+                os.rename(folder, staging / str(number))
+            note_path(self.root, asset_id).unlink(missing_ok=True)
+
+    @contextmanager
+    def unlisted(self, asset_id: str) -> Iterator[list[Path] | None]:
+        """Drop a row for good, and yield the asset's folders, to be moved while nobody publishes.
+
+        ``None`` if somebody published it anew meanwhile. As the row goes first, no reader is sent
+        to a folder that is gone.
+        """
         with writing(self.root) as connection:
             rows.delete(connection, asset_id)
-        with self.staging_folder() as staging, writing(self.root) as connection:
-            if rows.find(connection, "id", asset_id) is not None:
-                return
-            for number, folder in enumerate(places):
-                if folder.exists():
-                    os.rename(folder, staging / str(number))
-            note_path(self.root, asset_id).unlink(missing_ok=True)
+        with writing(self.root) as connection:
+            again = rows.find(connection, "id", asset_id) is not None
+            yield None if again else self._folders(asset_id)
+
+    def _folders(self, asset_id: str) -> list[Path]:
+        """Return where an asset lies, with those that passed, with the others, or with both."""
+        places = (self.assets / asset_id, self.rejected / asset_id)
+        return [place for place in places if os.path.lexists(place)]
 
     def entries(
         self, *, limit: int | None = None, after: str = "", **wanted: str
