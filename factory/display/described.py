@@ -109,7 +109,7 @@ class _FileColors:
         if visual is None or visual.source_face_count != len(faces):
             return [plain_surface(link, vertices, faces, plain)]
         looks = visual.mesh
-        # The judge has the shape where the description puts it, the reader has its colours.
+        # The validator has the shape where the description puts it, the reader has its colours.
         posed = Mesh(
             vertices,
             faces[visual.source_faces],

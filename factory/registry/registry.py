@@ -1,4 +1,4 @@
-"""The registry: judged assets in, judged assets out."""
+"""The registry: validated assets in, validated assets out."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _TRIES = 3
 
 
 class Registry:
-    """A folder of judged assets. Several processes may use it at once, for reading and for writing.
+    """A folder of validated assets, which several processes may read and write at once.
 
     Args:
         root: the output directory.
@@ -245,12 +245,12 @@ class Registry:
         return (self.assets if entry.status is Status.PASSED else self.rejected) / entry.id
 
     def report(self, entry: Entry) -> Report:
-        """Return the report an entry was judged by. Raises RegistryError if it is gone."""
+        """Return the report that an entry's verdict is from. Raises RegistryError if it is gone."""
         for _ in range(_TRIES):
             try:
                 return read_report(self.folder(entry)).report
             except RegistryError:
-                # It may have been judged anew, and lie elsewhere now.
+                # It may have been validated again, and lie elsewhere now.
                 entry = self.entry(entry.id)
         return read_report(self.folder(entry)).report
 

@@ -1,4 +1,4 @@
-"""``report.json`` of an entry: what the judge said, and what it was registered as."""
+"""``report.json`` of an entry: what the validator said, and what it was registered as."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ class BuildReport:
     """What is told of one build.
 
     Attributes:
-        report: what the judge said, or why it was not asked.
-        repairs: what was changed before the judge said so.
+        report: what the validator said, or why it was not asked.
+        repairs: what was changed before the validator said so.
     """
 
     report: Report
@@ -48,7 +48,7 @@ class StoredReport:
 
     @property
     def report(self) -> Report:
-        """Return what the judge said. Raises KeyError, TypeError or ValueError where it is none."""
+        """Return what the validator said. Raises KeyError, TypeError or ValueError if none."""
         return Report.from_dict(self.data)
 
     @property

@@ -26,7 +26,7 @@ class RegistryRow:
         entry: the entry.
         digest: SHA-256 of the report.json that it was read from.
         gpu_ready: ``yes`` or ``no``: whether PhysX takes its hulls on a GPU; empty if it was not
-            judged, or did not pass.
+            validated, or did not pass.
     """
 
     entry: Entry

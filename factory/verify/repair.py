@@ -53,11 +53,11 @@ def next_plan(
     """Return what to change so that the asset becomes better, if anything can.
 
     Args:
-        verdict: of the round just judged.
+        verdict: of the round just validated.
         plan: which that round was made by.
         config: how far repairs may go.
         spare: what the object is still worth having without.
-        asset: that was judged; without it no joint is mended.
+        asset: that was validated; without it no joint is mended.
 
     Returns:
         The plan for another round, or ``None`` when nothing is left that could help.

@@ -36,7 +36,7 @@ _TEXT = """\
 Objects with moving parts, each in a folder of its own under `assets/`: `asset.urdf`, \
 `asset.xml` (MJCF), collision and
 visual meshes, `asset.json` (masses, joints, where a robot can take hold) and \
-`report.json` (what the judge measured).
+`report.json` (what the validator measured).
 Metres, kilograms, radians, z up; joint value 0 is the pose of the input, and lower limits \
 are closed.
 

@@ -123,7 +123,7 @@ class Night:
 
     @property
     def attempted(self) -> int:
-        """Return the inputs with a verdict, or without one because they could not be judged."""
+        """Return the inputs with a verdict, or without one because they could not be validated."""
         return self.passed + self.rejected + self.unjudged
 
     @property

@@ -73,7 +73,7 @@ def concerns(
         if source.fell:
             yield Concern(_drift(source, failure.source), YIELD_FELL)
     if anew := night.unjudged - night.crashed:
-        sentence = f"{counted(anew, 'input')} could not be judged."
+        sentence = f"{counted(anew, 'input')} could not be validated."
         yield Concern(sentence, Exit.UNJUDGED if failure.unjudged else Exit.OK)
     if night.crashed:
         inputs = counted(night.crashed, "input")

@@ -17,7 +17,7 @@ from asset_factory.sim_checks.measurements import (
 from ...display.pictures import Fault
 from ...display.scene import SceneGraph
 
-#: Of a pair that is judged like any other.
+#: Of a pair that is checked like any other.
 PLAIN = "plain"
 
 
@@ -32,7 +32,7 @@ class SweepMark:
 
 @dataclass(frozen=True)
 class SweepTold:
-    """What the judge measured along one joint.
+    """What the validator measured along one joint.
 
     Attributes:
         marks: of the pairs that come near.
@@ -141,4 +141,4 @@ def _tells(finding: Finding, contact: MeasuredContact) -> bool:
 
 def _told(contact: MeasuredContact) -> str:
     state = "apart" if contact.depth_mm < 0.0 else "into each other"
-    return f"{' and '.join(contact.links)}: {abs(contact.depth_mm):.2f} mm {state}, as judged"
+    return f"{' and '.join(contact.links)}: {abs(contact.depth_mm):.2f} mm {state}, as measured"

@@ -26,8 +26,8 @@ from ...runtime.layout import ASSETS, MANIFEST, MODEL, REJECTED, URDF
 from .places import Places
 
 MEANINGS = {code: meaning for table in TABLES.values() for code, meaning in table.items()}
-#: Findings of other readings of the input have a section of their own.
-READING = "other_reading"
+#: Findings on other hypotheses of the input have a section of their own.
+OTHER_HYPOTHESIS = "other_reading"
 _MAX_MANIFEST = 16_000_000
 _MAX_FINDINGS = 300
 _MESSAGE = 240
@@ -46,7 +46,7 @@ class FindingGroup:
     """Findings of one code and severity, and what the code means."""
 
     code: str
-    hard: bool
+    error: bool
     meaning: str
     findings: tuple[FindingTold, ...]
 
@@ -57,11 +57,11 @@ class AssetPage:
 
     Attributes:
         entry: its row; of a file that is only viewed, one made for it.
-        report: what the judge said.
+        report: what the validator said.
         scene: what is shown; ``None`` where there is no model.
         manifest: ``asset.json``; ``None`` where there is none that can be read.
-        findings: the hard ones first.
-        readings: sentences on other readings of the input.
+        findings: errors first.
+        hypotheses: sentences on other hypotheses of the input.
         repairs: what was changed.
         places: poses and points that findings lead to.
         data: for the page's script, JSON data.
@@ -76,7 +76,7 @@ class AssetPage:
     scene: SceneGraph | None = None
     manifest: Manifest | None = None
     findings: tuple[FindingTold, ...] = ()
-    readings: tuple[str, ...] = ()
+    hypotheses: tuple[str, ...] = ()
     repairs: tuple[Repair, ...] = ()
     data: Mapping[str, Any] = field(default_factory=dict)
     folder: str = ""
@@ -89,11 +89,11 @@ class AssetPage:
         """Return the findings by severity and code, in the order in which they were found."""
         found: dict[tuple[bool, str], list[FindingTold]] = {}
         for told in self.findings:
-            hard = told.finding.severity is Severity.HARD
-            found.setdefault((hard, told.finding.code), []).append(told)
+            error = told.finding.severity is Severity.HARD
+            found.setdefault((error, told.finding.code), []).append(told)
         return tuple(
-            FindingGroup(code, hard, MEANINGS.get(code, ""), tuple(group))
-            for (hard, code), group in found.items()
+            FindingGroup(code, error, MEANINGS.get(code, ""), tuple(group))
+            for (error, code), group in found.items()
         )
 
     def row(self) -> dict[str, Any]:
@@ -147,7 +147,7 @@ def asset_page(root: Path, entry: Entry) -> AssetPage:
         report,
         manifest=_manifest(folder),
         findings=_findings(report, None),
-        readings=tuple(f.message for f in report.findings if f.code == READING),
+        hypotheses=tuple(f.message for f in report.findings if f.code == OTHER_HYPOTHESIS),
         repairs=told.repairs,
         folder=f"../../../{place}/{entry.id}/",
     )
@@ -192,12 +192,12 @@ def with_model(page: AssetPage, model: bytes) -> AssetPage:
 def _findings(report: Report, places: Places | None) -> tuple[FindingTold, ...]:
     told = []
     number = 0
-    # The judge says the same of the URDF and of the MJCF.
+    # The validator says the same of the URDF and of the MJCF.
     once = {(each.code, each.message): each for each in reversed(report.findings)}
     findings = (each for each in report.findings if each is once[each.code, each.message])
     ordered = sorted(findings, key=lambda finding: finding.severity is not Severity.HARD)
     for finding in ordered[:_MAX_FINDINGS]:
-        if finding.code == READING:
+        if finding.code == OTHER_HYPOTHESIS:
             continue
         found = places is not None and places.of(finding) is not None
         told.append(FindingTold(finding, number if found else -1))

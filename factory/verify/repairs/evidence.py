@@ -17,13 +17,13 @@ from ..validate import Verdict
 
 @dataclass(frozen=True)
 class RepairEvidence:
-    """Of the round just judged.
+    """What a repair knows of the round just validated.
 
     Attributes:
         verdict: what was found.
         config: how far repairs may go.
         spare: what the object is still worth having without.
-        asset: that was judged; ``None`` where only its verdict is known.
+        asset: that was validated; ``None`` where only its verdict is known.
     """
 
     verdict: Verdict
@@ -42,7 +42,7 @@ class RepairEvidence:
         return frozenset(finding.code for finding in self.hard)
 
     def found(self, code: str) -> Iterator[Finding]:
-        """Yield the findings of one code, hard and soft."""
+        """Yield the findings of one code, errors and warnings."""
         return (each for each in self.verdict.report.findings if each.code == code)
 
     def contacts(self) -> Iterator[MeasuredContact]:
