@@ -23,6 +23,7 @@ from asset_factory.sim_checks import Disagreement, Finding, Report, Severity, St
 
 from ..models.weights.checkpoint import WeightsInfo
 from ..registry import Entry
+from ..registry.report_file import BuildReport
 from ..registry.result import Result
 from ..report.summary import Summary
 from ..runtime.layout import ASSETS, REJECTED, SUMMARY
@@ -221,15 +222,17 @@ def print_entries(entries: tuple[Entry, ...]) -> None:
     terminal().print(table)
 
 
-def print_entry(entry: Entry, folder: Path, report: Report) -> None:
-    """Print one asset with its findings."""
+def print_entry(entry: Entry, folder: Path, told: BuildReport) -> None:
+    """Print one asset with its findings and repairs."""
     console = terminal()
     console.print(
         f"{entry.id}: {entry.parts} parts, {entry.joints} movable joints, {entry.hulls} hulls",
         markup=False,
     )
     console.print(str(folder), markup=False, soft_wrap=True)
-    print_report(report)
+    print_report(told.report)
+    for repair in told.repairs:
+        console.print(f"  [green]repair[/] {escape(repair.sentence)}", soft_wrap=True)
 
 
 def print_weights(info: WeightsInfo) -> None:

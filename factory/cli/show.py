@@ -30,6 +30,7 @@ def run(command: Show) -> int:
     """Print one row and its report; returns the exit code."""
     registry = Registry(command.output)
     entry = registry.entry(command.id)
+    told = registry.told(entry)
     if command.json:
         folder = registry.folder(entry)
         manifest = folder / MANIFEST
@@ -37,9 +38,10 @@ def run(command: Show) -> int:
             **asdict(entry),
             "folder": str(folder),
             "manifest": json.loads(manifest.read_text()) if manifest.is_file() else None,
-            "report": registry.report(entry).to_dict(),
+            "report": told.report.to_dict(),
+            "changes": [repair.to_dict() for repair in told.repairs],
         }
         say(json.dumps(data, indent=2))
     else:
-        console.print_entry(entry, registry.folder(entry), registry.report(entry))
+        console.print_entry(entry, registry.folder(entry), told)
     return Exit.OK

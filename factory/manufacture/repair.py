@@ -10,92 +10,85 @@ from typing import Any
 Pair = tuple[str, str]
 
 
+_AFTER = "; it ran into something after {free_share:.0%}"
+
+
 class RepairKind(StrEnum):
-    """What a repair does; the values are stored in reports."""
+    """What a repair does; the values are stored in reports.
 
-    HULLS_CUT_APART = "hulls_cut_apart"
-    CONTACT_EXCLUDED = "contact_excluded"
-    HULLS_NOT_JOINED = "hulls_not_joined"
-    GUESSED_HINGE_MOVED = "guessed_hinge_moved"
-    AXIS_STRAIGHTENED = "axis_straightened"
-    HINGE_TO_FRONT_EDGE = "hinge_to_front_edge"
-    HINGE_TO_BACK_EDGE = "hinge_to_back_edge"
-    OPENING_REVERSED = "opening_reversed"
-    CLOSED_END_PULLED_IN = "closed_end_pulled_in"
-    FRONTS_BUILT = "fronts_built"
-    FRONTS_BUILT_AT_ONCE = "fronts_built_at_once"
-    LEFT_HOLLOW = "left_hollow"
-    OVERLAPPING_GIVEN_UP = "overlapping_given_up"
-    JOINT_GIVEN_UP = "joint_given_up"
-    RANGE_SHORTENED = "range_shortened"
-    JOINT_FROZEN = "joint_frozen"
-    OTHER = "other"
+    Attributes:
+        label: the kind in a few words, for a filter.
+        sentence: what is told of a repair, over its fields.
+    """
 
-    @property
-    def label(self) -> str:
-        """Return the kind in a few words, for a filter."""
-        return _WORDS[self][0]
+    label: str
+    sentence: str
 
+    def __new__(cls, value: str, label: str, sentence: str) -> RepairKind:
+        """Return the kind of one stored value."""
+        kind = str.__new__(cls, value)
+        kind._value_ = value
+        kind.label = label
+        kind.sentence = sentence
+        return kind
 
-_AFTER = "it ran into something after {free_share:.0%}"
-#: A label for filters, and the sentence over a repair's fields.
-_WORDS: Mapping[RepairKind, tuple[str, str]] = {
-    RepairKind.HULLS_CUT_APART: ("hulls cut apart", "cut the hulls apart of {pairs}"),
-    RepairKind.CONTACT_EXCLUDED: (
-        "contact excluded",
+    HULLS_CUT_APART = "hulls_cut_apart", "hulls cut apart", "cut the hulls apart of {pairs}"
+    CONTACT_EXCLUDED = (
+        *("contact_excluded", "contact excluded"),
         "excluded from contact in MuJoCo, as other engines do: {pairs}",
-    ),
-    RepairKind.HULLS_NOT_JOINED: (
-        "hulls not joined",
+    )
+    HULLS_NOT_JOINED = (
+        *("hulls_not_joined", "hulls not joined"),
         "left the hulls of {parts} as many as they were: joined ones failed",
-    ),
-    RepairKind.GUESSED_HINGE_MOVED: (
-        "hinge moved",
+    )
+    GUESSED_HINGE_MOVED = (
+        *("guessed_hinge_moved", "hinge moved"),
         "moved {joints} to the door's front edge: it ran into something",
-    ),
-    RepairKind.AXIS_STRAIGHTENED: (
-        "axis straightened",
-        "mended {joints}: its axis was {before:.1f} degrees off a principal direction; " + _AFTER,
-    ),
-    RepairKind.HINGE_TO_FRONT_EDGE: (
-        "hinge moved",
-        "mended {joints}: its hinge was {before:.1f} mm off its panel's front edge; " + _AFTER,
-    ),
-    RepairKind.HINGE_TO_BACK_EDGE: (
-        "hinge moved",
-        "mended {joints}: its hinge was {before:.1f} mm off its panel's back edge; " + _AFTER,
-    ),
-    RepairKind.OPENING_REVERSED: (
-        "opening reversed",
-        "mended {joints}: it opened inwards and is turned round; " + _AFTER,
-    ),
-    RepairKind.CLOSED_END_PULLED_IN: (
-        "closed end pulled in",
+    )
+    AXIS_STRAIGHTENED = (
+        *("axis_straightened", "axis straightened"),
+        "mended {joints}: its axis was {before:.1f} degrees off a principal direction" + _AFTER,
+    )
+    HINGE_TO_FRONT_EDGE = (
+        *("hinge_to_front_edge", "hinge moved"),
+        "mended {joints}: its hinge was {before:.1f} mm off its panel's front edge" + _AFTER,
+    )
+    HINGE_TO_BACK_EDGE = (
+        *("hinge_to_back_edge", "hinge moved"),
+        "mended {joints}: its hinge was {before:.1f} mm off its panel's back edge" + _AFTER,
+    )
+    OPENING_REVERSED = (
+        *("opening_reversed", "opening reversed"),
+        "mended {joints}: it opened inwards and is turned round" + _AFTER,
+    )
+    CLOSED_END_PULLED_IN = (
+        *("closed_end_pulled_in", "closed end pulled in"),
         "began {joints} at {after:.4g} instead of {before:.4g} {unit}: "
         "closed further it lies in something",
-    ),
-    RepairKind.FRONTS_BUILT: ("fronts built", "built fronts and body anew: {parts}"),
-    RepairKind.FRONTS_BUILT_AT_ONCE: (
-        "fronts built",
+    )
+    FRONTS_BUILT = "fronts_built", "fronts built", "built fronts and body anew: {parts}"
+    FRONTS_BUILT_AT_ONCE = (
+        *("fronts_built_at_once", "fronts built"),
         "built fronts and body anew, of {before:.0f} faces: {parts}",
-    ),
-    RepairKind.LEFT_HOLLOW: (
-        "left hollow",
+    )
+    LEFT_HOLLOW = (
+        *("left_hollow", "left hollow"),
         "left what is open in {parts} open: its hulls filled it",
-    ),
-    RepairKind.OVERLAPPING_GIVEN_UP: (
-        "joint given up",
+    )
+    OVERLAPPING_GIVEN_UP = (
+        *("overlapping_given_up", "joint given up"),
         "gave up {joints}: {part} lies in {others}",
-    ),
-    RepairKind.JOINT_GIVEN_UP: ("joint given up", "gave up {joints}: {why}"),
-    RepairKind.RANGE_SHORTENED: (
-        "range shortened",
+    )
+    JOINT_GIVEN_UP = "joint_given_up", "joint given up", "gave up {joints}: {why}"
+    RANGE_SHORTENED = (
+        *("range_shortened", "range shortened"),
         "ended {joints} at {after:.4g} instead of {before:.4g} {unit}: "
         "it runs into something there",
-    ),
-    RepairKind.JOINT_FROZEN: ("joint frozen", "froze {joints}: {why}"),
-    RepairKind.OTHER: ("other", "{why}"),
-}
+    )
+    JOINT_FROZEN = "joint_frozen", "joint frozen", "froze {joints}: {why}"
+    OTHER = "other", "other", "{why}"
+
+
 #: Reports that hold sentences alone: a repair's kind by the first words of its sentence.
 _OLDER: Mapping[str, RepairKind] = {
     "cut the": RepairKind.HULLS_CUT_APART,
@@ -149,7 +142,7 @@ class Repair:
         blocked = "it runs into something"
         if self.free_share is not None:
             blocked += f" after {self.free_share:.0%} of its range"
-        return _WORDS[self.kind][1].format(
+        return self.kind.sentence.format(
             parts=", ".join(self.parts),
             pairs=", ".join(f"{a} and {b}" for a, b in self.pairs),
             joints=", ".join(self.joints),

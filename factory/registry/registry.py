@@ -246,13 +246,17 @@ class Registry:
 
     def report(self, entry: Entry) -> Report:
         """Return the report that an entry's verdict is from. Raises RegistryError if it is gone."""
+        return self.told(entry).report
+
+    def told(self, entry: Entry) -> BuildReport:
+        """Return an entry's report and repairs. Raises RegistryError if they are gone."""
         for _ in range(_TRIES):
             try:
-                return read_report(self.folder(entry)).report
+                return read_report(self.folder(entry)).told
             except RegistryError:
                 # It may have been validated again, and lie elsewhere now.
                 entry = self.entry(entry.id)
-        return read_report(self.folder(entry)).report
+        return read_report(self.folder(entry)).told
 
     def _entry(self, connection: sqlite3.Connection, asset_id: str) -> Entry:
         entry = rows.find(connection, "id", asset_id)

@@ -27,7 +27,12 @@ def is_url(text: str) -> bool:
 
 
 def shown(url: str) -> str:
-    """Return a URL without what may be a secret: a name and a password, a query, a fragment."""
+    """Return a URL without what may be a secret: a name and a password, a query, a fragment.
+
+    A path stays as it is.
+    """
+    if not is_url(url):
+        return url
     scheme, _, rest = url.partition("://")
     place, slash, path = re.split(r"[?#]", rest, maxsplit=1)[0].partition("/")
     return f"{scheme}://{place.rpartition('@')[2]}{slash}{path}"
