@@ -116,14 +116,7 @@ def print_results(summary: Summary, output: Path) -> None:
     listed = results if len(results) <= LISTED else [each for each in results if not each.known]
     for result in listed:
         entry = result.entry
-        table.add_row(
-            escape(entry.id),
-            str(entry.parts),
-            str(entry.joints),
-            str(entry.hulls),
-            f"[{STATUS_STYLE[entry.status]}]{entry.status}[/]",
-            escape(entry.message),
-        )
+        table.add_row(escape(entry.id), *_told(entry), escape(entry.message))
     if listed:
         console.print(table)
     if len(listed) < len(results):
@@ -210,16 +203,14 @@ def print_entries(entries: tuple[Entry, ...]) -> None:
     """Print all rows of a registry."""
     table = Table("id", "category", "parts", "joints", "hulls", "status", "reason")
     for entry in entries:
-        table.add_row(
-            escape(entry.id),
-            escape(entry.category),
-            str(entry.parts),
-            str(entry.joints),
-            str(entry.hulls),
-            f"[{STATUS_STYLE[entry.status]}]{entry.status}[/]",
-            escape(entry.reason),
-        )
+        table.add_row(escape(entry.id), escape(entry.category), *_told(entry), escape(entry.reason))
     terminal().print(table)
+
+
+def _told(entry: Entry) -> tuple[str, ...]:
+    """Return an entry's counts and its coloured status, for a table."""
+    counts = (entry.parts, entry.joints, entry.hulls)
+    return *map(str, counts), f"[{STATUS_STYLE[entry.status]}]{entry.status}[/]"
 
 
 def print_entry(entry: Entry, folder: Path, told: BuildReport) -> None:

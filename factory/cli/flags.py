@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
+from importlib import import_module
 from pathlib import Path
-from typing import Annotated, Any, Protocol
+from typing import Annotated, Any, Protocol, TypeVar
 
 import tyro
 
@@ -14,7 +15,7 @@ from asset_factory.sim_checks.simulators.catalog import SIMULATORS, USUAL
 
 from ..articulate.catalog import ARTICULATORS
 from ..config import REPAIR_KINDS, BuildConfig
-from ..errors import ConfigError
+from ..errors import AssetFactoryError, ConfigError
 from ..presets import load_config
 from ..registry import Entry, Registry
 from ..registry.entry import SOLVED
@@ -23,6 +24,7 @@ from ..registry.split import SPLITS
 from ..runtime.terminal import complain
 
 DEFAULT_SIMULATORS = "sapien"
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -184,6 +186,35 @@ def workers_fitting(asked: int | None, each: int) -> int:
     if sentence is not None:
         complain(f"factory: {sentence}")
     return workers
+
+
+def in_own_process(
+    function: Callable[..., T], file: Path, *others: object, limits: BuildConfig
+) -> T | None:
+    """Call a function of a file in a child process, within the limits on one asset.
+
+    Returns what it returned; ``None`` where no answer came, which is said.
+    Raises AssetFactoryError: what it raised.
+    """
+    from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
+
+    bounds = Limits(wall_s=limits.asset_wall_s, memory_bytes=limits.asset_memory_bytes)
+    outcome = run_isolated(function, file, *others, limits=bounds)
+    if isinstance(outcome.error, AssetFactoryError):
+        raise outcome.error
+    if outcome.value is None:
+        complain(f"factory: {file.name}: {outcome.detail}")
+    return outcome.value
+
+
+def require_maniskill(purpose: str, *modules: str) -> None:
+    """Raise ConfigError unless ManiSkill, and further modules, can be imported."""
+    try:
+        for module in ("mani_skill", *modules):
+            import_module(module)
+    except ImportError as error:
+        hint = "pip install 'asset-factory[maniskill]'"
+        raise ConfigError(f"{purpose} ManiSkill ({error}); {hint}") from error
 
 
 class Effort(Protocol):

@@ -89,6 +89,7 @@ class RepairKind(StrEnum):
     OTHER = "other", "other", "{why}"
 
 
+_KINDS: Mapping[str, RepairKind] = {kind.value: kind for kind in RepairKind}
 #: Reports that hold sentences alone: a repair's kind by the first words of its sentence.
 _OLDER: Mapping[str, RepairKind] = {
     "cut the": RepairKind.HULLS_CUT_APART,
@@ -166,7 +167,7 @@ class Repair:
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Repair:
         """Return what :meth:`to_dict` wrote. Raises KeyError, TypeError or ValueError."""
-        kind = RepairKind(data["kind"])
+        kind = _KINDS[data["kind"]]
 
         def number(name: str) -> float | None:
             return float(data[name]) if name in data else None

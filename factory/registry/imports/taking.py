@@ -18,9 +18,7 @@ from ..folders import read_record
 from ..notes import note_path, read_note
 from ..registry import Registry
 from ..report_file import BuildReport, file_digests, read_report
-from .limits import ImportLimits
-from .sums import read_sums
-from .unpacking import unpack
+from .unpacking import ImportLimits, read_sums, unpack
 
 _NAMED = 5
 

@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import PurePath
 from statistics import median
-from typing import Any
 
 from .night import NightResult, share
 
@@ -71,16 +70,6 @@ def source_yields(
         _against(SourceYield(source, sum(passed), len(passed)), earlier, rules)
         for source, passed in sorted(groups.items())
     )
-
-
-def sources_from(data: Mapping[str, Any]) -> dict[str, tuple[int, int]]:
-    """Return what a night's summary says of its sources; empty where that is nothing."""
-    try:
-        return {
-            str(row["source"]): (int(row["passed"]), int(row["tried"])) for row in data["sources"]
-        }
-    except (KeyError, TypeError, ValueError):
-        return {}
 
 
 def _source(path: PurePath, roots: Sequence[PurePath]) -> str:

@@ -6,10 +6,10 @@ import json
 import re
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 from ...errors import ConfigError
 from ...runtime.store import write_json, write_whole
-from .drift import sources_from
 from .night import Night, night_from
 from .render import night_page, nights_page
 from .report import NightlyReport, message, summary
@@ -77,9 +77,8 @@ def next_name(nights: Path) -> str:
 def read_night(folder: Path) -> Night | None:
     """Return the figures of one night; ``None`` where there are none to be read."""
     try:
-        data = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
         # The folder's own name counts: people rename folders, and links must still lead there.
-        return night_from({**data["night"], "name": folder.name})
+        return night_from({**_summary(folder)["night"], "name": folder.name})
     except (OSError, ValueError, KeyError, TypeError):
         return None
 
@@ -87,9 +86,14 @@ def read_night(folder: Path) -> Night | None:
 def read_sources(folder: Path) -> dict[str, tuple[int, int]]:
     """Read how many inputs of each source passed, of how many; empty where none says."""
     try:
-        return sources_from(json.loads((folder / SUMMARY).read_text(encoding="utf-8")))
-    except (OSError, ValueError, TypeError):
+        told = _summary(folder)["sources"]
+        return {str(row["source"]): (int(row["passed"]), int(row["tried"])) for row in told}
+    except (OSError, ValueError, KeyError, TypeError):
         return {}
+
+
+def _summary(folder: Path) -> Any:
+    return json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
 
 
 def stored_nights(nights: Path) -> tuple[Night, ...]:
