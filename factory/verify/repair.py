@@ -7,16 +7,18 @@ from collections.abc import Callable
 from ..asset import Asset
 from ..config import RepairConfig
 from ..manufacture.plan import Plan, Spare
-from .repairs.build_fronts import build_fronts
-from .repairs.closely import fit_closely
 from .repairs.evidence import RepairEvidence
-from .repairs.exclude import exclude_knuckles
+from .repairs.geometry import (
+    build_fronts,
+    exclude_knuckles,
+    fit_closely,
+    hollow_out,
+    separate_hulls,
+)
 from .repairs.give_up import give_up_guesses
-from .repairs.hollow import hollow_out
 from .repairs.mend import mend_joints
 from .repairs.pull_in import pull_in
 from .repairs.rehang import rehang_doors
-from .repairs.separate import separate_hulls
 from .repairs.shorten import shorten_or_freeze
 from .validate import Verdict
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -25,21 +25,11 @@ FREE_M = 0.0005
 #: What a hinge at an edge leaves in the way the cut that follows may plane off, for hulls were cut
 #: apart for another axis [m].
 PLANED_M = 0.013
-
-
-@dataclass(frozen=True)
-class JointChange:
-    """One small change of a joint.
-
-    Attributes:
-        joint: as changed.
-        repair: what was changed.
-        most_m: how deep it may drive hulls into one another [m].
-    """
-
-    joint: Joint
-    repair: Repair
-    most_m: float = FREE_M
+#: Kinds that move a hinge to an edge.
+TO_EDGE = {
+    RepairKind.HINGE_TO_FRONT_EDGE: at_front_edge,
+    RepairKind.HINGE_TO_BACK_EDGE: at_back_edge,
+}
 
 
 def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
@@ -65,49 +55,47 @@ def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         small = joint.name in evidence.spare.joints
         found = _freed(asset, joint, 1.0 if small else share)
         if found is not None:
-            joints[joint.name] = found.joint
-            repairs.append(replace(found.repair, free_share=share))
+            joints[joint.name], repair = found
+            repairs.append(replace(repair, free_share=share))
     if len(joints) == len(plan.mended):
         return None
     return replace(plan, mended=joints, repairs=tuple(repairs))
 
 
-def _freed(asset: Asset, joint: Joint, share: float) -> JointChange | None:
+def _freed(asset: Asset, joint: Joint, share: float) -> tuple[Joint, Repair] | None:
     """Return the first change that frees the joint all along, else the one that leaves least."""
     hulls = [body.hulls for body in asset.bodies]
     least = np.inf
     best = None
-    for change in _changes(asset.articulation, joint, share):
-        swept = swept_m(asset.articulation, hulls, change.joint, change.most_m)
+    for changed, repair in _changes(asset.articulation, joint, share):
+        most_m = PLANED_M if repair.kind in TO_EDGE else FREE_M
+        swept = swept_m(asset.articulation, hulls, changed, most_m)
         if swept <= FREE_M:
-            return change
-        if swept <= change.most_m and swept < least:
+            return changed, repair
+        if swept <= most_m and swept < least:
             least = swept
-            best = change
+            best = changed, repair
     return best
 
 
-def _changes(articulation: Articulation, joint: Joint, share: float) -> Iterator[JointChange]:
+def _changes(
+    articulation: Articulation, joint: Joint, share: float
+) -> Iterator[tuple[Joint, Repair]]:
     """Yield small changes, the least first."""
-    joints = (joint.name,)
+    names = (joint.name,)
     straight = _straightened(joint)
     if straight is not None:
         angle = float(np.degrees(np.arccos(min(1.0, float(straight.axis @ joint.axis)))))
-        straightened = RepairKind.AXIS_STRAIGHTENED
-        yield JointChange(straight, _undone(straightened, joints, angle, "deg"))
+        kind = RepairKind.AXIS_STRAIGHTENED
+        yield straight, Repair(kind, joints=names, before=angle, after=0.0, unit="deg")
     # An axis that is off is not left so for the sake of another change.
     base = straight or joint
     for kind, hung in _rehung(articulation, base):
         moved = 1000.0 * float(np.linalg.norm(hung.origin - joint.origin))
-        yield JointChange(hung, _undone(kind, joints, moved, "mm"), PLANED_M)
+        yield hung, Repair(kind, joints=names, before=moved, after=0.0, unit="mm")
     if share < BLOCKED_SHARE and joint.lower == 0.0:
-        reversed_one = replace(base, axis=-base.axis)
-        yield JointChange(reversed_one, Repair(RepairKind.OPENING_REVERSED, joints=joints))
-
-
-def _undone(kind: RepairKind, joints: tuple[str, ...], off: float, unit: str) -> Repair:
-    """Return the repair of joints that were so far off and are not any more."""
-    return Repair(kind, joints=joints, before=off, after=0.0, unit=unit)
+        turned = replace(base, axis=-base.axis)
+        yield turned, Repair(RepairKind.OPENING_REVERSED, joints=names)
 
 
 def _straightened(joint: Joint) -> Joint | None:
@@ -123,11 +111,7 @@ def _rehung(articulation: Articulation, joint: Joint) -> Iterator[tuple[RepairKi
     if joint.kind is not JointKind.REVOLUTE:
         return
     most = MOVED_SHARE * articulation.part_mesh(joint.child).diagonal
-    edges = (
-        (RepairKind.HINGE_TO_FRONT_EDGE, at_front_edge),
-        (RepairKind.HINGE_TO_BACK_EDGE, at_back_edge),
-    )
-    for kind, at_edge in edges:
+    for kind, at_edge in TO_EDGE.items():
         hung = at_edge(articulation, joint)
         if hung is not None and float(np.linalg.norm(hung.origin - joint.origin)) <= most:
             yield kind, hung
