@@ -122,7 +122,7 @@ def outcome_of(row: Outcome, entry: Entry, output: Path) -> Outcome:
         joints=str(entry.joints),
         hulls=str(entry.hulls),
         clearance_mm=f"{min(gaps):.2f}" if gaps else "",
-        repairs=" ".join(sentence.split()[0] for sentence in stored.repairs),
+        repairs=" ".join(repair.sentence.split()[0] for repair in stored.repairs),
     )
 
 

@@ -23,7 +23,7 @@ from .registry.result import Result
 from .runtime.layout import CACHE
 from .runtime.stages import Stages
 from .runtime.store import Store
-from .verify.drafts import ReadingDraft, best_of
+from .verify.drafts import HypothesisDraft, best_of
 from .verify.kept import with_kept
 from .verify.rounds import Rounds
 
@@ -36,14 +36,14 @@ def make_asset(
     judge: Judge,
     place: Path | None = None,
 ) -> Product:
-    """Make, judge and repair one input; register nothing.
+    """Make, validate and repair one input; register nothing.
 
     Args:
         source: a mesh, URDF or MJCF file.
         staging: an empty folder to work in.
         config: every stage's settings.
         cache: where results of expensive stages are kept; ``None``: nowhere.
-        judge: with the configuration's thresholds.
+        judge: the validator, with the configuration's thresholds.
         place: where the input lies for whoever registers it, if that is elsewhere.
 
     Returns:
@@ -59,10 +59,10 @@ def make_asset(
         intake, likeliest_first = standing_hypotheses(intake, origin, stages)
         drafts = _drafts(likeliest_first, intake, staging, judge, stages)
         draft, others = best_of(drafts)
-        rounds = Rounds(draft.reading, intake, staging, judge, stages)
+        rounds = Rounds(draft.articulation, intake, staging, judge, stages)
         draft, verdict = rounds.simulated(draft, others)
-        verdict = with_kept(verdict, draft.reading, draft.asset.articulation)
-        # No judge asks for them: they are looked for once, on the draft that is kept.
+        verdict = with_kept(verdict, draft.articulation, draft.asset.articulation)
+        # No check asks for them: they are looked for once, on the draft that is kept.
         asset = with_targets(draft.asset, stages)
         bundle = with_manifest_of(draft.bundle, asset, intake.provenance)
         with stages.clock.stage("model"):
@@ -82,8 +82,8 @@ def _drafts(
     staging: Path,
     judge: Judge,
     stages: Stages,
-) -> Iterator[ReadingDraft]:
-    """Yield each hypothesis as an asset, repaired and validated, up to so much work."""
+) -> Iterator[HypothesisDraft]:
+    """Yield each hypothesis as an asset, repaired, validated without simulators, within limits."""
     limits = stages.config.readings
     refused_first: InputRejected | None = None
     done = 0

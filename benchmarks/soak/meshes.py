@@ -8,8 +8,8 @@ import numpy as np
 import trimesh
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.display.gltf import Y_UP
 from asset_factory.factory.mesh import Material, Mesh
-from asset_factory.factory.scene.gltf import Y_UP
 from asset_factory.learn.objects.export import (
     FileFrame,
     write_annotation,

@@ -23,9 +23,9 @@ from ..runtime.terminal import complain, say
 from . import console
 from .flags import (
     DEFAULT_SIMULATORS,
-    Reading,
+    InputFlags,
     formats_asked,
-    reading_config,
+    input_config,
     simulators_named,
     with_repairs,
     workers_fitting,
@@ -46,9 +46,9 @@ class Build:
     The same command again does only what is missing: what the registry knows for the same input,
     settings and libraries is not built anew.
 
-    Exit codes: 0 every input got a verdict; 3 some input could not be judged; 2 wrong usage, or the
-    output cannot be written; 1 something was rejected and --strict was given; 130, 143 interrupted
-    (what was finished is registered).
+    Exit codes: 0 every input got a verdict; 3 some input could not be validated; 2 wrong usage, or
+    the output cannot be written; 1 something was rejected and --strict was given; 130, 143
+    interrupted (what was finished is registered).
 
     Example: factory build --input meshes/ --output out/ --sim all
     """
@@ -59,7 +59,7 @@ class Build:
     output: Path
     """The registry's folder; made if it is not there."""
     sim: str = DEFAULT_SIMULATORS
-    """Simulators that judge, separated by commas; 'all' is sapien,mujoco,pybullet."""
+    """Simulators that validate, separated by commas; 'all' is sapien,mujoco,pybullet."""
     formats: str = "urdf,mjcf"
     """What assets are written in, separated by commas: urdf and mjcf always, sdf, usd, glb."""
     workers: int | None = None
@@ -71,7 +71,7 @@ class Build:
     since: str | None = None
     """Only inputs modified since: seconds ago, a date such as 2026-11-21, or a file's own time."""
     retry_rejected: tuple[str, ...] = ()
-    """Build again what was rejected or could not be judged for these reasons; 'any': for any."""
+    """Build again what was rejected or could not be validated for these reasons; 'any': for any."""
     repair: bool = False
     """Compare the files of what is known with those published, and build again what is damaged."""
     executor: str = "local"
@@ -92,7 +92,7 @@ class Build:
     """Print nothing but what went wrong; exit code and summary.json tell the rest."""
     strict: bool = False
     """Exit with 1 when anything was rejected."""
-    reading: tyro.conf.OmitArgPrefixes[Reading] = field(default_factory=Reading)
+    loading: tyro.conf.OmitArgPrefixes[InputFlags] = field(default_factory=InputFlags)
     """How inputs are loaded, and who says what moves."""
 
 
@@ -149,7 +149,7 @@ def _show(summary: Summary, command: Build) -> None:
 
 
 def _write_summary(path: Path, summary: dict[str, Any]) -> None:
-    """Raises RegistryError: the output cannot be written."""
+    """Write ``summary.json``. Raises RegistryError: the output cannot be written."""
     try:
         write_json(path, summary)
     except OSError as error:
@@ -157,7 +157,7 @@ def _write_summary(path: Path, summary: dict[str, Any]) -> None:
 
 
 def wanted_inputs(command: Build) -> tuple[Path, ...]:
-    """The inputs that the flags name. Raises ConfigError: one is missing, or bad ``--since``."""
+    """Find the inputs that flags name. Raises ConfigError: one is missing, or bad ``--since``."""
     from ..intake.discover import find_inputs
     from ..intake.mirror import local_inputs
     from ..jobs.budget import modified_since, parse_since
@@ -195,7 +195,7 @@ def idle_retries(command: Build) -> Iterator[str]:
 
 
 def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
-    """The job that the flags ask for. Raises ConfigError: a bad flag, and what would be right."""
+    """Return the job that flags ask for. Raises ConfigError: a bad flag, and what is right."""
     from ..jobs import Budget, Executor, LocalExecutor
     from ..jobs.job import Job
     from ..jobs.memory import BUILD_BYTES
@@ -225,7 +225,7 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
 
 def build_config(command: Build) -> BuildConfig:
     """Return the configuration that the flags ask for."""
-    config = with_repairs(reading_config(command.reading), command.repairs)
+    config = with_repairs(input_config(command.loading), command.repairs)
     interior = config.solids.interior and command.interior
     return replace(
         config,

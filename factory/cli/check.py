@@ -1,4 +1,4 @@
-"""``factory check``: judge anyone's descriptions."""
+"""``factory check``: validate anyone's descriptions."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Check:
-    """Judge URDF, MJCF or USD files, anyone's.
+    """Validate URDF, MJCF or USD files, anyone's.
 
-    Exit codes: 0 every file got a verdict; 3 some file could not be judged; 2 wrong usage;
+    Exit codes: 0 every file got a verdict; 3 some file could not be validated; 2 wrong usage;
     1 something was rejected and --strict was given.
 
     Example: factory check robot.urdf others/ --sim all --json report.json
@@ -41,11 +41,11 @@ class Check:
     files: Positional[tuple[Path, ...]]
     """URDF, MJCF or USD files, or folders of them."""
     sim: str = DEFAULT_SIMULATORS
-    """Simulators that judge, separated by commas; 'all' is sapien,mujoco,pybullet."""
+    """Simulators that validate, separated by commas; 'all' is sapien,mujoco,pybullet."""
     json: Path | None = None
     """Where to write the report; a list of reports for several files or a folder. '-' prints it."""
     workers: int | None = None
-    """Files judged at once; as many as there are processors and memory for by default."""
+    """Files checked at once; as many as there are processors and memory for by default."""
     config: str = "default"
     """A preset (default, fast, lenient, strict) or a TOML file of differences from the defaults."""
     strict: bool = False
@@ -53,7 +53,7 @@ class Check:
 
 
 def run(command: Check) -> int:
-    """Judge every file; returns the exit code."""
+    """Validate every file; returns the exit code."""
     from ..jobs.memory import CHECK_BYTES
 
     simulators = simulators_named(command.sim)
@@ -62,14 +62,14 @@ def run(command: Check) -> int:
     files = _described(command.files)
     reports = []
     printed = command.json is None or str(command.json) != "-"
-    with _judged(files, simulators, config, workers) as judged:
-        for report in judged:
+    with _checked(files, simulators, config, workers) as checked:
+        for report in checked:
             reports.append(report)
             if printed:
                 console.print_report(report)
             # Where reports go elsewhere than to the terminal, that says how far it is.
             if sys.stderr.isatty() and not (printed and sys.stdout.isatty()):
-                complain(f"{len(reports)} of {len(files)} files judged")
+                complain(f"{len(reports)} of {len(files)} files checked")
     data: Any = [report.to_dict() for report in reports]
     data = data if len(data) > 1 or any(path.is_dir() for path in command.files) else data[0]
     if not printed:
@@ -83,7 +83,7 @@ def run(command: Check) -> int:
 
 
 @contextmanager
-def _judged(
+def _checked(
     files: Sequence[tuple[Path, str | None]],
     simulators: Sequence[str],
     config: CheckConfig,
@@ -91,8 +91,8 @@ def _judged(
 ) -> Iterator[Iterator[Report]]:
     """Yield the reports in the order of the files, each once it and all before it are there.
 
-    A judge serves one file at a time; what it asks are child processes of its own, so that threads
-    are enough here. Simulators share what processors the files leave.
+    A validator serves one file at a time; what it asks are child processes of its own, so that
+    threads are enough here. Simulators share what processors the files leave.
     """
     from asset_factory.sim_checks.judge import Judge
     from asset_factory.sim_checks.processes.isolation import processors
@@ -123,7 +123,7 @@ def _judged(
 
 
 def _described(paths: Sequence[Path]) -> list[tuple[Path, str | None]]:
-    """Every file to judge; in a folder with their path, to tell ``asset.urdf`` from another."""
+    """Yield every file to check, named by its path where several files may share a name."""
     found: list[tuple[Path, str | None]] = []
     for path in paths:
         if path.is_dir():

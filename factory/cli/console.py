@@ -23,12 +23,14 @@ from asset_factory.sim_checks import Disagreement, Finding, Report, Severity, St
 
 from ..models.weights.checkpoint import WeightsInfo
 from ..registry import Entry
+from ..registry.report_file import BuildReport
 from ..registry.result import Result
 from ..report.summary import Summary
 from ..runtime.layout import ASSETS, REJECTED, SUMMARY
 from ..runtime.terminal import Terminal, one_line
 
 STATUS_STYLE = {Status.PASSED: "green", Status.REJECTED: "red", Status.UNJUDGED: "yellow"}
+_SEVERITIES = {Severity.HARD: ("red", "error"), Severity.SOFT: ("yellow", "warning")}
 #: In a table of more inputs than this, those known from before are left out.
 LISTED = 100
 
@@ -89,7 +91,7 @@ def _follow_on_terminal(console: Console, results: Iterable[Result], total: int)
 
 @contextmanager
 def counted(what: str) -> Iterator[Callable[[int, int], None]]:
-    """A progress bar on a terminal, and nothing elsewhere: to be told so many done, of so many."""
+    """Show a progress bar on a terminal, nothing elsewhere; it is told how many are done."""
     console = Terminal(stderr=True)
     columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
@@ -107,21 +109,14 @@ def _sentence(result: Result) -> str:
 
 
 def print_results(summary: Summary, output: Path) -> None:
-    """The table at the end of a build, and where to look."""
+    """Print the table at the end of a build, and where to look."""
     console = terminal()
     table = Table("asset", "parts", "joints", "hulls", "verdict", "reason")
     results = sorted(summary.results, key=lambda result: result.input)
     listed = results if len(results) <= LISTED else [each for each in results if not each.known]
     for result in listed:
         entry = result.entry
-        table.add_row(
-            escape(entry.id),
-            str(entry.parts),
-            str(entry.joints),
-            str(entry.hulls),
-            f"[{STATUS_STYLE[entry.status]}]{entry.status}[/]",
-            escape(entry.message),
-        )
+        table.add_row(escape(entry.id), *_told(entry), escape(entry.message))
     if listed:
         console.print(table)
     if len(listed) < len(results):
@@ -129,7 +124,7 @@ def print_results(summary: Summary, output: Path) -> None:
     console.print(
         f"{len(results)} inputs: {summary.count(Status.PASSED)} passed, "
         f"{summary.count(Status.REJECTED)} rejected, "
-        f"{summary.count(Status.UNJUDGED)} could not be judged.",
+        f"{summary.count(Status.UNJUDGED)} could not be validated.",
         soft_wrap=True,
     )
     where = f"Assets: {output / ASSETS}   reports of the others: {output / REJECTED}"
@@ -137,7 +132,7 @@ def print_results(summary: Summary, output: Path) -> None:
 
 
 def print_prediction(data: dict[str, Any]) -> None:
-    """What moves in one input, by :func:`~asset_factory.factory.articulate.predict.predict`."""
+    """Print what :func:`~asset_factory.factory.articulate.predict.predict` says of an input."""
     console = terminal()
     if "rejected" in data:
         console.print(
@@ -169,12 +164,12 @@ def _or_dash(value: float | None) -> str:
 
 
 def print_report(report: Report) -> None:
-    """One judged file: its verdict and every finding."""
+    """Print one checked file: its verdict and every finding."""
     console = terminal()
     verdict = report.status
-    judges = ", ".join(report.simulators) or "no simulator"
+    engines = ", ".join(report.simulators) or "no simulator"
     heading = (
-        f"[{STATUS_STYLE[verdict]}]{verdict}[/] {escape(report.description)} [dim]({judges})[/]"
+        f"[{STATUS_STYLE[verdict]}]{verdict}[/] {escape(report.description)} [dim]({engines})[/]"
     )
     console.print(heading, soft_wrap=True)
     for finding in report.findings:
@@ -197,43 +192,42 @@ def _disagreement_line(disagreement: Disagreement) -> str:
 
 
 def _finding_line(finding: Finding) -> str:
-    style = "red" if finding.severity is Severity.HARD else "yellow"
+    style, severity = _SEVERITIES[finding.severity]
     where = f" [{finding.simulator}]" if finding.simulator else ""
     return (
-        f"[{style}]{finding.severity}[/] {escape(finding.code)}{escape(where)}: "
-        f"{escape(finding.message)}"
+        f"[{style}]{severity}[/] {escape(finding.code)}{escape(where)}: {escape(finding.message)}"
     )
 
 
 def print_entries(entries: tuple[Entry, ...]) -> None:
-    """All rows of a registry."""
+    """Print all rows of a registry."""
     table = Table("id", "category", "parts", "joints", "hulls", "status", "reason")
     for entry in entries:
-        table.add_row(
-            escape(entry.id),
-            escape(entry.category),
-            str(entry.parts),
-            str(entry.joints),
-            str(entry.hulls),
-            f"[{STATUS_STYLE[entry.status]}]{entry.status}[/]",
-            escape(entry.reason),
-        )
+        table.add_row(escape(entry.id), escape(entry.category), *_told(entry), escape(entry.reason))
     terminal().print(table)
 
 
-def print_entry(entry: Entry, folder: Path, report: Report) -> None:
-    """One asset with its findings."""
+def _told(entry: Entry) -> tuple[str, ...]:
+    """Return an entry's counts and its coloured status, for a table."""
+    counts = (entry.parts, entry.joints, entry.hulls)
+    return *map(str, counts), f"[{STATUS_STYLE[entry.status]}]{entry.status}[/]"
+
+
+def print_entry(entry: Entry, folder: Path, told: BuildReport) -> None:
+    """Print one asset with its findings and repairs."""
     console = terminal()
     console.print(
         f"{entry.id}: {entry.parts} parts, {entry.joints} movable joints, {entry.hulls} hulls",
         markup=False,
     )
     console.print(str(folder), markup=False, soft_wrap=True)
-    print_report(report)
+    print_report(told.report)
+    for repair in told.repairs:
+        console.print(f"  [green]repair[/] {escape(repair.sentence)}", soft_wrap=True)
 
 
 def print_weights(info: WeightsInfo) -> None:
-    """What a checkpoint holds."""
+    """Print what a checkpoint holds."""
     console = terminal()
     console.print(f"{info.file}: {info.network}", markup=False, soft_wrap=True)
     numbers = {

@@ -12,7 +12,7 @@ from tyro.conf import Positional
 from ..errors import ConfigError, Exit
 from ..registry import Split
 from ..runtime.terminal import say
-from .flags import check_effort
+from .flags import check_effort, require_maniskill
 
 if TYPE_CHECKING:
     from asset_factory.envs.assets import RegisteredAsset
@@ -120,13 +120,7 @@ def _settings(command: Demos) -> Settings:
         )
     if command.robot == "fetch" and command.control_mode == "pd_ee_pose":
         raise ConfigError("--control-mode: Fetch has no 'pd_ee_pose'; want pd_ee_delta_pose")
-    try:
-        import h5py  # noqa: F401
-        import mani_skill  # noqa: F401
-    except ImportError as error:
-        raise ConfigError(
-            f"demonstrations want ManiSkill ({error}); pip install 'asset-factory[maniskill]'"
-        ) from error
+    require_maniskill("demonstrations want", "h5py")
     return Settings(
         command.task,
         command.robot,
@@ -138,7 +132,7 @@ def _settings(command: Demos) -> Settings:
 
 
 def _wanted(command: Demos) -> list[RegisteredAsset]:
-    """Selected assets, each with its selected joints, by id; raises what the flags have wrong."""
+    """Select assets and their joints, by id; raises what the flags have wrong."""
     from asset_factory import envs
     from asset_factory.envs.assets import named, read_registry
     from asset_factory.envs.selection import Wanted, select

@@ -12,12 +12,13 @@ from rich.table import Table
 from ..errors import Exit
 from ..runtime.terminal import say
 from . import console
+from .flags import Printed
 
 STYLE = {"works": "green", "missing": "yellow", "broken": "red"}
 
 
 @dataclass(frozen=True)
-class Doctor:
+class Doctor(Printed):
     """Try every engine and library that a build may need, and say what works on this machine.
 
     Exit codes: 0 a build can run: an engine works; 1 none does.
@@ -27,8 +28,6 @@ class Doctor:
 
     output: Path = Path()
     """Where assets are to go."""
-    json: bool = False
-    """Print JSON."""
 
 
 def run(command: Doctor) -> int:

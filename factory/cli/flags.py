@@ -1,10 +1,12 @@
-"""Flags that several commands share: how inputs are read, and who judges."""
+"""Flags that several commands share: how inputs are loaded, and what validates them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
-from typing import Annotated, Any, Protocol
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from importlib import import_module
+from pathlib import Path
+from typing import Annotated, Any, Protocol, TypeVar
 
 import tyro
 
@@ -13,18 +15,20 @@ from asset_factory.sim_checks.simulators.catalog import SIMULATORS, USUAL
 
 from ..articulate.catalog import ARTICULATORS
 from ..config import REPAIR_KINDS, BuildConfig
-from ..errors import ConfigError
+from ..errors import AssetFactoryError, ConfigError
 from ..presets import load_config
+from ..registry import Entry, Registry
 from ..registry.entry import SOLVED
 from ..registry.rows import Filters
 from ..registry.split import SPLITS
 from ..runtime.terminal import complain
 
 DEFAULT_SIMULATORS = "sapien"
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
-class Reading:
+class InputFlags:
     """How inputs are loaded, and who says what moves."""
 
     articulator: str = "auto"
@@ -57,7 +61,7 @@ class EntryFilters:
     category: str | None = None
     """Of the object."""
     reason: str | None = None
-    """Code of the first hard finding."""
+    """Code of the first finding that is an error."""
     tag: str | None = None
     """One of their tags."""
     split: str | None = None
@@ -82,32 +86,60 @@ class EntryFilters:
         return Filters(**values)
 
 
-def reading_config(reading: Reading) -> BuildConfig:
-    """The configuration from the flags. Raises ConfigError: a bad flag, and what would be right."""
+@dataclass(frozen=True, kw_only=True)
+class OfRegistry:
+    """A command on a registry."""
+
+    output: Path
+    """The registry's folder."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Printed:
+    """A command that prints."""
+
+    json: bool = False
+    """Print JSON."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OfPassed(OfRegistry):
+    """A command on some assets of a registry."""
+
+    wanted: tyro.conf.OmitArgPrefixes[EntryFilters] = field(default_factory=EntryFilters)
+    """Which assets; those that passed, if no status is given."""
+
+    def entries(self) -> Iterator[Entry]:
+        """Yield the assets that are wanted. Raises ConfigError for what no asset can be."""
+        return Registry(self.output).walk(self.wanted.filters(status="passed"))
+
+
+def input_config(flags: InputFlags) -> BuildConfig:
+    """Return the configuration that flags ask for. Raises ConfigError: a bad flag."""
     from ..articulate.settings import require_usable
     from ..intake.orientation import parse_up
 
-    config = load_config(reading.config)
-    if reading.articulator not in ARTICULATORS:
+    config = load_config(flags.config)
+    if flags.articulator not in ARTICULATORS:
         raise ConfigError(
-            f"--articulator: no articulator {reading.articulator!r}; "
+            f"--articulator: no articulator {flags.articulator!r}; "
             f"there are {', '.join(ARTICULATORS)}"
         )
-    if reading.height is not None and not reading.height > 0.0:
-        raise ConfigError(f"--height: is {reading.height:g} m, want more than 0")
-    up = reading.up if reading.up == "auto" else parse_up(reading.up)
-    intake = replace(config.intake, up=up, height=reading.height)
+    if flags.height is not None and not flags.height > 0.0:
+        raise ConfigError(f"--height: is {flags.height:g} m, want more than 0")
+    up = flags.up if flags.up == "auto" else parse_up(flags.up)
+    intake = replace(config.intake, up=up, height=flags.height)
     asked = ("checkpoint", "features", "points", "samples")
     given: dict[str, Any] = {
-        name: getattr(reading, name) for name in asked if getattr(reading, name) is not None
+        name: getattr(flags, name) for name in asked if getattr(flags, name) is not None
     }
     particulate = replace(config.particulate, **given)
-    require_usable(particulate, needed=reading.articulator == "particulate")
-    return replace(config, articulator=reading.articulator, intake=intake, particulate=particulate)
+    require_usable(particulate, needed=flags.articulator == "particulate")
+    return replace(config, articulator=flags.articulator, intake=intake, particulate=particulate)
 
 
 def simulators_named(names: str) -> tuple[str, ...]:
-    """Simulators by name, comma-separated, or ``all``. Raises ConfigError that names all known."""
+    """Parse simulators, comma-separated, or ``all``. Raises ConfigError that names all known."""
     if names == "all":
         return USUAL
     chosen = tuple(dict.fromkeys(name.strip() for name in names.split(",") if name.strip()))
@@ -120,7 +152,7 @@ def simulators_named(names: str) -> tuple[str, ...]:
 
 
 def with_repairs(config: BuildConfig, kinds: str | None) -> BuildConfig:
-    """What ``--repairs`` asks for; ``None``: as configured. Raises ConfigError: no such kind."""
+    """Set what ``--repairs`` asks for; ``None``: as configured. Raises ConfigError."""
     if kinds is None:
         return config
     if kinds not in REPAIR_KINDS:
@@ -129,7 +161,7 @@ def with_repairs(config: BuildConfig, kinds: str | None) -> BuildConfig:
 
 
 def formats_asked(names: str) -> tuple[str, ...]:
-    """Formats by name, comma-separated. Raises ConfigError: one is not there or not installed."""
+    """Parse formats, comma-separated. Raises ConfigError: one is unknown or not installed."""
     from ..export.formats import formats_named
 
     asked = tuple(name.strip() for name in names.split(",") if name.strip())
@@ -137,7 +169,7 @@ def formats_asked(names: str) -> tuple[str, ...]:
 
 
 def workers_fitting(asked: int | None, each: int) -> int:
-    """As many workers as ``--workers`` asks for, or fewer where memory is short, which it says.
+    """Return how many workers to start: ``--workers``, or fewer (said) if memory is short.
 
     Args:
         asked: ``None``: as many as there are processors.
@@ -156,12 +188,41 @@ def workers_fitting(asked: int | None, each: int) -> int:
     return workers
 
 
+def in_own_process(
+    function: Callable[..., T], file: Path, *others: object, limits: BuildConfig
+) -> T | None:
+    """Call a function of a file in a child process, within the limits on one asset.
+
+    Returns what it returned; ``None`` where no answer came, which is said.
+    Raises AssetFactoryError: what it raised.
+    """
+    from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
+
+    bounds = Limits(wall_s=limits.asset_wall_s, memory_bytes=limits.asset_memory_bytes)
+    outcome = run_isolated(function, file, *others, limits=bounds)
+    if isinstance(outcome.error, AssetFactoryError):
+        raise outcome.error
+    if outcome.value is None:
+        complain(f"factory: {file.name}: {outcome.detail}")
+    return outcome.value
+
+
+def require_maniskill(purpose: str, *modules: str) -> None:
+    """Raise ConfigError unless ManiSkill, and further modules, can be imported."""
+    try:
+        for module in ("mani_skill", *modules):
+            import_module(module)
+    except ImportError as error:
+        hint = "pip install 'asset-factory[maniskill]'"
+        raise ConfigError(f"{purpose} ManiSkill ({error}); {hint}") from error
+
+
 class Effort(Protocol):
     """Flags of commands that have a robot try something."""
 
     @property
     def seed(self) -> int:
-        """Of the first episode."""
+        """Return the seed of the first episode."""
 
     @property
     def timeout(self) -> float:

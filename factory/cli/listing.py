@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict, dataclass, field
-from pathlib import Path
 
 import tyro
 
@@ -12,23 +11,19 @@ from ..errors import ConfigError, Exit
 from ..registry import Registry
 from ..runtime.terminal import say
 from . import console
-from .flags import EntryFilters
+from .flags import EntryFilters, OfRegistry, Printed
 
 #: Rows of a table that nobody set a limit for.
 TABLE_ROWS = 200
 
 
 @dataclass(frozen=True)
-class List:
+class List(Printed, OfRegistry):
     """List what a registry holds.
 
     Example: factory list --output out/ --limit 20
     """
 
-    output: Path
-    """The registry's folder."""
-    json: bool = False
-    """Print JSON."""
     limit: int | None = None
     """Rows at most; 0: all. Without it a table has up to 200, JSON all."""
     after: str = ""

@@ -22,7 +22,7 @@ class Nightly:
     Exit codes, the first that applies: 2 wrong usage, or another night runs there;
     130 interrupted; 4 a registered asset is damaged and could not be mended; 5 the yield fell by
     more than failure.yield_drop, or a source's by more than failure.source.drop; 3 some input could
-    not be judged; 0 none of these.
+    not be validated; 0 none of these.
 
     Example: factory nightly --config nightly.toml
     """
@@ -35,7 +35,7 @@ class Nightly:
     output: Path | None = None
     """The registry's folder; made if it is not there."""
     sim: str | None = None
-    """Simulators that judge, separated by commas; 'all' is sapien,mujoco,pybullet."""
+    """Simulators that validate, separated by commas; 'all' is sapien,mujoco,pybullet."""
     repairs: str | None = None
     """What may be repaired: none, geometry (collision geometry only), or all (joints too)."""
     workers: int | None = None
@@ -78,7 +78,7 @@ def run(command: Nightly) -> int:
 
 
 def night_config(command: Nightly) -> NightConfig:
-    """The night that the file and the flags ask for. Raises ConfigError for what cannot be."""
+    """Return the night that file and flags ask for. Raises ConfigError for what cannot be."""
     from ..jobs.nightly import settings
 
     here = Path.cwd()

@@ -9,14 +9,14 @@ from pathlib import Path
 import tyro
 from tyro.conf import Positional
 
-from ..errors import AssetFactoryError, ConfigError, Exit
-from ..runtime.terminal import complain, say
+from ..errors import ConfigError, Exit
+from ..runtime.terminal import say
 from . import console
-from .flags import Reading, reading_config
+from .flags import InputFlags, Printed, in_own_process, input_config
 
 
 @dataclass(frozen=True)
-class Predict:
+class Predict(Printed):
     """Say what moves in one input, and how, without making anything of it.
 
     Exit codes: 0 there is an answer; 1 the input was rejected; 3 no answer came; 2 wrong usage.
@@ -26,30 +26,22 @@ class Predict:
 
     input: Positional[Path]
     """A mesh file, a URDF or an MJCF file."""
-    json: bool = False
-    """Print JSON."""
-    reading: tyro.conf.OmitArgPrefixes[Reading] = field(default_factory=Reading)
+    loading: tyro.conf.OmitArgPrefixes[InputFlags] = field(default_factory=InputFlags)
     """How it is loaded, and who says what moves."""
 
 
 def run(command: Predict) -> int:
     """Print what moves; returns the exit code."""
-    from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
-
     from ..articulate.predict import predict
 
-    config = reading_config(command.reading)
+    config = input_config(command.loading)
     if not command.input.is_file():
         raise ConfigError(f"{command.input}: no such file; want a mesh, a URDF or an MJCF file")
-    limits = Limits(wall_s=config.asset_wall_s, memory_bytes=config.asset_memory_bytes)
-    outcome = run_isolated(predict, command.input, config, limits=limits)
-    if isinstance(outcome.error, AssetFactoryError):
-        raise outcome.error
-    if outcome.value is None:
-        complain(f"factory: {command.input.name}: {outcome.detail}")
+    found = in_own_process(predict, command.input, config, limits=config)
+    if found is None:
         return Exit.UNJUDGED
     if command.json:
-        say(json.dumps(outcome.value, indent=2))
+        say(json.dumps(found, indent=2))
     else:
-        console.print_prediction(outcome.value)
-    return Exit.REJECTED if "rejected" in outcome.value else Exit.OK
+        console.print_prediction(found)
+    return Exit.REJECTED if "rejected" in found else Exit.OK

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
-from dataclasses import asdict, dataclass, field
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -21,48 +21,37 @@ from ..registry.split import SPLITS
 from ..registry.verify import verify
 from ..runtime.remote import is_url, shown
 from ..runtime.terminal import say
-from .flags import EntryFilters
+from .flags import OfPassed, OfRegistry, Printed
 from .registry_printing import print_diff, print_freed, print_problems, print_rebuilt, size
 
-#: Rows of a table that nobody set a limit for.
-TABLE_ROWS = 200
 _GB = 1e9
 _DAY_S = 86_400.0
 
 
 @dataclass(frozen=True)
-class Rebuild:
+class Rebuild(OfRegistry):
     """Make the database anew from the folders; also where it was deleted or is damaged."""
-
-    output: Path
-    """The registry's folder."""
 
 
 @dataclass(frozen=True)
-class Verify:
+class Verify(Printed, OfRegistry):
     """Compare every file with its digest at publication, and every row with its folder.
 
     Exit codes: 0 all is as it was published; 1 something is not; 2 wrong usage.
     """
 
-    output: Path
-    """The registry's folder."""
     ids: Positional[tuple[str, ...]] = ()
     """Only these assets."""
-    json: bool = False
-    """Print JSON."""
 
 
 @dataclass(frozen=True)
-class Gc:
+class Gc(OfRegistry):
     """Remove what dead processes left, and cached results by age and size.
 
     Never what a running job holds: its staging folders are locked, and what was used within the
         last hour stays.
     """
 
-    output: Path
-    """The registry's folder."""
     older_than: float | None = None
     """Cached results that nobody used for so many days go."""
     keep_gb: float | None = None
@@ -70,35 +59,45 @@ class Gc:
 
 
 @dataclass(frozen=True)
-class Difference:
+class Difference(Printed):
     """Compare two registries or exports: new, gone, newly passed, newly failed and why, changed."""
 
     before: Positional[Path]
     """A registry, an export, or an export's entries.jsonl."""
     after: Positional[Path]
     """The same, later."""
-    json: bool = False
-    """Print JSON."""
     strict: bool = False
     """Exit with 1 when something newly failed or is gone."""
 
 
+@dataclass(frozen=True, kw_only=True)
+class Handing(OfPassed):
+    """Assets to hand on, and how they are laid out."""
+
+    layout: str = "plain"
+    """plain, or huggingface: with the tables and the front matter that its hub shows."""
+
+    def files(self) -> Iterator[tuple[str, bytes]]:
+        """Yield paths and contents of what is handed on. Raises ConfigError: no such layout."""
+        from ..registry.export import LAYOUTS, contents
+
+        if self.layout not in LAYOUTS:
+            raise ConfigError(
+                f"--layout: no layout {self.layout!r}; there are {', '.join(LAYOUTS)}"
+            )
+        return contents(Registry(self.output), self.entries(), self.layout)
+
+
 @dataclass(frozen=True)
-class Export:
+class Export(Handing):
     """Write assets to hand on, with licenses and a card: the same bytes for the same assets."""
 
     target: Positional[str]
     """A new folder, a file (.tar, .tar.gz), or a URL of either that fsspec understands."""
-    output: Path
-    """The registry's folder."""
-    layout: str = "plain"
-    """plain, or huggingface: with the tables and the front matter that its hub shows."""
-    wanted: tyro.conf.OmitArgPrefixes[EntryFilters] = field(default_factory=EntryFilters)
-    """Which assets; those that passed, if no status is given."""
 
 
 @dataclass(frozen=True)
-class Sync:
+class Sync(Handing):
     """Keep a copy of assets at a URL: only what is missing is sent, the index last.
 
     Each file's digest at the URL is compared with the one here. What was cut off goes on with the
@@ -109,12 +108,6 @@ class Sync:
 
     url: Positional[str]
     """Of a folder, as fsspec understands it: s3://, gs://, hf://, file://."""
-    output: Path
-    """The registry's folder."""
-    layout: str = "plain"
-    """plain, or huggingface: with the tables and the front matter that its hub shows."""
-    wanted: tyro.conf.OmitArgPrefixes[EntryFilters] = field(default_factory=EntryFilters)
-    """Which assets; those that passed, if no status is given."""
 
 
 @dataclass(frozen=True)
@@ -134,39 +127,28 @@ class Import:
 
 
 @dataclass(frozen=True)
-class Tag:
+class Tag(OfRegistry):
     """Give an asset tags."""
 
     id: Positional[str]
     """As `factory list` prints it."""
     tags: Positional[tuple[str, ...]]
     """Letters, digits, and ._:- within."""
-    output: Path
-    """The registry's folder."""
 
 
 @dataclass(frozen=True)
-class Untag:
+class Untag(OfRegistry):
     """Take tags from an asset; all of them if none is named."""
 
     id: Positional[str]
     """As `factory list` prints it."""
-    output: Path
-    """The registry's folder."""
     tags: Positional[tuple[str, ...]] = ()
     """Those that it has not are ignored."""
 
 
 @dataclass(frozen=True)
-class SplitCommand:
+class SplitCommand(Printed, OfPassed):
     """List the assets for training and those for testing, one id a line."""
-
-    output: Path
-    """The registry's folder."""
-    json: bool = False
-    """Print JSON."""
-    wanted: tyro.conf.OmitArgPrefixes[EntryFilters] = field(default_factory=EntryFilters)
-    """Which assets; those that passed, if no status is given."""
 
 
 @dataclass(frozen=True)
@@ -244,33 +226,20 @@ def _diff(command: Difference) -> int:
 
 
 def _export(command: Export) -> int:
-    from ..registry.export import contents, write_export
+    from ..registry.export import write_export
 
-    _require_layout(command.layout)
-    registry = Registry(command.output)
-    entries = registry.walk(command.wanted.filters(status="passed"))
-    written = write_export(contents(registry, entries, command.layout), command.target)
+    written = write_export(command.files(), command.target)
     say(f"{shown(command.target)}: {written.files} files, {size(written.bytes)}")
     return Exit.OK
 
 
-def _require_layout(layout: str) -> None:
-    from ..registry.export import LAYOUTS
-
-    if layout not in LAYOUTS:
-        raise ConfigError(f"--layout: no layout {layout!r}; there are {', '.join(LAYOUTS)}")
-
-
 def _sync(command: Sync) -> int:
-    from ..registry.export import contents
     from ..registry.sync import sync
 
-    _require_layout(command.layout)
+    files = command.files()
     if not is_url(command.url):
         raise ConfigError(f"{command.url}: is no URL, want e.g. s3://bucket/assets or file:///copy")
-    registry = Registry(command.output)
-    entries = registry.walk(command.wanted.filters(status="passed"))
-    synced = sync(contents(registry, entries, command.layout), command.url)
+    synced = sync(files, command.url)
     sent = f"{synced.sent} sent ({size(synced.bytes)}), {synced.removed} removed"
     say(f"{shown(command.url)}: {synced.files} files, {sent}")
     return Exit.OK
@@ -309,7 +278,7 @@ def _retag(output: Path, asset_id: str, change: Callable[[set[str]], set[str]]) 
 
 def _split(command: SplitCommand) -> int:
     chosen: dict[str, list[str]] = {name: [] for name in SPLITS}
-    for entry in Registry(command.output).walk(command.wanted.filters(status="passed")):
+    for entry in command.entries():
         chosen[entry.split].append(entry.id)
     if command.json:
         say(json.dumps(chosen, indent=2))

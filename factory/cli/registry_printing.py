@@ -29,23 +29,21 @@ def size(number: float) -> str:
 
 
 def print_rebuilt(rebuilt: Rebuilt) -> None:
-    """How many rows there are now, and which folders have none."""
+    """Print how many rows there are now, and which folders have none."""
     _lines("unreadable", rebuilt.unreadable)
     say(f"{rebuilt.entries} entries; {len(rebuilt.unreadable)} folders could not be read")
 
 
 def print_problems(problems: Sequence[Problem], assets: int) -> None:
-    """What is not as it was published."""
+    """Print what is not as it was published."""
     for kind, _ in Counter(problem.kind for problem in problems).most_common():
         _lines(kind, [problem.message for problem in problems if problem.kind == kind])
     wrong = {problem.id for problem in problems}
-    unknown = {problem.id for problem in problems} - wrong
-    more = f"; {len(unknown)} have no digests to compare with" if unknown else ""
-    say(f"{assets} entries: {len(wrong)} are not as they were published{more}")
+    say(f"{assets} entries: {len(wrong)} are not as they were published")
 
 
 def print_freed(freed: Freed) -> None:
-    """What was removed."""
+    """Print what was removed."""
     table = Table("what", "files", "size")
     for name in ("staging", "unfinished", "cache"):
         removed = getattr(freed, name)
@@ -55,7 +53,7 @@ def print_freed(freed: Freed) -> None:
 
 
 def print_diff(diff: Diff) -> None:
-    """Who is new, gone, better, worse or other."""
+    """Print which assets are new, gone, better, worse or otherwise changed."""
     _lines("new", [_verdict(entry) for entry in diff.new])
     _lines("gone", [_verdict(entry) for entry in diff.gone])
     _lines(

@@ -58,7 +58,7 @@ def write_report(registry: Registry, workers: int | None) -> Path:
 
 
 def report_after(output: Path, workers: int | None) -> Path | None:
-    """The report at the end of a build or a night, whose work is done whatever becomes of it.
+    """Write the report at the end of a build or a night; a failure is only told.
 
     Returns the first page; ``None`` where it could not be written, which is said on stderr.
     """

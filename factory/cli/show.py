@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict, dataclass
-from pathlib import Path
 
 from tyro.conf import Positional
 
@@ -13,27 +12,25 @@ from ..registry import Registry
 from ..runtime.layout import MANIFEST
 from ..runtime.terminal import say
 from . import console
+from .flags import OfRegistry, Printed
 
 
 @dataclass(frozen=True)
-class Show:
-    """Show one asset: its files, its joints, and what the judge said.
+class Show(Printed, OfRegistry):
+    """Show one asset: its files, its joints, and what the validator said.
 
     Example: factory show fridge-264720b5fe --output out/
     """
 
     id: Positional[str]
     """As `factory list` prints it."""
-    output: Path
-    """The registry's folder."""
-    json: bool = False
-    """Print JSON."""
 
 
 def run(command: Show) -> int:
     """Print one row and its report; returns the exit code."""
     registry = Registry(command.output)
     entry = registry.entry(command.id)
+    told = registry.told(entry)
     if command.json:
         folder = registry.folder(entry)
         manifest = folder / MANIFEST
@@ -41,9 +38,10 @@ def run(command: Show) -> int:
             **asdict(entry),
             "folder": str(folder),
             "manifest": json.loads(manifest.read_text()) if manifest.is_file() else None,
-            "report": registry.report(entry).to_dict(),
+            "report": told.report.to_dict(),
+            "changes": [repair.to_dict() for repair in told.repairs],
         }
         say(json.dumps(data, indent=2))
     else:
-        console.print_entry(entry, registry.folder(entry), registry.report(entry))
+        console.print_entry(entry, registry.folder(entry), told)
     return Exit.OK

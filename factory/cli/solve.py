@@ -11,7 +11,7 @@ from tyro.conf import Positional
 
 from ..errors import ConfigError, Exit, RegistryError
 from ..runtime.terminal import complain, say
-from .flags import check_effort
+from .flags import check_effort, require_maniskill
 
 if TYPE_CHECKING:
     from asset_factory.envs.assets import OpenableJoint, RegisteredAsset
@@ -103,12 +103,7 @@ def _require_sound(command: Solve) -> None:
             f"--robot: no robot {command.robot!r}; want one of {', '.join((*ROBOTS, 'any'))}"
         )
     check_effort(command, ("workers", "tries"))
-    try:
-        import mani_skill  # noqa: F401
-    except ImportError as error:
-        raise ConfigError(
-            f"solving wants ManiSkill ({error}); pip install 'asset-factory[maniskill]'"
-        ) from error
+    require_maniskill("solving wants")
 
 
 def _wanted(assets: dict[str, RegisteredAsset], command: Solve) -> dict[str, RegisteredAsset]:

@@ -8,9 +8,10 @@ from pathlib import Path
 from tyro.conf import Positional
 
 from ..config import BuildConfig
-from ..errors import AssetFactoryError, ConfigError, Exit, InputRejected
+from ..errors import ConfigError, Exit, InputRejected
 from ..runtime.store import write_whole
-from ..runtime.terminal import complain, say
+from ..runtime.terminal import say
+from .flags import in_own_process
 
 
 @dataclass(frozen=True)
@@ -31,8 +32,6 @@ class ViewFile:
 
 def run(command: ViewFile) -> int:
     """Serve or save the page; returns the exit code."""
-    from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
-
     from ..jobs.pages import missing_library
     from ..report.site.alone import page_of_file
     from ..report.site.server import serve
@@ -42,19 +41,14 @@ def run(command: ViewFile) -> int:
     missing = missing_library()
     if missing is not None:
         raise ConfigError(missing)
-    # A file of anybody's may take any time and memory to read: in a process of its own.
-    usual = BuildConfig()
-    limits = Limits(wall_s=usual.asset_wall_s, memory_bytes=usual.asset_memory_bytes)
-    outcome = run_isolated(page_of_file, command.file, limits=limits)
-    if isinstance(outcome.error, InputRejected):
-        rejection = outcome.error
+    # A file of anybody's may take any time and memory to read.
+    try:
+        html = in_own_process(page_of_file, command.file, limits=BuildConfig())
+    except InputRejected as rejection:
         raise ConfigError(f"{command.file}: {rejection.code}: {rejection.message}") from rejection
-    if isinstance(outcome.error, AssetFactoryError):
-        raise outcome.error
-    if outcome.value is None:
-        complain(f"factory: {command.file.name}: {outcome.detail}")
+    if html is None:
         return Exit.UNJUDGED
-    page = outcome.value.encode()
+    page = html.encode()
     if command.save is None:
         with serve(page, command.port) as server:
             say(f"{command.file.name} is shown at {server.url} until Ctrl-C")

@@ -14,9 +14,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ..articulation import Articulation, Joint
+from ..display.gltf import Y_UP, Attribute, Buffer, gltf_materials, primitive
 from ..mesh import FloatArray
 from ..runtime.numbers import magnitude
-from ..scene.gltf import Y_UP, Attribute, Buffer, gltf_materials, primitive
 from .links import Layout, child_offset
 from .meshes import filled_normals
 

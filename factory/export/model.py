@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..asset import Asset
+from ..display.glb import glb_of
+from ..display.made import scene_of, scene_of_mesh
 from ..mesh import Mesh
 from ..runtime.layout import MODEL
-from ..scene.glb import glb_of
-from ..scene.made import scene_of, scene_of_mesh
 
 
 def write_input(mesh: Mesh, folder: Path) -> Path:

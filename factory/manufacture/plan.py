@@ -11,9 +11,9 @@ from ..articulation import Articulation, Joint, JointKind
 from ..geometry.welding import welded
 from .hinges import at_front_edge
 from .lying import lying_on
+from .repair import Pair, Repair, RepairKind
 from .solids.skin import plates
 
-Pair = tuple[str, str]
 #: Thin fronts of meshes of more faces are built at once: carved mouldings take minutes to search.
 MANY_FACES = 20_000
 
@@ -38,7 +38,7 @@ class Plan:
         closely: hulls stay as close to the surfaces as they were decomposed, however many.
         fewer: the asset has too many hulls: they are joined, further off the surfaces, until so
             few are left.
-        steps: what was decided, one sentence each, oldest first.
+        repairs: what was changed, oldest first.
     """
 
     separate: frozenset[Pair] = frozenset()
@@ -53,7 +53,7 @@ class Plan:
     closely: bool = False
     fewer: int | None = None
     rehung: frozenset[str] = frozenset()
-    steps: tuple[str, ...] = ()
+    repairs: tuple[Repair, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -79,8 +79,9 @@ def first_plan(articulation: Articulation, spare: Spare) -> Plan:
     faces = len(articulation.mesh.faces)
     if not spare.fronts or faces <= MANY_FACES:
         return Plan()
-    step = f"built fronts and body anew, of {faces} faces: {', '.join(sorted(spare.fronts))}"
-    return Plan(build_fronts=True, steps=(step,))
+    fronts = tuple(sorted(spare.fronts))
+    built = Repair(RepairKind.FRONTS_BUILT_AT_ONCE, parts=fronts, before=faces, unit="faces")
+    return Plan(build_fronts=True, repairs=(built,))
 
 
 def as_planned(articulation: Articulation, plan: Plan) -> Articulation:

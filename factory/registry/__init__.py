@@ -5,7 +5,7 @@ A registry is a folder::
     assets/<id>/             a bundle that passed, with its report.json
     rejected/<id>/           the report of one that did not
     notes/<id>.json          what was found out or said about one later
-    registry.db              one row per input that has been judged
+    registry.db              one row per input that has been validated
     .staging/                half-made things; never read, removed when done
 
 The folders are the truth, the database a table of contents that ``factory registry rebuild`` makes

@@ -53,7 +53,7 @@ def claim(folder: Path, name: str) -> Claim | None:
 
 @contextmanager
 def alone(folder: Path, name: str) -> Iterator[None]:
-    """Within this nobody else has that name; waits while somebody has."""
+    """Hold the claim of a name; waits while somebody else has it."""
     while (held := claim(folder, name)) is None:
         time.sleep(WAIT_S)
     try:

@@ -32,7 +32,7 @@ class Freed:
 
     @property
     def bytes(self) -> int:
-        """Altogether [bytes]."""
+        """Return the size of all that was removed [bytes]."""
         return self.staging.bytes + self.unfinished.bytes + self.cache.bytes
 
 

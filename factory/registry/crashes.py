@@ -38,7 +38,7 @@ def crash_stage(registry: Registry, asset_id: str, outcome: Outcome[Product]) ->
 
 
 def sentence(outcome: Outcome[Product], stage: str) -> str:
-    """What came of an input without a product: how, how often, and where it died each time."""
+    """Tell how an input ended without a product, how often, and where it died each time."""
     times = f", {outcome.tries} times" if outcome.tries > 1 else ""
     lines = trace(outcome.output)[:1] if stage else ()
     where = f"; each time in stage {stage!r}" if stage else ""
@@ -53,7 +53,7 @@ def crash_measurements(outcome: Outcome[Product]) -> dict[str, Any]:
 
 
 def trace(output: str) -> tuple[str, ...]:
-    """Lines of Python in which a process died, the innermost first; the same on every machine.
+    """Return the lines of Python in which a process died, the innermost first, without paths.
 
     Args:
         output: the end of what it wrote.

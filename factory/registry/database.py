@@ -79,7 +79,7 @@ def connected(root: Path) -> Iterator[sqlite3.Connection]:
 
 
 def _is_full(root: Path) -> bool:
-    """SQLite calls it an input or output error where there is no room for its memory map."""
+    """Tell whether the disk is full; SQLite calls want of room for its map an I/O error."""
     try:
         room = os.statvfs(root)
     except OSError:
@@ -138,7 +138,7 @@ def _create_counts(connection: sqlite3.Connection) -> None:
 
 
 def _counted(row: str, by: int) -> str:
-    """SQL that counts a row in or out; kinds that no row is of any more are not kept."""
+    """Return SQL that counts a row in or out, and drops kinds that no row is of any more."""
     names = ", ".join(COUNTED)
     values = ", ".join(f"{row}.{name}" for name in COUNTED)
     same = " AND ".join(f"{name} = {row}.{name}" for name in COUNTED)

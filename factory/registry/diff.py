@@ -56,7 +56,7 @@ class Diff:
         return not (self.new or self.gone or self.newly_passed or self.newly_failed or self.changed)
 
     def to_dict(self) -> dict[str, Any]:
-        """JSON data."""
+        """Return JSON data."""
         changes = {
             name: getattr(self, name) for name in ("newly_passed", "newly_failed", "changed")
         }

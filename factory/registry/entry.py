@@ -30,11 +30,11 @@ class Entry:
         name: the input's name.
         category: of the object; empty if unknown.
         status: what became of it.
-        reason: code of the first hard finding; empty if it passed.
+        reason: code of the first error; empty if it passed.
         parts, joints, hulls: how many parts, movable joints and convex pieces.
         key: what it was made from, hexadecimal: inputs, settings, versions of stages and libraries;
             empty if unknown.
-        message: the first hard finding's sentence; empty if it passed.
+        message: the first error's sentence; empty if it passed.
         license: of the input; empty if unknown.
         split: ``train`` or ``test``; follows from the id.
         tags: what people call it, sorted.
@@ -71,7 +71,7 @@ _COUNTS = tuple(f.name for f in fields(Entry) if f.type == "int")
 
 
 def lasting_data(entry: Entry) -> dict[str, Any]:
-    """JSON data of every field that does not change while the asset stays as it is."""
+    """Return JSON data of every field that does not change while the asset stays as it is."""
     return {name: value for name, value in asdict(entry).items() if name not in MUTABLE}
 
 

@@ -26,7 +26,7 @@ STAGES = (LOAD, ARTICULATE, SOLIDS, DECOMPOSE, FINISH, EXPORT, INSPECT, VALIDATE
 
 
 def build_key(loaded: str, config: BuildConfig) -> str:
-    """Of everything that an asset and its verdict follow from.
+    """Return the key of everything that an asset and its verdict follow from.
 
     Args:
         loaded: key of the loaded input.
@@ -36,14 +36,14 @@ def build_key(loaded: str, config: BuildConfig) -> str:
 
 
 def source_key(source: Source) -> str:
-    """:func:`build_key` of an input that was loaded; empty if it did not keep still."""
+    """Return :func:`build_key` of a loaded input; empty if its files kept changing."""
     if not (source.keyed and source.reads):
         return ""
     return build_key(source.loaded_key, source.config)
 
 
 def failure_key(built: str, config: BuildConfig) -> str:
-    """Of an input that could not be judged: another version, or other limits, may do it.
+    """Return the key of an input without a verdict: another version or limit may give one.
 
     Args:
         built: :func:`build_key`; empty if it is not known.

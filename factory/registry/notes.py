@@ -34,7 +34,7 @@ class Note:
     solved_files: str = ""
 
     def solved_with(self, files: dict[str, str]) -> str:
-        """``solved``, if it was found with these files."""
+        """Return ``solved``, if it was found with these files."""
         return self.solved if self.solved and self.solved_files == fingerprint(files) else ""
 
 
@@ -49,7 +49,7 @@ def note_path(root: Path, asset_id: str) -> Path:
 
 
 def read_note(path: Path) -> Note:
-    """A note; an empty one if there is none or it is unreadable: it is never worth an asset."""
+    """Read a note; an empty one if there is none or it is unreadable."""
     try:
         if path.stat().st_size > _MAX_BYTES:
             return Note()

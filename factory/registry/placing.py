@@ -86,7 +86,7 @@ def remove(path: Path) -> None:
 
 
 def _exchanged(first: Path, second: Path) -> int:
-    """Linux's exchanging rename; 0, or the error's number."""
+    """Call Linux's exchanging rename; returns 0, or the error's number."""
     call = getattr(ctypes.CDLL(None, use_errno=True), "renameat2", None)
     if call is None:
         return errno.ENOSYS

@@ -65,7 +65,7 @@ class Product:
 
     @property
     def entry(self) -> Entry:
-        """Its row."""
+        """Return its row."""
         return self.result.entry
 
 
@@ -86,7 +86,7 @@ def finished(origin: Source, intake: Intake, made: Made, stages: Stages) -> Prod
         message=verdict.reason.message if verdict.reason else "",
         license=intake.provenance.license or "",
     )
-    told = BuildReport(verdict.report, made.plan.steps)
+    told = BuildReport(verdict.report, made.plan.repairs)
     bundle = made.bundle.folder
     if verdict.status is not Status.PASSED:
         _keep_shown(bundle)
@@ -105,7 +105,7 @@ def _keep_shown(bundle: Path) -> None:
 def refused(
     origin: Source, rejection: InputRejected, stages: Stages, shown: Path | None = None
 ) -> Product:
-    """The product of an input that could not become an asset at all; ``shown`` is kept of it."""
+    """Return the product of an input that could not become an asset; ``shown`` is kept of it."""
     finding = Finding(
         code=rejection.code,
         severity=Severity.HARD,
@@ -121,7 +121,7 @@ def refused(
 def stopped(
     origin: Source, unjudged: Unjudged, stages: Stages, shown: Path | None = None
 ) -> Product:
-    """The product of an input that got no verdict, as some step hung; ``shown`` is kept of it."""
+    """Return the product of an input that got no verdict; ``shown`` is kept of it."""
     entry, told = without_asset(origin, unjudged.finding, Status.UNJUDGED)
     return _product(origin, entry, told, shown, stages)
 
@@ -145,7 +145,7 @@ def without_asset(origin: Source, finding: Finding, status: Status) -> tuple[Ent
 
 
 def _key(origin: Source, status: Status, reason: Finding | None) -> str:
-    """Key of a result not to be redone: a verdict or a crash, but not what a clock stopped."""
+    """Return the key of a result not to be redone: a verdict or a crash, not a time-out."""
     built = source_key(origin)
     if status is not Status.UNJUDGED:
         return built

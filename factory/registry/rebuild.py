@@ -1,4 +1,4 @@
-"""The database made anew from the folders."""
+"""Opening a registry, and its database rebuilt from the folders."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import RegistryError
-from ..runtime.layout import ASSETS, DATABASE, REJECTED, STAGING
+from ..runtime.layout import ASSETS, CLAIMS, DATABASE, REJECTED, STAGING
 from ..runtime.store import sync_folder
+from .claims import alone
 from .database import (
     CACHE_KIB,
     SCHEMA_VERSION,
@@ -19,6 +20,7 @@ from .database import (
     connected,
     create_indices,
     create_tables,
+    damaged,
     require_known,
     schema_version,
     writing,
@@ -32,6 +34,58 @@ from .staging import held_folder, locked
 _COMPANIONS = ("-wal", "-shm", "-journal")
 #: Rows written at once: others wait that long.
 _CHUNK = 200
+
+
+def make_registry(root: Path) -> None:
+    """Make the folders and the database that are not there; the rows of assets that are.
+
+    Of several that do so at once one makes them.
+
+    Raises:
+        RegistryError: it cannot be made or used.
+    """
+    try:
+        _make(root)
+        open_registry(root)
+    except OSError as error:
+        raise RegistryError(
+            f"{root}: no registry can be made here: {error.strerror}; want a folder to write in"
+        ) from error
+
+
+def _make(root: Path) -> None:
+    folders = [root / name for name in (ASSETS, REJECTED, STAGING)]
+    if (root / DATABASE).exists() and all(folder.is_dir() for folder in folders):
+        return
+    for folder in folders:
+        folder.mkdir(parents=True, exist_ok=True)
+    with alone(root / CLAIMS, "registry"):
+        if not (root / DATABASE).exists():
+            rebuild(root)
+
+
+def open_registry(root: Path) -> None:
+    """Make sure that the database is of this program's version; the folders give an older one anew.
+
+    Raises:
+        RegistryError: there is none, it is damaged, or a newer program made it.
+    """
+    if not (root / DATABASE).is_file():
+        if (root / ASSETS).is_dir() and all_ids(root):
+            raise RegistryError(
+                f"{root}: no {DATABASE}; `factory registry rebuild --output {root}` makes it "
+                "from the folders"
+            )
+        raise RegistryError(
+            f"{root}: no registry here; `factory build --output {root} ...` makes one"
+        )
+    with connected(root) as connection:
+        version = schema_version(connection)
+    if version == 0:
+        raise damaged(root, "it has no tables")
+    require_known(root, version)
+    if version < SCHEMA_VERSION:
+        rebuild(root)
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The registry: judged assets in, judged assets out."""
+"""The registry: validated assets in, validated assets out."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import json
 import os
 import sqlite3
 from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
@@ -20,8 +20,8 @@ from .database import connected, writing
 from .entry import SOLVED, Entry, entry_from, lasting_data, require_tags
 from .folders import read_record
 from .notes import Note, fingerprint, note_path, read_note, write_note
-from .opening import make_registry, open_registry
 from .placing import place, remove, sync_tree
+from .rebuild import make_registry, open_registry
 from .report_file import BuildReport, file_digests, read_report, write_report
 from .rows import Filters
 from .staging import held_folder
@@ -31,7 +31,7 @@ _TRIES = 3
 
 
 class Registry:
-    """A folder of judged assets. Several processes may use it at once, for reading and for writing.
+    """A folder of validated assets, which several processes may read and write at once.
 
     Args:
         root: the output directory.
@@ -65,7 +65,7 @@ class Registry:
 
     @property
     def staging(self) -> Path:
-        """Half-made things, on the same file system as ``assets``."""
+        """Return the folder of half-made things, on the same file system as ``assets``."""
         return self.root / STAGING
 
     def staging_folder(self) -> AbstractContextManager[Path]:
@@ -153,21 +153,32 @@ class Registry:
 
     def forget(self, asset_id: str, *, except_id: str = "") -> None:
         """Drop an entry and its files, if there is one and it is not ``except_id``."""
-        places = (self.assets / asset_id, self.rejected / asset_id)
-        if asset_id == except_id or (
-            self.find(asset_id) is None and not any(place.exists() for place in places)
-        ):
+        if asset_id == except_id or (self.find(asset_id) is None and not self._folders(asset_id)):
             return
-        # The row goes first and for good: no reader is sent to a folder that is gone.
+        with self.staging_folder() as staging, self.unlisted(asset_id) as folders:
+            if folders is None:
+                return
+            for number, folder in enumerate(folders):
+                os.rename(folder, staging / str(number))
+            note_path(self.root, asset_id).unlink(missing_ok=True)
+
+    @contextmanager
+    def unlisted(self, asset_id: str) -> Iterator[list[Path] | None]:
+        """Drop a row for good, and yield the asset's folders, to be moved while nobody publishes.
+
+        ``None`` if somebody published it anew meanwhile. As the row goes first, no reader is sent
+        to a folder that is gone.
+        """
         with writing(self.root) as connection:
             rows.delete(connection, asset_id)
-        with self.staging_folder() as staging, writing(self.root) as connection:
-            if rows.find(connection, "id", asset_id) is not None:
-                return
-            for number, folder in enumerate(places):
-                if folder.exists():
-                    os.rename(folder, staging / str(number))
-            note_path(self.root, asset_id).unlink(missing_ok=True)
+        with writing(self.root) as connection:
+            again = rows.find(connection, "id", asset_id) is not None
+            yield None if again else self._folders(asset_id)
+
+    def _folders(self, asset_id: str) -> list[Path]:
+        """Return where an asset lies, with those that passed, with the others, or with both."""
+        places = (self.assets / asset_id, self.rejected / asset_id)
+        return [place for place in places if os.path.lexists(place)]
 
     def entries(
         self, *, limit: int | None = None, after: str = "", **wanted: str
@@ -216,7 +227,7 @@ class Registry:
             return self._entry(connection, asset_id)
 
     def known_key(self, key: str) -> Entry | None:
-        """The entry that was made from exactly this, if there is one and its files are there."""
+        """Find the entry that was made from exactly this, if its files are there."""
         return self.known_keys((key,)).get(key)
 
     def known_keys(self, keys: Sequence[str]) -> dict[str, Entry]:
@@ -234,14 +245,18 @@ class Registry:
         return (self.assets if entry.status is Status.PASSED else self.rejected) / entry.id
 
     def report(self, entry: Entry) -> Report:
-        """Return the report an entry was judged by. Raises RegistryError if it is gone."""
+        """Return the report that an entry's verdict is from. Raises RegistryError if it is gone."""
+        return self.told(entry).report
+
+    def told(self, entry: Entry) -> BuildReport:
+        """Return an entry's report and repairs. Raises RegistryError if they are gone."""
         for _ in range(_TRIES):
             try:
-                return read_report(self.folder(entry)).report
+                return read_report(self.folder(entry)).told
             except RegistryError:
-                # It may have been judged anew, and lie elsewhere now.
+                # It may have been validated again, and lie elsewhere now.
                 entry = self.entry(entry.id)
-        return read_report(self.folder(entry)).report
+        return read_report(self.folder(entry)).told
 
     def _entry(self, connection: sqlite3.Connection, asset_id: str) -> Entry:
         entry = rows.find(connection, "id", asset_id)
@@ -279,7 +294,7 @@ class Registry:
 
 
 def _completed(entry: Entry, told: BuildReport, content: Path) -> Entry:
-    """The entry with what its files know better. Raises RegistryError if it cannot be an entry."""
+    """Complete an entry from its files. Raises RegistryError if it cannot be an entry."""
     hard = told.report.hard
     entry = replace(entry, message=entry.message or (hard[0].message if hard else ""))
     if not entry.license and (content / MANIFEST).is_file():

@@ -1,4 +1,4 @@
-"""``report.json`` of an entry: what the judge said, and what it was registered as."""
+"""``report.json`` of an entry: what the validator said, and what it was registered as."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from asset_factory.sim_checks import Report
 from asset_factory.sim_checks.reasons import GPU_LIMITS
 
 from ..errors import RegistryError
+from ..manufacture.repair import Repair, older_repair
 from ..runtime.layout import REPORT
 from ..runtime.store import NOT_A_FILE, digest_bytes, folder_digests, write_json
 from .entry import Entry, lasting_data
@@ -25,12 +26,12 @@ class BuildReport:
     """What is told of one build.
 
     Attributes:
-        report: what the judge said, or why it was not asked.
-        repairs: what was changed before the judge said so, a sentence each.
+        report: what the validator said, or why it was not asked.
+        repairs: what was changed before the validator said so.
     """
 
     report: Report
-    repairs: tuple[str, ...] = ()
+    repairs: tuple[Repair, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -47,12 +48,12 @@ class StoredReport:
 
     @property
     def report(self) -> Report:
-        """Return what the judge said. Raises KeyError, TypeError or ValueError where it is none."""
+        """Return what the validator said. Raises KeyError, TypeError or ValueError if none."""
         return Report.from_dict(self.data)
 
     @property
     def told(self) -> BuildReport:
-        """As it was registered. Raises KeyError, TypeError or ValueError where it is none."""
+        """Return it as registered. Raises KeyError, TypeError or ValueError if it is none."""
         return BuildReport(self.report, self.repairs)
 
     @property
@@ -72,20 +73,22 @@ class StoredReport:
 
     @property
     def gpu_ready(self) -> str:
-        """``yes`` or ``no``: whether PhysX takes its hulls on a GPU; empty if it did not pass."""
+        """Return ``yes`` or ``no``, whether PhysX takes its hulls on a GPU; empty if not passed."""
         if not self.passed:
             return ""
         codes = {str(finding["code"]) for finding in self.data.get("findings", ())}
         return "yes" if codes.isdisjoint(GPU_LIMITS) else "no"
 
     @property
-    def repairs(self) -> tuple[str, ...]:
-        """Return what was repaired, a sentence each."""
-        return tuple(self.data.get("repairs", ()))
+    def repairs(self) -> tuple[Repair, ...]:
+        """Return what was repaired. Raises KeyError, TypeError or ValueError where it is none."""
+        if "changes" in self.data:
+            return tuple(Repair.from_dict(each) for each in self.data["changes"])
+        return tuple(older_repair(str(sentence)) for sentence in self.data.get("repairs", ()))
 
     @property
     def files(self) -> dict[str, str]:
-        """SHA-256 of the asset's files when it was registered, by path.
+        """Return SHA-256 of the asset's files when it was registered, by path.
 
         Raises:
             ValueError: it has none, or they are no digests.
@@ -123,7 +126,8 @@ def write_report(folder: Path, entry: Entry, told: BuildReport, files: Mapping[s
     data = {
         **told.report.to_dict(),
         "id": entry.id,
-        "repairs": list(told.repairs),
+        "repairs": [repair.sentence for repair in told.repairs],
+        "changes": [repair.to_dict() for repair in told.repairs],
         "files": files,
         "entry": lasting_data(entry),
     }
@@ -131,7 +135,7 @@ def write_report(folder: Path, entry: Entry, told: BuildReport, files: Mapping[s
 
 
 def file_digests(folder: Path) -> dict[str, str]:
-    """SHA-256 of every file of an asset but its report, by path within the folder, sorted."""
+    """Return SHA-256 of every file of an asset but its report, by path, sorted."""
     return folder_digests(folder, without=(REPORT,))
 
 

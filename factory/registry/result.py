@@ -35,11 +35,11 @@ class Result:
 
     @property
     def known(self) -> bool:
-        """Whether the registry knew it already: same input, settings, stages and libraries."""
+        """Tell whether the registry knew it: same input, settings, stages and libraries."""
         return self.attempts == 0
 
     def to_dict(self) -> dict[str, Any]:
-        """JSON data: a row of ``summary.json``."""
+        """Return JSON data: a row of ``summary.json``."""
         entry = self.entry
         return {
             "id": entry.id,
@@ -60,5 +60,5 @@ class Result:
 
 
 def known_result(source: str, entry: Entry) -> Result:
-    """Of an input that the registry knew already: nothing was done."""
+    """Return the result of an input that the registry knew already: nothing was done."""
     return Result(source, entry, attempts=0, reused=(WHOLE_BUILD,))

@@ -26,7 +26,7 @@ class RegistryRow:
         entry: the entry.
         digest: SHA-256 of the report.json that it was read from.
         gpu_ready: ``yes`` or ``no``: whether PhysX takes its hulls on a GPU; empty if it was not
-            judged, or did not pass.
+            validated, or did not pass.
     """
 
     entry: Entry
@@ -75,7 +75,7 @@ class Filters:
 
 
 def _walked(asked: frozenset[str]) -> str:
-    """The table, and its narrowest index for the query that gives rows in the order of ids."""
+    """Name the table, and its narrowest index that gives rows in the order of ids."""
     if "tag" in asked:
         return "tags CROSS JOIN assets ON assets.id = tags.id"
     index = next((names for names in INDICES if asked.issuperset(names)), None)
@@ -119,7 +119,7 @@ def find(connection: sqlite3.Connection, column: str, value: str) -> Entry | Non
 
 
 def report_digest(connection: sqlite3.Connection, asset_id: str) -> str:
-    """SHA-256 of an entry's report.json when it was listed; empty if it is not."""
+    """Return SHA-256 of an entry's report.json when it was listed; empty if it is not."""
     row = connection.execute("SELECT digest FROM assets WHERE id = ?", (asset_id,)).fetchone()
     return "" if row is None else str(row[0])
 
@@ -149,7 +149,7 @@ def count(connection: sqlite3.Connection, filters: Filters) -> int:
 
 
 def near(connection: sqlite3.Connection, asset_id: str) -> tuple[str, ...]:
-    """Up to 100 ids with the longest prefix of this one that any has, at least three letters."""
+    """Find up to 100 ids that share the longest prefix, of at least three letters, with this."""
     starts = [asset_id[:length] for length in range(len(asset_id), 2, -1)] or [asset_id]
     marks = ", ".join("?" for _ in starts)
     statement = f"SELECT id FROM assets WHERE id IN ({marks}) ORDER BY id DESC LIMIT 1"  # noqa: S608 - question marks

@@ -13,5 +13,5 @@ TEST_SHARE = 0.2
 
 
 def split_of(asset_id: str) -> Split:
-    """Where an asset belongs: from the id alone, so that a growing registry moves nothing."""
+    """Return an asset's split, from its id alone, so that a growing registry moves nothing."""
     return "test" if int(digest_bytes(asset_id.encode())[:8], 16) < TEST_SHARE * 2**32 else "train"

@@ -15,7 +15,7 @@ from asset_factory.sim_checks.processes import scratch
 
 @contextmanager
 def held_folder(parent: Path) -> Iterator[Path]:
-    """A fresh folder in ``parent``, locked while the process lives, then removed with content."""
+    """Make a folder in ``parent``, locked while the process lives, removed afterwards."""
     parent.mkdir(parents=True, exist_ok=True)
     folder, descriptor = scratch.held_folder(parent)
     folder.chmod(0o755)

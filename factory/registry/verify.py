@@ -1,22 +1,50 @@
-"""Whether a registry still is what was published: every file, every row."""
+"""Whether a registry still is what was published, every file and row; what becomes of damage."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
+from enum import StrEnum
 from pathlib import Path
 
 from ..errors import RegistryError
-from ..runtime.layout import ASSETS, REJECTED, REPORT
+from ..runtime.layout import ASSETS, REJECTED, REPORT, WITHDRAWN
 from . import rows
 from .database import connected, writing
-from .entry import Entry
 from .folders import all_ids, current_folder, read_record
 from .notes import note_path
+from .rebuild import write_rows
 from .registry import Registry
 from .report_file import file_digests, read_report
+
+
+class ProblemKind(StrEnum):
+    """What is not as it was published; files are compared by digest."""
+
+    MISSING = "missing"
+    ALTERED = "altered"
+    EXTRA = "extra"
+    LOST = "lost"
+    """A row without a folder."""
+    UNLISTED = "unlisted"
+    """A folder without a row."""
+    STALE = "stale"
+    """A row that says something else than its folder."""
+    UNREADABLE = "unreadable"
+    """A report that is none."""
+    TWICE = "twice"
+    """A folder among those that passed, and one among the others."""
+
+
+#: Kinds of problems that the folders alone mend.
+_OF_ROWS = frozenset({ProblemKind.STALE, ProblemKind.UNLISTED, ProblemKind.LOST, ProblemKind.TWICE})
+_SENTENCES = {
+    ProblemKind.MISSING: "is gone since it was published",
+    ProblemKind.EXTRA: "was not published with the asset",
+    ProblemKind.ALTERED: "is not what was published (SHA-256)",
+}
 
 
 @dataclass(frozen=True)
@@ -25,18 +53,26 @@ class Problem:
 
     Attributes:
         id: of the asset.
-        kind: ``missing``, ``altered`` or ``extra``: a file against its digest; ``lost``: a row
-            without a folder; ``unlisted``: a folder without a row; ``stale``: a row that says
-            something else than its folder; ``unreadable``: a report that is none; ``twice``: it
-            lies among those that passed and among the others.
+        kind: what is wrong.
         path: of the file or folder, within the registry.
         message: a sentence.
     """
 
     id: str
-    kind: str
+    kind: ProblemKind
     path: str
     message: str
+
+
+class Settled(StrEnum):
+    """What became of a damaged asset."""
+
+    MENDED = "mended"
+    """It is whole again."""
+    WITHDRAWN = "withdrawn"
+    """It is registered no more."""
+    LEFT = "left"
+    """It is as it was: there was no time to make it again."""
 
 
 def verify(registry: Registry, ids: Iterable[str] | None = None) -> tuple[Problem, ...]:
@@ -62,7 +98,7 @@ def _ids(registry: Registry, ids: Iterable[str] | None) -> list[str]:
 
 
 def _confirmed(registry: Registry, asset_id: str) -> list[Problem]:
-    """What is wrong with an asset, seen twice: at first somebody may have been publishing it."""
+    """Return what is wrong with an asset when looked at twice: it may be being published."""
     if not list(_problems(registry, asset_id)):
         return []
     still: AbstractContextManager[object] = nullcontext()
@@ -77,61 +113,118 @@ def _problems(registry: Registry, asset_id: str) -> Iterator[Problem]:
     with connected(root) as connection:
         entry = rows.find(connection, "id", asset_id)
         digest = rows.report_digest(connection, asset_id)
-    folders = [
-        folder
-        for folder in (root / ASSETS / asset_id, root / REJECTED / asset_id)
-        if folder.is_dir()
-    ]
+    folders = [root / place / asset_id for place in (ASSETS, REJECTED)]
+    there = sum(folder.is_dir() for folder in folders)
     folder = current_folder(root, asset_id)
     where = folder.relative_to(root).as_posix()
-    if not folders:
+
+    def problem(kind: ProblemKind, sentence: str) -> Problem:
+        return Problem(asset_id, kind, where, f"{asset_id}: {sentence}")
+
+    if not there:
         if entry is not None:
-            yield Problem(
-                asset_id, "lost", where, f"{asset_id}: listed as {entry.status}, without a folder"
-            )
+            yield problem(ProblemKind.LOST, f"listed as {entry.status}, without a folder")
         return
-    if len(folders) > 1:
-        yield Problem(asset_id, "twice", where, f"{asset_id}: lies in both {ASSETS} and {REJECTED}")
+    if there > 1:
+        yield problem(ProblemKind.TWICE, f"lies in both {ASSETS} and {REJECTED}")
     if entry is None:
-        yield Problem(asset_id, "unlisted", where, f"{asset_id}: a folder without a row")
+        yield problem(ProblemKind.UNLISTED, "a folder without a row")
     yield from _problems_of_files(folder, where, digest)
     if entry is not None:
-        yield from _problems_of_row(root, folder, where, entry)
+        try:
+            told = read_record(folder, note_path(root, asset_id)).entry
+        except RegistryError as error:
+            yield Problem(asset_id, ProblemKind.UNREADABLE, f"{where}/{REPORT}", str(error))
+            return
+        if told != entry:
+            yield problem(ProblemKind.STALE, "its row is not what its folder says")
 
 
 def _problems_of_files(folder: Path, where: str, digest: str) -> Iterator[Problem]:
-    asset_id = folder.name
+    def problem(kind: ProblemKind, name: str, sentence: str = "") -> Problem:
+        path = f"{where}/{name}"
+        return Problem(folder.name, kind, path, sentence or f"{path}: {_SENTENCES[kind]}")
+
     try:
         stored = read_report(folder)
         registered = stored.files
         found = file_digests(folder)
     except (RegistryError, ValueError, OSError) as error:
-        yield Problem(asset_id, "unreadable", f"{where}/{REPORT}", str(error))
+        yield problem(ProblemKind.UNREADABLE, REPORT, str(error))
         return
     if digest and digest != stored.digest:
-        yield _problem(asset_id, "altered", f"{where}/{REPORT}")
+        yield problem(ProblemKind.ALTERED, REPORT)
     for name in sorted(registered.keys() | found.keys()):
-        if registered.get(name) != found.get(name):
-            kind = (
-                "missing" if name not in found else "extra" if name not in registered else "altered"
-            )
-            yield _problem(asset_id, kind, f"{where}/{name}")
+        if name not in found:
+            yield problem(ProblemKind.MISSING, name)
+        elif name not in registered:
+            yield problem(ProblemKind.EXTRA, name)
+        elif registered[name] != found[name]:
+            yield problem(ProblemKind.ALTERED, name)
 
 
-def _problems_of_row(root: Path, folder: Path, where: str, entry: Entry) -> Iterator[Problem]:
-    try:
-        told = read_record(folder, note_path(root, entry.id)).entry
-    except RegistryError as error:
-        yield Problem(entry.id, "unreadable", f"{where}/{REPORT}", str(error))
-        return
-    if told != entry:
-        yield Problem(entry.id, "stale", where, f"{entry.id}: its row is not what its folder says")
+def mend_rows(registry: Registry, problems: Iterable[Problem]) -> None:
+    """Bring rows in line with their folders, as far as they are concerned; no file is touched."""
+    ids = sorted({problem.id for problem in problems if problem.kind in _OF_ROWS})
+    if ids:
+        write_rows(registry.root, ids)
 
 
-def _problem(asset_id: str, kind: str, path: str) -> Problem:
-    sentence = {
-        "missing": "is gone since it was published",
-        "extra": "was not published with the asset",
-        "altered": "is not what was published (SHA-256)",
-    }
-    return Problem(asset_id, kind, path, f"{path}: {sentence[kind]}")
+def settle(
+    registry: Registry, problems: Iterable[Problem], *, final: bool = True
+) -> dict[str, Settled]:
+    """Return what became of damaged assets, once all that can be made again was.
+
+    What was added to a folder, and assets that still are not what was registered, are moved to
+    ``withdrawn``: nobody takes them for assets any more, and nothing is lost.
+
+    Args:
+        registry: others may use it meanwhile.
+        problems: as they were found.
+        final: whether all was tried; otherwise assets are left as they are.
+
+    Returns:
+        By id, sorted.
+    """
+    ids = sorted({problem.id for problem in problems})
+    return {asset_id: _settled(registry, asset_id, final) for asset_id in ids}
+
+
+def withdraw(registry: Registry, asset_id: str) -> None:
+    """Drop an asset's row, and move its folder to ``withdrawn``; what was noted of it stays."""
+    with registry.unlisted(asset_id) as folders:
+        for folder in folders or ():
+            _set_aside(registry, folder, Path(asset_id))
+
+
+def _settled(registry: Registry, asset_id: str, final: bool) -> Settled:
+    left = verify(registry, (asset_id,))
+    if left and {problem.kind for problem in left} == {ProblemKind.EXTRA}:
+        _set_extras_aside(registry, asset_id, left)
+        left = verify(registry, (asset_id,))
+    if not left:
+        known = registry.find(asset_id) is not None
+        return Settled.MENDED if known else Settled.WITHDRAWN
+    if not final:
+        return Settled.LEFT
+    withdraw(registry, asset_id)
+    return Settled.WITHDRAWN
+
+
+def _set_extras_aside(registry: Registry, asset_id: str, extras: Sequence[Problem]) -> None:
+    with writing(registry.root):
+        for problem in extras:
+            path = registry.root / problem.path
+            # Somebody may have published it anew meanwhile.
+            if os.path.lexists(path):
+                _set_aside(registry, path, Path(*path.relative_to(registry.root).parts[1:]))
+
+
+def _set_aside(registry: Registry, path: Path, name: Path) -> None:
+    """Move something into ``withdrawn``; what an earlier damage left there goes."""
+    target = registry.root / WITHDRAWN / name
+    target.parent.mkdir(parents=True, exist_ok=True)
+    with registry.staging_folder() as staging:
+        if os.path.lexists(target):
+            os.rename(target, staging / "before")
+        os.rename(path, target)

@@ -63,7 +63,7 @@ class Ability:
 
 
 def abilities(output: Path) -> Iterator[Ability]:
-    """Everything that a build may need, each tried when it is asked for.
+    """Yield everything that a build may need, each tried when it is asked for.
 
     Args:
         output: where assets are to go; it or a folder above it is there.

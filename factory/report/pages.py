@@ -16,7 +16,7 @@ _LONGEST = 600
 
 
 def environment(package: str, **known: object) -> Environment:
-    """Where templates are found, those of all reports too; a name that is not known is an error.
+    """Return the templates of a package and of all reports; an unknown name is an error.
 
     Args:
         package: with a folder ``templates``.
@@ -38,7 +38,7 @@ def environment(package: str, **known: object) -> Environment:
 
 
 def script(data: Any) -> Markup:
-    """JSON that may stand in a script element: nothing in it ends the element."""
+    """Return JSON that may stand in a script element: nothing in it ends the element."""
     from markupsafe import Markup
 
     text = json.dumps(data, separators=(",", ":"), allow_nan=False)
@@ -53,7 +53,7 @@ def trusted(text: str) -> Markup:
 
 
 def _shown(value: object) -> object:
-    """Text from inputs: characters that turn or break lines are shown, too long a text is cut."""
+    """Show characters that turn or break lines in texts from inputs; cut long ones."""
     if not isinstance(value, str) or hasattr(value, "__html__"):
         return value
     shown = "".join(c if c.isprintable() else "\ufffd" for c in value)

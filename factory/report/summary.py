@@ -40,7 +40,7 @@ class Summary:
         return sum(result.entry.status is status for result in self.results)
 
     def to_dict(self) -> dict[str, Any]:
-        """JSON data: inputs by status, how it ended, ``reasons``, and ``assets`` by input."""
+        """Return JSON data: inputs by status, how it ended, ``reasons``, ``assets`` by input."""
         ordered = sorted(self.results, key=lambda result: result.input)
         reasons = Counter(result.entry.reason for result in ordered if result.entry.reason)
         return {

@@ -27,10 +27,10 @@ def is_url(text: str) -> bool:
 
 
 def shown(url: str) -> str:
-    """Return a URL without what may be a secret: a name and a password, a query, a fragment."""
-    scheme, _, rest = url.partition("://")
+    """Return a URL without what may be a secret, a password, a query, a fragment; paths whole."""
+    scheme, mark, rest = url.partition("://")
     place, slash, path = re.split(r"[?#]", rest, maxsplit=1)[0].partition("/")
-    return f"{scheme}://{place.rpartition('@')[2]}{slash}{path}"
+    return f"{scheme}{mark}{place.rpartition('@')[2]}{slash}{path}"
 
 
 def told(error: BaseException, url: str) -> str:

@@ -1,4 +1,4 @@
-"""Several readings of one input, each made and judged: which of them becomes the asset."""
+"""Several hypotheses of one input, each made and validated: which becomes the asset."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ _VERBS = {"revolute": "turns", "continuous": "turns", "prismatic": "slides"}
 
 
 @dataclass(frozen=True)
-class ReadingDraft:
-    """One reading, made, and repaired as far as that goes.
+class HypothesisDraft:
+    """One hypothesis, made, and repaired as far as that goes.
 
     Attributes:
-        reading: the kinematic tree.
+        articulation: the kinematic tree of the hypothesis.
         asset, bundle: what it became.
         plan: what repairs changed.
         findings: the factory's own.
-        inspected: what the judge says of it without simulators.
+        inspected: what the validator says of it without simulators.
         before: what it was before repairs, if there were any.
-        work: that it took, with all that was made of this reading before it; see :func:`work_of`.
+        work: that it took, with all that was made of it before; see :func:`work_of`.
     """
 
-    reading: Articulation
+    articulation: Articulation
     asset: Asset
     bundle: Bundle
     plan: Plan
@@ -49,7 +49,7 @@ class ReadingDraft:
 
     @property
     def whole(self) -> bool:
-        """Return whether it passes with every joint of its reading."""
+        """Return whether it passes with every joint of its hypothesis."""
         return self.passes and not self.plan.frozen and not self.plan.given_up
 
 
@@ -63,7 +63,7 @@ def work_of(asset: Asset) -> int:
     return max(1, len(asset.articulation.movable_joints)) * moved
 
 
-def best_of(drafts: Iterable[ReadingDraft]) -> tuple[ReadingDraft, tuple[Finding, ...]]:
+def best_of(drafts: Iterable[HypothesisDraft]) -> tuple[HypothesisDraft, tuple[Finding, ...]]:
     """Return the draft that becomes the asset, and what is said of the others.
 
     The likeliest that passes with all its joints; else the likeliest that passes; else the
@@ -72,7 +72,7 @@ def best_of(drafts: Iterable[ReadingDraft]) -> tuple[ReadingDraft, tuple[Finding
     Args:
         drafts: the likeliest first, each made when it is asked for; at least one.
     """
-    made: list[ReadingDraft] = []
+    made: list[HypothesisDraft] = []
     for draft in drafts:
         made.append(draft)
         if draft.whole:
@@ -81,7 +81,7 @@ def best_of(drafts: Iterable[ReadingDraft]) -> tuple[ReadingDraft, tuple[Finding
     return best, tuple(_lost(draft) for draft in made if draft is not best)
 
 
-def _lost(draft: ReadingDraft) -> Finding:
+def _lost(draft: HypothesisDraft) -> Finding:
     reason = draft.inspected.reason
     dropped = sorted(draft.plan.frozen | draft.plan.given_up)
     if reason is not None:
@@ -90,9 +90,11 @@ def _lost(draft: ReadingDraft) -> Finding:
         why = f"passes only without {', '.join(dropped)}"
     else:
         why = "passes too, and is less likely"
-    told = ", ".join(_told(draft.reading, joint) for joint in draft.reading.movable_joints)
+    told = ", ".join(
+        _told(draft.articulation, joint) for joint in draft.articulation.movable_joints
+    )
     return Finding("other_reading", Severity.SOFT, f"read otherwise ({told}), it {why}")
 
 
-def _told(reading: Articulation, joint: Joint) -> str:
-    return f"{reading.parts[joint.child].name} {_VERBS[joint.kind]}"
+def _told(articulation: Articulation, joint: Joint) -> str:
+    return f"{articulation.parts[joint.child].name} {_VERBS[joint.kind]}"

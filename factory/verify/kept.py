@@ -18,7 +18,7 @@ class Kept:
     """Shares that are left, 0 to 1.
 
     Attributes:
-        range: mean over the joints of the reading; 0 for one that was frozen or given up.
+        range: mean over the joints of the hypothesis; 0 for one that was frozen or given up.
         coverage: of the visible surface within 10 mm of collision geometry, mean over links.
         worst_coverage: of the worst link.
     """
@@ -28,7 +28,7 @@ class Kept:
     worst_coverage: float
 
     def to_dict(self) -> dict[str, float]:
-        """For a report."""
+        """Return the shares as a report has them."""
         return {
             "range": round(self.range, 4),
             "coverage": round(self.coverage, 4),
@@ -36,17 +36,17 @@ class Kept:
         }
 
 
-def kept_of(reading: Articulation, made: Articulation, measured: Mapping[str, Any]) -> Kept:
+def kept_of(hypothesis: Articulation, made: Articulation, measured: Mapping[str, Any]) -> Kept:
     """Return what is left.
 
     Args:
-        reading: what was to be made.
+        hypothesis: what was to be made.
         made: what was.
-        measured: the judge's measurements of the asset's URDF.
+        measured: the validator's measurements of the asset's URDF.
     """
     ranges = {joint.name: joint.range for joint in made.movable_joints}
     shares = [
-        min(1.0, ranges.get(joint.name, 0.0) / joint.range) for joint in reading.movable_joints
+        min(1.0, ranges.get(joint.name, 0.0) / joint.range) for joint in hypothesis.movable_joints
     ]
     links = measured.get("lint", {}).get("links", [])
     covered = [float(link["covered"]) for link in links if "covered" in link] or [1.0]
@@ -57,9 +57,9 @@ def kept_of(reading: Articulation, made: Articulation, measured: Mapping[str, An
     )
 
 
-def with_kept(verdict: Verdict, reading: Articulation, made: Articulation) -> Verdict:
+def with_kept(verdict: Verdict, hypothesis: Articulation, made: Articulation) -> Verdict:
     """Return the same verdict, its report telling what is left."""
     measurements = verdict.report.measurements
-    kept = kept_of(reading, made, measurements.get("asset.urdf", {}))
+    kept = kept_of(hypothesis, made, measurements.get("asset.urdf", {}))
     told = {**measurements, KEPT: kept.to_dict()}
     return replace(verdict, report=replace(verdict.report, measurements=told))

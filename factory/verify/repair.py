@@ -7,24 +7,26 @@ from collections.abc import Callable
 from ..asset import Asset
 from ..config import RepairConfig
 from ..manufacture.plan import Plan, Spare
-from .repairs.build_fronts import build_fronts
-from .repairs.closely import fit_closely
 from .repairs.evidence import RepairEvidence
-from .repairs.exclude import exclude_knuckles
+from .repairs.geometry import (
+    build_fronts,
+    exclude_knuckles,
+    fit_closely,
+    hollow_out,
+    separate_hulls,
+)
 from .repairs.give_up import give_up_guesses
-from .repairs.hollow import hollow_out
 from .repairs.mend import mend_joints
 from .repairs.pull_in import pull_in
 from .repairs.rehang import rehang_doors
-from .repairs.separate import separate_hulls
 from .repairs.shorten import shorten_or_freeze
 from .validate import Verdict
 
-Repair = Callable[[RepairEvidence, Plan], Plan | None]
+Repairer = Callable[[RepairEvidence, Plan], Plan | None]
 
 #: Every repair, in the order in which they are tried; a round does the first that has something to
 #: change.
-REPAIRS: tuple[Repair, ...] = (
+REPAIRS: tuple[Repairer, ...] = (
     separate_hulls,
     exclude_knuckles,
     fit_closely,
@@ -37,12 +39,12 @@ REPAIRS: tuple[Repair, ...] = (
     shorten_or_freeze,
 )
 #: Those that change collision geometry only; all others change joints or parts.
-GEOMETRY: frozenset[Repair] = frozenset(
+GEOMETRY: frozenset[Repairer] = frozenset(
     {separate_hulls, exclude_knuckles, fit_closely, build_fronts, hollow_out}
 )
 
 
-def allowed(repair: Repair, kinds: str) -> bool:
+def allowed(repair: Repairer, kinds: str) -> bool:
     """Return whether a repair is among those that were asked for, one of ``REPAIR_KINDS``."""
     return kinds == "all" or (kinds == "geometry" and repair in GEOMETRY)
 
@@ -53,11 +55,11 @@ def next_plan(
     """Return what to change so that the asset becomes better, if anything can.
 
     Args:
-        verdict: of the round just judged.
+        verdict: of the round just validated.
         plan: which that round was made by.
         config: how far repairs may go.
         spare: what the object is still worth having without.
-        asset: that was judged; without it no joint is mended.
+        asset: that was validated; without it no joint is mended.
 
     Returns:
         The plan for another round, or ``None`` when nothing is left that could help.

@@ -1,4 +1,4 @@
-"""One reading of an input, made, judged and made better, round by round."""
+"""One hypothesis of an input, made, validated and repaired, round by round."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..intake.intake import Intake
 from ..manufacture.plan import Plan, Spare, dispensable_joints, first_plan
 from ..manufacture.stage import manufacture
 from ..runtime.stages import Stages
-from .drafts import ReadingDraft, work_of
+from .drafts import HypothesisDraft, work_of
 from .repair import next_plan
 from .validate import Verdict, inspect, validate
 
@@ -26,40 +26,40 @@ LIGHTER = 3
 
 @dataclass(frozen=True, eq=False)
 class Rounds:
-    """Whatever it takes to make one reading, and to judge it.
+    """Whatever it takes to make one hypothesis, and to validate it.
 
     Attributes:
-        reading: the kinematic tree.
+        articulation: the kinematic tree of the hypothesis.
         intake: the input.
         staging: a folder for what is made.
-        judge: with the configuration's thresholds.
+        judge: the validator, with the configuration's thresholds.
         stages: with the settings, and what was done before.
     """
 
-    reading: Articulation
+    articulation: Articulation
     intake: Intake
     staging: Path
     judge: Judge
     stages: Stages
 
-    def drafted(self) -> ReadingDraft:
-        """Judged without simulators, and repaired until nothing is left to repair.
+    def drafted(self) -> HypothesisDraft:
+        """Make the hypothesis, validate it without simulators, and repair while a repair applies.
 
         Raises:
             InputRejected: nothing can be made of it.
             Unjudged: a clock or somebody stopped a step.
         """
-        draft = self._repaired(self._made(first_plan(self.reading, self._spare), "0"), "")
+        draft = self._repaired(self._made(first_plan(self.articulation, self._spare), "0"), "")
         return self._lighter(draft) if draft.passes else draft
 
     def simulated(
-        self, draft: ReadingDraft, others: tuple[Finding, ...]
-    ) -> tuple[ReadingDraft, Verdict]:
-        """Judged in simulators too; what these alone refuse is repaired as well.
+        self, draft: HypothesisDraft, others: tuple[Finding, ...]
+    ) -> tuple[HypothesisDraft, Verdict]:
+        """Validate a draft in simulators too, and repair what these alone refuse.
 
         Args:
             draft: that passes without simulators, or the best there is.
-            others: what is told of other readings.
+            others: what is told of other hypotheses.
         """
         first = draft, self._validated(draft, others)
         verdict = first[1]
@@ -80,11 +80,11 @@ class Rounds:
 
     @cached_property
     def _spare(self) -> Spare:
-        return dispensable_joints(self.reading, self.stages.config.repair.small_share)
+        return dispensable_joints(self.articulation, self.stages.config.repair.small_share)
 
-    def _made(self, plan: Plan, folder: str, done: int = 0) -> ReadingDraft:
-        """Make and inspect what a plan says; ``done`` is the work on this reading so far."""
-        asset, findings = manufacture(self.reading, plan, self.intake, self.stages)
+    def _made(self, plan: Plan, folder: str, done: int = 0) -> HypothesisDraft:
+        """Make and inspect what a plan says; ``done`` is the work on it so far."""
+        asset, findings = manufacture(self.articulation, plan, self.intake, self.stages)
         with self.stages.clock.stage("export"):
             bundle = export_bundle(
                 asset,
@@ -95,9 +95,11 @@ class Rounds:
             )
         inspected = _said(inspect(bundle, self.judge, findings, self.stages))
         work = done + work_of(asset)
-        return ReadingDraft(self.reading, asset, bundle, plan, findings, inspected, work=work)
+        return HypothesisDraft(
+            self.articulation, asset, bundle, plan, findings, inspected, work=work
+        )
 
-    def _repaired(self, first: ReadingDraft, name: str) -> ReadingDraft:
+    def _repaired(self, first: HypothesisDraft, name: str) -> HypothesisDraft:
         draft = first
         for attempt in range(self.stages.config.repair.max_rounds):
             plan = self._next(draft.inspected, draft)
@@ -106,7 +108,7 @@ class Rounds:
             draft = self._made(plan, f"{name}{attempt + 1}", draft.work)
         return draft if draft is first else replace(draft, before=first.asset)
 
-    def _lighter(self, draft: ReadingDraft) -> ReadingDraft:
+    def _lighter(self, draft: HypothesisDraft) -> HypothesisDraft:
         """Return the same with fewer hulls, where it has too many and passes with those."""
         most = self.stages.config.hulls.most
         aim = most
@@ -126,14 +128,14 @@ class Rounds:
             aim -= excess
         return lightest
 
-    def _next(self, verdict: Verdict, draft: ReadingDraft) -> Plan | None:
+    def _next(self, verdict: Verdict, draft: HypothesisDraft) -> Plan | None:
         """Return what to do differently, if anything could help that is worth the work."""
         config = self.stages.config.repair
         if draft.work > config.most_work:
             return None
         return next_plan(verdict, draft.plan, config, self._spare, draft.asset)
 
-    def _validated(self, draft: ReadingDraft, others: tuple[Finding, ...]) -> Verdict:
+    def _validated(self, draft: HypothesisDraft, others: tuple[Finding, ...]) -> Verdict:
         told = (*draft.findings, *others)
         simulators = self.stages.config.simulators
         return _said(

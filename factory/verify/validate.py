@@ -1,4 +1,4 @@
-"""The only door to the judge: Bundle -> Verdict."""
+"""The only way to the validator: Bundle -> Verdict."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from ..runtime.store import folder_digests
 
 JUDGE = "asset_factory.sim_checks"
 COLLISION_LIBRARIES = ("numpy", "scipy", "trimesh", "python-fcl")
-#: The judge's very code counts: what a mended judge would reject must not pass by being kept.
+#: The validator's very code counts: what a mended one would reject must not pass by being kept.
 INSPECT = Stage(
     "inspect", version=2, settings=("checks",), libraries=COLLISION_LIBRARIES, code=(JUDGE,)
 )
@@ -41,9 +41,9 @@ class Verdict:
     """What became of a bundle.
 
     Attributes:
-        report: all findings, the judge's and the factory's own.
+        report: all findings, the validator's and the factory's own.
         examined: of the bundle's URDF, what needed no simulator.
-        key: of what was judged, where it was remembered.
+        key: of what was validated, where it was remembered.
     """
 
     report: Report
@@ -75,7 +75,7 @@ def inspect(
     own_findings: tuple[Finding, ...] = (),
     stages: Stages | None = None,
 ) -> Verdict:
-    """Judge a bundle's URDF without simulators, as repairs need. Arguments: :func:`validate`."""
+    """Validate a bundle's URDF without simulators, as repairs need. Arguments: :func:`validate`."""
     if stages is None:
         return validate(bundle, (), judge, own_findings)
     key = INSPECT.key(stages.config, folder_digests(bundle.folder))
@@ -102,12 +102,12 @@ def validate(
     inspected: Verdict | None = None,
     stages: Stages | None = None,
 ) -> Verdict:
-    """Judge a bundle's URDF, and its MJCF in the simulators that read that.
+    """Validate a bundle's URDF, and its MJCF in the simulators that read that.
 
     Args:
         bundle: as exported.
-        simulators: names; each judges the file that is meant for it.
-        judge: with the thresholds.
+        simulators: names; each loads the file that is meant for it.
+        judge: the validator, with the thresholds.
         own_findings: what the factory itself found wrong, listed first.
         inspected: of this same bundle, by :func:`inspect`: what needs no simulator is then not
             measured again.
@@ -115,15 +115,15 @@ def validate(
     """
     examined = inspected.examined if inspected is not None else None
     if stages is None or inspected is None:
-        return _judged(bundle, simulators, judge, own_findings, examined)
-    verdict = partial(_judged, bundle, simulators, judge, own_findings, examined)
+        return _validated(bundle, simulators, judge, own_findings, examined)
+    verdict = partial(_validated, bundle, simulators, judge, own_findings, examined)
     key = VALIDATE.key(stages.config, inspected.key, [asdict(finding) for finding in own_findings])
     worth = lambda report: _is_final(report.findings)  # noqa: E731
     report = stages.recall("validate", Report, key, lambda: verdict().report, worth)
     return Verdict(report, examined, key)
 
 
-def _judged(
+def _validated(
     bundle: Bundle,
     simulators: tuple[str, ...],
     judge: Judge,
@@ -145,7 +145,7 @@ def _judged(
         measurements["asset.xml"] = dict(second.measurements)
         findings += [finding for finding in second.findings if finding not in findings]
         took_part |= set(second.simulators)
-        # Each file has its own report, but the engines judged one asset. The MJCF knows which pairs
+        # Each file has its own report, but the engines ran one asset. The MJCF knows which pairs
         # are excluded.
         differences = disagreements(
             findings, {**report.measurements, **second.measurements}, simulators
@@ -157,7 +157,7 @@ def _judged(
 
 
 def _read_again(bundle: Bundle) -> Description | None:
-    """What the URDF says, where its examination was remembered; ``None`` if it cannot be read."""
+    """Read the URDF where its examination came from the cache; ``None`` if it cannot be read."""
     from asset_factory.sim_checks.read.read import read_here
 
     try:
@@ -167,5 +167,5 @@ def _read_again(bundle: Bundle) -> Description | None:
 
 
 def _is_final(findings: tuple[Finding, ...]) -> bool:
-    """Return whether the judge came to the end; else another try may say more."""
+    """Return whether the validator came to the end; else another try may say more."""
     return UNJUDGED_CODES.isdisjoint(finding.code for finding in findings)

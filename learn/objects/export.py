@@ -13,8 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from asset_factory.factory.articulation import Articulation, JointKind
+from asset_factory.factory.display.gltf import DECIMALS, Buffer, gltf_materials, primitive
 from asset_factory.factory.mesh import FloatArray, IntArray, Mesh
-from asset_factory.factory.scene.gltf import DECIMALS, Buffer, gltf_materials, primitive
 
 _ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 

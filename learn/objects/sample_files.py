@@ -10,9 +10,9 @@ from xml.etree.ElementTree import Element, SubElement
 import numpy as np
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
+from asset_factory.factory.display.gltf import Y_UP
 from asset_factory.factory.export.text import vector, xml_text
 from asset_factory.factory.geometry.posing import posed
-from asset_factory.factory.scene.gltf import Y_UP
 
 from ..surfaces.labelled import plain
 from .export import FileFrame, write_annotation, write_glb, write_obj, write_sidecar

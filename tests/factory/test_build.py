@@ -72,7 +72,7 @@ def test_an_example_passes_in_all_three_simulators(fridge):
 def test_lines_are_plain_where_there_is_no_terminal(fridge):
     _, done, summary = fridge
     assert f"[1/1] passed: {summary['assets'][0]['id']}" in done.stderr
-    assert "1 inputs: 1 passed, 0 rejected, 0 could not be judged." in done.stdout
+    assert "1 inputs: 1 passed, 0 rejected, 0 could not be validated." in done.stdout
 
 
 def test_the_same_input_gives_the_same_bytes(fridge, tmp_path):

@@ -11,6 +11,7 @@ from registry_samples import PASSED
 
 from asset_factory.factory.export.bundle import export_bundle
 from asset_factory.factory.export.model import write_model
+from asset_factory.factory.manufacture.repair import Repair, RepairKind
 from asset_factory.factory.registry import Entry, Registry
 from asset_factory.factory.registry.report_file import BuildReport
 from asset_factory.sim_checks import Finding, Report, Severity
@@ -54,7 +55,7 @@ def make_registry(root: Path) -> Registry:
     passed = replace(PASSED, category=HOSTILE)
     told = BuildReport(
         Report("asset.urdf", ("mujoco",), (WORDS, OTHER), {"asset.urdf": {}}),
-        (f"cut the hulls apart of {HOSTILE}",),
+        (Repair(RepairKind.HULLS_CUT_APART, pairs=((HOSTILE, "base"),)),),
     )
     with registry.staging_folder() as staging:
         registry.publish(passed, bundle_in(staging / "one"), told)

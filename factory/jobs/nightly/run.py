@@ -15,9 +15,8 @@ from ...errors import AssetFactoryError, RegistryError
 from ...intake.mirror import mirror_of
 from ...registry import Entry
 from ...registry.diff import diff
-from ...registry.mending import Settled
 from ...registry.result import Result
-from ...registry.verify import Problem
+from ...registry.verify import Problem, Settled
 from ...report.nightly import files
 from ...report.nightly.drift import source_yields
 from ...report.nightly.figures import compare

@@ -11,8 +11,7 @@ from ...intake.discover import find_inputs
 from ...intake.mirror import local_inputs
 from ...registry import Entry, Registry
 from ...registry.cleaning import collect_garbage
-from ...registry.mending import Settled, mend_rows, settle
-from ...registry.verify import Problem, verify
+from ...registry.verify import Problem, Settled, mend_rows, settle, verify
 from ...report.nightly.formats import counted
 from ...runtime.terminal import complain
 from .. import Executor, LocalExecutor

@@ -36,7 +36,7 @@ _TEXT = """\
 Objects with moving parts, each in a folder of its own under `assets/`: `asset.urdf`, \
 `asset.xml` (MJCF), collision and
 visual meshes, `asset.json` (masses, joints, where a robot can take hold) and \
-`report.json` (what the judge measured).
+`report.json` (what the validator measured).
 Metres, kilograms, radians, z up; joint value 0 is the pose of the input, and lower limits \
 are closed.
 
@@ -71,7 +71,7 @@ empty if nobody tried |
 
 
 def card_text(entries: Sequence[Entry], tables: Mapping[str, bytes]) -> str:
-    """README.md; with the hub's front matter if there are tables for it."""
+    """Return README.md, with the hub's front matter if there are tables for it."""
     splits = Counter(entry.split for entry in entries)
     text = _TEXT.format(count=len(entries), **{split: splits[split] for split in SPLITS})
     lists = (
@@ -84,7 +84,7 @@ def card_text(entries: Sequence[Entry], tables: Mapping[str, bytes]) -> str:
 
 
 def licenses_text(entries: Sequence[Entry]) -> str:
-    """LICENSES.md: how many assets are under which terms, and which ones."""
+    """Return LICENSES.md: how many assets are under which terms, and which ones."""
     by_license: dict[str, list[str]] = {}
     for entry in entries:
         by_license.setdefault(entry.license or UNKNOWN, []).append(entry.id)

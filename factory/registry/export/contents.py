@@ -44,7 +44,7 @@ _TRIES = 3
 def contents(
     registry: Registry, entries: Iterable[Entry], layout: str = "plain"
 ) -> Iterator[tuple[str, bytes]]:
-    """Paths and contents of an export's files; the last, ``SHA256SUMS``, has all others' digests.
+    """Yield an export's files, path and content; the last, ``SHA256SUMS``, has all digests.
 
     Args:
         registry: others may use it meanwhile; what is no longer in it, or no longer passes, is left

@@ -42,7 +42,7 @@ def described(entry: Entry, folder: str, manifest: bytes | None) -> dict[str, An
 
 
 def metadata_files(rows: list[dict[str, Any]]) -> dict[str, bytes]:
-    """One table per split that has assets: Parquet if pyarrow is installed, else JSON lines."""
+    """Return one table per split that has assets: Parquet with pyarrow, else JSON lines."""
     try:
         writer: Any = importlib.import_module("pyarrow.parquet")
         arrow: Any = importlib.import_module("pyarrow")

@@ -3,7 +3,7 @@
 Nothing of them is trusted, and all of one is checked before any of it is published.
 """
 
-from .limits import ImportLimits
 from .taking import TakenIn, import_export
+from .unpacking import ImportLimits
 
 __all__ = ["ImportLimits", "TakenIn", "import_export"]

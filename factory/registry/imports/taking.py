@@ -18,9 +18,7 @@ from ..folders import read_record
 from ..notes import note_path, read_note
 from ..registry import Registry
 from ..report_file import BuildReport, file_digests, read_report
-from .limits import ImportLimits
-from .sums import read_sums
-from .unpacking import unpack
+from .unpacking import ImportLimits, read_sums, unpack
 
 _NAMED = 5
 
@@ -165,7 +163,7 @@ def _require_no_others(registry: Registry, source: Path, arrivals: Sequence[_Arr
 
 
 def _take_note(registry: Registry, arrival: _Arrival, content: Path) -> None:
-    """Tags add up; whether a robot opened it is taken over where nobody here knows."""
+    """Add an arrival's tags; take over whether a robot opened it where nobody here knows."""
     theirs = arrival.entry
     mine = registry.entry(theirs.id)
     tags = set(mine.tags) | set(read_note(note_path(content, theirs.id)).tags)

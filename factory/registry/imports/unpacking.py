@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import gzip
 import os
+import re
 import shutil
 import stat
 import struct
 import tarfile
 import zlib
+from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
 
 from ...errors import RegistryError
 from ..export.contents import SUMS_NAME, TOP_NAMES
 from ..names import is_safe_path
-from .limits import ImportLimits, Tally
-from .sums import read_sums
 
 #: What the reader of archives raises besides its own errors when headers are nonsense.
 _TAR_BUGS = (ValueError, IndexError, KeyError, OverflowError, struct.error)
@@ -27,6 +27,54 @@ _MAX_HEADER = 65_536
 _FILES = (tarfile.REGTYPE, tarfile.AREGTYPE)
 _FOLDERS = (tarfile.DIRTYPE,)
 _HEADERS = (tarfile.XHDTYPE, tarfile.GNUTYPE_LONGNAME)
+#: A line of the list of digests, as ``sha256sum`` writes and checks it.
+_LINE = re.compile(r"([0-9a-f]{64})  ([^\n]+)")
+_MAX_SUMS = 2_000_000_000
+
+
+@dataclass(frozen=True)
+class ImportLimits:
+    """At most so much.
+
+    Attributes:
+        total_bytes: of all files together [bytes].
+        file_bytes: of one file [bytes].
+        files: how many.
+    """
+
+    total_bytes: int = 200_000_000_000
+    file_bytes: int = 4_000_000_000
+    files: int = 5_000_000
+
+
+class Tally:
+    """Counts files against limits."""
+
+    def __init__(self, source: str, limits: ImportLimits) -> None:
+        self._source = source
+        self._limits = limits
+        self._files = self._bytes = 0
+
+    def add(self, name: str, size: int) -> None:
+        """Count one more file. Raises RegistryError if it is too large, or one too many."""
+        limits = self._limits
+        self._files = self._files + 1
+        self._bytes = self._bytes + size
+        if not 0 <= size <= limits.file_bytes:
+            raise RegistryError(
+                f"{self._source}: {name!r} has {size} bytes, want at most {limits.file_bytes}"
+            )
+        if self._files > limits.files:
+            raise RegistryError(f"{self._source}: more than {limits.files} files")
+        if self._bytes > limits.total_bytes:
+            raise RegistryError(
+                f"{self._source}: more than {limits.total_bytes / 1e9:g} GB; --max-gb allows more"
+            )
+
+    @property
+    def bytes(self) -> int:
+        """Return the bytes counted so far."""
+        return self._bytes
 
 
 def unpack(source: Path, target: Path, limits: ImportLimits) -> None:
@@ -159,3 +207,27 @@ def _write(path: Path, stream: IO[bytes], size: int) -> None:
         while size > 0 and (chunk := stream.read(min(_CHUNK, size))):
             output.write(chunk)
             size -= len(chunk)
+
+
+def read_sums(path: Path) -> dict[str, str]:
+    """Read SHA-256 by path. Raises RegistryError if the list is not there or not one."""
+    try:
+        if path.is_symlink() or path.stat().st_size > _MAX_SUMS:
+            raise RegistryError(f"{path}: is no list of digests")
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except FileNotFoundError as error:
+        raise RegistryError(
+            f"{path.parent}: no {path.name}; want an export as `factory registry export` writes it"
+        ) from error
+    except (OSError, UnicodeDecodeError) as error:
+        raise RegistryError(f"{path}: cannot be read ({error})") from error
+    sums: dict[str, str] = {}
+    for number, line in enumerate(lines, start=1):
+        found = _LINE.fullmatch(line)
+        if found is None or found[2] in sums:
+            raise RegistryError(
+                f"{path}, line {number}: want a digest, "
+                "two spaces and a path that is not listed yet"
+            )
+        sums[found[2]] = found[1]
+    return sums

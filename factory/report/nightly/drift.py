@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import PurePath
 from statistics import median
-from typing import Any
 
 from .night import NightResult, share
 
@@ -73,18 +72,8 @@ def source_yields(
     )
 
 
-def sources_from(data: Mapping[str, Any]) -> dict[str, tuple[int, int]]:
-    """Return what a night's summary says of its sources; empty where that is nothing."""
-    try:
-        return {
-            str(row["source"]): (int(row["passed"]), int(row["tried"])) for row in data["sources"]
-        }
-    except (KeyError, TypeError, ValueError):
-        return {}
-
-
 def _source(path: PurePath, roots: Sequence[PurePath]) -> str:
-    """The innermost root that an input lies below; the folder of one that is named itself."""
+    """Return the innermost root that an input lies below; its folder if it is named itself."""
     above = [root for root in roots if root in path.parents]
     return str(max(above, key=lambda root: len(root.parts), default=path.parent))
 

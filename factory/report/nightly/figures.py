@@ -23,7 +23,7 @@ class InputChange:
 
     @property
     def same_content(self) -> bool:
-        """Whether it still is the same file (ids end in its digest), so that the change is ours."""
+        """Tell whether it is the same file (ids end in its digest), so that the change is ours."""
         return self.before.id == self.now.id
 
 
@@ -113,7 +113,7 @@ class LicenseCount:
 
 
 def reasons(attempts: Sequence[NightResult]) -> tuple[Reason, ...]:
-    """Why inputs did not pass, the most frequent first; the example has a message if any has."""
+    """Count why inputs did not pass, the most frequent first, each with an example."""
     groups: dict[tuple[str, str], list[NightResult]] = defaultdict(list)
     for attempt in attempts:
         if not attempt.passed:

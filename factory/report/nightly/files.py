@@ -6,10 +6,10 @@ import json
 import re
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 from ...errors import ConfigError
 from ...runtime.store import write_json, write_whole
-from .drift import sources_from
 from .night import Night, night_from
 from .render import night_page, nights_page
 from .report import NightlyReport, message, summary
@@ -51,7 +51,7 @@ def unfinished(nights: Path) -> tuple[str, ...]:
 
 
 def chosen_name(nights: Path, wanted: str | None) -> str:
-    """The name of the night to run: as asked for, else one that goes on, else the next number.
+    """Choose the night to run: as asked for, else an unfinished one, else the next number.
 
     Raises:
         ConfigError: a name that cannot be a folder's, or of a night that is finished.
@@ -77,19 +77,23 @@ def next_name(nights: Path) -> str:
 def read_night(folder: Path) -> Night | None:
     """Return the figures of one night; ``None`` where there are none to be read."""
     try:
-        data = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
         # The folder's own name counts: people rename folders, and links must still lead there.
-        return night_from({**data["night"], "name": folder.name})
+        return night_from({**_summary(folder)["night"], "name": folder.name})
     except (OSError, ValueError, KeyError, TypeError):
         return None
 
 
 def read_sources(folder: Path) -> dict[str, tuple[int, int]]:
-    """How many inputs of each source passed in a night, of how many; empty where none says."""
+    """Read how many inputs of each source passed, of how many; empty where none says."""
     try:
-        return sources_from(json.loads((folder / SUMMARY).read_text(encoding="utf-8")))
-    except (OSError, ValueError, TypeError):
+        told = _summary(folder)["sources"]
+        return {str(row["source"]): (int(row["passed"]), int(row["tried"])) for row in told}
+    except (OSError, ValueError, KeyError, TypeError):
         return {}
+
+
+def _summary(folder: Path) -> Any:
+    return json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
 
 
 def stored_nights(nights: Path) -> tuple[Night, ...]:

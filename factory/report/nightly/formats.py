@@ -8,12 +8,12 @@ MINUS = "−"
 
 
 def counted(number: int, noun: str) -> str:
-    """``1 asset``, ``1,200 assets``."""
+    """Return ``1 asset``, ``1,200 assets``."""
     return f"{number:,} {noun}{'' if number == 1 else 's'}"
 
 
 def percent(value: float | None) -> str:
-    """``87.3 %``; a dash for none. Never 100 % of what is not all, nor 0 % of what is something."""
+    """Return ``87.3 %``, a dash for none; 100 % only for all, 0 % only for nothing."""
     if value is None:
         return "–"
     if 0.9995 <= value < 1.0:
@@ -24,7 +24,7 @@ def percent(value: float | None) -> str:
 
 
 def points(before: float | None, now: float | None) -> str:
-    """``+1.2 points`` of a per cent; empty where there is nothing to compare."""
+    """Return ``+1.2 points`` of a per cent; empty where there is nothing to compare."""
     if before is None or now is None:
         return ""
     change = round(100 * (now - before), 1)
@@ -34,12 +34,12 @@ def points(before: float | None, now: float | None) -> str:
 
 
 def span(seconds: float) -> str:
-    """``0.4 s``, ``41 s``, ``12 min 05 s``, ``4 h 12 min``."""
+    """Return ``0.4 s``, ``41 s``, ``12 min 05 s``, ``4 h 12 min``."""
     return f"{seconds:.1f} s" if seconds < 10.0 else clock_span(seconds)
 
 
 def clock_span(seconds: float) -> str:
-    """``4 s``, ``41 s``, ``12 min 05 s``, ``4 h 12 min``."""
+    """Return ``4 s``, ``41 s``, ``12 min 05 s``, ``4 h 12 min``."""
     whole = round(seconds)
     if whole < 60:
         return f"{whole} s"
@@ -50,12 +50,12 @@ def clock_span(seconds: float) -> str:
 
 
 def stamp(moment: datetime) -> str:
-    """ISO 8601 in UTC, to the second."""
+    """Return a time as ISO 8601 in UTC, to the second."""
     return moment.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
 
 
 def readable(stamped: str) -> str:
-    """``21 Nov 2026, 01:00 UTC`` of such a stamp; as it is where it is none."""
+    """Return ``21 Nov 2026, 01:00 UTC`` of such a stamp; another text as it is."""
     try:
         moment = datetime.fromisoformat(stamped)
     except ValueError:
@@ -64,5 +64,5 @@ def readable(stamped: str) -> str:
 
 
 def figure(value: object) -> str:
-    """``1,200``; a dash for none; texts as they are."""
+    """Return ``1,200``, a dash for none, texts as they are."""
     return f"{value:,}" if isinstance(value, int) else "–" if value is None else str(value)

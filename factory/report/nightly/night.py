@@ -63,7 +63,7 @@ def attempt_from(data: Mapping[str, Any]) -> NightResult:
 
 
 def latest(attempts: Iterable[NightResult]) -> tuple[NightResult, ...]:
-    """One attempt per input, by input: the last, unless it says again what an earlier one found.
+    """Return the last attempt of each input, unless it repeats what an earlier one found.
 
     A night that goes on after an interruption asks for all its inputs once more. The registry
     answers those done before in no time; their true times are those of the earlier attempt.
@@ -123,12 +123,12 @@ class Night:
 
     @property
     def attempted(self) -> int:
-        """Return the inputs with a verdict, or without one because they could not be judged."""
+        """Return the inputs with a verdict, or without one because they could not be validated."""
         return self.passed + self.rejected + self.unjudged
 
     @property
     def yielded(self) -> float | None:
-        """The share of those attempted that passed, 0 to 1; ``None`` where there were none."""
+        """Return the share of those attempted that passed, 0 to 1; ``None`` without any."""
         return share(self.passed, self.attempted)
 
 
@@ -146,7 +146,7 @@ def tally(attempts: Sequence[NightResult]) -> dict[str, int]:
 
 
 def night_to(night: Night) -> dict[str, Any]:
-    """JSON data: its figures and its ``yield``."""
+    """Return JSON data: its figures and its ``yield``."""
     yielded = night.yielded
     return {**asdict(night), "yield": None if yielded is None else round(yielded, 6)}
 

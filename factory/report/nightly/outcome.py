@@ -73,7 +73,7 @@ def concerns(
         if source.fell:
             yield Concern(_drift(source, failure.source), YIELD_FELL)
     if anew := night.unjudged - night.crashed:
-        sentence = f"{counted(anew, 'input')} could not be judged."
+        sentence = f"{counted(anew, 'input')} could not be validated."
         yield Concern(sentence, Exit.UNJUDGED if failure.unjudged else Exit.OK)
     if night.crashed:
         inputs = counted(night.crashed, "input")
@@ -102,7 +102,7 @@ def _drift(source: SourceYield, rules: SourceRules) -> str:
 
 
 def _fall(night: Night, before: Night | None, changes: Changes, over: str) -> float:
-    """By how much the share that passed fell; 0 where one of the nights has none."""
+    """Return by how much the share that passed fell; 0 where one of the nights has none."""
     old = before.yielded if before else None
     new = night.yielded
     if over == SHARED_INPUTS:

@@ -31,7 +31,7 @@ def night_page(report: NightlyReport) -> str:
 
 
 def nights_page(nights: Sequence[Night]) -> str:
-    """The page that lists all nights, the last one first, as HTML; ``nights`` in their order."""
+    """Render the page that lists all nights, the last one first; ``nights`` in their order."""
     rows = [_row(night, before) for night, before in zip(nights, (None, *nights), strict=False)]
     return environment().get_template("nights.html.j2").render(nights=nights, rows=rows[::-1])
 

@@ -8,8 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from ...registry import Entry
-from ...registry.mending import Settled
-from ...registry.verify import Problem
+from ...registry.verify import Problem, Settled
 from ..summary import JobState
 from .drift import SourceYield
 from .figures import Changes, InputChange, licenses, reasons, slowest, stage_times
@@ -70,7 +69,7 @@ class NightlyReport:
 
 
 def summary(report: NightlyReport) -> dict[str, Any]:
-    """JSON data of ``summary.json``; the attempts are in the table."""
+    """Return JSON data of ``summary.json``; the attempts are in the table."""
     attempts = report.attempts
     changes = report.changes
     return {

@@ -65,7 +65,7 @@ def _row(attempt: NightResult, number: int, *, last: bool) -> dict[str, Any]:
 
 
 def read_table(path: Path) -> tuple[NightResult, ...]:
-    """What a night says of its inputs, one attempt each; empty where no table can be read."""
+    """Read a night's attempts, one per input; empty where no table can be read."""
     import pyarrow as pa
     from pyarrow import parquet
 

@@ -7,13 +7,13 @@ from pathlib import Path
 
 from asset_factory.sim_checks import Status
 
+from ...display.described import scene_of_file
+from ...display.glb import glb_of
+from ...display.stored import read_model, scene_from
 from ...errors import InputRejected
 from ...intake.naming import safe_name, well_formed
 from ...registry import Entry
 from ...runtime.layout import MODEL, URDF
-from ...scene.described import scene_of_file
-from ...scene.glb import glb_of
-from ...scene.stored import read_model, scene_from
 from .render import alone_html
 from .told import AssetPage, with_model
 

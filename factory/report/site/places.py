@@ -14,10 +14,10 @@ from asset_factory.sim_checks.measurements import (
     penetrations,
 )
 
-from ...pictures.pictures import Fault
-from ...scene.scene import SceneGraph
+from ...display.pictures import Fault
+from ...display.scene import SceneGraph
 
-#: Of a pair that is judged like any other.
+#: Of a pair that is checked like any other.
 PLAIN = "plain"
 
 
@@ -32,7 +32,7 @@ class SweepMark:
 
 @dataclass(frozen=True)
 class SweepTold:
-    """What the judge measured along one joint.
+    """What the validator measured along one joint.
 
     Attributes:
         marks: of the pairs that come near.
@@ -87,7 +87,7 @@ class Places:
         return found
 
     def ignored(self) -> list[tuple[str, str]]:
-        """Pairs of links that may overlap: knuckles of hinges, and what the file excludes."""
+        """Return pairs of links that may overlap: hinges, and what the file excludes."""
         contacts = (contact for measured in self._measured for contact in measured.contacts)
         return sorted({contact.links for contact in contacts if contact.kind != PLAIN})
 
@@ -97,7 +97,7 @@ class Places:
         return min(gaps, default=None)
 
     def _contacts(self, joint: str | None) -> Iterator[tuple[Mapping[str, float], MeasuredContact]]:
-        """Every measured contact with its pose; first those along the joint, if one is named."""
+        """Yield every measured contact with its pose; those along a named joint first."""
         for measured in self._measured:
             for each in measured.joints:
                 if each.joint == joint:
@@ -141,4 +141,4 @@ def _tells(finding: Finding, contact: MeasuredContact) -> bool:
 
 def _told(contact: MeasuredContact) -> str:
     state = "apart" if contact.depth_mm < 0.0 else "into each other"
-    return f"{' and '.join(contact.links)}: {abs(contact.depth_mm):.2f} mm {state}, as judged"
+    return f"{' and '.join(contact.links)}: {abs(contact.depth_mm):.2f} mm {state}, as measured"

@@ -57,7 +57,7 @@ def grid_html(rows: Sequence[Mapping[str, Any]], lists: int, title: str) -> str:
 
 
 def list_html(rows: Sequence[Mapping[str, Any]], number: int, lists: int, title: str) -> str:
-    """A plain list of assets, for browsers without scripts; ``number`` from 1 to ``lists``."""
+    """Render a plain list of assets, for browsers without scripts; ``number`` from 1."""
     template = _templates().get_template("list.html.j2")
     return template.render(rows=rows, number=number, lists=lists, title=title)
 

@@ -11,9 +11,9 @@ from typing import Any
 
 from asset_factory.sim_checks import Status
 
+from ...display.pictures import pictures_of
+from ...display.sheet import MOST, SheetCell, contact_sheet
 from ...errors import RegistryError
-from ...pictures.pictures import pictures_of
-from ...pictures.sheet import MOST, SheetCell, contact_sheet
 from ...registry import Entry, Registry
 from ...registry.entry import is_id
 from ...runtime.keys import installed_version
@@ -145,7 +145,7 @@ def _sheet(site: Path, rows: list[dict[str, Any]]) -> bytes:
 def _code() -> str:
     """Return the code and the libraries that draw pages."""
     package = Path(__file__).parents[2]
-    folders = ("report/site", "report/templates", "pictures", "scene")
+    folders = ("report/site", "report/templates", "display")
     suffixes = {".py", ".j2"}
     files = sorted(
         f for name in folders for f in (package / name).rglob("*") if f.suffix in suffixes

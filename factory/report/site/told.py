@@ -10,31 +10,24 @@ from typing import Any
 from asset_factory.sim_checks import Finding, Report, Severity, Status
 from asset_factory.sim_checks.config import PenetrationConfig
 
+from ...display.camera import Viewpoint
+from ...display.described import scene_of_file
+from ...display.glb import glb_of
+from ...display.pictures import Fault
+from ...display.scene import SceneGraph
+from ...display.stored import read_model, scene_from
 from ...errors import InputRejected, RegistryError
 from ...export.manifest import Manifest
-from ...pictures.camera import Viewpoint
-from ...pictures.pictures import Fault
+from ...manufacture.repair import Repair
 from ...reasons import TABLES
 from ...registry import Entry
-from ...registry.report_file import StoredReport, read_report
+from ...registry.report_file import BuildReport, StoredReport, read_report
 from ...runtime.layout import ASSETS, MANIFEST, MODEL, REJECTED, URDF
-from ...scene.described import scene_of_file
-from ...scene.glb import glb_of
-from ...scene.scene import SceneGraph
-from ...scene.stored import read_model, scene_from
 from .places import Places
 
 MEANINGS = {code: meaning for table in TABLES.values() for code, meaning in table.items()}
-#: Findings of other readings of the input have a section of their own.
-READING = "other_reading"
-#: What a repair did, by the first word of its sentence.
-REPAIRS = {
-    "cut": "hulls cut apart",
-    "excluded": "contact excluded",
-    "gave": "joint given up",
-    "ended": "range shortened",
-    "froze": "joint frozen",
-}
+#: Findings on other hypotheses of the input have a section of their own.
+OTHER_HYPOTHESIS = "other_reading"
 _MAX_MANIFEST = 16_000_000
 _MAX_FINDINGS = 300
 _MESSAGE = 240
@@ -53,7 +46,7 @@ class FindingGroup:
     """Findings of one code and severity, and what the code means."""
 
     code: str
-    hard: bool
+    error: bool
     meaning: str
     findings: tuple[FindingTold, ...]
 
@@ -64,12 +57,12 @@ class AssetPage:
 
     Attributes:
         entry: its row; of a file that is only viewed, one made for it.
-        report: what the judge said.
+        report: what the validator said.
         scene: what is shown; ``None`` where there is no model.
         manifest: ``asset.json``; ``None`` where there is none that can be read.
-        findings: the hard ones first.
-        readings: sentences on other readings of the input.
-        repairs: what was changed, a sentence each.
+        findings: errors first.
+        hypotheses: sentences on other hypotheses of the input.
+        repairs: what was changed.
         places: poses and points that findings lead to.
         data: for the page's script, JSON data.
         folder: link to the asset's own folder; empty without one.
@@ -83,8 +76,8 @@ class AssetPage:
     scene: SceneGraph | None = None
     manifest: Manifest | None = None
     findings: tuple[FindingTold, ...] = ()
-    readings: tuple[str, ...] = ()
-    repairs: tuple[str, ...] = ()
+    hypotheses: tuple[str, ...] = ()
+    repairs: tuple[Repair, ...] = ()
     data: Mapping[str, Any] = field(default_factory=dict)
     folder: str = ""
     clearance: float | None = None
@@ -96,18 +89,17 @@ class AssetPage:
         """Return the findings by severity and code, in the order in which they were found."""
         found: dict[tuple[bool, str], list[FindingTold]] = {}
         for told in self.findings:
-            hard = told.finding.severity is Severity.HARD
-            found.setdefault((hard, told.finding.code), []).append(told)
+            error = told.finding.severity is Severity.HARD
+            found.setdefault((error, told.finding.code), []).append(told)
         return tuple(
-            FindingGroup(code, hard, MEANINGS.get(code, ""), tuple(group))
-            for (hard, code), group in found.items()
+            FindingGroup(code, error, MEANINGS.get(code, ""), tuple(group))
+            for (error, code), group in found.items()
         )
 
     def row(self) -> dict[str, Any]:
         """Return what the grid says of it, JSON data."""
         entry = self.entry
         kinds = [] if self.scene is None else [joint.kind for joint in self.scene.movable]
-        words = {REPAIRS.get(step.split(" ", 1)[0], "other") for step in self.repairs}
         picture = "" if self.scene is None else "fault" if self.fault else "closed"
         return {
             "id": entry.id,
@@ -119,7 +111,7 @@ class AssetPage:
             "joints": entry.joints,
             "hulls": entry.hulls,
             "kinds": sorted(set(kinds)),
-            "repairs": sorted(words),
+            "repairs": sorted({repair.kind.label for repair in self.repairs}),
             "license": entry.license[:60],
             "tags": list(entry.tags),
             "clearance": None if self.clearance is None else round(self.clearance, 2),
@@ -148,15 +140,15 @@ def asset_page(root: Path, entry: Entry) -> AssetPage:
     """
     place = ASSETS if entry.status is Status.PASSED else REJECTED
     folder = root / place / entry.id
-    stored = read_report(folder)
-    report = _report(stored)
+    told = _told(read_report(folder))
+    report = told.report
     page = AssetPage(
         entry,
         report,
         manifest=_manifest(folder),
         findings=_findings(report, None),
-        readings=tuple(f.message for f in report.findings if f.code == READING),
-        repairs=tuple(str(step) for step in stored.repairs),
+        hypotheses=tuple(f.message for f in report.findings if f.code == OTHER_HYPOTHESIS),
+        repairs=told.repairs,
         folder=f"../../../{place}/{entry.id}/",
     )
     model = _model(folder)
@@ -164,7 +156,7 @@ def asset_page(root: Path, entry: Entry) -> AssetPage:
 
 
 def with_model(page: AssetPage, model: bytes) -> AssetPage:
-    """The page of an asset with a model: findings lead to poses, and the script has its data.
+    """Return a page with a model: findings lead to poses, and the script has its data.
 
     Args:
         page: without one.
@@ -200,12 +192,12 @@ def with_model(page: AssetPage, model: bytes) -> AssetPage:
 def _findings(report: Report, places: Places | None) -> tuple[FindingTold, ...]:
     told = []
     number = 0
-    # The judge says the same of the URDF and of the MJCF.
+    # The validator says the same of the URDF and of the MJCF.
     once = {(each.code, each.message): each for each in reversed(report.findings)}
     findings = (each for each in report.findings if each is once[each.code, each.message])
     ordered = sorted(findings, key=lambda finding: finding.severity is not Severity.HARD)
     for finding in ordered[:_MAX_FINDINGS]:
-        if finding.code == READING:
+        if finding.code == OTHER_HYPOTHESIS:
             continue
         found = places is not None and places.of(finding) is not None
         told.append(FindingTold(finding, number if found else -1))
@@ -219,9 +211,9 @@ def _plain(fault: Fault | None) -> dict[str, Any] | None:
     return {"values": dict(fault.values), "point": list(fault.point) if fault.point else None}
 
 
-def _report(stored: StoredReport) -> Report:
+def _told(stored: StoredReport) -> BuildReport:
     try:
-        return stored.report
+        return stored.told
     except (KeyError, TypeError, ValueError) as error:
         raise RegistryError(f"report.json: is none ({error})") from error
 

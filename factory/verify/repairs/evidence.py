@@ -10,19 +10,20 @@ from asset_factory.sim_checks.measurements import MeasuredContact, MeasuredJoint
 
 from ...asset import Asset
 from ...config import RepairConfig
-from ...manufacture.plan import Pair, Spare
+from ...manufacture.plan import Spare
+from ...manufacture.repair import Pair
 from ..validate import Verdict
 
 
 @dataclass(frozen=True)
 class RepairEvidence:
-    """Of the round just judged.
+    """What a repair knows of the round just validated.
 
     Attributes:
         verdict: what was found.
         config: how far repairs may go.
         spare: what the object is still worth having without.
-        asset: that was judged; ``None`` where only its verdict is known.
+        asset: that was validated; ``None`` where only its verdict is known.
     """
 
     verdict: Verdict
@@ -37,11 +38,11 @@ class RepairEvidence:
 
     @property
     def codes(self) -> frozenset[str]:
-        """Codes of the findings that reject."""
+        """Return the codes of the findings that reject."""
         return frozenset(finding.code for finding in self.hard)
 
     def found(self, code: str) -> Iterator[Finding]:
-        """Yield the findings of one code, hard and soft."""
+        """Yield the findings of one code, errors and warnings."""
         return (each for each in self.verdict.report.findings if each.code == code)
 
     def contacts(self) -> Iterator[MeasuredContact]:
@@ -58,8 +59,3 @@ class RepairEvidence:
 def ordered(one: str, other: str) -> Pair:
     """Return two parts, in a fixed order."""
     return (min(one, other), max(one, other))
-
-
-def listed(pairs: frozenset[Pair]) -> str:
-    """Return the pairs of parts, for a sentence."""
-    return ", ".join(f"{a} and {b}" for a, b in sorted(pairs))

@@ -7,6 +7,7 @@ from dataclasses import replace
 from asset_factory.sim_checks import Finding
 
 from ...manufacture.plan import Plan
+from ...manufacture.repair import Repair, RepairKind
 from .evidence import RepairEvidence
 
 #: What may go with a guess though it does not name it: what lies how, and what else is in the way.
@@ -19,7 +20,7 @@ BY_A_GUESS = MAY_GO | {
 
 
 def give_up_guesses(evidence: RepairEvidence, plan: Plan) -> Plan | None:
-    """Of any two parts that overlap at rest the one worth less; else the one least of all.
+    """Give up, of two parts that overlap at rest, the one worth less; else the guess worth least.
 
     Nothing where a finding names no guess that could go.
     """
@@ -52,8 +53,8 @@ def _without(plan: Plan, going: dict[str, Finding], evidence: RepairEvidence) ->
     if given_up == plan.given_up:
         return None
     gone = {part for part, joint in guesses.items() if joint in given_up}
-    steps = [
-        f"gave up {guesses[part]}: {_why(part, finding)}"
+    repairs = [
+        _given_up(guesses[part], part, finding)
         for part, finding in going.items()
         if guesses[part] not in plan.given_up
     ]
@@ -62,12 +63,15 @@ def _without(plan: Plan, going: dict[str, Finding], evidence: RepairEvidence) ->
         separate=frozenset(pair for pair in plan.separate if gone.isdisjoint(pair)),
         exclude=frozenset(pair for pair in plan.exclude if gone.isdisjoint(pair)),
         given_up=given_up,
-        steps=(*plan.steps, *steps),
+        repairs=(*plan.repairs, *repairs),
     )
 
 
-def _why(part: str, finding: Finding) -> str:
+def _given_up(joint: str, part: str, finding: Finding) -> Repair:
+    told = Repair(
+        RepairKind.JOINT_GIVEN_UP, (part,), joints=(joint,), code=finding.code, why=finding.message
+    )
     if finding.code != "rest_penetration":
-        return finding.message
-    others = " and ".join(other for other in finding.parts if other != part)
-    return f"{part} lies in {others or 'another'}"
+        return told
+    others = tuple(other for other in finding.parts if other != part)
+    return replace(told, kind=RepairKind.OVERLAPPING_GIVEN_UP, parts=(part, *others))

@@ -11,6 +11,7 @@ from ...articulation import Articulation, Joint, JointKind
 from ...asset import Asset
 from ...manufacture.hinges import at_back_edge, at_front_edge, is_askew
 from ...manufacture.plan import Plan
+from ...manufacture.repair import Repair, RepairKind
 from ...manufacture.separate.sweep import swept_m
 from ...mesh import FloatArray
 from .evidence import RepairEvidence
@@ -24,9 +25,11 @@ FREE_M = 0.0005
 #: What a hinge at an edge leaves in the way the cut that follows may plane off, for hulls were cut
 #: apart for another axis [m].
 PLANED_M = 0.013
-
-#: What is told, the joint, and how deep it may drive hulls into one another [m].
-Change = tuple[str, Joint, float]
+#: Kinds that move a hinge to an edge.
+TO_EDGE = {
+    RepairKind.HINGE_TO_FRONT_EDGE: at_front_edge,
+    RepairKind.HINGE_TO_BACK_EDGE: at_back_edge,
+}
 
 
 def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
@@ -39,7 +42,7 @@ def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     if asset is None or "sweep_penetration" not in evidence.codes:
         return None
     joints = dict(plan.mended)
-    steps = list(plan.steps)
+    repairs = list(plan.repairs)
     for measured in evidence.joints():
         if measured.clear_until is None or measured.joint in plan.mended:
             continue
@@ -52,41 +55,47 @@ def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         small = joint.name in evidence.spare.joints
         found = _freed(asset, joint, 1.0 if small else share)
         if found is not None:
-            told, joints[joint.name] = found
-            steps.append(f"mended {joint.name}: {told}; it ran into something after {share:.0%}")
+            joints[joint.name], repair = found
+            repairs.append(replace(repair, free_share=share))
     if len(joints) == len(plan.mended):
         return None
-    return replace(plan, mended=joints, steps=tuple(steps))
+    return replace(plan, mended=joints, repairs=tuple(repairs))
 
 
-def _freed(asset: Asset, joint: Joint, share: float) -> tuple[str, Joint] | None:
-    """The first change by which the joint is free all along, else that which leaves least."""
+def _freed(asset: Asset, joint: Joint, share: float) -> tuple[Joint, Repair] | None:
+    """Return the first change that frees the joint all along, else the one that leaves least."""
     hulls = [body.hulls for body in asset.bodies]
     least = np.inf
     best = None
-    for told, changed, most_m in _changes(asset.articulation, joint, share):
+    for changed, repair in _changes(asset.articulation, joint, share):
+        most_m = PLANED_M if repair.kind in TO_EDGE else FREE_M
         swept = swept_m(asset.articulation, hulls, changed, most_m)
         if swept <= FREE_M:
-            return told, changed
+            return changed, repair
         if swept <= most_m and swept < least:
             least = swept
-            best = told, changed
+            best = changed, repair
     return best
 
 
-def _changes(articulation: Articulation, joint: Joint, share: float) -> Iterator[Change]:
-    """Small changes, the least first."""
+def _changes(
+    articulation: Articulation, joint: Joint, share: float
+) -> Iterator[tuple[Joint, Repair]]:
+    """Yield small changes, the least first."""
+    names = (joint.name,)
     straight = _straightened(joint)
     if straight is not None:
         angle = float(np.degrees(np.arccos(min(1.0, float(straight.axis @ joint.axis)))))
-        yield f"its axis was {angle:.1f} degrees off a principal direction", straight, FREE_M
+        kind = RepairKind.AXIS_STRAIGHTENED
+        yield straight, Repair(kind, joints=names, before=angle, after=0.0, unit="deg")
     # An axis that is off is not left so for the sake of another change.
     base = straight or joint
-    for edge, hung in _rehung(articulation, base):
+    for kind, hung in _rehung(articulation, base):
         moved = 1000.0 * float(np.linalg.norm(hung.origin - joint.origin))
-        yield f"its hinge was {moved:.1f} mm off its panel's {edge} edge", hung, PLANED_M
+        yield hung, Repair(kind, joints=names, before=moved, after=0.0, unit="mm")
     if share < BLOCKED_SHARE and joint.lower == 0.0:
-        yield "it opened inwards and is turned round", replace(base, axis=-base.axis), FREE_M
+        turned = replace(base, axis=-base.axis)
+        yield turned, Repair(RepairKind.OPENING_REVERSED, joints=names)
 
 
 def _straightened(joint: Joint) -> Joint | None:
@@ -97,12 +106,12 @@ def _straightened(joint: Joint) -> Joint | None:
     return replace(joint, axis=direction)
 
 
-def _rehung(articulation: Articulation, joint: Joint) -> Iterator[tuple[str, Joint]]:
-    """Yield a hinge at the edges of its part that are near, and which they are."""
+def _rehung(articulation: Articulation, joint: Joint) -> Iterator[tuple[RepairKind, Joint]]:
+    """Yield a hinge at the edges of its part that are near, and what moves it there."""
     if joint.kind is not JointKind.REVOLUTE:
         return
     most = MOVED_SHARE * articulation.part_mesh(joint.child).diagonal
-    for edge, at_edge in (("front", at_front_edge), ("back", at_back_edge)):
+    for kind, at_edge in TO_EDGE.items():
         hung = at_edge(articulation, joint)
         if hung is not None and float(np.linalg.norm(hung.origin - joint.origin)) <= most:
-            yield edge, hung
+            yield kind, hung

@@ -9,6 +9,7 @@ import numpy as np
 from ...articulation import Joint
 from ...asset import Asset
 from ...manufacture.plan import Plan
+from ...manufacture.repair import Repair, RepairKind
 from ...manufacture.separate.sweep import swept_m
 from .evidence import RepairEvidence
 
@@ -27,7 +28,7 @@ def pull_in(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         part for each in evidence.hard if each.code == "rest_penetration" for part in each.parts
     }
     lower = dict(plan.lower)
-    steps = list(plan.steps)
+    repairs = list(plan.repairs)
     for joint in asset.articulation.movable_joints:
         child = asset.articulation.parts[joint.child].name
         if joint.name in plan.lower or child not in stuck or not joint.lower < 0.0:
@@ -35,15 +36,20 @@ def pull_in(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         begins = _free_from(asset, joint, evidence.config.least_range_share)
         if begins is not None:
             lower[joint.name] = begins
-            steps.append(
-                f"began {joint.name} at {begins:.4g} instead of {joint.lower:.4g} {joint.unit}: "
-                "closed further it lies in something"
+            repairs.append(
+                Repair(
+                    RepairKind.CLOSED_END_PULLED_IN,
+                    joints=(joint.name,),
+                    before=joint.lower,
+                    after=begins,
+                    unit=joint.unit,
+                )
             )
-    return None if lower == plan.lower else replace(plan, lower=lower, steps=tuple(steps))
+    return None if lower == plan.lower else replace(plan, lower=lower, repairs=tuple(repairs))
 
 
 def _free_from(asset: Asset, joint: Joint, least_share: float) -> float | None:
-    """The lowest limit from which on nothing gets deeper towards it; ``None`` if there is none."""
+    """Return the lowest limit towards which nothing gets deeper; ``None`` if there is none."""
     hulls = [body.hulls for body in asset.bodies]
     for value in np.linspace(joint.lower, 0.0, TRIED + 1)[1:]:
         if (joint.upper - value) < least_share * joint.range:

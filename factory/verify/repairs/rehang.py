@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...manufacture.plan import Plan
+from ...manufacture.repair import Repair, RepairKind
 from .evidence import RepairEvidence
 
 
@@ -16,5 +17,5 @@ def rehang_doors(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     new = (blocked & evidence.spare.hinges) - plan.rehung
     if not new:
         return None
-    step = f"moved {', '.join(sorted(new))} to the door's front edge: it ran into something"
-    return replace(plan, rehung=plan.rehung | new, steps=(*plan.steps, step))
+    moved = Repair(RepairKind.GUESSED_HINGE_MOVED, joints=tuple(sorted(new)))
+    return replace(plan, rehung=plan.rehung | new, repairs=(*plan.repairs, moved))

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from ...asset import Asset
 from ...manufacture.plan import Plan
+from ...manufacture.repair import Repair, RepairKind
 from ...manufacture.separate.sweep import swept_m
 from .evidence import RepairEvidence
 
@@ -23,7 +24,7 @@ def shorten_or_freeze(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         return None
     upper = dict(plan.upper)
     frozen = set(plan.frozen)
-    steps = list(plan.steps)
+    repairs = list(plan.repairs)
 
     for joint in evidence.joints():
         if joint.clear_until is None:
@@ -38,19 +39,22 @@ def shorten_or_freeze(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         long_enough = ends and share >= evidence.config.least_range_share
         if joint.joint not in plan.upper and long_enough:
             upper[joint.joint] = end
-            steps.append(
-                f"ended {joint.joint} at {end:.4g} instead of {joint.upper:.4g} "
-                f"{joint.unit}: it runs into something there"
+            repairs.append(
+                Repair(
+                    RepairKind.RANGE_SHORTENED,
+                    joints=(joint.joint,),
+                    before=joint.upper,
+                    after=end,
+                    unit=joint.unit,
+                )
             )
         elif joint.joint in evidence.spare.joints:
             frozen.add(joint.joint)
-            steps.append(
-                f"froze {joint.joint}: it runs into something after {share:.0%} of its range"
-            )
+            repairs.append(Repair(RepairKind.JOINT_FROZEN, joints=(joint.joint,), free_share=share))
         else:
             return None
 
-    changed = replace(plan, upper=upper, frozen=frozenset(frozen), steps=tuple(steps))
+    changed = replace(plan, upper=upper, frozen=frozenset(frozen), repairs=tuple(repairs))
     return changed if changed != plan else None
 
 

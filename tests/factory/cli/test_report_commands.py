@@ -49,7 +49,7 @@ def test_view_saves_one_page(tmp_path, capsys):
 
 def test_view_reads_a_file_in_a_process_of_its_own(tmp_path, monkeypatch):
     folder = bundle_in(tmp_path / "bundle")
-    monkeypatch.setattr("asset_factory.factory.scene.described.read_description", None)
+    monkeypatch.setattr("asset_factory.factory.display.described.read_description", None)
     assert run(["view", str(folder / "asset.urdf"), "--save", str(tmp_path / "page.html")]) == 0
 
 

@@ -9,6 +9,7 @@ from export_samples import PROVENANCE, box, cabinet
 from registry_samples import BAD_REPORT, REJECTED
 
 from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.display.stored import scene_from
 from asset_factory.factory.export.bundle import export_bundle
 from asset_factory.factory.export.model import write_input, write_model
 from asset_factory.factory.intake.source import Source
@@ -18,7 +19,6 @@ from asset_factory.factory.registry.product import SHOWN, Made, finished
 from asset_factory.factory.registry.registration import register
 from asset_factory.factory.registry.verify import verify
 from asset_factory.factory.runtime.stages import Stages
-from asset_factory.factory.scene.stored import scene_from
 from asset_factory.factory.verify.validate import Verdict
 from asset_factory.sim_checks import Finding, Report, Severity
 

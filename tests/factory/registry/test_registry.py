@@ -11,6 +11,7 @@ import pytest
 from registry_samples import BAD_REPORT, PASSED, REJECTED, REPORT, publish
 
 from asset_factory.factory.errors import RegistryError
+from asset_factory.factory.manufacture.repair import Repair, RepairKind
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.runtime.store import folder_digests
 
@@ -33,6 +34,22 @@ def test_publishing_again_replaces(registry):
     folder = publish(registry, "two")
     assert (folder / "meshes" / "a.obj").read_text() == "two"
     assert registry.entries() == (PASSED,)
+
+
+def test_repairs_are_told_as_they_were_registered_and_of_older_reports_by_their_sentences(registry):
+    repair = Repair(RepairKind.LEFT_HOLLOW, ("lever",))
+    told = replace(BAD_REPORT, repairs=(repair,))
+    path = registry.reject(REJECTED, told) / "report.json"
+    assert registry.told(REJECTED) == told
+    stored = json.loads(path.read_text())
+    assert stored["repairs"] == [repair.sentence]
+    path.write_text(json.dumps({**stored, "changes": None}))
+    with pytest.raises(TypeError):
+        registry.told(REJECTED)
+    del stored["changes"]
+    path.write_text(json.dumps(stored))
+    (older,) = registry.told(REJECTED).repairs
+    assert (older.kind, older.sentence) == (repair.kind, repair.sentence)
 
 
 def test_an_asset_that_is_later_rejected_is_no_longer_published(registry):

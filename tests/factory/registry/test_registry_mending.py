@@ -7,11 +7,10 @@ import pytest
 from registry_samples import publish, three_entries
 
 from asset_factory.factory.intake.discover import find_inputs
-from asset_factory.factory.registry import mending as mending_module
+from asset_factory.factory.registry import verify as verify_module
 from asset_factory.factory.registry.database import writing
-from asset_factory.factory.registry.mending import Settled, mend_rows, settle, withdraw
 from asset_factory.factory.registry.rows import delete, insert
-from asset_factory.factory.registry.verify import verify
+from asset_factory.factory.registry.verify import Settled, mend_rows, settle, verify, withdraw
 from asset_factory.factory.runtime.store import folder_digests
 
 
@@ -86,7 +85,7 @@ def test_what_there_was_no_time_for_stays(registry):
 @pytest.mark.parametrize("step", ["delete", "rename"])
 def test_a_process_that_dies_withdrawing_is_finished_by_the_next(registry, monkeypatch, step):
     (registry.assets / "cabinet-1" / "asset.urdf").unlink()
-    where = mending_module.rows if step == "delete" else mending_module.os
+    where = verify_module.rows if step == "delete" else verify_module.os
 
     def dies(*asked):
         raise KeyboardInterrupt

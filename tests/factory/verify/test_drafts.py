@@ -20,7 +20,7 @@ from asset_factory.factory.manufacture.plan import Plan
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.report_file import read_report
 from asset_factory.factory.verify import rounds
-from asset_factory.factory.verify.drafts import FACES_PER_HULL, ReadingDraft, best_of, work_of
+from asset_factory.factory.verify.drafts import FACES_PER_HULL, HypothesisDraft, best_of, work_of
 from asset_factory.factory.verify.validate import Verdict
 from asset_factory.sim_checks import Finding, Report, Severity
 from asset_factory.sim_checks.report import OUT_OF_TIME
@@ -30,17 +30,17 @@ DEEP = Finding("sweep_penetration", Severity.HARD, "5 mm deep", value=5.0, unit=
 ASSET = cabinet()
 
 
-def draft(*findings: Finding, frozen: frozenset[str] = frozenset()) -> ReadingDraft:
+def draft(*findings: Finding, frozen: frozenset[str] = frozenset()) -> HypothesisDraft:
     report = Report("asset.urdf", findings=findings)
     plan = Plan(frozen=frozen)
-    return ReadingDraft(ASSET.articulation, ASSET, None, plan, (), Verdict(report))
+    return HypothesisDraft(ASSET.articulation, ASSET, None, plan, (), Verdict(report))
 
 
 def test_the_first_that_passes_whole_is_the_last_that_is_made() -> None:
     rejected, whole, never = draft(DEEP), draft(), draft()
     made = []
 
-    def drafts() -> Iterator[ReadingDraft]:
+    def drafts() -> Iterator[HypothesisDraft]:
         for each in (rejected, whole, never):
             made.append(each)
             yield each

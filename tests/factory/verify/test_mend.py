@@ -68,7 +68,7 @@ def test_a_door_that_opens_inwards_is_turned_round_and_told():
     inwards = cabinet(axis=UP)
     plan = mended(inwards)
     assert plan is not None
-    assert "opened inwards" in plan.steps[-1]
+    assert "opened inwards" in plan.repairs[-1].sentence
     turned = as_planned(inwards.articulation, plan).joints[0]
     assert turned.axis == pytest.approx([0.0, 0.0, -1.0])
     assert (turned.lower, turned.upper) == (0.0, 1.5)
@@ -78,7 +78,7 @@ def test_a_tilted_axis_is_straightened():
     tilted = cabinet(axis=(np.sin(np.radians(8.0)), 0.0, -np.cos(np.radians(8.0))))
     plan = mended(tilted)
     assert plan is not None
-    assert "8.0 degrees off" in plan.steps[-1]
+    assert "8.0 degrees off" in plan.repairs[-1].sentence
     assert as_planned(tilted.articulation, plan).joints[0].axis == pytest.approx([0, 0, -1.0])
 
 
@@ -86,7 +86,7 @@ def test_a_hinge_beside_the_edge_goes_to_it():
     shifted = cabinet(axis=(0.0, 0.0, -1.0), origin=(-0.27, -0.205, 0.0))
     plan = mended(shifted)
     assert plan is not None
-    assert "front edge" in plan.steps[-1]
+    assert "front edge" in plan.repairs[-1].sentence
     assert as_planned(shifted.articulation, plan).joints[0].origin[:2] == pytest.approx(EDGE[:2])
 
 
@@ -95,7 +95,7 @@ def test_a_hinge_in_what_the_door_lies_before_goes_to_the_edge_between_them():
     inside = cabinet(axis=(0.0, 0.0, -1.0), origin=(-0.27, -0.16, 0.0), upper=np.pi)
     plan = mended(inside)
     assert plan is not None
-    assert "54.1 mm off its panel's back edge" in plan.steps[-1]
+    assert "54.1 mm off its panel's back edge" in plan.repairs[-1].sentence
     hung = as_planned(inside.articulation, plan).joints[0]
     assert hung.origin[:2] == pytest.approx((-0.3, -0.205))
     assert swept_m(inside.articulation, [body.hulls for body in inside.bodies], hung) < 1e-4
@@ -109,7 +109,7 @@ def test_what_the_edge_leaves_in_the_way_is_for_the_cut_that_follows(deep, left)
     body = asset.bodies[0]
     beside = replace(body, hulls=(*body.hulls, Hull(side, np.asarray(faces))))
     plan = mended(replace(asset, bodies=(beside, asset.bodies[1])))
-    assert (plan is not None and "back edge" in plan.steps[-1]) is left
+    assert (plan is not None and "back edge" in plan.repairs[-1].sentence) is left
 
 
 @pytest.mark.parametrize(
@@ -161,7 +161,7 @@ def test_a_closed_end_that_lies_in_something_is_pulled_in():
     started = Plan(separate=frozenset({("base", "door")}))
     plan = next_plan(given, started, CONFIG, Spare(), asset)
     assert plan is not None
-    assert "began hinge at" in plan.steps[-1]
+    assert "began hinge at" in plan.repairs[-1].sentence
     begins = as_planned(asset.articulation, plan).joints[0].lower
     assert -0.1 < begins <= 0.0
 

@@ -77,7 +77,7 @@ def test_hulls_that_nearly_touch_are_cut_apart_once(where):
     given = at_rest if where == "rest" else on_the_way
     plan = next_plan(given, Plan(), CONFIG, NONE_SMALL)
     assert plan.separate == {("base", "door")}
-    assert plan.steps == ("cut the hulls apart of base and door",)
+    assert [each.sentence for each in plan.repairs] == ["cut the hulls apart of base and door"]
     assert next_plan(given, plan, CONFIG, NONE_SMALL) is None
 
 
@@ -92,7 +92,7 @@ def test_a_joint_that_runs_into_something_late_ends_before():
     given = verdict(hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=1.5)])
     plan = next_plan(given, Plan(), CONFIG, NONE_SMALL)
     assert plan.upper == {"hinge": 1.5}
-    assert "ended hinge at 1.5 instead of 2 rad" in plan.steps[-1]
+    assert "ended hinge at 1.5 instead of 2 rad" in plan.repairs[-1].sentence
 
 
 def test_a_joint_that_runs_into_something_early_is_not_shortened_to_nothing():
@@ -106,7 +106,7 @@ def test_a_small_blocked_part_is_frozen_and_says_after_how_much():
     )
     plan = next_plan(given, Plan(), CONFIG, Spare(frozenset({"button"})))
     assert plan.frozen == {"button"}
-    assert "after 10% of its range" in plan.steps[-1]
+    assert "after 10% of its range" in plan.repairs[-1].sentence
 
 
 def test_one_hopeless_joint_makes_the_whole_hopeless():
@@ -142,7 +142,7 @@ def test_of_two_guessed_parts_that_lie_in_one_another_the_less_sure_is_given_up(
     assert plan.given_up == {"b_hinge"}
     assert plan.separate == {("a", "base")}
     assert plan.exclude == frozenset()
-    assert "gave up b_hinge: b lies in a" in plan.steps[-1]
+    assert "gave up b_hinge: b lies in a" in plan.repairs[-1].sentence
 
 
 def test_a_guessed_part_that_lies_in_a_known_one_is_given_up_and_two_known_ones_are_hopeless():
@@ -163,7 +163,7 @@ def test_of_what_jams_only_the_guess_worth_least_is_given_up():
     )
     plan = next_plan(verdict(jammed, pushed), Plan(), CONFIG, GUESSES)
     assert plan.given_up == {"b_hinge"}
-    assert plan.steps == ("gave up b_hinge: a jams",)
+    assert [each.sentence for each in plan.repairs] == ["gave up b_hinge: a jams"]
     alone = Finding("jammed", Severity.HARD, "the best one jams", joint="best")
     assert next_plan(verdict(jammed, alone), Plan(), CONFIG, GUESSES) is None
 
@@ -178,7 +178,9 @@ def test_a_guessed_hinge_that_is_blocked_is_moved_to_the_front_edge_once():
     spare = Spare(hinges=frozenset({"hinge", "other"}))
     plan = next_plan(given, Plan(), CONFIG, spare)
     assert plan.rehung == {"hinge"}
-    assert plan.steps == ("moved hinge to the door's front edge: it ran into something",)
+    assert [each.sentence for each in plan.repairs] == [
+        "moved hinge to the door's front edge: it ran into something"
+    ]
     assert next_plan(given, plan, CONFIG, spare).upper == {"hinge": 1.5}
 
 
@@ -186,7 +188,7 @@ def test_what_nobody_gets_into_is_made_hollow_once():
     found = verdict(hard("interior_filled", parts=("lever",)))
     plan = next_plan(found, Plan(), CONFIG, NONE_SMALL)
     assert plan.hollow == {"lever"}
-    assert "lever" in plan.steps[-1]
+    assert "lever" in plan.repairs[-1].sentence
     assert next_plan(found, plan, CONFIG, NONE_SMALL) is None
     assert next_plan(found, Plan(), RepairConfig(kinds="geometry"), NONE_SMALL) == plan
     assert next_plan(found, Plan(), RepairConfig(kinds="none"), NONE_SMALL) is None
@@ -204,7 +206,7 @@ def test_hulls_that_were_joined_are_left_apart_before_any_joint_is_changed():
     plan = next_plan(given, Plan(), CONFIG, NONE_SMALL)
     assert plan.closely
     assert not plan.upper
-    assert "base" in plan.steps[-1]
+    assert "base" in plan.repairs[-1].sentence
     assert next_plan(given, plan, CONFIG, NONE_SMALL).upper == {"hinge": 1.5}
 
 

@@ -58,7 +58,8 @@ def refusing(monkeypatch: pytest.MonkeyPatch, number: int, names: list[str], cod
 
 
 def repairs(result: Result, output: Path) -> str:
-    return " ".join(read_report(Registry(output).assets / result.entry.id).repairs)
+    stored = read_report(Registry(output).assets / result.entry.id)
+    return " ".join(repair.sentence for repair in stored.repairs)
 
 
 def test_a_guess_that_jams_in_a_simulator_is_given_up_and_told(

@@ -30,7 +30,7 @@ function ticks(low, high) {
  * The plot of one joint.
  * @param joint of the model.
  * @param curves pairs of links with gaps [m] at equal steps; at most five are drawn.
- * @param marks what the judge measured: { at, mm, told }.
+ * @param marks what the validator measured: { at, mm, told }.
  * @param jump called with a value of the joint when somebody clicks there.
  */
 export function sweepPlot(joint, curves, marks, jump, nameOf) {

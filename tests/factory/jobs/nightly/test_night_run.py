@@ -12,9 +12,8 @@ from asset_factory.factory.jobs.nightly.licenses import Licenses
 from asset_factory.factory.jobs.nightly.run import run_night
 from asset_factory.factory.jobs.nightly.settings import NightConfig, Upkeep
 from asset_factory.factory.registry import Entry
-from asset_factory.factory.registry.mending import Settled
 from asset_factory.factory.registry.result import Result
-from asset_factory.factory.registry.verify import Problem
+from asset_factory.factory.registry.verify import Problem, Settled
 from asset_factory.factory.report.nightly.drift import SourceRules
 from asset_factory.factory.report.nightly.files import JOURNAL
 from asset_factory.factory.report.nightly.outcome import FailureRules

@@ -1,12 +1,14 @@
 """The yield by source against the last nights."""
 
+import json
 from pathlib import PurePath
 
 import pytest
 from nights_made import attempt, night
 
-from asset_factory.factory.report.nightly.drift import SourceRules, source_yields, sources_from
+from asset_factory.factory.report.nightly.drift import SourceRules, source_yields
 from asset_factory.factory.report.nightly.figures import Changes
+from asset_factory.factory.report.nightly.files import SUMMARY, read_sources
 from asset_factory.factory.report.nightly.outcome import FailureRules, concerns, exit_code
 
 ROOTS = (PurePath("meshes"), PurePath("meshes/inner"), PurePath("/single.glb"))
@@ -71,5 +73,6 @@ def test_nothing_is_compared_where_that_is_not_wanted():
 
 
 @pytest.mark.parametrize("data", [{}, {"sources": 3}, {"sources": [{"source": "a"}]}])
-def test_summaries_of_other_versions_tell_nothing(data):
-    assert sources_from(data) == {}
+def test_summaries_of_other_versions_tell_nothing(tmp_path, data):
+    (tmp_path / SUMMARY).write_text(json.dumps(data))
+    assert read_sources(tmp_path) == {}

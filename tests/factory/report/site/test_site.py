@@ -13,6 +13,7 @@ from export_samples import cabinet
 from registry_samples import PASSED
 from shown_registry import HIT, HOSTILE, POINT, bundle_in, make_registry
 
+from asset_factory.factory.display.made import scene_of
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.report.site.alone import page_of_file
@@ -26,7 +27,6 @@ from asset_factory.factory.report.site.site import (
     write_index,
 )
 from asset_factory.factory.report.site.told import AssetPage, asset_page
-from asset_factory.factory.scene.made import scene_of
 from asset_factory.sim_checks import Finding, Severity
 from asset_factory.sim_checks.measurements import penetrations
 

@@ -76,7 +76,7 @@ def _font(size: int) -> ImageFont.ImageFont | ImageFont.FreeTypeFont:
 
 
 def _fitting(text: str, size: int) -> str:
-    """As much of the text as fits into a cell."""
+    """Return as much of the text as fits into a cell."""
     font = _font(size)
     shown = "".join(letter if letter.isprintable() else " " for letter in text[:80])
     while font.getlength(shown) > CELL_WIDTH - 16:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..mesh import FloatArray
-from ..scene.scene import SceneGraph, SceneSurface
+from .scene import SceneGraph, SceneSurface
 
 #: To the side of the front, and above [rad].
 ASIDE = 0.60
@@ -40,7 +40,7 @@ class Camera:
     spread: float
 
     def rays(self, pixels: FloatArray) -> FloatArray:
-        """Directions through places in the picture, not normalised: depth is along the lens.
+        """Return directions through places in the picture, not normalised: depth is along the lens.
 
         Args:
             pixels: column and row, 0.5 in the middle of the first, shape [count, 2].
@@ -51,7 +51,7 @@ class Camera:
         return np.asarray(pixels @ steps + (corner - self.axes[2]))
 
     def places(self, points: FloatArray) -> FloatArray:
-        """Column, row and depth [m] of points in the root frame, shape [count, 3]."""
+        """Return column, row and depth [m] of points in the root frame, shape [count, 3]."""
         local = (points - self.eye) @ self.axes.T
         depth = np.maximum(-local[:, 2], 1e-9)
         scale = self.height / (2.0 * self.spread * depth)
@@ -124,7 +124,7 @@ class Viewpoint:
         return [box @ poses[link, :3, :3].T + poses[link, :3, 3] for link, box in boxes]
 
     def _front(self) -> tuple[FloatArray, float]:
-        """The side that opens, a horizontal unit direction, shape [2], and where to stand of it.
+        """Return the side that opens, a horizontal unit direction, shape [2], and where to stand.
 
         What moves is at the front, and comes forward first; a door swings aside later. What rises
         first is a lid, and goes back. 1: its inside is seen from the right, -1: from the left.

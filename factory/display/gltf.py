@@ -94,7 +94,7 @@ class Buffer:
         return struct.pack("<4sII", MAGIC, 2, 12 + len(chunks)) + chunks
 
     def _pad(self) -> None:
-        """Up to the next multiple of 4, as glTF wants it."""
+        """Pad to the next multiple of 4, as glTF wants it."""
         self.data.extend(b"\0" * (-len(self.data) % 4))
 
 

@@ -15,13 +15,13 @@ import trimesh
 from export_samples import cabinet
 from PIL import Image
 
-from asset_factory.factory.pictures.camera import Viewpoint
-from asset_factory.factory.pictures.casting import Caster
-from asset_factory.factory.pictures.pictures import FRAMES, HEIGHT, WIDTH, Fault, pictures_of, still
-from asset_factory.factory.pictures.shading import Coloring
-from asset_factory.factory.pictures.sheet import MOST, SheetCell, contact_sheet
-from asset_factory.factory.scene.made import plain_surface, scene_of
-from asset_factory.factory.scene.scene import SceneGraph, SceneJoint, SceneSurface
+from asset_factory.factory.display.camera import Viewpoint
+from asset_factory.factory.display.casting import Caster
+from asset_factory.factory.display.made import plain_surface, scene_of
+from asset_factory.factory.display.pictures import FRAMES, HEIGHT, WIDTH, Fault, pictures_of, still
+from asset_factory.factory.display.scene import SceneGraph, SceneJoint, SceneSurface
+from asset_factory.factory.display.shading import Coloring
+from asset_factory.factory.display.sheet import MOST, SheetCell, contact_sheet
 
 
 @pytest.fixture(scope="module")
@@ -43,8 +43,8 @@ def test_the_same_scene_gives_the_same_bytes_here_and_in_another_process(scene, 
     assert pictures_of(scene, fault) == pictures
     told = (
         "import hashlib; from export_samples import cabinet\n"
-        "from asset_factory.factory.scene.made import scene_of\n"
-        "from asset_factory.factory.pictures.pictures import pictures_of\n"
+        "from asset_factory.factory.display.made import scene_of\n"
+        "from asset_factory.factory.display.pictures import pictures_of\n"
         "made = pictures_of(scene_of(cabinet()))\n"
         "print(hashlib.sha256(made.closed + made.opened + made.hulls + made.moving).hexdigest())\n"
     )

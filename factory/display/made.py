@@ -17,7 +17,7 @@ MAX_TEXTURE = 1024
 
 
 def scene_of(asset: Asset, before: Asset | None = None) -> SceneGraph:
-    """Links in the order of parts, surfaces by material, link frames as in the asset's URDF.
+    """Return an asset's scene: links in the order of parts, frames as in its URDF.
 
     Args:
         asset: what became of an input.
@@ -62,7 +62,7 @@ def scene_of(asset: Asset, before: Asset | None = None) -> SceneGraph:
 
 
 def _replaced(asset: Asset, before: Asset) -> list[SceneSurface]:
-    """Hulls that are no more, on the links of their parts, else on the root, where they rested."""
+    """Return the hulls that are no more, on the links of their parts, else on the root."""
     kept = {hull.vertices.tobytes() for body in asset.bodies for hull in body.hulls}
     links = {part.name: number for number, part in enumerate(asset.articulation.parts)}
     found = []
@@ -147,7 +147,7 @@ def plain_surface(
 
 
 def small_image(data: bytes) -> bytes | None:
-    """The picture as a JPEG, or PNG where it is transparent; ``None`` if it cannot be decoded."""
+    """Return the picture as JPEG, PNG if transparent; ``None`` if it cannot be decoded."""
     from PIL import Image
 
     try:

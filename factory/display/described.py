@@ -52,7 +52,7 @@ def scene_of_file(path: Path) -> SceneGraph:
 
 
 def scene_of_description(description: Description, tree: Tree) -> SceneGraph:
-    """What a description shows: its links' visuals and hulls, its joints with their ranges."""
+    """Return a description's scene: its links' visuals and hulls, its joints with ranges."""
     names = (tree.root, *(joint.child for joint in tree.order))
     place = {name: index for index, name in enumerate(names)}
     joints = []
@@ -109,7 +109,7 @@ class _FileColors:
         if visual is None or visual.source_face_count != len(faces):
             return [plain_surface(link, vertices, faces, plain)]
         looks = visual.mesh
-        # The judge has the shape where the description puts it, the reader has its colours.
+        # The validator has the shape where the description puts it, the reader has its colours.
         posed = Mesh(
             vertices,
             faces[visual.source_faces],

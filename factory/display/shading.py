@@ -12,9 +12,9 @@ from scipy.ndimage import binary_dilation, uniform_filter
 
 from ..geometry.colors import linear_of, srgb_of
 from ..mesh import FloatArray
-from ..scene.scene import SceneSurface
 from .camera import Camera
 from .casting import Caster, Hits, lengths
+from .scene import SceneSurface
 
 FloatRows = npt.NDArray[np.float32]
 #: Directions of light in the camera's axes (right, up, backward), and how strong [of 1].
@@ -214,7 +214,7 @@ _TEXELS: dict[bytes, FloatRows] = {}
 
 
 def _borders(hits: Hits, shape: tuple[int, int]) -> npt.NDArray[np.bool_]:
-    """Pixels where a link ends, and where a surface bends or steps; shape [2, height, width]."""
+    """Find pixels where a link ends, and where a surface bends; shape [2, height, width]."""
     link = hits.link.reshape(shape)
     depth = np.where(np.isfinite(hits.depth), hits.depth, 0.0).reshape(shape)
     normal = hits.normal.reshape(*shape, 3)
@@ -243,7 +243,7 @@ def _smooth(
     edge: npt.NDArray[np.int64],
     rays: int,
 ) -> FloatRows:
-    """Colour with alpha of pixels where shapes end, several rays each."""
+    """Return colour with alpha of pixels where shapes end, several rays each."""
     within = _WITHIN[:rays]
     rows, columns = np.divmod(edge, camera.width)
     starts = np.stack([columns, rows], axis=1).astype(np.float64)
@@ -257,7 +257,7 @@ def _smooth(
 
 
 def _corners(hits: Hits, shape: tuple[int, int]) -> FloatArray:
-    """Factors that darken what lies deeper than what is around it, shape [height, width]."""
+    """Return factors that darken what is deeper than its surroundings, shape [height, width]."""
     depth = hits.depth.reshape(shape)
     seen = np.isfinite(depth)
     if not seen.any():

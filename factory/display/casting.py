@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ..mesh import FloatArray
-from ..scene.scene import SceneGraph, SceneSurface
 from .camera import Camera, box_corners
+from .scene import SceneGraph, SceneSurface
 
 FloatRows = npt.NDArray[np.float32]
 #: No triangles are cast beyond so many: a picture is too small to show them.
@@ -40,7 +40,7 @@ class Hits:
 
     @classmethod
     def none(cls, count: int) -> Hits:
-        """Of rays that met nothing yet."""
+        """Return hits of rays that met nothing yet."""
         zeros = np.zeros(count, dtype=np.float32)
         return cls(
             np.full(count, np.inf, dtype=np.float32),
@@ -57,7 +57,7 @@ class Hits:
 
 
 def lengths(rows: FloatRows) -> FloatRows:
-    """Of vectors, at least a hair, shape [rows]."""
+    """Return lengths of vectors, at least a hair, shape [rows]."""
     return np.asarray(np.sqrt(np.einsum("ij,ij->i", rows, rows) + 1e-20), dtype=np.float32)
 
 
@@ -91,7 +91,7 @@ class LinkCaster:
     def box(
         self, camera: Camera, pose: FloatArray
     ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-        """The column and row where the link may begin in the picture, and those behind its end."""
+        """Return the columns and rows that the link may cover, ends excluded."""
         places = camera.places(self._corners @ pose[:3, :3].T + pose[:3, 3])[:, :2]
         low = np.floor(places.min(axis=0)).astype(np.int64) - 1
         return low, np.ceil(places.max(axis=0)).astype(np.int64) + 1

@@ -133,7 +133,7 @@ def _chain(
 
 
 def _local(joint: SceneJoint, value: float) -> tuple[list[float], list[float]]:
-    """Child frame in the parent's as a translation and a quaternion."""
+    """Return the child frame in the parent's as a translation and a quaternion."""
     pose = joint.origin @ joint.motion(value)
     turn = Rotation.from_matrix(pose[:3, :3]).as_quat()
     return [round(float(x), 9) for x in pose[:3, 3]], [round(float(x), 9) for x in turn]
@@ -175,7 +175,7 @@ def _told(joint: SceneJoint) -> dict[str, Any]:
 
 
 def flipped(uv: FloatRows) -> FloatRows:
-    """Texture coordinates counted from the top, as glTF does, from the bottom, or back."""
+    """Turn texture coordinates between counting from the bottom and, as glTF, from the top."""
     turned = uv.copy()
     turned[:, 1] = np.float32(1.0) - turned[:, 1]
     return turned

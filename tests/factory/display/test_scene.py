@@ -12,11 +12,11 @@ import pytest
 import trimesh
 from export_samples import box, boxes_asset, cabinet, hull_of, image
 
+from asset_factory.factory.display.glb import KEYS, glb_of
+from asset_factory.factory.display.made import scene_of
+from asset_factory.factory.display.scene import SceneGraph, SceneJoint
+from asset_factory.factory.display.stored import scene_from
 from asset_factory.factory.mesh import Material
-from asset_factory.factory.scene.glb import KEYS, glb_of
-from asset_factory.factory.scene.made import scene_of
-from asset_factory.factory.scene.scene import SceneGraph, SceneJoint
-from asset_factory.factory.scene.stored import scene_from
 
 TEXTURED = Material("oak", (1.0, 0.9, 0.8, 1.0), image((120, 80, 40)))
 

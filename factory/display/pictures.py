@@ -11,9 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry.colors import linear_of
-from ..scene.scene import SceneGraph
 from .camera import Camera, Viewpoint
 from .casting import Caster
+from .scene import SceneGraph
 from .shading import PASSING, RAYS, Coloring, paint, shaded
 
 #: Of the pictures of a grid [pixels].

@@ -1,0 +1,1 @@
+"""What is shown of an object: coloured surfaces, hulls and joints; as GLB, and as pictures."""

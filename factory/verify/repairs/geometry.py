@@ -1,0 +1,82 @@
+"""Repairs that change collision geometry only: joints and parts stay as they were stated."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ...manufacture.plan import Plan
+from ...manufacture.repair import Repair, RepairKind
+from .evidence import RepairEvidence, ordered
+
+#: What says that parts are in one another's way.
+STUCK = frozenset({"rest_penetration", "sweep_penetration", "interior_filled"})
+
+
+def separate_hulls(evidence: RepairEvidence, plan: Plan) -> Plan | None:
+    """Cut hulls that nearly touch apart, once, even where validation lets them: engines do not."""
+    near = {
+        ordered(*contact.links)
+        for contact in evidence.contacts()
+        if contact.depth_mm > -evidence.config.near_mm
+    }
+    new = frozenset(near) - plan.separate
+    if not new:
+        return None
+    cut = Repair(RepairKind.HULLS_CUT_APART, pairs=tuple(sorted(new)))
+    return replace(plan, separate=plan.separate | new, repairs=(*plan.repairs, cut))
+
+
+def exclude_knuckles(evidence: RepairEvidence, plan: Plan) -> Plan | None:
+    """Exclude what still overlaps at a hinge's knuckle from contact, as other engines do anyway."""
+    found = {ordered(*f.parts) for f in evidence.found("hinge_overlap") if len(f.parts) == 2}
+    new = frozenset(found) - plan.exclude
+    if not new:
+        return None
+    excluded = Repair(RepairKind.CONTACT_EXCLUDED, pairs=tuple(sorted(new)))
+    return replace(plan, exclude=plan.exclude | new, repairs=(*plan.repairs, excluded))
+
+
+def fit_closely(evidence: RepairEvidence, plan: Plan) -> Plan | None:
+    """Leave hulls that were joined to be fewer, and are in the way now, as they were decomposed.
+
+    Not where hulls were joined because the asset had too many.
+    """
+    if plan.closely or plan.fewer is not None:
+        return None
+    joined = {part for each in evidence.found("hulls_joined") for part in each.parts}
+    if not any(joined.intersection(each.parts or joined) for each in evidence.hard):
+        return None
+    left = Repair(RepairKind.HULLS_NOT_JOINED, parts=tuple(sorted(joined)))
+    return replace(plan, closely=True, repairs=(*plan.repairs, left))
+
+
+def build_fronts(evidence: RepairEvidence, plan: Plan) -> Plan | None:
+    """Build front plates that stick in what is around them anew, once, with room for each."""
+    if plan.build_fronts or not evidence.spare.fronts:
+        return None
+    stuck = [finding for finding in evidence.hard if finding.code in STUCK]
+    if not stuck:
+        return None
+    built = Repair(RepairKind.FRONTS_BUILT, parts=tuple(sorted(evidence.spare.fronts)))
+    return replace(
+        plan,
+        build_fronts=True,
+        separate=frozenset(),
+        exclude=frozenset(),
+        repairs=(*plan.repairs, built),
+    )
+
+
+def hollow_out(evidence: RepairEvidence, plan: Plan) -> Plan | None:
+    """Make a part that its own hulls fill again as what it shows: walls around nothing.
+
+    Other hulls are cut apart anew: thin walls need less room than what filled them.
+    """
+    filled = {
+        part for each in evidence.hard if each.code == "interior_filled" for part in each.parts
+    }
+    new = frozenset(filled) - plan.hollow
+    if not new:
+        return None
+    left = Repair(RepairKind.LEFT_HOLLOW, parts=tuple(sorted(new)))
+    return replace(plan, hollow=plan.hollow | new, repairs=(*plan.repairs, left))
