@@ -8,11 +8,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from asset_factory.factory.runtime.code import code_digest
 from asset_factory.factory.runtime.store import write_json
 
-from .attempt import VERSION, Attempt
+from .attempt import SOLVER, Attempt
 
 FOLDER = "solving"
+#: Of the file's layout.
+VERSION = 3
 #: Reasons that say nothing of the asset.
 UNJUDGED = ("crashed", "timeout", "failed")
 
@@ -79,11 +82,11 @@ def attempt_row(attempt: Attempt, tries: int) -> dict[str, Any]:
 
 
 def read_record(registry: Path, asset_id: str, digest: str) -> SolveRecord:
-    """What was noted of the same asset by this version; an empty record if there is nothing."""
+    """Return what this solver noted of the same asset; an empty record if there is nothing."""
     empty = SolveRecord(asset_id, digest)
     try:
         data = json.loads(_path(registry, asset_id).read_text(encoding="utf-8"))
-        if data["version"] != VERSION or data["digest"] != digest:
+        if data["solver"] != code_digest(*SOLVER) or data["digest"] != digest:
             return empty
         return replace(empty, rows=tuple(sorted((dict(row) for row in data["attempts"]), key=_key)))
     except (OSError, ValueError, KeyError, TypeError):
@@ -96,6 +99,7 @@ def write_record(registry: Path, record: SolveRecord) -> None:
     path.parent.mkdir(exist_ok=True)
     data = {
         "version": VERSION,
+        "solver": code_digest(*SOLVER),
         "asset": record.asset,
         "digest": record.digest,
         "attempts": list(record.rows),

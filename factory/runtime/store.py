@@ -39,16 +39,15 @@ def digest_file(path: Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def stage_key(stage: str, version: int, *inputs: object) -> str:
+def stage_key(stage: str, *inputs: object) -> str:
     """Return the name under which a stage's result is kept.
 
     Args:
         stage: e.g. ``decompose``.
-        version: the stage's ``VERSION``: raised when the same settings would give another output.
         inputs: everything the result depends on: arrays, dataclasses, strings, numbers, library
-            versions.
+            versions, digests of code.
     """
-    digest = hashlib.sha256(f"{stage}/{version}".encode())
+    digest = hashlib.sha256(stage.encode())
     for item in inputs:
         digest.update(_fingerprint(item))
     return f"{stage}-{digest.hexdigest()}"

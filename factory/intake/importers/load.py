@@ -24,8 +24,6 @@ from .mjcf import import_mjcf
 from .urdf import import_urdf
 from .xml_source import read_xml
 
-"""Raised when the same files and settings would give another intake."""
-
 
 def load_description(path: Path, config: IntakeConfig) -> Intake:
     """An existing articulated object as an input: its visual geometry with every joint at zero.

@@ -11,7 +11,8 @@ from typing import Any
 from asset_factory import __version__
 
 from ...registry.keys import STAGES
-from ...runtime.keys import code_digest, installed_version
+from ...runtime.code import code_digest
+from ...runtime.keys import installed_version
 
 #: Less room for temporary files than this, and a node is given no work [bytes].
 LEAST_FREE = 64 * 1024**2

@@ -20,10 +20,9 @@ from .convex import aspect
 from .part import PartPieces, split_part
 from .room import Room, Rooms
 
-#: Its version is raised when the same part would get other hulls.
 DECOMPOSE = Stage(
     "decompose",
-    version=7,
+    code=(__name__,),
     settings=("decompose",),
     libraries=("coacd", "vhacdx", "manifold3d", "scipy"),
 )
