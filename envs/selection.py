@@ -69,7 +69,7 @@ class Wanted:
 
 
 def verdicts_of(asset: RegisteredAsset) -> tuple[str, ...]:
-    """Verdicts on an asset: ``passed``, as all in a registry, and ``clean`` without findings."""
+    """Return an asset's verdicts: ``passed``, as all in a registry, ``clean`` without findings."""
     try:
         clean = read_report(asset.folder).clean
     except RegistryError:

@@ -46,7 +46,7 @@ class Settings:
     keep_failures: bool = False
 
     def env_info(self, registry: str) -> dict[str, Any]:
-        """How ManiSkill makes the environment again: ``gymnasium.make(env_id, **env_kwargs)``."""
+        """Return what ``gymnasium.make(env_id, **env_kwargs)`` takes to make the environment."""
         arguments = {
             "registry": registry,
             "robot_uids": self.robot,

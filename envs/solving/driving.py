@@ -76,11 +76,11 @@ class Driver:
         self._home = self.command[:3].copy()
 
     def values(self) -> FloatArray:
-        """Of the robot's joints now, shape [degree]."""
+        """Return the robot's joint values now, shape [degree]."""
         return np.array(self._arm.qpos, dtype=float)
 
     def object_values(self) -> FloatArray:
-        """Of the object's joints now, shape [degree]."""
+        """Return the object's joint values now, shape [degree]."""
         return np.array(self._part.qpos, dtype=float)
 
     def share(self) -> float:
@@ -88,7 +88,7 @@ class Driver:
         return self.world.share(self.object_values())
 
     def send(self, goal: FloatArray) -> None:
-        """One control step towards joint values, shape [degree].
+        """Act one control step towards joint values, shape [degree].
 
         Raises:
             Stopped: the task is solved, the steps are used up, or the arm is overloaded.
@@ -111,7 +111,7 @@ class Driver:
         return sustained(self.loads[-WINDOW:]) > OVERLOAD
 
     def go(self, path: FloatArray, step: float = STEP_RAD) -> None:
-        """Along joint values, shape [station, degree], then wait until the arm has arrived."""
+        """Move along joint values, shape [station, degree], then wait until the arm has arrived."""
         for station in path:
             start = self.command.copy()
             goal = _planned(station, start, self.world.free)
@@ -152,7 +152,7 @@ class Driver:
             self.go(np.array(steps), 0.06)
 
     def follow(self, plan: ArmPlan) -> None:
-        """Along the joint's way, until it is open or left behind."""
+        """Move along the joint's way, until it is open or left behind."""
         world = self.world
         last = plan.grip.hand
         behind = 0
@@ -177,7 +177,7 @@ class Driver:
         self.wait(SETTLING)
 
     def _on_the_way(self, values: FloatArray, press: FloatArray) -> FloatArray:
-        """Joint values for the hand pose of ``values`` shifted by ``press`` [m].
+        """Return joint values for the hand pose of ``values`` shifted by ``press`` [m].
 
         Solved from where the base really is.
         """
@@ -206,7 +206,7 @@ class Driver:
         return found[0], off[0]
 
     def _drive(self, now: FloatArray) -> FloatArray:
-        """Speeds that bring a base that was pushed away back to where it stood [m/s], [rad/s]."""
+        """Return speeds that bring a base that was pushed away back [m/s], [rad/s]."""
         if not self.world.robot.drives:
             return np.zeros(2)
         offset = self._home - now[:3]
@@ -231,7 +231,7 @@ class Driver:
         return answer
 
     def _felt(self) -> tuple[FloatArray, float]:
-        """The force that the wrist carries, shape [3], and one link's force on the object [N].
+        """Return the force that the wrist carries, shape [3], and one link's on the object [N].
 
         Both are 0 while the object is not touched.
 
@@ -268,7 +268,7 @@ def _press(kind: str, motion: FloatArray, hand: FloatArray) -> FloatArray:
 
 
 def _planned(goal: FloatArray, start: FloatArray, free: tuple[int, ...]) -> FloatArray:
-    """``goal`` in the planned joints, ``start`` in all others."""
+    """Return ``goal`` in the planned joints, ``start`` in all others."""
     result = start.copy()
     result[list(free)] = goal[list(free)]
     return result

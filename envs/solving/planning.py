@@ -130,7 +130,7 @@ def motion(
 
 
 def _starts(world: RobotWorld, values: FloatArray, seed: int) -> FloatArray:
-    """Joint values to search from: those of now, and random ones, shape [start, degree]."""
+    """Return joint values to search from: those of now, and random ones, shape [start, degree]."""
     rng = np.random.default_rng(seed)
     starts = np.tile(values, (STARTS, 1))
     free = list(world.free)
@@ -144,7 +144,7 @@ def _starts(world: RobotWorld, values: FloatArray, seed: int) -> FloatArray:
 def _different(
     world: RobotWorld, found: FloatArray, which: list[int], rows: list[int]
 ) -> list[int]:
-    """Of solutions for the same grip, shape [solution, degree], those of ``rows`` that differ."""
+    """Select of solutions for one grip, shape [solution, degree], those of ``rows`` that differ."""
     kept: dict[tuple[int, ...], int] = {}
     for row in rows:
         key = (which[row], *np.round(found[row, list(world.free)] / 0.6).astype(int).tolist())
@@ -229,7 +229,7 @@ def _checked(
 
 
 def _of_each_grip(candidates: list[ArmPlan], most: int) -> list[ArmPlan]:
-    """At most so many of every grip, in their order."""
+    """Select at most so many of every grip, in their order."""
     kept = []
     counts = Counter[tuple[object, ...]]()
     for plan in candidates:
@@ -258,7 +258,7 @@ def _check(
 
 
 def _entered(world: RobotWorld, plans: list[ArmPlan]) -> list[ArmPlan]:
-    """The plans whose grips the arm reaches along a straight line; the others are left out."""
+    """Return the plans whose grips the arm reaches along a straight line."""
     starts = np.array([plan.before for plan in plans])
     hands = np.array([plan.grip.hand for plan in plans])
     fine = np.ones(len(plans), dtype=bool)
@@ -292,7 +292,7 @@ def _entered(world: RobotWorld, plans: list[ArmPlan]) -> list[ArmPlan]:
 
 
 def _gripped(world: RobotWorld, values: FloatArray, grip: Grip, opened: bool) -> FloatArray:
-    """Joint values; gripper as before, ``opened`` or at a grip; shape [count, degree]."""
+    """Return joint values, gripper as before, ``opened`` or at a grip; shape [count, degree]."""
     values = values.copy()
     held = world.robot.opening if opened else 0.5 * grip.opening
     values[:, list(world.grippers)] = held if grip.kind == "grasp" else 0.0

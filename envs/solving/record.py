@@ -35,7 +35,7 @@ class SolveRecord:
     rows: tuple[dict[str, Any], ...] = ()
 
     def wants(self, joint: str, robot: str, seed: int, tries: int) -> bool:
-        """Whether an attempt adds anything: none solved yet, and this one not tried as often."""
+        """Tell whether an attempt adds anything: none solved yet, this one not tried as often."""
         rows = [row for row in self.rows if row["joint"] == joint and row["seed"] == seed]
         known = [row for row in rows if row["robot"] == robot and row["reason"] not in UNJUDGED]
         return not any(row["solved"] for row in rows) and not any(
@@ -43,17 +43,17 @@ class SolveRecord:
         )
 
     def noting(self, attempt: Attempt, tries: int) -> SolveRecord:
-        """With one more attempt, of at most so many tries, in the place of an older one."""
+        """Add one more attempt, of at most so many tries, in the place of an older one."""
         row = attempt_row(attempt, tries)
         rows = sorted([*(other for other in self.rows if _key(other) != _key(row)), row], key=_key)
         return replace(self, rows=tuple(rows))
 
     def of(self, joints: Sequence[str]) -> list[dict[str, Any]]:
-        """Attempts at some joints."""
+        """Return attempts at some joints."""
         return [row for row in self.rows if row["joint"] in joints]
 
     def verdict(self, joints: Sequence[str]) -> str:
-        """``yes`` if a joint was opened, ``no`` if all ``joints`` were tried in vain, or empty."""
+        """Return ``yes`` if a joint was opened, ``no`` if all were tried in vain, or empty."""
         if any(row["solved"] for row in self.rows):
             return "yes"
         tried = {row["joint"] for row in self.rows if row["reason"] not in UNJUDGED}

@@ -92,7 +92,7 @@ def answered(outcome: Outcome[Attempt], task: SolveTask) -> Attempt:
 
 
 def attempted(task: SolveTask) -> Attempt:
-    """As :func:`solve_joint`, in this process, which native code may take down."""
+    """Solve as :func:`solve_joint`, in this process, which native code may take down."""
     environment = make_episodes(task.registry, task.robot)
     try:
         return _solve_in(environment, task.asset_id, task.joint, task.robot, task.seed, task.tries)

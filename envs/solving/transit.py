@@ -18,7 +18,7 @@ SHORTCUTS = 30
 def transit(
     world: RobotWorld, start: FloatArray, goal: FloatArray, object_poses: FloatArray, seed: int
 ) -> FloatArray | None:
-    """A collision-free path in joint space, shape [station, degree]; ``None`` if none was found.
+    """Return a collision-free path in joint space, shape [station, degree]; ``None``: none found.
 
     J. Kuffner, S. LaValle, "RRT-Connect: an efficient approach to single-query path planning"
     (2000).
@@ -61,7 +61,7 @@ def transit(
 
 
 def _free(world: RobotWorld, first: FloatArray, last: FloatArray, object_poses: FloatArray) -> bool:
-    """Whether the straight line is free; its start does not count, since the arm is there."""
+    """Tell whether the straight line is free; its start does not count, since the arm is there."""
     count = max(1, int(np.ceil(np.abs(last - first).max() / CHECK)))
     line = first + (last - first) * (np.arange(1, count + 1) / count)[:, None]
     return not world.hits(line, object_poses[None]).any()

@@ -104,7 +104,7 @@ class RobotWorld:
         )
 
     def axis(self, poses: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """A point of the joint's axis [m] and its direction in the world, shapes [3], [3]."""
+        """Return a point of the joint's axis [m] and its direction, in the world, shapes [3]."""
         parent = self.object_chain.parents[self.mover]
         frame = poses[parent] @ self.object_chain.before[self.mover]
         return frame[:3, 3], frame[:3, 0]
@@ -116,7 +116,7 @@ class RobotWorld:
         return hand
 
     def tip_of(self, hands: FloatArray) -> FloatArray:
-        """Poses of the tip link that put the hand frame at ``hands``, both [count, 4, 4]."""
+        """Return poses of the tip link that put the hand frame at ``hands``, both [count, 4, 4]."""
         tips = hands.copy()
         tips[:, :3, :3] = hands[:, :3, :3] @ self.robot.turn.T
         return tips

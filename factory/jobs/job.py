@@ -245,7 +245,7 @@ class Job:
             yield self._meanwhile.pop(0)
 
     def _ended(self, call: Call, outcome: Outcome[Product | None], log: Log) -> Iterator[Result]:
-        """Yield one call's outcome is registered, its claim given up."""
+        """Register one call's outcome and give up its claim; yield the result."""
         begun = self._begun.pop(call.name)
         try:
             if outcome.failure is None and outcome.value is None:
@@ -276,7 +276,7 @@ class Job:
 
     @contextmanager
     def _writable(self) -> Iterator[None]:
-        """Raises RegistryError where a worker, or this process, could not write."""
+        """Raise RegistryError where a worker, or this process, could not write."""
         try:
             yield
         except OSError as failed:

@@ -53,7 +53,7 @@ def build_here(
 
 
 def _judge(config: CheckConfig) -> Judge:
-    """This process's judge with those thresholds; its children end with the process."""
+    """Return this process's judge with those thresholds; its children end with the process."""
     if config not in _JUDGES:
         while _JUDGES:
             _JUDGES.popitem()[1].close()

@@ -27,7 +27,7 @@ class _Refusal:
 
 
 def always(value: object) -> bool:
-    """Any result may be kept."""
+    """Tell that any result may be kept."""
     return True
 
 

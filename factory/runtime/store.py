@@ -29,12 +29,12 @@ WRITING_PREFIX = ".writing-"
 
 
 def digest_bytes(data: bytes) -> str:
-    """SHA-256 of some bytes, as hexadecimal."""
+    """Return SHA-256 of some bytes, as hexadecimal."""
     return hashlib.sha256(data).hexdigest()
 
 
 def digest_file(path: Path) -> str:
-    """SHA-256 of a file's content, as hexadecimal. Raises OSError if it cannot be read."""
+    """Return SHA-256 of a file's content, as hexadecimal. Raises OSError if it cannot be read."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
@@ -63,7 +63,7 @@ def _fingerprint(item: object) -> bytes:
 
 
 def folder_digests(folder: Path, *, without: tuple[str, ...] = ()) -> dict[str, str]:
-    """SHA-256 of every file below a folder, by path within it, sorted.
+    """Return SHA-256 of every file below a folder, by path within it, sorted.
 
     What is neither a file nor a folder (a link, a pipe) has ``not a file`` in place of a digest, so
     that it equals no registered file. Raises OSError if something cannot be read.
@@ -121,7 +121,7 @@ def writing(path: Path, *, lasting: bool = False) -> Iterator[BinaryIO]:
 
 
 def _begun(folder: Path) -> tuple[int, str]:
-    """A new file, locked while its process lives, so that cleaning sees it is being written."""
+    """Make a file, locked while its process lives, so that cleaning sees it is being written."""
     while True:
         handle, name = tempfile.mkstemp(dir=folder, prefix=WRITING_PREFIX)
         # Not all file systems have locks.
@@ -168,7 +168,7 @@ class Store:
         self.root = root
 
     def load(self, key: str) -> dict[str, npt.NDArray[Any]] | None:
-        """The arrays kept under ``key``; ``None`` if there are none or the file is damaged."""
+        """Return the arrays kept under ``key``; ``None``: there are none or the file is damaged."""
         path = self._path(key)
         try:
             with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
@@ -219,7 +219,7 @@ class Store:
 
 
 def _used(root: Path) -> Iterator[tuple[float, int, Path]]:
-    """When each file of a cache was last used [s since 1970], its size [bytes] and where it is."""
+    """Yield when each file of a cache was last used [s since 1970], its size [bytes], its path."""
     for path in root.rglob("*"):
         with suppress(OSError):
             status = path.lstat()

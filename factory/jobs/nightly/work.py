@@ -57,7 +57,7 @@ class Work:
         return tuple(self._registry.walk())
 
     def job(self, inputs: tuple[Path, ...], damaged: frozenset[str] = frozenset()) -> Job:
-        """The job over some inputs; those whose assets are damaged are built again, and first."""
+        """Return the job over some inputs; those of damaged assets are built again, and first."""
         config = self._config
         executor = self.executor()
         here = config.executor == LOCAL

@@ -71,7 +71,7 @@ class RayExecutor:
     def run(
         self, function: Callable[..., T], calls: Iterable[Call], limits: Limits
     ) -> Iterator[tuple[Call, Outcome[T]]]:
-        """As :class:`~.executor.Executor` promises.
+        """Make every call as :class:`~.executor.Executor` promises.
 
         Raises:
             ConfigError: there is no such cluster.
@@ -185,13 +185,13 @@ class _Tasks(Generic[T]):
         self._under_way[under_way] = replace(task, transfer=transfer, input=kept)
 
     def _handed_over(self, order: Order, node: str, data: bytes) -> Any:
-        """Ray's reference to a call."""
+        """Return Ray's reference to a call that was handed over."""
         packed = self._ray.cloudpickle.dumps(order)
         placed = self._work.options(**self._room_of_one, **self._nodes.options(node))
         return placed.remote(packed, versions(), self._executor.least_free, data, self._weights)
 
     def finished(self) -> Iterator[tuple[Call, Outcome[T]]]:
-        """Calls that have an outcome by now; waits a moment for the first."""
+        """Yield calls that have an outcome by now; wait a moment for the first."""
         while self._failed:
             yield self._failed.pop()
         if not self._under_way:
@@ -261,7 +261,7 @@ class _Tasks(Generic[T]):
         return outcome if task.transfer is None else task.transfer.opened(outcome)
 
     def _refused(self, task: _Task, word: str, node: str, answer: Any) -> None:
-        """A node would not do for a call: another one makes it."""
+        """Have another node make a call that one would not do for."""
         self._dropped(task)
         same = "; install the same versions everywhere"
         if word == "absent":
@@ -282,7 +282,7 @@ class _Tasks(Generic[T]):
         return task.input.lacking(self._executor.inputs.reads(outcome.value.value))
 
     def _dropped(self, task: _Task) -> None:
-        """What a try has sent is of no use."""
+        """Drop what a try has sent."""
         if task.transfer is not None:
             task.transfer.drop()
 
@@ -299,6 +299,6 @@ class _Tasks(Generic[T]):
 
 
 def _sentence(error: BaseException) -> str:
-    """Ray explains at length, and in colour; its first line says it."""
+    """Return the first line of an error; Ray explains at length, and in colour."""
     lines = str(error).strip().splitlines()
     return f"{type(error).__name__}: {lines[0][:300]}" if lines else type(error).__name__

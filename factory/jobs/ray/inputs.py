@@ -45,7 +45,7 @@ class SentInput:
 
     @contextmanager
     def unpacked(self, data: bytes) -> Iterator[Path]:
-        """Within this, the input's path on this machine.
+        """Yield the input's path on this machine, where it lies within this.
 
         Raises:
             ExchangeError: it is not what was sent.

@@ -61,7 +61,7 @@ class Networks:
         self._doors: dict[str, Any] = {}
 
     def told(self, arguments: Mapping[str, Any]) -> dict[str, Any]:
-        """A call's arguments, with the address in its place; ``None`` if there is nobody to ask."""
+        """Return a call's arguments with the address; ``None`` if there is nobody to ask."""
         return {**arguments, self._asked.argument: self._address if self._doors else None}
 
     def look(self) -> None:
@@ -135,7 +135,7 @@ class Door:
             ).start()
 
     def close(self) -> None:
-        """Without its folder nobody waits for it any more."""
+        """Remove its folder: nobody waits for it any more."""
         shutil.rmtree(Path(self._path).parent, ignore_errors=True)
 
     def _answer(self, question: bytes) -> bytes:
