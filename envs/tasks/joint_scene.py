@@ -153,7 +153,7 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         return select(among, replace(self._about, asset=asset, joint=joint))
 
     def _draw(self, env_idx: torch.Tensor) -> dict[str, torch.Tensor]:
-        """Draw an episode's random numbers by name, shape [chosen]; rebuilt scenes have the same."""
+        """Draw an episode's random numbers by name, shape [chosen]; rebuilt scenes keep them."""
         numbers = self._batched_episode_rng[env_idx].uniform(size=len(DRAWS))
         columns = torch.tensor(numbers, dtype=torch.float64, device=self.device)
         return dict(zip(DRAWS, columns.unbind(1), strict=True))

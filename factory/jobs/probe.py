@@ -55,7 +55,7 @@ def known_of(probes: Sequence[Probe], registry: Registry) -> Iterator[Entry | No
     return (rows.get(probe.key) or rows.get(probe.failure_key) for probe in probes)
 
 
-class Readings:
+class KnownReads:
     """Which files inputs were made of, by their main file and its sidecars, which lead there.
 
     Args:

@@ -144,12 +144,12 @@ class _Tasks(Generic[T]):
         if time.monotonic() - self._looked <= LOOK_S:
             return
         self._looked = time.monotonic()
-        processors = self._told(self._ray.cluster_resources).get("CPU", 0.0)
+        processors = self._asked(self._ray.cluster_resources).get("CPU", 0.0)
         self._room = max(1, int(processors / self._executor.processors))
-        self._told(self._nodes.require_fit)
-        self._told(self._nodes.hang_up)
+        self._asked(self._nodes.require_fit)
+        self._asked(self._nodes.hang_up)
         if self._networks is not None:
-            self._told(self._networks.look)
+            self._asked(self._networks.look)
 
     def most(self) -> int:
         """Return how many calls may be under way now."""
@@ -165,10 +165,10 @@ class _Tasks(Generic[T]):
         transfer = packed = None
         try:
             if self._networks is not None:
-                arguments = self._networks.told(arguments)
+                arguments = self._networks.with_address(arguments)
             if self._executor.inputs is not None:
                 packed = self._executor.inputs.packed(arguments, task.more)
-                arguments = self._executor.inputs.told(arguments)
+                arguments = self._executor.inputs.with_place(arguments)
             if self._executor.exchange is not None:
                 function, arguments, transfer = self._executor.exchange.sent(function, arguments)
             sent = None if packed is None else packed.sent
@@ -196,7 +196,7 @@ class _Tasks(Generic[T]):
             yield self._failed.pop()
         if not self._under_way:
             return
-        ready, _ = self._told(self._ray.wait, list(self._under_way), num_returns=1, timeout=LOOK_S)
+        ready, _ = self._asked(self._ray.wait, list(self._under_way), num_returns=1, timeout=LOOK_S)
         for under_way in ready:
             task = self._under_way.pop(under_way)
             outcome = self._outcome(under_way, task)
@@ -239,7 +239,7 @@ class _Tasks(Generic[T]):
         if task.node:
             self._nodes.died(task.node, task.call.name)
         if task.number < self._executor.losses:
-            node = self._told(self._nodes.next)
+            node = self._asked(self._nodes.next)
             self.start(replace(task, number=task.number + 1, node=node))
             return None
         detail = f"lost {task.number + 1} times on the cluster, the last time: {why}"
@@ -289,7 +289,7 @@ class _Tasks(Generic[T]):
     def _age(self, task: _Task) -> float:
         return time.monotonic() - task.started
 
-    def _told(self, ask: Callable[..., Any], *args: Any, **settings: Any) -> Any:
+    def _asked(self, ask: Callable[..., Any], *args: Any, **settings: Any) -> Any:
         try:
             return ask(*args, **settings)
         except (self._ray.exceptions.RayError, ConnectionError) as error:

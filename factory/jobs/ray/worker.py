@@ -90,8 +90,8 @@ def carry_out(packed: bytes, data: bytes, weights: SentWeights) -> tuple[str, An
         with _unpacked(order, data) as here:
             if order.weights is not None:
                 here[order.weights.argument] = arrived(ray, weights)
-            told = {**order.arguments, **({HERE: here} if here else {})}
-            outcome = work(order.function, told, order.limits, order.settings)
+            arguments = {**order.arguments, **({HERE: here} if here else {})}
+            outcome = work(order.function, arguments, order.limits, order.settings)
     except OSError as error:
         return ("full", None) if _is_full(error) else ("lost", f"{type(error).__name__}: {error}")
     except (ray.exceptions.RayError, ExchangeError, tarfile.TarError) as error:
