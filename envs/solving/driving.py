@@ -10,7 +10,6 @@ import numpy as np
 
 from ..assets import FloatArray
 from .grips import PRESS_ON
-from .kinematics import reach
 from .planning import ArmPlan
 from .robots import CLOSED, OPEN
 from .world import RobotWorld
@@ -143,10 +142,10 @@ class Driver:
         for back in np.linspace(0.0, distance, 6)[1:]:
             goal = hand.copy()
             goal[:3, 3] -= back * hand[:3, 2]
-            found, off = self._reach(goal, current, 8)
-            if off[0] > 0.02:
+            found, off = self.world.reach(goal[None], current[None], 8)
+            if off[0, 0] > 0.02:
                 break
-            current = found
+            current = found[0]
             steps.append(current)
         if steps:
             self.go(np.array(steps), 0.06)
@@ -188,22 +187,8 @@ class Driver:
         hand[:3, 3] += press
         if self.world.robot.drives:
             goal[:3] = self.values()[:3]
-        return self._reach(hand, goal, 4)[0]
-
-    def _reach(
-        self, hand: FloatArray, start: FloatArray, iterations: int
-    ) -> tuple[FloatArray, FloatArray]:
-        world = self.world
-        found, off = reach(
-            world.chain,
-            world.tip,
-            world.root,
-            world.tip_of(hand[None]),
-            start[None],
-            world.free,
-            iterations,
-        )
-        return found[0], off[0]
+        found, _ = self.world.reach(hand[None], goal[None], 4)
+        return np.asarray(found[0])
 
     def _drive(self, now: FloatArray) -> FloatArray:
         """Return speeds that bring a base that was pushed away back [m/s], [rad/s]."""

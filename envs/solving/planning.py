@@ -10,7 +10,6 @@ from scipy.spatial.transform import Rotation
 
 from ..assets import FloatArray
 from .grips import STANDOFF, Grip
-from .kinematics import reach
 from .world import RobotWorld
 
 #: Starting points of the search for joint values per grip, and its iterations.
@@ -76,16 +75,8 @@ def plans(
         return []
     starts = _starts(world, values, seed)
     which = np.repeat(np.arange(len(grips)), len(starts))
-    goals = world.tip_of(np.array([grip.hand for grip in grips]))[which]
-    found, off = reach(
-        world.chain,
-        world.tip,
-        world.root,
-        goals,
-        np.tile(starts, (len(grips), 1)),
-        world.free,
-        ITERATIONS,
-    )
+    hands = np.array([grip.hand for grip in grips])[which]
+    found, off = world.reach(hands, np.tile(starts, (len(grips), 1)), ITERATIONS)
     near = np.flatnonzero((off[:, 0] < NEAR_M) & (off[:, 1] < NEAR_RAD))
     good = _different(world, found, which.tolist(), near.tolist())
     if not good:
@@ -170,15 +161,7 @@ def _ways(
     steps = []
     far = np.zeros(len(row), dtype=int)
     for goal in goals:
-        following, off = reach(
-            world.chain,
-            world.tip,
-            world.root,
-            world.tip_of(goal),
-            current,
-            world.free,
-            WAY_ITERATIONS,
-        )
+        following, off = world.reach(goal, current, WAY_ITERATIONS)
         leap = np.abs(following - current).max(axis=1)
         alive &= (off[:, 0] < 2 * NEAR_M) & (off[:, 1] < 2 * NEAR_RAD) & (leap < LEAP)
         far += alive
@@ -267,15 +250,7 @@ def _entered(world: RobotWorld, plans: list[ArmPlan]) -> list[ArmPlan]:
     for back in np.linspace(0.0, STANDOFF, ENTRY_STATIONS + 1)[1:]:
         moved = hands.copy()
         moved[:, :3, 3] -= back * hands[:, :3, 2]
-        following, off = reach(
-            world.chain,
-            world.tip,
-            world.root,
-            world.tip_of(moved),
-            current,
-            world.free,
-            WAY_ITERATIONS,
-        )
+        following, off = world.reach(moved, current, WAY_ITERATIONS)
         fine &= (
             (off[:, 0] < 2 * NEAR_M)
             & (off[:, 1] < 2 * NEAR_RAD)
