@@ -17,6 +17,7 @@ from ..licenses import require_allowed
 from ..limits import require_sensible_size, unreadable
 from ..naming import safe_name, well_formed
 from ..orientation import parse_up, rotation_to_z_up
+from ..reads import ReadLog
 from ..sidecar import Sidecar, read_sidecar
 from ..sizes import guess_category, normalised, scale_by_size
 from .imported import Imported
@@ -25,7 +26,7 @@ from .urdf import import_urdf
 from .xml_source import read_xml
 
 
-def load_description(path: Path, config: IntakeConfig) -> Intake:
+def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> Intake:
     """An existing articulated object as an input: its visual geometry with every joint at zero.
 
     Zero is the joint value 0 of a URDF and ``qpos0`` of an MJCF. The annotation speaks of the root
@@ -35,6 +36,7 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
     Args:
         path: a URDF or MJCF file; everything it refers to lies in or below its folder.
         config: up axis, height and limits.
+        log: of the files that are read.
 
     Returns:
         An intake whose ``annotation`` is set; ``source_faces`` counts the faces of the
@@ -49,9 +51,9 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
     """
     if config.height is not None and not 0.0 < config.height < float("inf"):
         raise ConfigError(f"height {config.height}: want a positive number of metres")
-    files = InputFiles(path.parent, config)
+    files = InputFiles(path.parent, config, log)
     sidecar = read_sidecar(path, files)
-    imported = _imported(path, config)
+    imported = _imported(path, config, files.log)
     digest = digest_bytes("\n".join([*imported.digests, *files.digests]).encode())
     license = _allowed_license(path.name, sidecar, imported, config, digest)
     whole, face_part, kept = _joined(imported, path.name)
@@ -92,15 +94,15 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
     )
 
 
-def _imported(path: Path, config: IntakeConfig) -> Imported:
+def _imported(path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
     """Run a reader on a file from anybody: whatever it trips over is a fault of the file."""
-    root = read_xml(path, config.max_bytes)
+    root = read_xml(path, config.max_bytes, log)
     try:
         with np.errstate(all="ignore"):
             if root.tag == "robot":
-                return import_urdf(root, path, config)
+                return import_urdf(root, path, config, log)
             if root.tag == "mujoco":
-                return import_mjcf(root, path, config)
+                return import_mjcf(root, path, config, log)
     except (InputRejected, TimeoutError, ChildProcessError):
         raise
     except MemoryError as error:
