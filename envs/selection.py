@@ -40,7 +40,7 @@ class Wanted:
         categories: of objects.
         joint_types: of :data:`JOINT_TYPES`.
         split: ``train`` or ``test``.
-        verdict: ``passed``: everything in the registry; ``clean``: judged without a single finding.
+        verdict: ``passed``: everything in the registry; ``clean``: without a single finding.
         min_lever: what turns must be held at least this far from its axis [m].
     """
 

@@ -155,7 +155,7 @@ def replay(
 
 
 def episode_options(asset_id: str, joint: str) -> dict[str, Any]:
-    """Reset options of an attempt; a scene built anew keeps nothing of an earlier episode."""
+    """Return reset options of an attempt; a rebuilt scene keeps nothing of an earlier episode."""
     return {"asset": asset_id, "joint": joint, "reconfigure": True}
 
 

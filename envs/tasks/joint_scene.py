@@ -39,7 +39,7 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         category: of the objects, one or several.
         joint_type: ``revolute``, ``prismatic``, ``continuous``, or several of them.
         split: ``train`` or ``test``; which an asset belongs to follows from its id alone.
-        verdict: ``passed``, or ``clean`` for assets judged without a single finding.
+        verdict: ``passed``, or ``clean`` for assets validated without a single finding.
         friction_range, damping_range: random factors on what the asset's manifest states.
         robot_uids: ``panda`` is mounted at a height that suits the handle, ``fetch`` stands on the
             floor, ``none`` leaves the object alone.

@@ -1,7 +1,7 @@
 """What the result of a stage depends on, declared once beside it; its cache key follows.
 
-A result is made anew when its inputs, the settings, libraries or tables that the stage declares, or
-the source that it runs are other ones, and only then.
+A result is made again when its inputs, the settings, libraries or tables that the stage declares,
+or the source that it runs are other ones, and only then.
 """
 
 from __future__ import annotations

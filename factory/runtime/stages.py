@@ -36,7 +36,7 @@ class Stages:
 
     Args:
         config: of every stage.
-        store: where results are kept; without one everything is done anew.
+        store: where results are kept; without one everything is done each time.
 
     Attributes:
         clock: told how long each stage takes.

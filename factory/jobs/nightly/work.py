@@ -92,7 +92,7 @@ class Work:
         return verify(self._registry)
 
     def mend_rows(self, damage: Sequence[Problem]) -> None:
-        """Make rows anew that are not what their folders say."""
+        """Rebuild rows that are not what their folders say."""
         mend_rows(self._registry, damage)
 
     def settle(self, damage: Sequence[Problem], *, final: bool) -> dict[str, Settled]:
