@@ -38,7 +38,7 @@ ARTICULATE = Stage(
     code=("asset_factory.factory.articulate", "asset_factory.factory.models"),
     settings=("articulator", "particulate", "auto"),
     libraries=("numpy", "scipy", "trimesh", "torch"),
-    data=("auto.toml", "evidence.toml", "seams.toml"),
+    data=("auto.toml", "evidence.toml", "seams.toml", "weights/seams.npz"),
     also=_weight_digests,
 )
 

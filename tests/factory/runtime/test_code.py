@@ -16,6 +16,7 @@ from asset_factory.factory.runtime import code
 from asset_factory.factory.runtime.code import code_digest, modules_run_by
 
 ROOT = Path(asset_factory.__file__).parent
+WEIGHTS = ROOT / "configs" / "weights"
 SOURCES = {
     "kitchen/__init__.py": "",
     "kitchen/cook.py": "from .tools import knife\nfrom .tools.pots import (\n    pan as it,\n)\n",
@@ -137,6 +138,13 @@ def test_articulators_imported_by_name_are_among_what_the_stage_runs() -> None:
             module.startswith(f"asset_factory.factory.articulate.{name.partition('.')[0]}.")
             for module in modules_run_by(*stage.code)
         )
+
+
+def test_all_weights_that_the_package_brings_are_in_the_key_of_the_stage_that_asks_them() -> None:
+    (stage,) = (stage for stage in STAGES if stage.name == "articulate")
+    files = {f"weights/{file.name}" for file in WEIGHTS.iterdir() if file.suffix != ".md"}
+    # The network's own are named in the settings.
+    assert files - {"weights/small.safetensors"} <= {*stage.data}
 
 
 @pytest.mark.parametrize("stage", STAGES, ids=lambda stage: stage.name)
