@@ -20,7 +20,6 @@ from .licenses import require_allowed
 from .limits import require_sensible_size, unreadable
 from .naming import safe_name, well_formed
 from .orientation import parse_up, rotation_to_z_up
-from .reads import ReadLog
 from .sidecar import Sidecar, read_sidecar
 from .sizes import Scale, guess_category, normalised, scale_by_size
 
@@ -53,7 +52,7 @@ class Visual:
     notes: tuple[str, ...]
 
 
-def load_visual(path: Path, root: Path, limits: IntakeConfig, log: ReadLog | None = None) -> Visual:
+def load_visual(path: Path, root: Path, limits: IntakeConfig) -> Visual:
     """Read one mesh file as it is: no up axis change, no scaling (COLLADA: to m by its unit).
 
     The file's own face order is: glTF by node, depth first, then primitive; everything else as in
@@ -63,13 +62,12 @@ def load_visual(path: Path, root: Path, limits: IntakeConfig, log: ReadLog | Non
         path: in one of ``FORMATS``, below ``root``.
         root: nothing outside this folder is read.
         limits: ``max_bytes``, ``max_faces`` and ``max_texture_pixels`` are obeyed.
-        log: of the files that are read.
 
     Raises:
         InputRejected: ``unreadable``, ``unsupported``, ``empty``, ``too_large``, ``not_finite``,
             ``zero_size`` or ``external_reference``.
     """
-    files = InputFiles(root, limits, log)
+    files = InputFiles(root, limits)
     if not lies_below(path, root.resolve()):
         raise InputRejected(
             "external_reference", f"{path.name}: lies outside the folder of its description"
@@ -77,13 +75,12 @@ def load_visual(path: Path, root: Path, limits: IntakeConfig, log: ReadLog | Non
     return _load(path, files)
 
 
-def load_mesh(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> Intake:
+def load_mesh(path: Path, config: IntakeConfig) -> Intake:
     """Read one mesh file with its sidecar; turn it z up and bring it to metres. Its origin stays.
 
     Args:
         path: as in :func:`load_visual`; what it refers to lies in its folder or below.
         config: up axis, height and limits.
-        log: of the files that are read.
 
     Raises:
         InputRejected: as :func:`load_visual`, or ``bad_sidecar``, ``absurd_size``,
@@ -91,7 +88,7 @@ def load_mesh(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> I
         ConfigError: ``config.up`` or ``config.height`` cannot be.
     """
     _check_config(config)
-    files = InputFiles(path.parent, config, log)
+    files = InputFiles(path.parent, config)
     visual = _load(path, files)
     sidecar = read_sidecar(path, files)
     require_allowed(

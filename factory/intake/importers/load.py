@@ -17,7 +17,6 @@ from ..licenses import require_allowed
 from ..limits import require_sensible_size, unreadable
 from ..naming import safe_name, well_formed
 from ..orientation import parse_up, rotation_to_z_up
-from ..reads import ReadLog
 from ..sidecar import Sidecar, read_sidecar
 from ..sizes import guess_category, normalised, scale_by_size
 from .imported import Imported
@@ -26,7 +25,7 @@ from .urdf import import_urdf
 from .xml_source import read_xml
 
 
-def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> Intake:
+def load_description(path: Path, config: IntakeConfig) -> Intake:
     """An existing articulated object as an input: its visual geometry with every joint at zero.
 
     Zero is the joint value 0 of a URDF and ``qpos0`` of an MJCF. The annotation speaks of the root
@@ -36,7 +35,6 @@ def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = Non
     Args:
         path: a URDF or MJCF file; everything it refers to lies in or below its folder.
         config: up axis, height and limits.
-        log: of the files that are read.
 
     Returns:
         An intake whose ``annotation`` is set; ``source_faces`` counts the faces of the
@@ -51,9 +49,9 @@ def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = Non
     """
     if config.height is not None and not 0.0 < config.height < float("inf"):
         raise ConfigError(f"height {config.height}: want a positive number of metres")
-    files = InputFiles(path.parent, config, log)
+    files = InputFiles(path.parent, config)
     sidecar = read_sidecar(path, files)
-    imported = _imported(path, config, files.log)
+    imported = _imported(path, config)
     digest = digest_bytes("\n".join([*imported.digests, *files.digests]).encode())
     license = _allowed_license(path.name, sidecar, imported, config, digest)
     whole, face_part, kept = _joined(imported, path.name)
@@ -94,15 +92,15 @@ def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = Non
     )
 
 
-def _imported(path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
+def _imported(path: Path, config: IntakeConfig) -> Imported:
     """Run a reader on a file from anybody: whatever it trips over is a fault of the file."""
-    root = read_xml(path, config.max_bytes, log)
+    root = read_xml(path, config.max_bytes)
     try:
         with np.errstate(all="ignore"):
             if root.tag == "robot":
-                return import_urdf(root, path, config, log)
+                return import_urdf(root, path, config)
             if root.tag == "mujoco":
-                return import_mjcf(root, path, config, log)
+                return import_mjcf(root, path, config)
     except (InputRejected, TimeoutError, ChildProcessError):
         raise
     except MemoryError as error:

@@ -23,7 +23,7 @@ from ..annotation import AnnotatedJoint
 from ..files import InputFiles
 from ..images import load_texture
 from ..limits import require_at_most
-from ..reads import ReadLog
+from ..reads import digest_read
 from . import primitives
 from .imported import Imported
 from .mjcf_files import referenced_files
@@ -36,7 +36,7 @@ KINDS = {"hinge": "revolute", "slide": "prismatic"}
 SHOWN_GROUPS = range(3)
 
 
-def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
+def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Imported:
     """Return every body's visual geoms and every joint of an MJCF, in the world frame.
 
     Several joints of one body become a chain through empty parts, in their order. A free joint is
@@ -46,14 +46,13 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig, log: ReadLog
         root: the ``<mujoco>`` element.
         path: the file it came from; what it refers to lies in or below that file's folder.
         config: limits on the files it refers to.
-        log: of the files that are read.
 
     Raises:
         InputRejected: ``unsupported_joint``, ``missing_file``, ``external_reference``,
             ``unreadable``, ``too_large``.
         TimeoutError, ChildProcessError: the compiler hung or was killed, which is no verdict.
     """
-    files = referenced_files(root, path, config.max_bytes, log)
+    files = referenced_files(root, path, config.max_bytes)
     size = sum(file.stat().st_size for file in files)
     require_at_most("all files together", size, config.max_bytes, "bytes")
     try:
@@ -62,13 +61,13 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig, log: ReadLog
         code = error.code if error.code == "too_large" else "unreadable"
         raise InputRejected(code, error.message) from error
     # Before they are compiled: whoever changes them after this is found out by the digest.
-    digests = tuple(log.digest(file) for file in (path, *files))
+    digests = tuple(digest_read(file) for file in (path, *files))
     model = _compiled(path)
     visuals = _visuals(model)
     faces = sum(len(model.meshes[geom.mesh].faces) for geom in visuals if geom.mesh >= 0)
     require_at_most(path.name, faces, config.max_faces, "faces")
     notes = list(model.notes)
-    images = _images(model, InputFiles(path.parent, config, log), path.parent)
+    images = _images(model, path.parent, config)
     pieces = []
     for geom in visuals:
         mesh = _mesh_of(geom, model, images)
@@ -155,8 +154,9 @@ def _shape(geom: CompiledGeom, model: CompiledModel, material: Material) -> Mesh
     return shape
 
 
-def _images(model: CompiledModel, files: InputFiles, folder: Path) -> dict[int, Texture]:
+def _images(model: CompiledModel, folder: Path, config: IntakeConfig) -> dict[int, Texture]:
     """Return the model's flat textures that come from files, by index."""
+    files = InputFiles(folder, config)
     images = {}
     for index, texture in enumerate(model.textures):
         path = folder / texture.file

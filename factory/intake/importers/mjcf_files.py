@@ -6,7 +6,6 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 from ...errors import InputRejected
-from ..reads import ReadLog
 from .xml_source import find_reference, read_xml
 
 MAX_DOCUMENTS = 64
@@ -15,19 +14,18 @@ NESTED = ("include", "model")
 FOLDERS = ("meshdir", "texturedir", "assetdir")
 
 
-def referenced_files(root: ET.Element, path: Path, max_bytes: int, log: ReadLog) -> list[Path]:
+def referenced_files(root: ET.Element, path: Path, max_bytes: int) -> list[Path]:
     """Return every file that an MJCF and the files it includes refer to, the includes among them.
 
     Args:
         root: the ``<mujoco>`` element.
         path: the file it came from; all others lie in or below its folder.
         max_bytes: largest XML file [bytes].
-        log: of the files that are read.
 
     Raises:
         InputRejected: ``external_reference``, ``missing_file``, ``unreadable``, ``too_large``.
     """
-    documents = _documents(root, path, max_bytes, log)
+    documents = _documents(root, path, max_bytes)
     folders = [
         "",
         *dict.fromkeys(f for document, _, _ in documents for f in _asset_folders(document)),
@@ -47,23 +45,21 @@ def referenced_files(root: ET.Element, path: Path, max_bytes: int, log: ReadLog)
                 value for key, value in element.attrib.items() if key.startswith("file") and value
             ):
                 name = reference.replace("\\", "/").rsplit("/", 1)[-1] if stripped else reference
-                found += _candidates(name, folders, path.parent, base, where, log)
+                found += _candidates(name, folders, path.parent, base, where)
     return list(dict.fromkeys(found))
 
 
-def _documents(
-    root: ET.Element, path: Path, max_bytes: int, log: ReadLog
-) -> list[tuple[ET.Element, Path, Path]]:
+def _documents(root: ET.Element, path: Path, max_bytes: int) -> list[tuple[ET.Element, Path, Path]]:
     """The file, what it includes and attaches: elements, their poses, where references start."""
     documents = [(root, path, path.parent)]
     for document, file, base in documents:
         for element in (e for e in document.iter() if e.tag in NESTED):
             reference = element.get("file", "")
             where = f"{file.name}: <{element.tag}>"
-            target = find_reference(reference, path.parent, where, log, base)
+            target = find_reference(reference, path.parent, where, base)
             # What is included becomes part of the file; what is attached stands in its own folder.
             start = base if element.tag == "include" else target.parent
-            documents.append((read_xml(target, max_bytes, log), target, start))
+            documents.append((read_xml(target, max_bytes), target, start))
             if len(documents) > MAX_DOCUMENTS:
                 raise InputRejected(
                     "unreadable",
@@ -84,15 +80,16 @@ def _asset_folders(document: ET.Element) -> list[str]:
 
 
 def _candidates(
-    reference: str, folders: list[str], root: Path, base: Path, where: str, log: ReadLog
+    reference: str, folders: list[str], root: Path, base: Path, where: str
 ) -> list[Path]:
     """Return the file under each folder it could mean; one is enough, none may lead outside."""
     found = []
     missing = None
     for folder in folders:
         try:
-            place = f"{folder}/{reference}" if folder else reference
-            found.append(find_reference(place, root, where, log, base))
+            found.append(
+                find_reference(f"{folder}/{reference}" if folder else reference, root, where, base)
+            )
         except InputRejected as error:
             if error.code != "missing_file":
                 raise

@@ -21,7 +21,6 @@ from ...mesh import FloatArray, Mesh
 from ...runtime.store import digest_file
 from ..annotation import AnnotatedJoint
 from ..limits import require_at_most
-from ..reads import ReadLog
 from .imported import Imported, rigid, rigid_groups
 from .urdf_appearance import Palette, painted
 from .urdf_geometry import GeometryReader
@@ -46,14 +45,13 @@ class _UrdfJoint:
     friction: float | None
 
 
-def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
+def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig) -> Imported:
     """Return every link's visuals and every joint of a URDF, in the root link's frame.
 
     Args:
         robot: the ``<robot>`` element.
         path: the file it came from; what it refers to lies in or below that file's folder.
         config: limits on the files it refers to.
-        log: of the files that are read.
 
     Raises:
         InputRejected: ``not_a_tree``, ``unsupported_joint``, ``missing_file``,
@@ -69,8 +67,8 @@ def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLo
     order = _root_first(names, joints, path.name)
     poses = _poses_at_zero(len(names), joints, order)
     notes = _notes(robot, joints)
-    reader = GeometryReader(path.parent, config, log)
-    palette = Palette(robot, path.parent, config, log)
+    reader = GeometryReader(path.parent, config)
+    palette = Palette(robot, path.parent, config)
     welds = [(j.parent, j.child) for j in joints if j.kind == "fixed"]
     shapes = _choose_shapes(links, rigid_groups(len(names), welds), notes)
     require_at_most(path.name, len(shapes), MAX_SHAPES, "shapes")

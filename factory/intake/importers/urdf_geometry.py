@@ -12,7 +12,6 @@ from ...errors import InputRejected
 from ...mesh import Material, Mesh
 from ..limits import require_at_most
 from ..loading import Visual, load_visual
-from ..reads import ReadLog
 from . import primitives
 from .xml_source import find_reference, numbers
 
@@ -30,12 +29,10 @@ class GeometryReader:
     Args:
         folder: everything lies in or below it.
         config: limits.
-        log: of the files that are read.
     """
 
-    def __init__(self, folder: Path, config: IntakeConfig, log: ReadLog) -> None:
+    def __init__(self, folder: Path, config: IntakeConfig) -> None:
         self._folder = folder
-        self._log = log
         self._config = config
         self._bytes = 0
         self._visuals: dict[Path, Visual | None] = {}
@@ -90,7 +87,7 @@ class GeometryReader:
         return _primitive(element, where)
 
     def _mesh(self, element: ET.Element, where: str) -> Mesh | None:
-        path = find_reference(element.get("filename", ""), self._folder, where, self._log)
+        path = find_reference(element.get("filename", ""), self._folder, where)
         scale = numbers(element.get("scale"), 3, (1.0, 1.0, 1.0), f"{where}: <mesh scale>")
         if not scale.all():
             raise InputRejected(
@@ -109,7 +106,7 @@ class GeometryReader:
         self._bytes += path.stat().st_size
         require_at_most("all mesh files together", self._bytes, self._config.max_bytes, "bytes")
         try:
-            visual = load_visual(path, self._folder, self._config, self._log)
+            visual = load_visual(path, self._folder, self._config)
         except InputRejected as error:
             if error.code not in NOTHING_TO_SEE:
                 raise

@@ -24,7 +24,7 @@ from ..licenses import require_allowed
 from ..limits import require_at_most, require_sensible_size
 from ..naming import safe_name, well_formed
 from ..orientation import rotation_to_z_up
-from ..reads import ReadLog
+from ..reads import digest_read
 from ..sidecar import read_sidecar
 from ..sizes import guess_category, normalised
 from .usd_layers import rejecting, require_own_layers
@@ -32,13 +32,12 @@ from .usd_stage import UsdStage, read_stage
 from .usd_tree import annotation_of
 
 
-def load_usd(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> Intake:
+def load_usd(path: Path, config: IntakeConfig) -> Intake:
     """Return an articulated USD asset as an input; a stage states its own units and up axis.
 
     Args:
         path: of the root layer; everything that it is composed of lies in or below its folder.
         config: limits.
-        log: of the files that are read.
 
     Raises:
         InputRejected: ``unsupported``: the library that reads USD is not installed;
@@ -50,13 +49,13 @@ def load_usd(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> In
         raise InputRejected(
             "unsupported", f"{path.name}: reading USD needs usd-core: pip install usd-core"
         )
-    files = InputFiles(path.parent, config, log)
+    files = InputFiles(path.parent, config)
     sidecar = read_sidecar(path, files)
     with WarmChild() as child, rejecting(path):
         layers = ask_of(
             child, path.name, require_own_layers, path, path.parent, config.max_bytes, limits=LIMITS
         )
-        digests = [files.log.digest(layer) for layer in layers]
+        digests = [digest_read(layer) for layer in layers]
         digest = digest_bytes("\n".join([*digests, *files.digests]).encode())
         require_allowed(path.name, sidecar.license, config.allowed_licenses, digest)
         stage = ask_of(child, path.name, read_stage, path, config.max_faces, limits=LIMITS)

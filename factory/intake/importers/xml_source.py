@@ -17,7 +17,7 @@ from ...mesh import FloatArray
 from ...runtime.store import digest_bytes
 from ..declarations import parse_xml
 from ..limits import require_at_most
-from ..reads import ABSENT, ReadLog
+from ..reads import ABSENT, note_link_out, note_read
 
 SCHEMES = ("package://", "model://", "file://")
 MAX_BYTES = 64 * 1024 * 1024
@@ -31,8 +31,8 @@ ABSURD = 1e6
 MAX_DEPTH = 32
 
 
-def read_xml(path: Path, max_bytes: int, log: ReadLog) -> Element:
-    """Return the root element of an XML file, and note it as read.
+def read_xml(path: Path, max_bytes: int) -> Element:
+    """Return the root element of an XML file.
 
     Raises:
         InputRejected: ``missing_file``; ``too_large``: more than ``max_bytes`` or
@@ -51,7 +51,7 @@ def read_xml(path: Path, max_bytes: int, log: ReadLog) -> Element:
                 limit=max_bytes,
             )
         text = read_regular(path, max_bytes)
-        log.note(path, digest_bytes(text))
+        note_read(path, digest_bytes(text))
     except FileNotFoundError as error:
         raise InputRejected("missing_file", f"{path.name}: is not there") from error
     except OSError as error:
@@ -88,14 +88,11 @@ def numbers(text: str | None, count: int, default: tuple[float, ...], where: str
     return values
 
 
-def find_reference(
-    reference: str, folder: Path, where: str, log: ReadLog, base: Path | None = None
-) -> Path:
-    """Return the file that a reference names below a folder; relative ones start at ``base``.
+def find_reference(reference: str, folder: Path, where: str, base: Path | None = None) -> Path:
+    """The file that ``reference`` names below ``folder``; relative ones start at ``base``, if any.
 
     ``package://name/a/b.obj`` and ``model://name/a/b.obj`` mean the longest of ``name/a/b.obj``,
-    ``a/b.obj``, ``b.obj`` that exists below ``folder``; there are no packages to ask. What was
-    looked for and missing is noted.
+    ``a/b.obj``, ``b.obj`` that exists below ``folder``; there are no packages to ask.
 
     Raises:
         InputRejected: ``external_reference`` or ``missing_file``; ``where`` opens the sentence.
@@ -122,7 +119,7 @@ def find_reference(
     inside = [place for place in places if place is not None and place.is_relative_to(root)]
     if not inside:
         for candidate in candidates:
-            log.note_link_out(candidate, base or root)
+            note_link_out(candidate, base or root)
         raise InputRejected(
             "external_reference",
             f"{where}: {said} leads out of the description's folder; "
@@ -131,7 +128,7 @@ def find_reference(
     for candidate in inside:
         if _is_file(candidate):
             return candidate
-        log.note(candidate, ABSENT)
+        note_read(candidate, ABSENT)
     raise InputRejected(
         "missing_file", f"{where}: {said} is not there; want it below the description's folder"
     )
