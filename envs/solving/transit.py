@@ -39,8 +39,8 @@ def transit(
     rng = np.random.default_rng(seed)
     columns = list(world.free)
     lower, upper = world.chain.limits[columns].T
-    near = _Tree(world, object_poses, start)
-    far = _Tree(world, object_poses, goal)
+    near = _MotionTree(world, object_poses, start)
+    far = _MotionTree(world, object_poses, goal)
     for number in range(NODES):
         tree, other = (near, far) if number % 2 == 0 else (far, near)
         sample = start.copy()
@@ -50,7 +50,7 @@ def transit(
     return None
 
 
-class _Tree:
+class _MotionTree:
     """Configurations that can be reached from the first one along straight free lines.
 
     Attributes:
