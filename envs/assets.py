@@ -217,7 +217,7 @@ class _Hold:
 
 
 def _holds(manifest: Manifest) -> dict[str, _Hold]:
-    """The best place to hold what each joint moves, by its child: a target, else its handle."""
+    """Return the best place to hold what a joint moves, by its child: a target, else a handle."""
     best = {}
     for joint in manifest.joints:
         if joint.handle is not None:

@@ -24,7 +24,7 @@ def closed_values(asset: RegisteredAsset) -> dict[str, float]:
 
 
 def displacements(asset: RegisteredAsset, values: Mapping[str, float]) -> dict[str, FloatArray]:
-    """By link: its transform from all joints at 0 to where it is now, shape [4, 4]."""
+    """Return by link its transform from all joints at 0 to where it is now, shape [4, 4]."""
     moved: dict[str, FloatArray] = {}
     for joint in asset.joints:
         motion = np.eye(4)
@@ -42,7 +42,7 @@ def displacements(asset: RegisteredAsset, values: Mapping[str, float]) -> dict[s
 
 
 def carried_links(asset: RegisteredAsset, link: str) -> frozenset[str]:
-    """``link`` and everything it carries."""
+    """Return ``link`` and everything it carries."""
     carried = {link}
     for joint in asset.joints:
         if joint.parent in carried:
@@ -53,7 +53,7 @@ def carried_links(asset: RegisteredAsset, link: str) -> frozenset[str]:
 def hull_boxes(
     asset: RegisteredAsset, values: Mapping[str, float], links: frozenset[str] | None = None
 ) -> FloatArray:
-    """Box around every convex piece, the object on the ground [m], shape [hull_count, 2, 3].
+    """Return the box of every convex piece, the object on the ground [m], shape [hull_count, 2, 3].
 
     Args:
         asset: whose; its hulls are read once from its URDF.
@@ -89,7 +89,7 @@ def handle_path(asset: RegisteredAsset, joint: OpenableJoint, shares: FloatArray
 def opening_values(
     asset: RegisteredAsset, joint: OpenableJoint, shares: FloatArray
 ) -> list[dict[str, float]]:
-    """Joint values [rad] or [m] of the closed object with ``joint`` open by each of ``shares``."""
+    """Return joint values [rad] or [m] of the closed object with ``joint`` open by each share."""
     closed = closed_values(asset)
     return [
         {**closed, joint.name: joint.lower + float(share) * (joint.upper - joint.lower)}
@@ -99,7 +99,7 @@ def opening_values(
 
 @lru_cache(maxsize=256)
 def _hulls(urdf: Path, digest: str) -> dict[str, tuple[FloatArray, ...]]:
-    """Corners of every collision mesh in its link's frame, by link; cached by ``digest``."""
+    """Return corners of every collision mesh in its link's frame, by link; cached by ``digest``."""
     robot = parse(urdf).getroot()
     found = {}
     for link in robot.iter("link"):

@@ -1,4 +1,4 @@
-"""Whether an asset's files are still those that were judged."""
+"""Whether an asset's files are still those that were validated."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def check_unaltered(asset: RegisteredAsset) -> None:
     if manifest != asset.digest:
         raise RegistryError(
             f"asset {asset.id!r}: {MANIFEST} changed since the registry was "
-            "read; make the task anew"
+            "read; make the task again"
         )
     registered = _registered_digests(asset.folder)
     if registered is not None:

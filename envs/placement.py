@@ -252,7 +252,7 @@ def _stretch(
 
 
 def _body_clearance(places: FloatArray, boxes: FloatArray, robot: RobotShape) -> FloatArray:
-    """Level distance between the upright body and all boxes at its height [m], shape [place]."""
+    """Return the upright body's level distance to all boxes at its height [m], shape [place]."""
     radius, height = robot.body
     gap = np.maximum(
         boxes[None, :, 0, :2] - places[:, None, :2], places[:, None, :2] - boxes[None, :, 1, :2]
@@ -277,7 +277,7 @@ def _arm_clearance(
 def facing_direction(
     point: FloatArray, pull: FloatArray, normal: FloatArray, bounds: FloatArray
 ) -> FloatArray:
-    """Unit horizontal direction from the object toward somebody about to open it, shape [3].
+    """Return the horizontal unit direction from the object to who is about to open it, shape [3].
 
     The way the handle is pulled, if that is sideways; else the way its surface faces; else from the
     middle of the object to the handle; else -y.
@@ -292,7 +292,7 @@ def facing_direction(
 
 
 def camera_place(bounds: FloatArray, direction: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Eye and target [m] of a camera at the front left that sees the whole object and the robot."""
+    """Return eye and target [m] of a camera at the front left that sees all of object and robot."""
     middle = bounds.mean(axis=0)
     radius = 0.5 * float(np.linalg.norm(np.ptp(bounds, axis=0))) + 0.4
     side = np.array([-direction[1], direction[0], 0.0])

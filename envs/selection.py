@@ -40,7 +40,7 @@ class Wanted:
         categories: of objects.
         joint_types: of :data:`JOINT_TYPES`.
         split: ``train`` or ``test``.
-        verdict: ``passed``: everything in the registry; ``clean``: judged without a single finding.
+        verdict: ``passed``: everything in the registry; ``clean``: without a single finding.
         min_lever: what turns must be held at least this far from its axis [m].
     """
 
@@ -69,7 +69,7 @@ class Wanted:
 
 
 def verdicts_of(asset: RegisteredAsset) -> tuple[str, ...]:
-    """Verdicts on an asset: ``passed``, as all in a registry, and ``clean`` without findings."""
+    """Return an asset's verdicts: ``passed``, as all in a registry, ``clean`` without findings."""
     try:
         clean = read_report(asset.folder).clean
     except RegistryError:

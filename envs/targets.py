@@ -103,14 +103,14 @@ class Targets:
         return self._now[name]
 
     def handle_pose(self) -> torch.Tensor:
-        """Poses of the held links: position [m], quaternion wxyz; shape [environment, 7]."""
+        """Return poses of the held links: position [m], quaternion wxyz; shape [environment, 7]."""
         if self._on_gpu:
             return self._px.cuda_rigid_body_data.torch()[self._now["handle"], :7]
         pose: torch.Tensor = self._handles[0][int(self.slot[0])].pose.raw_pose
         return pose
 
     def motion(self) -> tuple[torch.Tensor, torch.Tensor, torch.Tensor]:
-        """Of the moved links: orientation wxyz, velocity [m/s], angular velocity [rad/s]."""
+        """Return the moved links' orientation wxyz, velocity [m/s] and angular velocity [rad/s]."""
         if self._on_gpu:
             data = self._px.cuda_rigid_body_data.torch()[self._now["mover"]]
             return data[:, 3:7], data[:, 7:10], data[:, 10:13]
@@ -128,7 +128,7 @@ class Targets:
     def opened(
         self, qpos: torch.Tensor, env_idx: torch.Tensor, share: torch.Tensor
     ) -> torch.Tensor:
-        """``qpos`` of ``env_idx``, shape [chosen, dof], its targets open by ``share``, [chosen]."""
+        """Return ``qpos`` [chosen, dof] of ``env_idx``, targets open by ``share`` [chosen]."""
         lower = self._now["lower"][env_idx]
         upper = self._now["upper"][env_idx]
         value = lower + share * (upper - lower)
@@ -136,7 +136,7 @@ class Targets:
 
 
 def turned(vectors: torch.Tensor, orientation: torch.Tensor) -> torch.Tensor:
-    """Vectors, shape [environment, 3], turned by quaternions wxyz, shape [environment, 4]."""
+    """Turn vectors, shape [environment, 3], by quaternions wxyz, shape [environment, 4]."""
     result: torch.Tensor = quaternion_apply(orientation, vectors)
     return result
 

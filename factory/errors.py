@@ -33,7 +33,7 @@ class Exit(IntEnum):
     USAGE = 2
     """Wrong usage, or a place that cannot be written to."""
     UNJUDGED = 3
-    """Something could not be judged."""
+    """Something could not be validated."""
     PIPE_CLOSED = 141
     """Whoever read the output had seen enough, as shells count it."""
     INTERRUPTED = 130

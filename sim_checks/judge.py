@@ -21,8 +21,6 @@ from .read.usd.as_urdf import write_as_urdf
 from .read.usd.layers import is_usd
 from .report import KILLED, OUT_OF_TIME, Finding, Report, Severity
 
-#: Raised when the same files and settings would give another report.
-VERSION = 1
 DEFAULT_CONFIG = CheckConfig()
 #: Codes of simulators that were asked and are no witnesses.
 ABSENT = frozenset({"format_not_loaded", "simulator_missing"})

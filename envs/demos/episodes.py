@@ -7,14 +7,17 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
+from asset_factory.factory.runtime.code import code_digest
 from asset_factory.factory.runtime.store import stage_key
 
 from ..assets import RegisteredAsset
-from ..solving.attempt import VERSION as SOLVER_VERSION
+from ..solving.attempt import SOLVER
 from ..solving.solve import STEPS
 
-#: Raise it when the same episode would be written in another way.
+#: Of the layout of what is written.
 VERSION = 1
+#: What says how an episode is written.
+RECORDER = ("asset_factory.envs.demos.recording",)
 #: Reasons that say nothing of the joint; such episodes are tried again by the next run.
 UNJUDGED = ("crashed", "timeout", "failed")
 #: What the bits of a trajectory depend on besides this package.
@@ -43,7 +46,7 @@ class Settings:
     keep_failures: bool = False
 
     def env_info(self, registry: str) -> dict[str, Any]:
-        """How ManiSkill makes the environment again: ``gymnasium.make(env_id, **env_kwargs)``."""
+        """Return what ``gymnasium.make(env_id, **env_kwargs)`` takes to make the environment."""
         arguments = {
             "registry": registry,
             "robot_uids": self.robot,
@@ -76,8 +79,9 @@ class Episode:
     seed: int
 
     def key(self, settings: Settings) -> str:
-        """Name of everything that the trajectory depends on."""
-        return stage_key("episode", VERSION, SOLVER_VERSION, _libraries(), settings, self)
+        """Return the name of everything that the trajectory depends on."""
+        code = code_digest(*SOLVER, *RECORDER)
+        return stage_key("episode", code, _libraries(), settings, self)
 
 
 @dataclass(frozen=True)
@@ -93,8 +97,8 @@ class Shard:
     episodes: tuple[Episode, ...]
 
     def key(self, settings: Settings) -> str:
-        """Name of everything that the file's content depends on."""
-        return stage_key("shard", VERSION, [episode.key(settings) for episode in self.episodes])
+        """Return the name of everything that the file's content depends on."""
+        return stage_key("shard", [episode.key(settings) for episode in self.episodes])
 
 
 @dataclass(frozen=True)

@@ -101,7 +101,7 @@ def write_shard(
 
 
 def read_shard(target: Path, shard: Shard, settings: Settings) -> tuple[Taken, ...] | None:
-    """What a shard says, if it is there, of the same episodes, and leaves none of them open."""
+    """Return what a shard says, if it is there, has the same episodes and leaves none open."""
     try:
         data = json.loads((target / f"{shard.name}.json").read_text(encoding="utf-8"))
         if data[OURS]["key"] != shard.key(settings):

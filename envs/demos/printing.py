@@ -16,7 +16,7 @@ from .episodes import VERSION, Settings, Taken
 
 
 def show_episode(count: int, total: int, taken: Taken, seconds: float) -> None:
-    """A line on stderr."""
+    """Print a line to standard error."""
     episode = taken.episode
     how = f"{taken.steps} steps" if taken.success else f"{taken.reason}: {taken.message}"
     where = f"{episode.asset} {episode.joint} seed {episode.seed}"
@@ -24,7 +24,7 @@ def show_episode(count: int, total: int, taken: Taken, seconds: float) -> None:
 
 
 def sum_up(taken: Iterable[Taken], settings: Settings) -> dict[str, Any]:
-    """``summary.json``: episodes, successes, and by joint why the others failed."""
+    """Return ``summary.json``: episodes, successes, and by joint why the others failed."""
     joints: dict[tuple[str, str], list[Taken]] = {}
     for each in taken:
         joints.setdefault((each.episode.asset, each.episode.joint), []).append(each)
@@ -54,7 +54,7 @@ def _row(asset: str, joint: str, taken: list[Taken]) -> dict[str, Any]:
 
 
 def print_summary(summary: dict[str, Any]) -> None:
-    """A row per joint."""
+    """Print a row per joint."""
     named = [Column(name, overflow="fold") for name in ("asset", "joint")]
     table = Table(*named, "episodes", "successes", "steps", "why not")
     for row in summary["joints"]:

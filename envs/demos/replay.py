@@ -70,7 +70,7 @@ def _refuse(words: str) -> NoReturn:
 
 @contextmanager
 def _told(registry: str | None) -> Iterator[None]:
-    """While within, the tool reads where the registry is and which package a task belongs to."""
+    """Tell the tool, within this, where the registry is and which package a task belongs to."""
     from mani_skill.trajectory.utils.actions import conversion
     from mani_skill.utils import io_utils
 

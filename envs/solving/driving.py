@@ -10,7 +10,6 @@ import numpy as np
 
 from ..assets import FloatArray
 from .grips import PRESS_ON
-from .kinematics import reach
 from .planning import ArmPlan
 from .robots import CLOSED, OPEN
 from .world import RobotWorld
@@ -76,11 +75,11 @@ class Driver:
         self._home = self.command[:3].copy()
 
     def values(self) -> FloatArray:
-        """Of the robot's joints now, shape [degree]."""
+        """Return the robot's joint values now, shape [degree]."""
         return np.array(self._arm.qpos, dtype=float)
 
     def object_values(self) -> FloatArray:
-        """Of the object's joints now, shape [degree]."""
+        """Return the object's joint values now, shape [degree]."""
         return np.array(self._part.qpos, dtype=float)
 
     def share(self) -> float:
@@ -88,7 +87,7 @@ class Driver:
         return self.world.share(self.object_values())
 
     def send(self, goal: FloatArray) -> None:
-        """One control step towards joint values, shape [degree].
+        """Act one control step towards joint values, shape [degree].
 
         Raises:
             Stopped: the task is solved, the steps are used up, or the arm is overloaded.
@@ -111,7 +110,7 @@ class Driver:
         return sustained(self.loads[-WINDOW:]) > OVERLOAD
 
     def go(self, path: FloatArray, step: float = STEP_RAD) -> None:
-        """Along joint values, shape [station, degree], then wait until the arm has arrived."""
+        """Move along joint values, shape [station, degree], then wait until the arm has arrived."""
         for station in path:
             start = self.command.copy()
             goal = _planned(station, start, self.world.free)
@@ -143,16 +142,16 @@ class Driver:
         for back in np.linspace(0.0, distance, 6)[1:]:
             goal = hand.copy()
             goal[:3, 3] -= back * hand[:3, 2]
-            found, off = self._reach(goal, current, 8)
-            if off[0] > 0.02:
+            found, off = self.world.reach(goal[None], current[None], 8)
+            if off[0, 0] > 0.02:
                 break
-            current = found
+            current = found[0]
             steps.append(current)
         if steps:
             self.go(np.array(steps), 0.06)
 
     def follow(self, plan: ArmPlan) -> None:
-        """Along the joint's way, until it is open or left behind."""
+        """Move along the joint's way, until it is open or left behind."""
         world = self.world
         last = plan.grip.hand
         behind = 0
@@ -177,7 +176,7 @@ class Driver:
         self.wait(SETTLING)
 
     def _on_the_way(self, values: FloatArray, press: FloatArray) -> FloatArray:
-        """Joint values for the hand pose of ``values`` shifted by ``press`` [m].
+        """Return joint values for the hand pose of ``values`` shifted by ``press`` [m].
 
         Solved from where the base really is.
         """
@@ -188,25 +187,11 @@ class Driver:
         hand[:3, 3] += press
         if self.world.robot.drives:
             goal[:3] = self.values()[:3]
-        return self._reach(hand, goal, 4)[0]
-
-    def _reach(
-        self, hand: FloatArray, start: FloatArray, iterations: int
-    ) -> tuple[FloatArray, FloatArray]:
-        world = self.world
-        found, off = reach(
-            world.chain,
-            world.tip,
-            world.root,
-            world.tip_of(hand[None]),
-            start[None],
-            world.free,
-            iterations,
-        )
-        return found[0], off[0]
+        found, _ = self.world.reach(hand[None], goal[None], 4)
+        return np.asarray(found[0])
 
     def _drive(self, now: FloatArray) -> FloatArray:
-        """Speeds that bring a base that was pushed away back to where it stood [m/s], [rad/s]."""
+        """Return speeds that bring a base that was pushed away back [m/s], [rad/s]."""
         if not self.world.robot.drives:
             return np.zeros(2)
         offset = self._home - now[:3]
@@ -231,7 +216,7 @@ class Driver:
         return answer
 
     def _felt(self) -> tuple[FloatArray, float]:
-        """The force that the wrist carries, shape [3], and one link's force on the object [N].
+        """Return the force that the wrist carries, shape [3], and one link's on the object [N].
 
         Both are 0 while the object is not touched.
 
@@ -268,7 +253,7 @@ def _press(kind: str, motion: FloatArray, hand: FloatArray) -> FloatArray:
 
 
 def _planned(goal: FloatArray, start: FloatArray, free: tuple[int, ...]) -> FloatArray:
-    """``goal`` in the planned joints, ``start`` in all others."""
+    """Return ``goal`` in the planned joints, ``start`` in all others."""
     result = start.copy()
     result[list(free)] = goal[list(free)]
     return result

@@ -87,7 +87,7 @@ def grasps(world: RobotWorld, poses: FloatArray, seed: int = 0) -> list[Grip]:
 
 
 def pushes(world: RobotWorld, poses: FloatArray, seed: int = 0) -> list[Grip]:
-    """Every way to lay closed fingers against a surface that faces against the joint's motion."""
+    """Return ways to lay closed fingers against surfaces that face against the joint's motion."""
     points, normals, worth = _outer(world, poses, seed, along=False)
     directions = _directions()
     found = []
@@ -175,7 +175,7 @@ def _only_what_moves(world: RobotWorld, grips: list[Grip], poses: FloatArray) ->
 def _clear(
     world: RobotWorld, grips: list[Grip], poses: FloatArray, balls: Balls, backs: Sequence[float]
 ) -> list[Grip]:
-    """Those at which some points of the hand are free, moved back by each of ``backs`` [m]."""
+    """Return the grips where points of the hand are free, moved back by each of ``backs`` [m]."""
     fine = np.ones(len(grips), dtype=bool)
     for back, kind in product(backs, ("grasp", "push", "drag")):
         rows = np.flatnonzero(fine & np.array([grip.kind == kind for grip in grips], dtype=bool))
@@ -241,7 +241,7 @@ def _outer(
 
 
 def _motion(world: RobotWorld, poses: FloatArray, points: FloatArray) -> FloatArray:
-    """Where points of what moves are going, shape [point, 3], per [rad] or [m] of the joint."""
+    """Return where points of what moves go, shape [point, 3], per [rad] or [m] of the joint."""
     origin, axis = world.axis(poses)
     if world.object_chain.slides[world.mover]:
         return np.broadcast_to(axis, points.shape)
@@ -251,7 +251,7 @@ def _motion(world: RobotWorld, poses: FloatArray, points: FloatArray) -> FloatAr
 def _spread(
     points: FloatArray, normals: FloatArray, worth: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """At most ``POINTS`` of them, far from one another and worth most."""
+    """Select at most ``POINTS`` of them, far from one another and worth most."""
     chosen: list[int] = []
     gap = np.full(len(points), 0.3)
     for _ in range(min(POINTS, len(points))):

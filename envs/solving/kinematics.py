@@ -67,7 +67,7 @@ class Chain:
         return poses
 
     def jacobian(self, poses: FloatArray, tip: int, free: Sequence[int]) -> FloatArray:
-        """Jacobian of link ``tip`` in ``free``: linear, then angular; shape [count, 6, free]."""
+        """Return a link's Jacobian in ``free``: linear, then angular; shape [count, 6, free]."""
         columns = np.zeros((len(poses), 6, len(free)))
         place = {degree: column for column, degree in enumerate(free)}
         at = poses[:, tip, :3, 3]
@@ -131,7 +131,7 @@ def reach(
     free: Sequence[int],
     iterations: int,
 ) -> tuple[FloatArray, FloatArray]:
-    """Joint values that bring link ``tip`` to poses: damped least squares, within the limits.
+    """Return joint values that bring link ``tip`` to poses: damped least squares, within limits.
 
     S. Buss, "Introduction to inverse kinematics with Jacobian transpose, pseudoinverse and damped
     least squares methods" (2004); what the task leaves free moves toward the middle of the limits.

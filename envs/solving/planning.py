@@ -10,7 +10,6 @@ from scipy.spatial.transform import Rotation
 
 from ..assets import FloatArray
 from .grips import STANDOFF, Grip
-from .kinematics import reach
 from .world import RobotWorld
 
 #: Starting points of the search for joint values per grip, and its iterations.
@@ -76,16 +75,8 @@ def plans(
         return []
     starts = _starts(world, values, seed)
     which = np.repeat(np.arange(len(grips)), len(starts))
-    goals = world.tip_of(np.array([grip.hand for grip in grips]))[which]
-    found, off = reach(
-        world.chain,
-        world.tip,
-        world.root,
-        goals,
-        np.tile(starts, (len(grips), 1)),
-        world.free,
-        ITERATIONS,
-    )
+    hands = np.array([grip.hand for grip in grips])[which]
+    found, off = world.reach(hands, np.tile(starts, (len(grips), 1)), ITERATIONS)
     near = np.flatnonzero((off[:, 0] < NEAR_M) & (off[:, 1] < NEAR_RAD))
     good = _different(world, found, which.tolist(), near.tolist())
     if not good:
@@ -130,7 +121,7 @@ def motion(
 
 
 def _starts(world: RobotWorld, values: FloatArray, seed: int) -> FloatArray:
-    """Joint values to search from: those of now, and random ones, shape [start, degree]."""
+    """Return joint values to search from: those of now, and random ones, shape [start, degree]."""
     rng = np.random.default_rng(seed)
     starts = np.tile(values, (STARTS, 1))
     free = list(world.free)
@@ -144,7 +135,7 @@ def _starts(world: RobotWorld, values: FloatArray, seed: int) -> FloatArray:
 def _different(
     world: RobotWorld, found: FloatArray, which: list[int], rows: list[int]
 ) -> list[int]:
-    """Of solutions for the same grip, shape [solution, degree], those of ``rows`` that differ."""
+    """Select of solutions for one grip, shape [solution, degree], those of ``rows`` that differ."""
     kept: dict[tuple[int, ...], int] = {}
     for row in rows:
         key = (which[row], *np.round(found[row, list(world.free)] / 0.6).astype(int).tolist())
@@ -170,15 +161,7 @@ def _ways(
     steps = []
     far = np.zeros(len(row), dtype=int)
     for goal in goals:
-        following, off = reach(
-            world.chain,
-            world.tip,
-            world.root,
-            world.tip_of(goal),
-            current,
-            world.free,
-            WAY_ITERATIONS,
-        )
+        following, off = world.reach(goal, current, WAY_ITERATIONS)
         leap = np.abs(following - current).max(axis=1)
         alive &= (off[:, 0] < 2 * NEAR_M) & (off[:, 1] < 2 * NEAR_RAD) & (leap < LEAP)
         far += alive
@@ -229,7 +212,7 @@ def _checked(
 
 
 def _of_each_grip(candidates: list[ArmPlan], most: int) -> list[ArmPlan]:
-    """At most so many of every grip, in their order."""
+    """Select at most so many of every grip, in their order."""
     kept = []
     counts = Counter[tuple[object, ...]]()
     for plan in candidates:
@@ -258,7 +241,7 @@ def _check(
 
 
 def _entered(world: RobotWorld, plans: list[ArmPlan]) -> list[ArmPlan]:
-    """The plans whose grips the arm reaches along a straight line; the others are left out."""
+    """Return the plans whose grips the arm reaches along a straight line."""
     starts = np.array([plan.before for plan in plans])
     hands = np.array([plan.grip.hand for plan in plans])
     fine = np.ones(len(plans), dtype=bool)
@@ -267,15 +250,7 @@ def _entered(world: RobotWorld, plans: list[ArmPlan]) -> list[ArmPlan]:
     for back in np.linspace(0.0, STANDOFF, ENTRY_STATIONS + 1)[1:]:
         moved = hands.copy()
         moved[:, :3, 3] -= back * hands[:, :3, 2]
-        following, off = reach(
-            world.chain,
-            world.tip,
-            world.root,
-            world.tip_of(moved),
-            current,
-            world.free,
-            WAY_ITERATIONS,
-        )
+        following, off = world.reach(moved, current, WAY_ITERATIONS)
         fine &= (
             (off[:, 0] < 2 * NEAR_M)
             & (off[:, 1] < 2 * NEAR_RAD)
@@ -292,7 +267,7 @@ def _entered(world: RobotWorld, plans: list[ArmPlan]) -> list[ArmPlan]:
 
 
 def _gripped(world: RobotWorld, values: FloatArray, grip: Grip, opened: bool) -> FloatArray:
-    """Joint values; gripper as before, ``opened`` or at a grip; shape [count, degree]."""
+    """Return joint values, gripper as before, ``opened`` or at a grip; shape [count, degree]."""
     values = values.copy()
     held = world.robot.opening if opened else 0.5 * grip.opening
     values[:, list(world.grippers)] = held if grip.kind == "grasp" else 0.0

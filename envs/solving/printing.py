@@ -22,7 +22,7 @@ class Progress:
         self._number = 0
 
     def expect(self, robot: str, total: int) -> None:
-        """So many joints are next, for one robot."""
+        """Note that so many joints come next, for one robot."""
         self._robot = robot
         self._total = total
         self._number = 0
@@ -35,7 +35,7 @@ class Progress:
 
 
 def print_table(attempts: Mapping[str, Sequence[Mapping[str, Any]]]) -> None:
-    """All attempts, by asset."""
+    """Print all attempts, by asset."""
     named = [Column(name, overflow="fold") for name in ("asset", "joint")]
     table = Table(*named, "robot", "opened", "how", "steps", "peak N", "mean N", "why not")
     for asset, rows in attempts.items():

@@ -8,11 +8,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from asset_factory.factory.runtime.code import code_digest
 from asset_factory.factory.runtime.store import write_json
 
-from .attempt import VERSION, Attempt
+from .attempt import SOLVER, Attempt
 
 FOLDER = "solving"
+#: Of the file's layout.
+VERSION = 3
 #: Reasons that say nothing of the asset.
 UNJUDGED = ("crashed", "timeout", "failed")
 
@@ -32,7 +35,7 @@ class SolveRecord:
     rows: tuple[dict[str, Any], ...] = ()
 
     def wants(self, joint: str, robot: str, seed: int, tries: int) -> bool:
-        """Whether an attempt adds anything: none solved yet, and this one not tried as often."""
+        """Tell whether an attempt adds anything: none solved yet, this one not tried as often."""
         rows = [row for row in self.rows if row["joint"] == joint and row["seed"] == seed]
         known = [row for row in rows if row["robot"] == robot and row["reason"] not in UNJUDGED]
         return not any(row["solved"] for row in rows) and not any(
@@ -40,17 +43,17 @@ class SolveRecord:
         )
 
     def noting(self, attempt: Attempt, tries: int) -> SolveRecord:
-        """With one more attempt, of at most so many tries, in the place of an older one."""
+        """Add one more attempt, of at most so many tries, in the place of an older one."""
         row = attempt_row(attempt, tries)
         rows = sorted([*(other for other in self.rows if _key(other) != _key(row)), row], key=_key)
         return replace(self, rows=tuple(rows))
 
     def of(self, joints: Sequence[str]) -> list[dict[str, Any]]:
-        """Attempts at some joints."""
+        """Return attempts at some joints."""
         return [row for row in self.rows if row["joint"] in joints]
 
     def verdict(self, joints: Sequence[str]) -> str:
-        """``yes`` if a joint was opened, ``no`` if all ``joints`` were tried in vain, or empty."""
+        """Return ``yes`` if a joint was opened, ``no`` if all were tried in vain, or empty."""
         if any(row["solved"] for row in self.rows):
             return "yes"
         tried = {row["joint"] for row in self.rows if row["reason"] not in UNJUDGED}
@@ -79,11 +82,11 @@ def attempt_row(attempt: Attempt, tries: int) -> dict[str, Any]:
 
 
 def read_record(registry: Path, asset_id: str, digest: str) -> SolveRecord:
-    """What was noted of the same asset by this version; an empty record if there is nothing."""
+    """Return what this solver noted of the same asset; an empty record if there is nothing."""
     empty = SolveRecord(asset_id, digest)
     try:
         data = json.loads(_path(registry, asset_id).read_text(encoding="utf-8"))
-        if data["version"] != VERSION or data["digest"] != digest:
+        if data["solver"] != code_digest(*SOLVER) or data["digest"] != digest:
             return empty
         return replace(empty, rows=tuple(sorted((dict(row) for row in data["attempts"]), key=_key)))
     except (OSError, ValueError, KeyError, TypeError):
@@ -96,6 +99,7 @@ def write_record(registry: Path, record: SolveRecord) -> None:
     path.parent.mkdir(exist_ok=True)
     data = {
         "version": VERSION,
+        "solver": code_digest(*SOLVER),
         "asset": record.asset,
         "digest": record.digest,
         "attempts": list(record.rows),

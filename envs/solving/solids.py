@@ -35,14 +35,14 @@ class Balls:
     radius: FloatArray
 
     def placed(self, poses: FloatArray) -> FloatArray:
-        """World points, shape [count, point, 3]; link ``poses``, shape [count, link, 4, 4]."""
+        """Return world points, shape [count, point, 3], by link ``poses``, [count, link, 4, 4]."""
         chosen = poses[:, self.link]
         return np.asarray(
             (chosen[..., :3, :3] @ self.points[:, :, None])[..., 0] + chosen[..., :3, 3]
         )
 
     def of(self, links: Sequence[int]) -> Balls:
-        """Only the points of some links."""
+        """Return only the points of some links."""
         keep = np.isin(self.link, list(links))
         return Balls(self.points[keep], self.link[keep], self.radius[keep])
 
@@ -126,7 +126,7 @@ def _inside(points: FloatArray, box: FloatArray) -> np.ndarray[Any, np.dtype[np.
 
 
 def robot_balls(articulation: Any, fingers: Sequence[int]) -> Balls:
-    """A robot's collision shapes as points; ``fingers`` more finely, no thicker than they are."""
+    """Return a robot's collision shapes as points; ``fingers`` finely, no thicker than they are."""
     points = []
     links = []
     radii = []
@@ -173,7 +173,7 @@ def _meshes(link: Any) -> list[trimesh.Trimesh]:
 
 
 def _mesh(shape: Any) -> trimesh.Trimesh:
-    """A collision shape as a closed convex mesh; a round one becomes a box or a coarse ball."""
+    """Return a collision shape as a closed convex mesh; a round one as a box or a coarse ball."""
     if hasattr(shape, "vertices"):
         return trimesh.Trimesh(np.asarray(shape.vertices) * np.asarray(shape.scale)).convex_hull
     if hasattr(shape, "half_size"):

@@ -92,7 +92,7 @@ def answered(outcome: Outcome[Attempt], task: SolveTask) -> Attempt:
 
 
 def attempted(task: SolveTask) -> Attempt:
-    """As :func:`solve_joint`, in this process, which native code may take down."""
+    """Solve as :func:`solve_joint`, in this process, which native code may take down."""
     environment = make_episodes(task.registry, task.robot)
     try:
         return _solve_in(environment, task.asset_id, task.joint, task.robot, task.seed, task.tries)
@@ -155,7 +155,7 @@ def replay(
 
 
 def episode_options(asset_id: str, joint: str) -> dict[str, Any]:
-    """Reset options of an attempt; a scene built anew keeps nothing of an earlier episode."""
+    """Return reset options of an attempt; a rebuilt scene keeps nothing of an earlier episode."""
     return {"asset": asset_id, "joint": joint, "reconfigure": True}
 
 

@@ -18,7 +18,7 @@ SHORTCUTS = 30
 def transit(
     world: RobotWorld, start: FloatArray, goal: FloatArray, object_poses: FloatArray, seed: int
 ) -> FloatArray | None:
-    """A collision-free path in joint space, shape [station, degree]; ``None`` if none was found.
+    """Return a collision-free path in joint space, shape [station, degree]; ``None``: none found.
 
     J. Kuffner, S. LaValle, "RRT-Connect: an efficient approach to single-query path planning"
     (2000).
@@ -39,77 +39,71 @@ def transit(
     rng = np.random.default_rng(seed)
     columns = list(world.free)
     lower, upper = world.chain.limits[columns].T
-    trees = ([start], [goal])
-    parents: tuple[list[int], list[int]] = ([-1], [-1])
-    side = 0
-    for _ in range(NODES):
+    near = _MotionTree(world, object_poses, start)
+    far = _MotionTree(world, object_poses, goal)
+    for number in range(NODES):
+        tree, other = (near, far) if number % 2 == 0 else (far, near)
         sample = start.copy()
         sample[columns] = rng.uniform(np.maximum(lower, -np.pi), np.minimum(upper, np.pi))
-        added = _extend(world, trees[side], parents[side], sample, object_poses)
-        if added is not None:
-            other = 1 - side
-            met = _connect(world, trees[other], parents[other], trees[side][added], object_poses)
-            if met is not None:
-                ends = (added, met) if side == 0 else (met, added)
-                path = (
-                    _branch(trees[0], parents[0], ends[0])[::-1]
-                    + _branch(trees[1], parents[1], ends[1])[1:]
-                )
-                return _shortened(world, path, object_poses, rng)
-        side = 1 - side
+        if tree.extend(sample) and other.connect(tree.nodes[-1]):
+            return _shortened(world, near.branch()[::-1] + far.branch()[1:], object_poses, rng)
     return None
 
 
+class _MotionTree:
+    """Configurations that can be reached from the first one along straight free lines.
+
+    Attributes:
+        nodes: joint values, shape [degree] each, in the order in which they were added.
+    """
+
+    def __init__(self, world: RobotWorld, object_poses: FloatArray, root: FloatArray) -> None:
+        self._world = world
+        self._object_poses = object_poses
+        self._parents = [-1]
+        self.nodes = [root]
+
+    def extend(self, sample: FloatArray) -> bool:
+        """Grow from the nearest node towards a sample; tell whether the line was free."""
+        nearest = int(np.argmin(np.linalg.norm(np.array(self.nodes) - sample, axis=1)))
+        offset = sample - self.nodes[nearest]
+        step = self.nodes[nearest] + offset * min(
+            1.0, GROW / max(float(np.abs(offset).max()), 1e-9)
+        )
+        if not _free(self._world, self.nodes[nearest], step, self._object_poses):
+            return False
+        self.nodes.append(step)
+        self._parents.append(nearest)
+        return True
+
+    def connect(self, sample: FloatArray) -> bool:
+        """Grow to a sample; tell whether it was reached."""
+        while self.extend(sample):
+            if np.abs(self.nodes[-1] - sample).max() < 1e-9:
+                return True
+        return False
+
+    def branch(self) -> list[FloatArray]:
+        """Return the nodes from the last one to the first."""
+        found = []
+        index = len(self.nodes) - 1
+        while index >= 0:
+            found.append(self.nodes[index])
+            index = self._parents[index]
+        return found
+
+
 def _free(world: RobotWorld, first: FloatArray, last: FloatArray, object_poses: FloatArray) -> bool:
-    """Whether the straight line is free; its start does not count, since the arm is there."""
+    """Tell whether the straight line is free; its start does not count, since the arm is there."""
     count = max(1, int(np.ceil(np.abs(last - first).max() / CHECK)))
     line = first + (last - first) * (np.arange(1, count + 1) / count)[:, None]
     return not world.hits(line, object_poses[None]).any()
 
 
-def _extend(
-    world: RobotWorld,
-    tree: list[FloatArray],
-    parents: list[int],
-    sample: FloatArray,
-    object_poses: FloatArray,
-) -> int | None:
-    nearest = int(np.argmin(np.linalg.norm(np.array(tree) - sample, axis=1)))
-    offset = sample - tree[nearest]
-    step = tree[nearest] + offset * min(1.0, GROW / max(float(np.abs(offset).max()), 1e-9))
-    if not _free(world, tree[nearest], step, object_poses):
-        return None
-    tree.append(step)
-    parents.append(nearest)
-    return len(tree) - 1
-
-
-def _connect(
-    world: RobotWorld,
-    tree: list[FloatArray],
-    parents: list[int],
-    sample: FloatArray,
-    object_poses: FloatArray,
-) -> int | None:
-    while True:
-        added = _extend(world, tree, parents, sample, object_poses)
-        if added is None:
-            return None
-        if np.abs(tree[added] - sample).max() < 1e-9:
-            return added
-
-
-def _branch(tree: list[FloatArray], parents: list[int], index: int) -> list[FloatArray]:
-    branch = []
-    while index >= 0:
-        branch.append(tree[index])
-        index = parents[index]
-    return branch
-
-
 def _shortened(
     world: RobotWorld, path: list[FloatArray], object_poses: FloatArray, rng: np.random.Generator
 ) -> FloatArray:
+    """Return the path with shortcuts along straight free lines, shape [station, degree]."""
     for _ in range(SHORTCUTS):
         if len(path) < 3:
             break

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ..assets import FloatArray, OpenableJoint, RegisteredAsset
 from ..geometry import carried_links
-from .kinematics import Chain, read_chain
+from .kinematics import Chain, reach, read_chain
 from .robots import SOLVERS, Robot
 from .solids import Balls, LinkHulls, object_pieces, robot_balls
 
@@ -104,7 +104,7 @@ class RobotWorld:
         )
 
     def axis(self, poses: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """A point of the joint's axis [m] and its direction in the world, shapes [3], [3]."""
+        """Return a point of the joint's axis [m] and its direction, in the world, shapes [3]."""
         parent = self.object_chain.parents[self.mover]
         frame = poses[parent] @ self.object_chain.before[self.mover]
         return frame[:3, 3], frame[:3, 0]
@@ -115,11 +115,19 @@ class RobotWorld:
         hand[:, :3, :3] = hand[:, :3, :3] @ self.robot.turn
         return hand
 
-    def tip_of(self, hands: FloatArray) -> FloatArray:
-        """Poses of the tip link that put the hand frame at ``hands``, both [count, 4, 4]."""
+    def reach(
+        self, hands: FloatArray, starts: FloatArray, iterations: int
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return joint values that bring the hand to frames, see :func:`~.kinematics.reach`.
+
+        Args:
+            hands: shape [count, 4, 4].
+            starts: values to begin from, shape [count, degree].
+            iterations: how often they are improved.
+        """
         tips = hands.copy()
         tips[:, :3, :3] = hands[:, :3, :3] @ self.robot.turn.T
-        return tips
+        return reach(self.chain, self.tip, self.root, tips, starts, self.free, iterations)
 
     def hits(
         self, values: FloatArray, object_poses: FloatArray, touching: bool = False

@@ -28,7 +28,7 @@ def check_robot(task: str, robot: object, supported: Sequence[str]) -> None:
 
 
 def check_number(task: str, num_envs: int, sim_backend: str) -> bool:
-    """Whether the simulation runs on a GPU; ConfigError for several environments on a CPU."""
+    """Tell whether the simulation runs on a GPU; ConfigError for several environments on a CPU."""
     on_gpu = any(word in sim_backend for word in ("cuda", "gpu")) or (
         sim_backend == "auto" and num_envs > 1
     )
@@ -57,7 +57,7 @@ def words(value: str | Sequence[str] | None) -> tuple[str, ...]:
 
 
 def common_types(task: str, asked: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
-    """Joint types that a user asked for and the task knows; what is empty stands for all of them.
+    """Return joint types that a user asked for and the task knows; empty stands for all of them.
 
     Raises:
         ConfigError: there are none.
@@ -93,7 +93,7 @@ def check_share(task: str, name: str, value: float) -> float:
 def choose_renderer(
     task: str, obs_mode: str, render_mode: str | None, render_backend: str | None
 ) -> str:
-    """ManiSkill's ``render_backend``; ``auto`` is ``none`` without pictures, else ``gpu``.
+    """Return ManiSkill's ``render_backend``; ``auto`` is ``none`` without pictures, else ``gpu``.
 
     Raises:
         ConfigError: pictures are wanted and ``render_backend`` is ``none``.

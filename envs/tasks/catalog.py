@@ -59,7 +59,7 @@ def register_tasks() -> None:
 
 
 def known_to_maniskill(environment: type[Any]) -> type[Any]:
-    """Class decorator: list a task's class where ManiSkill's tools look for it."""
+    """List a task's class, as its decorator, where ManiSkill's tools look for it."""
     from mani_skill.utils.registration import REGISTERED_ENVS, register
 
     task = next(task for task in TASKS if task.class_name == environment.__name__)

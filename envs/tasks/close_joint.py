@@ -33,7 +33,7 @@ class CloseJointEnv(JointTask):
         super().__init__(*args, **options)
 
     def start_and_goal(self, draws: dict[str, torch.Tensor]) -> tuple[torch.Tensor, torch.Tensor]:
-        """From half open or more to closed."""
+        """Return a start half open or more, and closed as the goal."""
         return LEAST_OPEN + (1.0 - LEAST_OPEN) * draws["start"], torch.zeros_like(draws["goal"])
 
     def at_goal(self, share: torch.Tensor, goal: torch.Tensor) -> torch.Tensor:

@@ -39,7 +39,7 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         category: of the objects, one or several.
         joint_type: ``revolute``, ``prismatic``, ``continuous``, or several of them.
         split: ``train`` or ``test``; which an asset belongs to follows from its id alone.
-        verdict: ``passed``, or ``clean`` for assets judged without a single finding.
+        verdict: ``passed``, or ``clean`` for assets validated without a single finding.
         friction_range, damping_range: random factors on what the asset's manifest states.
         robot_uids: ``panda`` is mounted at a height that suits the handle, ``fetch`` stands on the
             floor, ``none`` leaves the object alone.
@@ -153,7 +153,7 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         return select(among, replace(self._about, asset=asset, joint=joint))
 
     def _draw(self, env_idx: torch.Tensor) -> dict[str, torch.Tensor]:
-        """The episode's random numbers by name, shape [chosen]; a rebuilt scene changes none."""
+        """Draw an episode's random numbers by name, shape [chosen]; rebuilt scenes keep them."""
         numbers = self._batched_episode_rng[env_idx].uniform(size=len(DRAWS))
         columns = torch.tensor(numbers, dtype=torch.float64, device=self.device)
         return dict(zip(DRAWS, columns.unbind(1), strict=True))

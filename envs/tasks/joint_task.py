@@ -36,7 +36,7 @@ class JointTask(JointScene):
         raise NotImplementedError
 
     def at_goal(self, share: torch.Tensor, goal: torch.Tensor) -> torch.Tensor:
-        """Whether a joint open by ``share`` is where it is to be, all shapes [environment]."""
+        """Tell whether a joint open by ``share`` is where it is to be, all shapes [environment]."""
         raise NotImplementedError
 
     # One episode.
@@ -97,7 +97,7 @@ class JointTask(JointScene):
         self.agent.reset(rest)
 
     def _places_of(self, env_idx: torch.Tensor) -> list[Place]:
-        """Where some robots go, for the joint that each is about and the nearest of ``starts``."""
+        """Return where some robots go, for each one's joint and the nearest of ``starts``."""
         slots = self.targets.slot[env_idx].tolist()
         shares = self._goal_start[1, env_idx].tolist()
         places = []
@@ -114,7 +114,7 @@ class JointTask(JointScene):
     # The state, with what the episode is about.
 
     def get_state_dict(self) -> dict[str, Any]:
-        """ManiSkill's state, plus target, goal and start as ``task``, [environment, 3]."""
+        """Return ManiSkill's state, plus target, goal and start as ``task``, [environment, 3]."""
         # Without a robot there is no controller to ask.
         state: dict[str, Any] = (
             self.scene.get_sim_state() if self.agent is None else super().get_state_dict()
@@ -136,7 +136,7 @@ class JointTask(JointScene):
             self._goal_start[1, rows] = start
 
     def set_state(self, state: torch.Tensor, env_idx: torch.Tensor | None = None) -> None:
-        """Back to a flat state of ``get_state``, shape [environment, number].
+        """Set a flat state of ``get_state``, shape [environment, number].
 
         ManiSkill's own goes by the first episode's asset, and needs an actor beside the robot.
         """
@@ -170,7 +170,7 @@ class JointTask(JointScene):
         return self.targets.share(self.asset.get_qpos())
 
     def evaluate(self) -> dict[str, torch.Tensor]:
-        """Success: the joint is at its goal, and the moving link nearly at rest."""
+        """Tell of success: the joint is at its goal, and the moving link nearly at rest."""
         share = self.open_fraction()
         _, velocity, turning = self.targets.motion()
         still = (torch.linalg.norm(turning, dim=1) <= STATIC_TURN) & (
@@ -211,7 +211,7 @@ class JointTask(JointScene):
     def compute_dense_reward(
         self, obs: Any, action: torch.Tensor, info: dict[str, Any]
     ) -> torch.Tensor:
-        """Up to 1 for reaching the handle, 2 to 4 on the way to the goal, 5 for success."""
+        """Return up to 1 for reaching the handle, 2 to 4 on the way to the goal, 5 for success."""
         share = info["open_fraction"]
         (goal, start) = self._goal_start
         if self.agent is None:

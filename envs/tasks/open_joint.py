@@ -27,7 +27,7 @@ class OpenJointEnv(JointTask):
         super().__init__(*args, **options)
 
     def start_and_goal(self, draws: dict[str, torch.Tensor]) -> tuple[torch.Tensor, torch.Tensor]:
-        """From closed to fully open."""
+        """Return closed as the start, and fully open as the goal."""
         return torch.zeros_like(draws["start"]), torch.ones_like(draws["goal"])
 
     def at_goal(self, share: torch.Tensor, goal: torch.Tensor) -> torch.Tensor:

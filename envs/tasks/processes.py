@@ -6,7 +6,7 @@ from typing import Any
 
 
 def make_processes(task_id: str, count: int, **options: Any) -> Any:
-    """A ``gymnasium.vector.AsyncVectorEnv`` of ``count`` environments with numpy observations.
+    """Make an ``AsyncVectorEnv`` of gymnasium's, of ``count`` environments with numpy observations.
 
     ``reset(seed=s)`` seeds environment i with ``s + i``, and each then behaves as a single
     environment with that seed.

@@ -41,5 +41,5 @@ class SetJointEnv(JointTask):
         return start, torch.where(along < below, along, start + LEAST_WAY + along - below)
 
     def at_goal(self, share: torch.Tensor, goal: torch.Tensor) -> torch.Tensor:
-        """Within ``tolerance``."""
+        """Tell whether it is within ``tolerance``."""
         return (share - goal).abs() <= self.tolerance

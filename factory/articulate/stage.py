@@ -36,10 +36,11 @@ def _weight_digests(config: BuildConfig) -> list[str]:
 
 ARTICULATE = Stage(
     "articulate",
-    version=12,
+    # Articulators are imported by their names.
+    code=("asset_factory.factory.articulate", "asset_factory.factory.models"),
     settings=("articulator", "particulate", "auto"),
     libraries=("numpy", "scipy", "trimesh", "torch"),
-    data=("auto.toml", "evidence.toml", "seams.toml"),
+    data=("auto.toml", "evidence.toml", "seams.toml", "weights/seams.npz"),
     also=_weight_digests,
 )
 

@@ -8,15 +8,11 @@ from pathlib import Path
 
 from ..asset import Asset
 from ..intake.intake import Provenance
-from ..runtime.keys import Stage
 from ..runtime.layout import MANIFEST, MESHES, MJCF, URDF
 from .described import manifest_of
 from .formats import formats_named
 from .links import Layout, lay_out
 from .manifest import Manifest
-
-#: Its version is raised when the same asset would be written otherwise.
-EXPORT = Stage("export", version=5)
 
 
 @dataclass(frozen=True)

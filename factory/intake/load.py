@@ -14,10 +14,9 @@ from .importers.usd import load_usd
 from .intake import Intake
 from .loading import load_mesh
 
-#: Its version is raised when some input would be loaded otherwise.
 LOAD = Stage(
     "load",
-    version=7,
+    code=(__name__,),
     settings=("intake",),
     libraries=("numpy", "scipy", "trimesh", "manifold3d", "pillow", "mujoco"),
     data=("categories.toml",),

@@ -31,7 +31,7 @@ from ..runtime.layout import CACHE, CLAIMS
 from .budget import Budget
 from .executor import Call, Executor
 from .log import Log
-from .probe import Probe, Readings, known_of
+from .probe import KnownReads, Probe, known_of
 from .signals import undisturbed
 from .worker import build_here
 
@@ -97,7 +97,7 @@ class Job:
         self._budget = budget or Budget()
         self._one_network = one_network
         self._registry = Registry(self._output, create=True)
-        self._readings = Readings(output / CACHE / "inputs", config)
+        self._known_reads = KnownReads(output / CACHE / "inputs", config)
         self._begun: dict[str, _Begun] = {}
         self._aside: list[Probe] = []
         self._meanwhile: list[Result] = []
@@ -130,7 +130,7 @@ class Job:
         self._until = None if self._budget.max_s is None else time.monotonic() + self._budget.max_s
         waiting = []
         urgent = []
-        for probes in self._readings.probe_all(self._inputs):
+        for probes in self._known_reads.probe_all(self._inputs):
             for probe, entry in zip(probes, known_of(probes, self._registry), strict=True):
                 if entry is not None and entry.id in self._budget.damaged:
                     urgent.append(probe)
@@ -203,7 +203,7 @@ class Job:
                 continue
             # Somebody else may have built it since this job looked; what this job built it does not
             # build again.
-            probe = self._readings.renewed(seen)
+            probe = self._known_reads.renewed(seen)
             entry = probe.known(self._registry)
             again = (
                 entry is not None and self._wants_again(entry) and probe.claim not in self._built
@@ -245,7 +245,7 @@ class Job:
             yield self._meanwhile.pop(0)
 
     def _ended(self, call: Call, outcome: Outcome[Product | None], log: Log) -> Iterator[Result]:
-        """Yield one call's outcome is registered, its claim given up."""
+        """Register one call's outcome and give up its claim; yield the result."""
         begun = self._begun.pop(call.name)
         try:
             if outcome.failure is None and outcome.value is None:
@@ -270,13 +270,13 @@ class Job:
                 self._registry, probe.source, probe.reads, self._config, outcome
             )
             return replace(failed, input=str(probe.given))
-        self._readings.note(probe.source, product.reads)
+        self._known_reads.note(probe.source, product.reads)
         result = register(self._registry, product, outcome.tries)
         return replace(result, input=str(probe.given))
 
     @contextmanager
     def _writable(self) -> Iterator[None]:
-        """Raises RegistryError where a worker, or this process, could not write."""
+        """Raise RegistryError where a worker, or this process, could not write."""
         try:
             yield
         except OSError as failed:

@@ -37,7 +37,7 @@ class LocalExecutor:
     def run(
         self, function: Callable[..., T], calls: Iterable[Call], limits: Limits
     ) -> Iterator[tuple[Call, Outcome[T]]]:
-        """As :class:`~.executor.Executor` promises."""
+        """Make every call as :class:`~.executor.Executor` promises."""
         pool: _WorkerPool[T] = _WorkerPool(self, function, limits)
         waiting = iter(calls)
         ends = False
@@ -88,7 +88,7 @@ class _WorkerPool(Generic[T]):
         return self._done.get()
 
     def dismiss(self) -> None:
-        """Everybody home at once; what is under way is lost."""
+        """End all workers at once; what is under way is lost."""
         self._dismissed.set()
         for _, child in self._members:
             child.abandon()
@@ -125,7 +125,7 @@ class _WorkerPool(Generic[T]):
 
 
 def worth_another_try(outcome: Outcome[T]) -> bool:
-    """Whether an outcome may have been bad luck: a crash, a hang, or a moment without memory."""
+    """Tell whether an outcome may have been bad luck: a crash, a hang, a moment without memory."""
     return outcome.failure in (Failure.CRASHED, Failure.TIMEOUT) or isinstance(
         outcome.error, MemoryError
     )

@@ -29,15 +29,15 @@ class Log:
         self._descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
 
     def close(self) -> None:
-        """No more lines."""
+        """Close the log."""
         os.close(self._descriptor)
 
     def begun(self, inputs: int, known: int) -> None:
-        """A job began to build."""
+        """Write that a job began to build."""
         self._write("begun", {"inputs": inputs, "known": known})
 
     def built(self, result: Result, outcome: Outcome[Product]) -> None:
-        """One input was built, or failed: time per stage, and its process's last output."""
+        """Write that an input was built, or failed: time per stage, its process's last output."""
         product = outcome.value
         stages = [
             {"stage": stage, "seconds": round(seconds, 4), "reused": stage in result.reused}
@@ -59,7 +59,7 @@ class Log:
         )
 
     def ended(self, state: str, built: int, left: int) -> None:
-        """A job ended, and how."""
+        """Write that a job ended, and how."""
         self._write("ended", {"state": state, "built": built, "left": left})
 
     def _write(self, event: str, data: dict[str, Any]) -> None:

@@ -45,7 +45,7 @@ class Probe:
     claim: str
 
     def known(self, registry: Registry) -> Entry | None:
-        """Its row, if the registry has one for exactly this."""
+        """Return its row, if the registry has one for exactly this."""
         return next(known_of((self,), registry))
 
 
@@ -55,7 +55,7 @@ def known_of(probes: Sequence[Probe], registry: Registry) -> Iterator[Entry | No
     return (rows.get(probe.key) or rows.get(probe.failure_key) for probe in probes)
 
 
-class Readings:
+class KnownReads:
     """Which files inputs were made of, by their main file and its sidecars, which lead there.
 
     Args:
@@ -79,7 +79,7 @@ class Readings:
         return Probe(given, source, reads, key, failure_key(key, self._config), alone)
 
     def renewed(self, probe: Probe) -> Probe:
-        """The same, looked at again if somebody has found out since which files it is made of."""
+        """Return it, looked at again if somebody has found out since which files it is made of."""
         noted = self._names(probe.source, probe.reads[probe.source.name])
         return probe if noted == sorted(probe.reads) else self.probe(probe.given)
 

@@ -18,7 +18,7 @@ class Terminated(KeyboardInterrupt):
 
 @contextmanager
 def interruptible(first: Callable[[], None] | None = None) -> Iterator[None]:
-    """Within this, SIGTERM raises :class:`Terminated`, like KeyboardInterrupt; main thread only.
+    """Have SIGTERM raise :class:`Terminated` within this, as Ctrl-C would; main thread only.
 
     Args:
         first: what the first Ctrl-C does; the second one is a KeyboardInterrupt. ``None``: the
@@ -45,7 +45,7 @@ def interruptible(first: Callable[[], None] | None = None) -> Iterator[None]:
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Within this, Ctrl-C and SIGTERM wait until its end; in the main thread, where they arrive."""
+    """Have Ctrl-C and SIGTERM wait until its end; in the main thread, where they arrive."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return

@@ -1,4 +1,4 @@
-"""A worker's side of a job: one input after the other, with judges that stay warm."""
+"""A worker's side of a job: one input after the other, with validators that stay warm."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def build_here(
 
 
 def _judge(config: CheckConfig) -> Judge:
-    """This process's judge with those thresholds; its children end with the process."""
+    """Return this process's validator with those thresholds; its children end with the process."""
     if config not in _JUDGES:
         while _JUDGES:
             _JUDGES.popitem()[1].close()

@@ -25,10 +25,9 @@ from .solids.kept import solid_parts
 from .targets.find import find_targets
 from .targets.handles import find_handle
 
-#: Its version is raised when the same hulls would be cut, weighed or held otherwise.
 FINISH = Stage(
     "finish",
-    version=19,
+    code=(__name__,),
     settings=("separate", "inertia", "decompose.max_vertices"),
     libraries=("numpy", "scipy", "trimesh", "manifold3d"),
 )

@@ -60,7 +60,7 @@ def _read(preset: str) -> dict[str, Any]:
 
 
 def overlay(config: C, differences: dict[str, Any], where: str) -> C:
-    """``config`` with some settings replaced, recursively.
+    """Return ``config`` with some settings replaced, recursively.
 
     Raises:
         ConfigError: a setting does not exist or has another type than its default; names what

@@ -9,20 +9,20 @@ from asset_factory.sim_checks.config import LIMIT
 
 from ..articulate.stage import ARTICULATE
 from ..config import BuildConfig
-from ..export.bundle import EXPORT
 from ..intake.load import LOAD
 from ..intake.source import Source
 from ..manufacture.decompose.decompose import DECOMPOSE
 from ..manufacture.solids.build import SOLIDS
 from ..manufacture.stage import FINISH
+from ..runtime.code import code_digest
 from ..runtime.keys import limits_of, settings_of
 from ..runtime.store import digest_bytes, stage_key
 from ..verify.validate import INSPECT, VALIDATE
 
-#: Raised when the pipeline itself would make something else of the same stages.
-VERSION = 3
-#: Every stage, in order.
-STAGES = (LOAD, ARTICULATE, SOLIDS, DECOMPOSE, FINISH, EXPORT, INSPECT, VALIDATE)
+#: Every stage whose result is kept, in order.
+STAGES = (LOAD, ARTICULATE, SOLIDS, DECOMPOSE, FINISH, INSPECT, VALIDATE)
+#: What runs them, and does what is done anew each time.
+PIPELINE = "asset_factory.factory.build"
 
 
 def build_key(loaded: str, config: BuildConfig) -> str:
@@ -51,12 +51,11 @@ def failure_key(built: str, config: BuildConfig) -> str:
     """
     if not built:
         return ""
-    return stage_key("failure", VERSION, __version__, built, limits_of(config)).removeprefix(
-        "failure-"
-    )
+    return stage_key("failure", __version__, built, limits_of(config)).removeprefix("failure-")
 
 
 @lru_cache(maxsize=4)
 def _pipeline_key(config: BuildConfig) -> str:
     settings = settings_of(config, without=(LIMIT,))
-    return stage_key("build", VERSION, settings, [stage.identity(config) for stage in STAGES])
+    identities = [stage.identity(config) for stage in STAGES]
+    return stage_key("build", settings, identities, code_digest(PIPELINE))

@@ -26,12 +26,12 @@ class Stopwatch:
 
     @property
     def seconds(self) -> float:
-        """Since construction [s]."""
+        """Return the time since construction [s]."""
         return perf_counter() - self._started
 
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:
-        """Time spent inside counts for ``name``, except stages within; also when it raises."""
+        """Count time spent inside for ``name``, except stages within; also when it raises."""
         started = perf_counter()
         within = self._within
         self._within = 0.0

@@ -1,7 +1,7 @@
 """What the result of a stage depends on, declared once beside it; its cache key follows.
 
-A result is made anew when its inputs, the settings that the stage declares, its version, a library,
-a table or the code that it declares is another one, and only then.
+A result is made again when its inputs, the settings, libraries or tables that the stage declares,
+or the source that it runs are other ones, and only then.
 """
 
 from __future__ import annotations
@@ -11,18 +11,17 @@ from dataclasses import dataclass, fields, is_dataclass
 from functools import lru_cache, reduce
 from importlib import resources
 from importlib.metadata import PackageNotFoundError, version
-from importlib.util import find_spec
-from pathlib import Path
 from typing import Any
 
 from asset_factory.sim_checks.config import LIMIT
 
 from ..config import GATE
-from .store import digest_bytes, digest_file, stage_key
+from .code import code_digest
+from .store import digest_bytes, stage_key
 
 
 def nothing_else(config: object) -> object:
-    """Of a stage that reads nothing beside what it declares by name."""
+    """Return what a stage also reads that reads nothing but what it declares by name."""
     return None
 
 
@@ -32,21 +31,20 @@ class Stage:
 
     Attributes:
         name: e.g. ``decompose``.
-        version: raised when the same inputs and settings would give another result.
+        code: modules that do it, each with what it imports, and packages, see
+            :func:`~.code.code_digest`.
         settings: sections or single settings of the configuration, e.g. ``separate`` or
             ``decompose.max_vertices``; all fields of a section count, but for limits and gates.
         libraries: distributions that can change the result.
         data: files of ``configs/`` that it reads.
-        code: packages whose very source counts.
         also: what else it reads, as JSON data, e.g. digests of weights.
     """
 
     name: str
-    version: int
+    code: tuple[str, ...]
     settings: tuple[str, ...] = ()
     libraries: tuple[str, ...] = ()
     data: tuple[str, ...] = ()
-    code: tuple[str, ...] = ()
     also: Callable[[Any], object] = nothing_else
 
     def key(self, config: object, *inputs: object) -> str:
@@ -54,16 +52,15 @@ class Stage:
         settings = {
             path: settings_of(reduce(getattr, path.split("."), config)) for path in self.settings
         }
-        return stage_key(self.name, self.version, settings, self.identity(config), *inputs)
+        return stage_key(self.name, settings, self.identity(config), *inputs)
 
     def identity(self, config: object) -> list[object]:
-        """Return what would make another result of the same settings: versions, tables, code."""
+        """Return what would make another result of the same settings: libraries, tables, code."""
         return [
             self.name,
-            self.version,
             [f"{library} {installed_version(library)}" for library in self.libraries],
             [_table_digest(name) for name in self.data],
-            [code_digest(package) for package in self.code],
+            code_digest(*self.code),
             self.also(config),
         ]
 
@@ -109,15 +106,3 @@ def installed_version(distribution: str) -> str:
 @lru_cache(maxsize=16)
 def _table_digest(name: str) -> str:
     return digest_bytes((resources.files("asset_factory") / "configs" / name).read_bytes())
-
-
-@lru_cache(maxsize=4)
-def code_digest(package: str) -> str:
-    """Of all sources of a package, without importing it; ``absent`` where it is not installed."""
-    spec = find_spec(package)
-    if spec is None or spec.origin is None:
-        return "absent"
-    folder = Path(spec.origin).parent
-    files = sorted(folder.rglob("*.py"))
-    lines = [f"{file.relative_to(folder)} {digest_file(file)}" for file in files]
-    return digest_bytes("\n".join(lines).encode())

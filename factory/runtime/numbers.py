@@ -10,10 +10,10 @@ DIGITS = 9
 
 
 def rounded(value: float, decimals: int = DECIMALS) -> float:
-    """``value`` rounded, without a negative zero."""
+    """Return ``value`` rounded, without a negative zero."""
     return round(float(value), decimals) + 0.0
 
 
 def magnitude(value: float) -> float:
-    """``value`` to :data:`DIGITS` significant digits: masses and inertias have no smallest size."""
+    """Return ``value`` to :data:`DIGITS` significant digits: a mass has no smallest size."""
     return float(f"{float(value):.{DIGITS}g}") + 0.0

@@ -24,14 +24,14 @@ TEXT = "text"
 
 
 def pack(value: object) -> Arrays:
-    """``value`` as arrays: dataclasses, tuples, mappings, sets, arrays, numbers, texts, None."""
+    """Return as arrays: dataclasses, tuples, mappings, sets, arrays, numbers, texts, None."""
     arrays: Arrays = {}
     tree = _flat(value, arrays)
     return {**arrays, TEXT: np.array(json.dumps(tree))}
 
 
 def contents(value: object) -> list[str | npt.NDArray[Any]]:
-    """All that ``value`` holds, in a fixed order, for a key; ``value`` as for :func:`pack`."""
+    """Return all that a value holds, in a fixed order, for a key; values as for :func:`pack`."""
     arrays = pack(value)
     return [item for name in sorted(arrays) for item in (name, arrays[name])]
 
@@ -52,7 +52,7 @@ def unpack(kind: type[T], arrays: Mapping[str, npt.NDArray[Any]]) -> T:
 
 
 def from_json(kind: type[T], data: Any) -> T:
-    """A dataclass, of such fields as :func:`pack` takes but no arrays, from what JSON says of it.
+    """Return a dataclass, its fields as :func:`pack` takes but no arrays, from its JSON data.
 
     Raises:
         ValueError: it says something else; names the first field that is missing or too much.

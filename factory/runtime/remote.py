@@ -62,7 +62,7 @@ def located(url: str) -> tuple[Any, str]:
 
 
 def file_digest(system: Any, path: str, block: int = 1 << 20) -> str:
-    """SHA-256 of a remote file's content, read in full. Raises what the file system does."""
+    """Return SHA-256 of a remote file's content, read in full. Raises what the file system does."""
     digest = hashlib.sha256()
     with system.open(path, "rb") as stream:
         while data := stream.read(block):
@@ -71,7 +71,7 @@ def file_digest(system: Any, path: str, block: int = 1 << 20) -> str:
 
 
 def stored_md5(details: dict[str, Any]) -> str:
-    """The MD5 that a store keeps of a file, as its listing says; empty where it says none."""
+    """Return the MD5 that a store keeps of a file, as its listing says; empty where it has none."""
     found = _ETAG.fullmatch(str(details.get("ETag", "")))
     return found[1] if found else ""
 

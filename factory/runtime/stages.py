@@ -27,7 +27,7 @@ class _Refusal:
 
 
 def always(value: object) -> bool:
-    """Any result may be kept."""
+    """Tell that any result may be kept."""
     return True
 
 
@@ -36,7 +36,7 @@ class Stages:
 
     Args:
         config: of every stage.
-        store: where results are kept; without one everything is done anew.
+        store: where results are kept; without one everything is done each time.
 
     Attributes:
         clock: told how long each stage takes.

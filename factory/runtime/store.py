@@ -29,26 +29,25 @@ WRITING_PREFIX = ".writing-"
 
 
 def digest_bytes(data: bytes) -> str:
-    """SHA-256 of some bytes, as hexadecimal."""
+    """Return SHA-256 of some bytes, as hexadecimal."""
     return hashlib.sha256(data).hexdigest()
 
 
 def digest_file(path: Path) -> str:
-    """SHA-256 of a file's content, as hexadecimal. Raises OSError if it cannot be read."""
+    """Return SHA-256 of a file's content, as hexadecimal. Raises OSError if it cannot be read."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def stage_key(stage: str, version: int, *inputs: object) -> str:
+def stage_key(stage: str, *inputs: object) -> str:
     """Return the name under which a stage's result is kept.
 
     Args:
         stage: e.g. ``decompose``.
-        version: the stage's ``VERSION``: raised when the same settings would give another output.
         inputs: everything the result depends on: arrays, dataclasses, strings, numbers, library
-            versions.
+            versions, digests of code.
     """
-    digest = hashlib.sha256(f"{stage}/{version}".encode())
+    digest = hashlib.sha256(stage.encode())
     for item in inputs:
         digest.update(_fingerprint(item))
     return f"{stage}-{digest.hexdigest()}"
@@ -64,7 +63,7 @@ def _fingerprint(item: object) -> bytes:
 
 
 def folder_digests(folder: Path, *, without: tuple[str, ...] = ()) -> dict[str, str]:
-    """SHA-256 of every file below a folder, by path within it, sorted.
+    """Return SHA-256 of every file below a folder, by path within it, sorted.
 
     What is neither a file nor a folder (a link, a pipe) has ``not a file`` in place of a digest, so
     that it equals no registered file. Raises OSError if something cannot be read.
@@ -122,7 +121,7 @@ def writing(path: Path, *, lasting: bool = False) -> Iterator[BinaryIO]:
 
 
 def _begun(folder: Path) -> tuple[int, str]:
-    """A new file, locked while its process lives, so that cleaning sees it is being written."""
+    """Make a file, locked while its process lives, so that cleaning sees it is being written."""
     while True:
         handle, name = tempfile.mkstemp(dir=folder, prefix=WRITING_PREFIX)
         # Not all file systems have locks.
@@ -169,7 +168,7 @@ class Store:
         self.root = root
 
     def load(self, key: str) -> dict[str, npt.NDArray[Any]] | None:
-        """The arrays kept under ``key``; ``None`` if there are none or the file is damaged."""
+        """Return the arrays kept under ``key``; ``None``: there are none or the file is damaged."""
         path = self._path(key)
         try:
             with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
@@ -220,7 +219,7 @@ class Store:
 
 
 def _used(root: Path) -> Iterator[tuple[float, int, Path]]:
-    """When each file of a cache was last used [s since 1970], its size [bytes] and where it is."""
+    """Yield when each file of a cache was last used [s since 1970], its size [bytes], its path."""
     for path in root.rglob("*"):
         with suppress(OSError):
             status = path.lstat()

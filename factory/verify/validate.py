@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from asset_factory.sim_checks import Finding, Report, Status
 from asset_factory.sim_checks.checks.disagreement import disagreements
@@ -14,22 +14,23 @@ from asset_factory.sim_checks.judge import Examination, Judge
 from asset_factory.sim_checks.report import UNJUDGED_CODES
 from asset_factory.sim_checks.simulators.catalog import installed_version
 
-from ..export.bundle import Bundle
 from ..runtime.keys import Stage
 from ..runtime.stages import Stages
 from ..runtime.store import folder_digests
 
+if TYPE_CHECKING:
+    # A bundle's folder and files are all that is asked of it: how it is written changes no verdict.
+    from ..export.bundle import Bundle
+
 JUDGE = "asset_factory.sim_checks"
 COLLISION_LIBRARIES = ("numpy", "scipy", "trimesh", "python-fcl")
-#: The validator's very code counts: what a mended one would reject must not pass by being kept.
 INSPECT = Stage(
-    "inspect", version=2, settings=("checks",), libraries=COLLISION_LIBRARIES, code=(JUDGE,)
+    "inspect", code=(JUDGE, __name__), settings=("checks",), libraries=COLLISION_LIBRARIES
 )
 VALIDATE = Stage(
     "validate",
-    version=2,
+    code=(JUDGE, __name__),
     settings=("simulators", "checks"),
-    code=(JUDGE,),
     also=lambda config: [[name, installed_version(name)] for name in config.simulators],
 )
 #: MuJoCo reads URDF only in part (it fuses the root and drops visuals), so it is given the MJCF.

@@ -16,8 +16,8 @@ from pathlib import Path
 from threading import Lock, local
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.intake.load import LOAD
 from asset_factory.factory.intake.naming import safe_name
+from asset_factory.factory.runtime.code import code_digest
 from asset_factory.factory.runtime.store import stage_key
 from asset_factory.sim_checks.processes.isolation import WarmChild, preload, processors
 
@@ -28,9 +28,6 @@ from .refusal import ItemRefusal, read_refusal, write_refusal
 from .report import SourceReport, names_read
 from .settings import SourceSettings
 from .split import read_split
-
-VERSION = 1
-"""Raised when the same files and settings would give another sampled object."""
 
 #: A child is replaced when it holds more than this [bytes].
 LARGE_CHILD = 1536 * 1024 * 1024
@@ -87,7 +84,7 @@ def prepare(
     found = find_all(kind, path)
     items = found if split is None else _named(found, split)
     there = [importlib.util.find_spec(module) is not None for module in source(kind).modules]
-    digest = stage_key("sampled", VERSION, kind, chosen.decisive, there, LOAD.version)[-16:]
+    digest = stage_key("sampled", code_digest(__name__), kind, chosen.decisive, there)[-16:]
     folder = cache / f"{kind}-{digest}"
     folder.mkdir(parents=True, exist_ok=True)
     outcomes = _Pass(kind, folder, chosen, len(items), on_progress).over(
@@ -179,7 +176,7 @@ class _Pass:
 
     def _found_or_made(self, item: SourceItem) -> _Outcome:
         try:
-            key = stage_key("sampled", VERSION, item.name, item.category, item.digest())
+            key = stage_key("sampled", item.name, item.category, item.digest())
         except OSError as error:
             return _Outcome(
                 None,

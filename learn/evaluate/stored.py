@@ -14,12 +14,10 @@ from asset_factory.factory.articulate.catalog import choose
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.config import BuildConfig, IntakeConfig
 from asset_factory.factory.geometry.posing import face_parts
-from asset_factory.factory.intake.load import LOAD, load
+from asset_factory.factory.intake.load import load
 from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.runtime.code import code_digest
 from asset_factory.factory.runtime.store import Store, stage_key
-
-VERSION = 1
-"""Raised when the same description would be kept as something else."""
 
 
 def imported(path: Path, digest: str, store: Store | None) -> Articulation:
@@ -33,7 +31,7 @@ def imported(path: Path, digest: str, store: Store | None) -> Articulation:
     Raises:
         InputRejected: it cannot be read, is no tree, or comes without joints.
     """
-    key = stage_key("evaluation-case", VERSION, LOAD.version, path.parent.name, digest)
+    key = stage_key("evaluation-case", code_digest(__name__), path.parent.name, digest)
     found = None if store is None else store.load(key)
     if found is not None:
         return _restored(found)

@@ -12,7 +12,7 @@ from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.intake.source import Source, asset_id
 from asset_factory.factory.jobs import Call
 from asset_factory.factory.jobs.job import Job
-from asset_factory.factory.jobs.probe import Readings
+from asset_factory.factory.jobs.probe import KnownReads
 from asset_factory.factory.registry import Entry
 from asset_factory.factory.registry.keys import source_key
 from asset_factory.factory.registry.product import Product
@@ -66,7 +66,7 @@ def pretend(
     if "slow" in source.name:
         time.sleep(60)
     origin = Source(source, config)
-    origin.reads = dict(Readings(cache / "inputs", config).probe(source).reads)
+    origin.reads = dict(KnownReads(cache / "inputs", config).probe(source).reads)
     status, reason = ("rejected", "ugly") if "bad" in source.name else ("passed", "")
     name = asset_id(source.stem, origin.reads[source.name])
     entry = Entry(name, source.stem, "", status, reason, 1, 0, 1, key=source_key(origin))

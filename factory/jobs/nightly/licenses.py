@@ -37,7 +37,7 @@ class Licenses:
 def sort_out(
     inputs: Sequence[Path], licenses: Licenses
 ) -> tuple[tuple[Path, ...], tuple[LeftOut, ...]]:
-    """Inputs that may be built, and those whose sidecar states a license that is not allowed.
+    """Separate inputs that may be built from those whose sidecar states a license not allowed.
 
     What only the file itself states is known once it is loaded: then it is rejected.
     """

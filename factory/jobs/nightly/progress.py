@@ -53,7 +53,7 @@ def followed(
 
 
 def pace(marks: Sequence[tuple[float, int]], total: int) -> str:
-    """``120 of 1,000, 14.2 a minute, about 1 h 02 min left``.
+    """Return e.g. ``120 of 1,000, 14.2 a minute, about 1 h 02 min left``.
 
     ``marks`` are times [s] and how many were done by then, the last one now.
     """

@@ -56,7 +56,7 @@ class Work:
         return tuple(self._registry.walk())
 
     def job(self, inputs: tuple[Path, ...], damaged: frozenset[str] = frozenset()) -> Job:
-        """The job over some inputs; those whose assets are damaged are built again, and first."""
+        """Return the job over some inputs; those of damaged assets are built again, and first."""
         config = self._config
         executor = self.executor()
         here = config.executor == LOCAL
@@ -91,7 +91,7 @@ class Work:
         return verify(self._registry)
 
     def mend_rows(self, damage: Sequence[Problem]) -> None:
-        """Make rows anew that are not what their folders say."""
+        """Rebuild rows that are not what their folders say."""
         mend_rows(self._registry, damage)
 
     def settle(self, damage: Sequence[Problem], *, final: bool) -> dict[str, Settled]:

@@ -11,7 +11,8 @@ from typing import Any
 from asset_factory import __version__
 
 from ...registry.keys import STAGES
-from ...runtime.keys import code_digest, installed_version
+from ...runtime.code import code_digest
+from ...runtime.keys import installed_version
 
 #: Less room for temporary files than this, and a node is given no work [bytes].
 LEAST_FREE = 64 * 1024**2
@@ -23,7 +24,7 @@ Versions = tuple[tuple[str, str], ...]
 
 @lru_cache(maxsize=1)
 def versions() -> Versions:
-    """Of this package, its sources, and the libraries that its stages declare, on this machine."""
+    """Return versions of this package, its sources, and libraries of its stages on this machine."""
     sources = (
         (f"sources of {name}", code_digest(f"asset_factory.{name}")[:12]) for name in _PACKAGES
     )
@@ -45,12 +46,12 @@ def difference(here: Versions, there: Versions) -> str:
 
 
 def room() -> int:
-    """Room for temporary files [bytes]."""
+    """Return the room for temporary files [bytes]."""
     return shutil.disk_usage(tempfile.gettempdir()).free
 
 
 def looking_first() -> Callable[..., tuple[str, str, Any]]:
-    """The function that Ray is given; it travels as code, since a node may have another package.
+    """Return what Ray is given to call; it travels as code: a node may have another package.
 
     It answers with a word, the node's id and a value: ``absent`` and why this package cannot be
     imported, ``other`` and the node's versions, ``full`` and the bytes that are left there, or

@@ -40,7 +40,7 @@ class ClusterLost(AssetFactoryError):
 
 @contextmanager
 def connected(address: str, processors: int | None) -> Iterator[Any]:
-    """Ray, connected; a connection made here is closed afterwards, and an own cluster ended.
+    """Yield Ray, connected; close afterwards what was connected here, and end an own cluster.
 
     Args:
         address: ``local`` for a cluster of one's own; ``auto`` for the one that this machine
@@ -85,7 +85,7 @@ def connected(address: str, processors: int | None) -> Iterator[Any]:
 
 @contextmanager
 def _own_signals() -> Iterator[None]:
-    """Ray would have the job exit when it is told to end; how it ends is the job's affair."""
+    """Keep Ray from having the job exit when it is told to end; how it ends is the job's affair."""
     before = signal.getsignal(signal.SIGTERM)
     yield
     if threading.current_thread() is threading.main_thread():
@@ -107,7 +107,7 @@ def _private(folder: str) -> dict[str, str]:
 
 @contextmanager
 def _environment(values: Mapping[str, str]) -> Iterator[None]:
-    """Environment variables of processes that are started here, and of what is imported."""
+    """Set environment variables of what is started or imported within this."""
     before = {name: os.environ.get(name) for name in values}
     os.environ.update(values)
     try:
@@ -121,7 +121,7 @@ def _environment(values: Mapping[str, str]) -> Iterator[None]:
 
 
 def _require_somebody(address: str) -> None:
-    """Ray would wait for minutes for an address at which nobody listens."""
+    """Refuse an address at which nobody listens; Ray would wait for minutes."""
     host, _, port = address.removeprefix("ray://").rpartition(":")
     if not (host and port.isdecimal()):
         return

@@ -57,7 +57,7 @@ class Exchange:
     def sent(
         self, function: Callable[..., T], arguments: Mapping[str, Any]
     ) -> tuple[Callable[..., Sent[T]], dict[str, Any], Transfer]:
-        """What to call on a node for ``function(**arguments)``, and what opens its answer here."""
+        """Return what to call on a node for ``function(**arguments)``, and what opens an answer."""
         folder = Path(arguments[self.argument])
         name = uuid.uuid4().hex
         asked = {"argument": self.argument, "function": function}
@@ -157,7 +157,7 @@ class Transfer:
 def make_in_folder(
     target: str, argument: str, function: Callable[..., T], arguments: Mapping[str, Any]
 ) -> Sent[T]:
-    """On a node: let the function fill a folder that the caller sees too."""
+    """Let the function fill a folder that the caller sees too; on a node."""
     os.makedirs(target, exist_ok=True)
     return Sent(function(**{**arguments, argument: Path(target)}), target)
 
@@ -169,7 +169,7 @@ def make_and_send(
     arguments: Mapping[str, Any],
     here: Mapping[str, Any] | None = None,
 ) -> Sent[T]:
-    """On a node: let the function fill a local folder, and send what its value names of it.
+    """Let the function fill a local folder, and send what its value names of it; on a node.
 
     Args:
         target: URL of the file to send.
@@ -214,7 +214,7 @@ def _send(packed: IO[bytes], target: str) -> None:
 
 
 def unpacked(archive: tarfile.TarFile, folder: Path) -> None:
-    """Files and folders of an archive, nothing else and nowhere else.
+    """Unpack files and folders of an archive, nothing else and nowhere else.
 
     Raises:
         ExchangeError: it holds something else, a path that leaves the folder, or too much.

@@ -71,7 +71,7 @@ class RayExecutor:
     def run(
         self, function: Callable[..., T], calls: Iterable[Call], limits: Limits
     ) -> Iterator[tuple[Call, Outcome[T]]]:
-        """As :class:`~.executor.Executor` promises.
+        """Make every call as :class:`~.executor.Executor` promises.
 
         Raises:
             ConfigError: there is no such cluster.
@@ -144,12 +144,12 @@ class _Tasks(Generic[T]):
         if time.monotonic() - self._looked <= LOOK_S:
             return
         self._looked = time.monotonic()
-        processors = self._told(self._ray.cluster_resources).get("CPU", 0.0)
+        processors = self._asked(self._ray.cluster_resources).get("CPU", 0.0)
         self._room = max(1, int(processors / self._executor.processors))
-        self._told(self._nodes.require_fit)
-        self._told(self._nodes.hang_up)
+        self._asked(self._nodes.require_fit)
+        self._asked(self._nodes.hang_up)
         if self._networks is not None:
-            self._told(self._networks.look)
+            self._asked(self._networks.look)
 
     def most(self) -> int:
         """Return how many calls may be under way now."""
@@ -165,10 +165,10 @@ class _Tasks(Generic[T]):
         transfer = packed = None
         try:
             if self._networks is not None:
-                arguments = self._networks.told(arguments)
+                arguments = self._networks.with_address(arguments)
             if self._executor.inputs is not None:
                 packed = self._executor.inputs.packed(arguments, task.more)
-                arguments = self._executor.inputs.told(arguments)
+                arguments = self._executor.inputs.with_place(arguments)
             if self._executor.exchange is not None:
                 function, arguments, transfer = self._executor.exchange.sent(function, arguments)
             sent = None if packed is None else packed.sent
@@ -185,18 +185,18 @@ class _Tasks(Generic[T]):
         self._under_way[under_way] = replace(task, transfer=transfer, input=kept)
 
     def _handed_over(self, order: Order, node: str, data: bytes) -> Any:
-        """Ray's reference to a call."""
+        """Return Ray's reference to a call that was handed over."""
         packed = self._ray.cloudpickle.dumps(order)
         placed = self._work.options(**self._room_of_one, **self._nodes.options(node))
         return placed.remote(packed, versions(), self._executor.least_free, data, self._weights)
 
     def finished(self) -> Iterator[tuple[Call, Outcome[T]]]:
-        """Calls that have an outcome by now; waits a moment for the first."""
+        """Yield calls that have an outcome by now; wait a moment for the first."""
         while self._failed:
             yield self._failed.pop()
         if not self._under_way:
             return
-        ready, _ = self._told(self._ray.wait, list(self._under_way), num_returns=1, timeout=LOOK_S)
+        ready, _ = self._asked(self._ray.wait, list(self._under_way), num_returns=1, timeout=LOOK_S)
         for under_way in ready:
             task = self._under_way.pop(under_way)
             outcome = self._outcome(under_way, task)
@@ -239,7 +239,7 @@ class _Tasks(Generic[T]):
         if task.node:
             self._nodes.died(task.node, task.call.name)
         if task.number < self._executor.losses:
-            node = self._told(self._nodes.next)
+            node = self._asked(self._nodes.next)
             self.start(replace(task, number=task.number + 1, node=node))
             return None
         detail = f"lost {task.number + 1} times on the cluster, the last time: {why}"
@@ -261,7 +261,7 @@ class _Tasks(Generic[T]):
         return outcome if task.transfer is None else task.transfer.opened(outcome)
 
     def _refused(self, task: _Task, word: str, node: str, answer: Any) -> None:
-        """A node would not do for a call: another one makes it."""
+        """Have another node make a call that one would not do for."""
         self._dropped(task)
         same = "; install the same versions everywhere"
         if word == "absent":
@@ -282,14 +282,14 @@ class _Tasks(Generic[T]):
         return task.input.lacking(self._executor.inputs.reads(outcome.value.value))
 
     def _dropped(self, task: _Task) -> None:
-        """What a try has sent is of no use."""
+        """Drop what a try has sent."""
         if task.transfer is not None:
             task.transfer.drop()
 
     def _age(self, task: _Task) -> float:
         return time.monotonic() - task.started
 
-    def _told(self, ask: Callable[..., Any], *args: Any, **settings: Any) -> Any:
+    def _asked(self, ask: Callable[..., Any], *args: Any, **settings: Any) -> Any:
         try:
             return ask(*args, **settings)
         except (self._ray.exceptions.RayError, ConnectionError) as error:
@@ -299,6 +299,6 @@ class _Tasks(Generic[T]):
 
 
 def _sentence(error: BaseException) -> str:
-    """Ray explains at length, and in colour; its first line says it."""
+    """Return the first line of an error; Ray explains at length, and in colour."""
     lines = str(error).strip().splitlines()
     return f"{type(error).__name__}: {lines[0][:300]}" if lines else type(error).__name__

@@ -45,7 +45,7 @@ class SentInput:
 
     @contextmanager
     def unpacked(self, data: bytes) -> Iterator[Path]:
-        """Within this, the input's path on this machine.
+        """Yield the input's path on this machine, where it lies within this.
 
         Raises:
             ExchangeError: it is not what was sent.
@@ -112,7 +112,7 @@ class Inputs:
     place: str
     reads: Callable[[Any], Reads]
 
-    def told(self, arguments: Mapping[str, Any]) -> dict[str, Any]:
+    def with_place(self, arguments: Mapping[str, Any]) -> dict[str, Any]:
         """Return a call's arguments, with where its input lies."""
         return {**arguments, self.place: arguments[self.argument]}
 

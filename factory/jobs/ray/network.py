@@ -25,7 +25,7 @@ from .weights import SentWeights, arrived
 
 #: Clouds that wait for one GPU at a time.
 AT_A_GPU = 64
-#: How long a node may take to say that it closed its door [s].
+#: How long a node may take to say that it closed its socket [s].
 GOODBYE_S = 5.0
 RELAY_S = 240.0
 
@@ -58,14 +58,14 @@ class Networks:
         self._weights = weights
         self._address = Address(f"/tmp/model-{uuid.uuid4().hex}/socket")  # noqa: S108 - nobody can guess it
         self._shared: Any = None
-        self._doors: dict[str, Any] = {}
+        self._sockets: dict[str, Any] = {}
 
-    def told(self, arguments: Mapping[str, Any]) -> dict[str, Any]:
-        """A call's arguments, with the address in its place; ``None`` if there is nobody to ask."""
-        return {**arguments, self._asked.argument: self._address if self._doors else None}
+    def with_address(self, arguments: Mapping[str, Any]) -> dict[str, Any]:
+        """Return a call's arguments with the address; ``None`` if there is nobody to ask."""
+        return {**arguments, self._asked.argument: self._address if self._sockets else None}
 
     def look(self) -> None:
-        """Open a door on every node that has none."""
+        """Open a socket on every node that has none."""
         on_gpu = self._asked.config.device != "cpu"
         if on_gpu and self._shared is None:
             if self._ray.cluster_resources().get("GPU", 0.0) < 1.0:
@@ -77,20 +77,20 @@ class Networks:
         affinity = self._ray.util.scheduling_strategies.NodeAffinitySchedulingStrategy
         for node in self._ray.nodes():
             name = node["NodeID"]
-            if node["Alive"] and name not in self._doors:
-                door = self._ray.remote(Door).options(
+            if node["Alive"] and name not in self._sockets:
+                placed = self._ray.remote(NodeSocket).options(
                     num_cpus=0, max_restarts=-1, scheduling_strategy=affinity(name, soft=False)
                 )
-                self._doors[name] = door.remote(
+                self._sockets[name] = placed.remote(
                     self._address.path, self._asked.config, self._shared, self._weights
                 )
 
     def close(self) -> None:
-        """Close all doors, and end what stands behind them."""
+        """Close all sockets, and end the networks behind them."""
         with suppress(Exception):
-            closing = [door.close.remote() for door in self._doors.values()]
+            closing = [each.close.remote() for each in self._sockets.values()]
             self._ray.wait(closing, num_returns=len(closing), timeout=GOODBYE_S)
-        for actor in (*self._doors.values(), self._shared):
+        for actor in (*self._sockets.values(), self._shared):
             if actor is not None:
                 with suppress(Exception):
                     self._ray.kill(actor)
@@ -118,7 +118,7 @@ class NodeNetwork:
         return self._answering(question)
 
 
-class Door:
+class NodeSocket:
     """A node's socket, in a Ray process; behind it an own network, or the one all nodes share."""
 
     def __init__(
@@ -128,14 +128,14 @@ class Door:
         self._shared = shared
         self._own = NodeNetwork(config, weights)
         os.makedirs(Path(path).parent, mode=0o700, exist_ok=True)
-        # Nodes that are one machine share its door.
+        # Nodes that are one machine share its socket.
         if not _somebody_listens(path):
             threading.Thread(
                 target=answer_all, args=(listening_socket(path), self._answer), daemon=True
             ).start()
 
     def close(self) -> None:
-        """Without its folder nobody waits for it any more."""
+        """Remove its folder: nobody waits for it any more."""
         shutil.rmtree(Path(self._path).parent, ignore_errors=True)
 
     def _answer(self, question: bytes) -> bytes:

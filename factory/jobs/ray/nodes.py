@@ -23,7 +23,7 @@ class NoNodeLeft(ClusterLost):
 
 
 def say(sentence: str) -> None:
-    """To whoever started the job."""
+    """Print a sentence for whoever started the job."""
     complain(f"factory: {sentence}")
 
 
@@ -57,7 +57,7 @@ class Nodes:
         self.require_fit()
 
     def require_fit(self) -> None:
-        """Raises NoNodeLeft if there are nodes, and each of them is set aside."""
+        """Raise NoNodeLeft if there are nodes, and each of them is set aside."""
         working = self._working()
         aside = self._aside_now()
         if working and all(name in aside for name in working):
@@ -65,14 +65,14 @@ class Nodes:
             raise NoNodeLeft(f"no node of the cluster can be given work: {reasons}")
 
     def next(self) -> str:
-        """The node whose turn it is, for a call that was lost nobody knows where; or none."""
+        """Return the node whose turn it is, for a call lost nobody knows where; empty: none."""
         aside = self._aside_now()
         fit = [name for name in self._working() if name not in aside]
         self._turn += 1
         return fit[self._turn % len(fit)] if fit else ""
 
     def died(self, node: str, call: str) -> None:
-        """Ray's process died with a call that was sent to that node by name.
+        """Note that Ray's process died with a call that was sent to that node by name.
 
         A node whose disk is full takes every call, and loses it: no process of Ray's can begin.
         The last node is kept: it may be the calls.

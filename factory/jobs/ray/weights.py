@@ -65,7 +65,7 @@ def sent_weights(ray: Any, checkpoints: Checkpoints | None) -> SentWeights:
 
 
 def arrived(ray: Any, sent: SentWeights) -> dict[str, Path]:
-    """Where checkpoints lie on this node, by what configurations call them; fetched if need be.
+    """Return where checkpoints lie on this node, by their configured names; fetch if need be.
 
     Raises:
         ExchangeError: what came is not what was sent.
@@ -92,7 +92,7 @@ def _kept(ray: Any, name: str, digest: str, reference: Any) -> Path:
 
 
 def _own_folder() -> Path:
-    """Of this user alone; not among scratch folders, for it outlives processes."""
+    """Return this user's own folder; not among scratch folders, for it outlives processes."""
     folder = Path(tempfile.gettempdir()) / f"weights-of-asset-factory-{os.getuid()}"
     folder.mkdir(mode=0o700, exist_ok=True)
     if folder.is_symlink() or folder.stat().st_uid != os.getuid():
@@ -102,5 +102,5 @@ def _own_folder() -> Path:
 
 @lru_cache(maxsize=8)
 def _digest(path: Path, changed: int) -> str:
-    """Looked at once per process, unless the file changes."""
+    """Return a file's digest, taken once per process, unless the file changes."""
     return digest_file(path)

@@ -90,8 +90,8 @@ def carry_out(packed: bytes, data: bytes, weights: SentWeights) -> tuple[str, An
         with _unpacked(order, data) as here:
             if order.weights is not None:
                 here[order.weights.argument] = arrived(ray, weights)
-            told = {**order.arguments, **({HERE: here} if here else {})}
-            outcome = work(order.function, told, order.limits, order.settings)
+            arguments = {**order.arguments, **({HERE: here} if here else {})}
+            outcome = work(order.function, arguments, order.limits, order.settings)
     except OSError as error:
         return ("full", None) if _is_full(error) else ("lost", f"{type(error).__name__}: {error}")
     except (ray.exceptions.RayError, ExchangeError, tarfile.TarError) as error:
@@ -104,7 +104,7 @@ def carry_out(packed: bytes, data: bytes, weights: SentWeights) -> tuple[str, An
 
 @contextmanager
 def _unpacked(order: Order, data: bytes) -> Iterator[dict[str, Any]]:
-    """Within this, arguments that are others on this node."""
+    """Yield arguments that are others on this node."""
     if order.input is None:
         yield {}
         return
@@ -141,7 +141,7 @@ def work(
 
 
 def _child(settings: WorkerSettings) -> WarmChild:
-    """This process's child: Ray reuses the process, so imports are paid for only once."""
+    """Return this process's child: Ray reuses the process, so imports are paid for only once."""
     if settings not in _children:
         # Children would import Ray's own main program: 50 MB and seconds for each of them, and
         # nothing they need.

@@ -17,10 +17,9 @@ from ...runtime.store import Store
 from .part import split_part
 from .room import Room, Rooms
 
-#: Its version is raised when the same part would get other hulls.
 DECOMPOSE = Stage(
     "decompose",
-    version=8,
+    code=(__name__,),
     settings=("decompose",),
     libraries=("coacd", "vhacdx", "manifold3d", "scipy"),
 )

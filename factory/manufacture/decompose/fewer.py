@@ -15,10 +15,9 @@ from .merge import merge
 from .methods import slot_of
 from .room import NOWHERE, Room, Rooms
 
-#: Its version is raised when the same hulls would be joined otherwise.
 FEWER = Stage(
     "fewer",
-    version=4,
+    code=(__name__,),
     settings=("decompose.error_m", "decompose.max_vertices"),
     libraries=("manifold3d", "scipy"),
 )

@@ -26,10 +26,9 @@ from .skin import parts_to_build, skin_parts
 from .visible import bump_surfaces, hull_surfaces, meshed, panel_surfaces
 from .work import Workpiece, host_of
 
-#: Its version is raised when the same skin would get other solids.
 SOLIDS = Stage(
     "solids",
-    version=10,
+    code=(__name__,),
     settings=("solids",),
     libraries=("numpy", "scipy", "manifold3d", "pillow"),
 )

@@ -59,7 +59,7 @@ def page_key(root: Path, entry: Entry) -> str:
         told = digest_file(root / place / entry.id / REPORT)
     except OSError:
         told = "unreadable"
-    return stage_key("page", 1, repr(entry), told, _code())
+    return stage_key("page", repr(entry), told, _code())
 
 
 def write_asset(root: Path, entry: Entry) -> None:

@@ -17,7 +17,7 @@ from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.importers import mjcf
 from asset_factory.factory.intake.source import Source, asset_id
-from asset_factory.factory.jobs.probe import Readings
+from asset_factory.factory.jobs.probe import KnownReads
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.keys import source_key
 from asset_factory.factory.registry.rebuild import rebuild
@@ -146,12 +146,12 @@ def test_a_link_that_led_out_is_noticed_when_the_file_itself_takes_its_place(for
     (tmp_path / "in" / file).rename(tmp_path / file)
     (tmp_path / "in" / file).symlink_to(f"../{file}")
     source = refused(path)
-    readings = Readings(tmp_path / "cache", CONFIG)
-    readings.note(path, source.reads)
-    assert readings.probe(path).key == source_key(source)
+    known = KnownReads(tmp_path / "cache", CONFIG)
+    known.note(path, source.reads)
+    assert known.probe(path).key == source_key(source)
     (tmp_path / "in" / file).unlink()
     (tmp_path / "in" / file).write_bytes((tmp_path / file).read_bytes())
-    assert readings.probe(path).key != source_key(source)
+    assert known.probe(path).key != source_key(source)
     loaded(path)
 
 

@@ -15,7 +15,7 @@ from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake import reads as reads_module
 from asset_factory.factory.intake import source as source_module
 from asset_factory.factory.intake.source import Source
-from asset_factory.factory.jobs.probe import Readings
+from asset_factory.factory.jobs.probe import KnownReads
 from asset_factory.factory.registry import keys
 from asset_factory.factory.registry.keys import source_key
 
@@ -41,20 +41,20 @@ def test_every_file_of_a_mesh_counts(write, files, tmp_path) -> None:
     path = write(tmp_path / "in")
     source = load(path)
     assert set(source.reads) == files
-    readings = Readings(tmp_path / "cache", CONFIG)
-    readings.note(path, source.reads)
-    probe = readings.probe(path)
+    known = KnownReads(tmp_path / "cache", CONFIG)
+    known.note(path, source.reads)
+    probe = known.probe(path)
     assert (probe.reads, probe.key) == (source.reads, source_key(source))
     for name in sorted(files):
         file = path.parent / name
         before = file.read_bytes() if file.exists() else None
         file.write_bytes((before or b"") + b"\n")
-        assert readings.probe(path).key != source_key(source), name
+        assert known.probe(path).key != source_key(source), name
         if before is None:
             file.unlink()
         else:
             file.write_bytes(before)
-    assert readings.probe(path).key == source_key(source)
+    assert known.probe(path).key == source_key(source)
 
 
 def urdf(folder: Path) -> Path:
@@ -116,7 +116,7 @@ def test_settings_and_libraries_are_in_the_key(tmp_path, monkeypatch) -> None:
 
     before = source_key(source)
     newer = tuple(
-        replace(stage, version=stage.version + 1) if stage.name == "decompose" else stage
+        replace(stage, code=("asset_factory.factory.mesh",)) if stage.name == "decompose" else stage
         for stage in keys.STAGES
     )
     monkeypatch.setattr(keys, "STAGES", newer)
@@ -167,8 +167,8 @@ def test_nobody_records_nothing_is_noted(tmp_path) -> None:
 def test_what_somebody_else_found_out_meanwhile_is_looked_at_again(tmp_path) -> None:
     (tmp_path / "in").mkdir()
     path = write_obj(tmp_path / "in")
-    mine = Readings(tmp_path / "cache", CONFIG)
-    theirs = Readings(tmp_path / "cache", CONFIG)
+    mine = KnownReads(tmp_path / "cache", CONFIG)
+    theirs = KnownReads(tmp_path / "cache", CONFIG)
     probe = mine.probe(path)
     source = load(path)
     assert mine.renewed(probe) is probe
@@ -179,7 +179,7 @@ def test_what_somebody_else_found_out_meanwhile_is_looked_at_again(tmp_path) -> 
 
 
 def test_the_same_bytes_with_another_sidecar_are_made_of_other_files(tmp_path) -> None:
-    readings = Readings(tmp_path / "cache", CONFIG)
+    known = KnownReads(tmp_path / "cache", CONFIG)
     sources = []
     for name in ("plain", "annotated"):
         (tmp_path / name).mkdir()
@@ -189,9 +189,9 @@ def test_the_same_bytes_with_another_sidecar_are_made_of_other_files(tmp_path) -
             path.with_suffix(".toml").write_text('annotation = "pred.npz"')
         sources.append(load(path))
     for source in (*sources, *sources[::-1]):
-        readings.note(source.path, source.reads)
-        assert all(readings.probe(other.path).key == source_key(other) for other in sources[:1])
-    assert all(readings.probe(source.path).key == source_key(source) for source in sources)
+        known.note(source.path, source.reads)
+        assert all(known.probe(other.path).key == source_key(other) for other in sources[:1])
+    assert all(known.probe(source.path).key == source_key(source) for source in sources)
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ from asset_factory.factory.intake.source import Source
 from asset_factory.factory.jobs import Budget, LocalExecutor
 from asset_factory.factory.jobs import job as job_module
 from asset_factory.factory.jobs.log import LOG_NAME
-from asset_factory.factory.jobs.probe import Readings
+from asset_factory.factory.jobs.probe import KnownReads
 from asset_factory.factory.registry import Registry, claims
 from asset_factory.factory.registry.product import Product, refused, without_asset
 from asset_factory.factory.registry.registration import register
@@ -225,7 +225,7 @@ def test_two_jobs_on_one_registry_make_each_asset_once(tmp_path: Path) -> None:
 def test_a_job_that_is_over_does_not_wait_for_another(tmp_path: Path) -> None:
     inputs = write_inputs(tmp_path / "in", 2)
     ours = job(inputs, tmp_path / "out", budget=Budget(limit=1))
-    claim = Readings(tmp_path / "out" / ".cache", PLAIN).probe(inputs[0]).claim
+    claim = KnownReads(tmp_path / "out" / ".cache", PLAIN).probe(inputs[0]).claim
     theirs = claims.claim(tmp_path / "out" / ".claims", claim)
     assert theirs is not None
     (result,) = ours.run()

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, replace
 from functools import cache
 from importlib.metadata import version
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -15,7 +14,6 @@ from asset_factory.factory.config import GATE, BuildConfig
 from asset_factory.factory.registry import keys as registry_keys
 from asset_factory.factory.registry.keys import STAGES, build_key, failure_key
 from asset_factory.factory.runtime import keys as runtime_keys
-from asset_factory.factory.runtime.keys import Stage, code_digest
 from asset_factory.sim_checks.config import LIMIT
 from asset_factory.sim_checks.simulators import catalog
 
@@ -135,9 +133,31 @@ def test_a_section_that_a_stage_declares_and_that_is_not_there_is_an_error() -> 
 
 
 @pytest.mark.parametrize("stage", STAGES, ids=lambda stage: stage.name)
-def test_a_newer_version_of_a_stage_changes_its_key(stage) -> None:
+def test_a_changed_line_in_what_a_stage_runs_changes_its_key_and_that_of_a_build(
+    stage, monkeypatch: pytest.MonkeyPatch
+) -> None:
     config = BuildConfig()
-    assert replace(stage, version=stage.version + 1).key(config) != stage.key(config)
+    before = stage.key(config), build_key("an input", config)
+    registry_keys._pipeline_key.cache_clear()
+    with monkeypatch.context() as patch:
+        patch.setattr(runtime_keys, "code_digest", lambda *names: f"edited {names}")
+        after = stage.key(config), build_key("an input", config)
+    registry_keys._pipeline_key.cache_clear()
+    assert not {*before} & {*after}
+
+
+def test_a_changed_line_beside_the_stages_changes_the_key_of_a_build(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    config = BuildConfig()
+    before = build_key("an input", config)
+    registry_keys._pipeline_key.cache_clear()
+    with monkeypatch.context() as patch:
+        patch.setattr(registry_keys, "code_digest", lambda name: f"edited {name}")
+        after = build_key("an input", config)
+    registry_keys._pipeline_key.cache_clear()
+    assert after != before
+    assert build_key("an input", config) == before
 
 
 @pytest.mark.parametrize("library", LIBRARIES)
@@ -163,18 +183,3 @@ def test_another_version_of_a_library_changes_the_keys_of_what_it_makes(
     assert keys() == before
     told = {name for name in before if after[name] != before[name]}
     assert told == {"build", *LIBRARIES[library]}
-
-
-def test_any_source_below_a_package_changes_the_keys_of_what_it_judges(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    inner = tmp_path / "judging_package" / "checks"
-    inner.mkdir(parents=True)
-    (inner.parent / "__init__.py").touch()
-    (inner / "depth.py").write_text("LIMIT = 1")
-    monkeypatch.syspath_prepend(tmp_path)
-    stage = Stage("inspect", 1, code=("judging_package",))
-    before = stage.key(BuildConfig())
-    (inner / "depth.py").write_text("LIMIT = 2")
-    code_digest.cache_clear()
-    assert stage.key(BuildConfig()) != before
