@@ -9,7 +9,20 @@ import numpy as np
 import numpy.typing as npt
 
 from .errors import InvalidArticulation
-from .mesh import FloatArray, IntArray, Mesh, read_only
+from .mesh import FloatArray, Mesh, read_only
+from .part import Part
+
+__all__ = [
+    "NAME_CHARACTERS",
+    "RESERVED_PART_NAME",
+    "UNIT_TOLERANCE",
+    "Articulation",
+    "Joint",
+    "JointKind",
+    "Part",
+    "Weights",
+    "rotation_about",
+]
 
 
 class JointKind(StrEnum):
@@ -19,32 +32,6 @@ class JointKind(StrEnum):
     REVOLUTE = "revolute"
     CONTINUOUS = "continuous"
     PRISMATIC = "prismatic"
-
-
-@dataclass(frozen=True)
-class Part:
-    """A rigid piece of the mesh.
-
-    Attributes:
-        name: unique within the articulation; letters, digits, ``_``, ``-`` and ``.``; not
-            ``world``.
-        faces: indices into the articulation's mesh faces, shape [face_count], sorted. Empty for a
-            carrier: the geometry-less link between the two joints of a part that turns *and*
-                slides.
-        confidence: that these faces are one part, 0 to 1, as the articulator rates itself; ``None``
-            if it does not.
-        guesses: what was assumed of it, each the end of a sentence that starts with its name.
-    """
-
-    name: str
-    faces: IntArray
-    confidence: float | None = None
-    guesses: tuple[str, ...] = ()
-
-    def __post_init__(self) -> None:
-        object.__setattr__(
-            self, "faces", read_only(np.unique(np.asarray(self.faces, dtype=np.int64)), np.int64)
-        )
 
 
 @dataclass(frozen=True)

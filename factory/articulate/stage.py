@@ -34,7 +34,7 @@ def _weight_digests(config: BuildConfig) -> list[str]:
 
 ARTICULATE = Stage(
     "articulate",
-    version=11,
+    version=12,
     settings=("articulator", "particulate", "auto"),
     libraries=("numpy", "scipy", "trimesh", "torch"),
     data=("auto.toml", "evidence.toml", "seams.toml"),

@@ -17,6 +17,7 @@ from ...intake.intake import Intake
 from ...mesh import FloatArray, IntArray, Mesh
 from ...models.particulate.inference import Network
 from ...models.weights.sources import SHIPPED
+from ...part import Proposer
 from ..annotated import annotated_articulator, annotation_of
 from ..articulator import Articulator
 from ..geometric import GeometricArticulator
@@ -26,7 +27,7 @@ from .contacts import contacts_of, settled
 from .hidden import without_hidden
 from .partition import Sharing, share_out, shells
 from .parts import agreed_parts
-from .proposal import Proposal, Proposer
+from .proposal import BELIEVED, Proposal
 from .proposals import propose
 from .sides import SURE_SIGHT, sightings
 from .skins import Make, different, least_of, seam_readings
@@ -120,7 +121,7 @@ class AutoArticulator:
         rated = self._rated(proposals)
         rated.sort(key=lambda proposal: -proposal.confidence)
         if any(proposal.proposer is Proposer.SIDES for proposal in rated):
-            rated.sort(key=lambda proposal: proposal.proposer)
+            rated.sort(key=lambda proposal: BELIEVED.index(proposal.proposer))
         rated = without_hidden(mesh, rated)
         least = self._least(rated)
         sure = [proposal for proposal in rated if proposal.confidence >= least]

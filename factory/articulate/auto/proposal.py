@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from enum import IntEnum
 
 import numpy as np
 
 from ...mesh import FloatArray, read_only
 from ...models.particulate.surface import BoolArray
+from ...part import Proposer
 from ..evidence import SeenMotion
 from .trust import SIGNS
 from .views import Slide
 
-
-class Proposer(IntEnum):
-    """Who says so; where two proposals cannot both be, the lower one is believed."""
-
-    RULES = 0
-    SIDES = 1
-    NETWORK = 2
+#: Where two proposals cannot both be, the one of the earlier proposer is believed.
+BELIEVED = (Proposer.RULES, Proposer.SIDES, Proposer.NETWORK)
 
 
 @dataclass(frozen=True)

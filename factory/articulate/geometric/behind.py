@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...mesh import FloatArray, IntArray
-from .panel import Panel, overlap_area
 from .panels import is_open_box
 from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
+from .slab import FrontSlab, overlap_area
 
 DEEP = 0.25
 """A drawer's box reaches at least this share of the object's depth behind its panel."""
@@ -36,7 +36,7 @@ class Behind:
     roomy: bool = True
 
 
-def look_behind(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> Behind:
+def look_behind(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -> Behind:
     """Everything :class:`Behind` says, for one panel among all."""
     if panel.is_box:
         body = np.array(panel.slabs, dtype=np.int64)
@@ -53,7 +53,9 @@ def look_behind(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> Behind
     return Behind(box, _attached(scene, panel, panels), depth, walls, solid, roomy)
 
 
-def _behind(scene: Scene, panel: Panel, panels: tuple[Panel, ...], slack: float) -> IntArray:
+def _behind(
+    scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...], slack: float
+) -> IntArray:
     """Return the pieces behind the panel, inside its rectangle, and no other panel's."""
     margin = slack * np.array([panel.width, panel.height])
     inside = (scene.low[:, RECT] >= panel.low[RECT] - margin).all(axis=1)
@@ -70,7 +72,7 @@ def _behind(scene: Scene, panel: Panel, panels: tuple[Panel, ...], slack: float)
     return np.flatnonzero(inside)
 
 
-def _drawer_box(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArray:
+def _drawer_box(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -> IntArray:
     """Return two sides and a bottom, or one body, behind the panel; else nothing."""
     index = _behind(scene, panel, panels, 0.02)
     edge = 0.004 * scene.size
@@ -114,7 +116,7 @@ def _connected_to(scene: Scene, index: IntArray, start: IntArray) -> IntArray:
     return reached
 
 
-def _cavity(scene: Scene, panel: Panel, box: IntArray) -> tuple[float, int, bool, bool]:
+def _cavity(scene: Scene, panel: FrontSlab, box: IntArray) -> tuple[float, int, bool, bool]:
     """Return the depth, walls, solid and roomy of :class:`Behind`."""
     ignored = np.union1d(panel.pieces, box)
     start = panel.center.copy()
@@ -150,7 +152,7 @@ INSIDE = ((0.5, 0.5), (0.45, 0.36), (0.55, 0.66))
 """Uneven, so that evenly spaced shelves do not meet all rays."""
 
 
-def _walls_around(scene: Scene, panel: Panel) -> int:
+def _walls_around(scene: Scene, panel: FrontSlab) -> int:
     """Sides (left, right, below, above, back) where something stands around a one-piece drawer."""
     middle = (scene.low[panel.slabs[0]] + scene.high[panel.slabs[0]]) / 2.0
     back, _ = scene.first_hit(middle, FRONT, 1, panel.pieces)
@@ -163,7 +165,7 @@ def _around(scene: Scene, start: FloatArray, ignored: IntArray) -> FloatArray:
     return np.array([scene.first_hit(start, axis, sign, ignored)[0] for axis, sign in rays])
 
 
-def _attached(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArray:
+def _attached(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -> IntArray:
     """Return the shallow pieces behind the panel that touch it and nothing that stays."""
     index = _behind(scene, panel, panels, 0.0)
     shallow = scene.high[index, FRONT] - panel.high[FRONT] <= 0.3 * scene.size[FRONT]
@@ -189,7 +191,7 @@ def overlap_bulk(scene: Scene, pieces: IntArray) -> bool:
     return bool((np.prod(sides, axis=1) > 0.02 * scene.size[SIDEWAYS] * scene.size[UP]).any())
 
 
-def covers(low: Panel, high: Panel) -> float:
+def covers(low: FrontSlab, high: FrontSlab) -> float:
     """Return the share of the smaller panel's rectangle that the two have in common."""
     return overlap_area(low.low, low.high, high.low, high.high) / max(
         min(low.area, high.area), 1e-12

@@ -12,9 +12,9 @@ from .behind import Behind, covers, look_behind
 from .knobs import find_knobs
 from .mounted import is_crowded
 from .movers import Mover
-from .panel import Panel
 from .panels import find_panels
 from .scene import FRONT, SIDEWAYS, UP, Scene
+from .slab import FrontSlab
 from .sweep import free_turn, surface_points
 
 DOOR_LIMIT = np.radians(90.0)
@@ -38,7 +38,7 @@ OFF_CENTER = 0.15
 class FrontFace:
     """A panel that is believed to move, and why."""
 
-    panel: Panel
+    panel: FrontSlab
     behind: Behind
 
 
@@ -87,7 +87,7 @@ def _is_sure(scene: Scene, front: FrontFace) -> bool:
     return bool(deep and closes) or _in_frame(scene, front.panel)
 
 
-def _covers_front_with_side_handle(scene: Scene, panel: Panel) -> bool:
+def _covers_front_with_side_handle(scene: Scene, panel: FrontSlab) -> bool:
     """Return a lone door: one wall behind it may be missing, as below a sink or before a wall."""
     return bool(panel.has_side_handle and panel.area >= 0.6 * scene.size[SIDEWAYS] * scene.size[UP])
 
@@ -105,7 +105,7 @@ def _has_handled_peer(scene: Scene, front: FrontFace, candidates: list[FrontFace
     )
 
 
-def _is_control_panel(scene: Scene, panel: Panel) -> bool:
+def _is_control_panel(scene: Scene, panel: FrontSlab) -> bool:
     """Many small things on the panel, and what protrudes is no bar: knobs and buttons."""
     if panel.handle is None:
         return False
@@ -116,7 +116,7 @@ def _is_control_panel(scene: Scene, panel: Panel) -> bool:
     return buttons >= MANY_BUTTONS and bar < 0.4 * max(panel.width, panel.height)
 
 
-def _has_carrying_grip(scene: Scene, panel: Panel) -> bool:
+def _has_carrying_grip(scene: Scene, panel: FrontSlab) -> bool:
     """Return a grip in the middle of a panel that is no drawer: a crate's side.
 
     The panel is all of the front, or too narrow for a drawer.
@@ -129,7 +129,7 @@ def _has_carrying_grip(scene: Scene, panel: Panel) -> bool:
     return central and (all_front or panel.width < WIDE * panel.height)
 
 
-def _in_frame(scene: Scene, panel: Panel) -> bool:
+def _in_frame(scene: Scene, panel: FrontSlab) -> bool:
     """Return a house door: a flat object, mostly one tall panel with a side handle, in a frame."""
     flat = scene.size[FRONT] <= 0.25 * min(scene.size[SIDEWAYS], scene.size[UP])
     tall = panel.height >= 0.7 * scene.size[UP] and panel.height >= 1.2 * panel.width
@@ -168,7 +168,7 @@ def _is_plausible(
     return bool(peers) or _stands_alone(scene, panel)
 
 
-def _stands_alone(scene: Scene, panel: Panel) -> bool:
+def _stands_alone(scene: Scene, panel: FrontSlab) -> bool:
     """One panel over most of the front, foremost, without a twin at the back: a fridge's door."""
     if (
         panel.area < 0.6 * scene.size[SIDEWAYS] * scene.size[UP]
@@ -195,7 +195,7 @@ def _stands_alone(scene: Scene, panel: Panel) -> bool:
     return bool((width * height)[thin & far].sum() < 0.7 * panel.area)
 
 
-def _beside(a: Panel, b: Panel, scene: Scene) -> bool:
+def _beside(a: FrontSlab, b: FrontSlab, scene: Scene) -> bool:
     """Return two panels of one plane that line up in a row or a column, a hair apart."""
     if min(abs(a.low[FRONT] - b.low[FRONT]), abs(a.high[FRONT] - b.high[FRONT])) > scene.touch:
         return False
@@ -257,7 +257,7 @@ def _mover(
 
 
 def _hinge(
-    scene: Scene, panel: Panel, side: str, surroundings: FloatArray
+    scene: Scene, panel: FrontSlab, side: str, surroundings: FloatArray
 ) -> tuple[FloatArray, FloatArray, float]:
     """Return the axis, origin and free turn [rad] of a hinge at one edge.
 
@@ -295,7 +295,7 @@ def _hinge(
 
 
 def _without_knuckles(
-    points: FloatArray, origin: FloatArray, axis: FloatArray, panel: Panel
+    points: FloatArray, origin: FloatArray, axis: FloatArray, panel: FrontSlab
 ) -> FloatArray:
     """Surroundings without what is about the axis: hinges turn within their own barrels."""
     offset = points - origin
@@ -303,7 +303,7 @@ def _without_knuckles(
     return np.asarray(points[radial > KNUCKLES * min(panel.width, panel.height)])
 
 
-def _is_thick_door(scene: Scene, panel: Panel) -> bool:
+def _is_thick_door(scene: Scene, panel: FrontSlab) -> bool:
     """Return a door as thick as a fridge's, on a body as tall and deep as one."""
     upright = (
         scene.size[UP] >= 1.2 * scene.size[SIDEWAYS]
@@ -312,7 +312,7 @@ def _is_thick_door(scene: Scene, panel: Panel) -> bool:
     return bool(upright and panel.depth >= max(0.045 * scene.size[FRONT], 0.065 * panel.width))
 
 
-def _handle_side(panel: Panel) -> int:
+def _handle_side(panel: FrontSlab) -> int:
     """-1: the handle is at the left, 1: at the right, 0: in the middle or there is none."""
     if panel.handle is None:
         return 0
@@ -364,7 +364,7 @@ def _by_centred_handle(
     return _side_by_neighbours(front, fronts)
 
 
-def _in_stack(panel: Panel, fronts: list[FrontFace]) -> bool:
+def _in_stack(panel: FrontSlab, fronts: list[FrontFace]) -> bool:
     """Three or more panels of one width, stacked, all with centred handles: a chest of drawers."""
     tolerance = 0.05 * panel.width
     stack = [

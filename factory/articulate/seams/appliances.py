@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...part import OpensBy
 from .fronts import Front
 from .groups import FrontPanel
 from .handles import Protrusion
 from .motions import Opening
 from .panels import usable
 from .rectangles import Rectangle
-from .ways import OpensBy
 
 #: The door takes at least so much of what is seen of the side, and is so closed by seams.
 LEAST = 0.3

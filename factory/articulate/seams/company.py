@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ...part import OpensBy
 from .features import ALIGNED
 from .groups import FrontPanel
 from .handles import GripShape
-from .ways import OpensBy
 
 #: Three drawers make a chest; on two, an oven's door may be above a drawer.
 CHEST = 3

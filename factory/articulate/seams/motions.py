@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...mesh import FloatArray
+from ...part import OpensBy
 from .candidates import FrontScene
 from .company import said_by_company
 from .features import ALIGNED, MOTION_NAMES, motion_features
@@ -16,7 +17,6 @@ from .handles import GripShape, Protrusion
 from .learned import load_judge
 from .relief import Relief
 from .sight import Sight
-from .ways import OpensBy
 
 #: What is less deep than this share of a panel's shorter side holds no drawer.
 SHALLOW = 0.3

@@ -10,12 +10,12 @@ import numpy as np
 from ...articulation import JointKind
 from ...geometry.crossings import Side
 from ...mesh import FloatArray
+from ...part import OpensBy
 from .cutting import Region
 from .edges import seen_thickness
 from .fronts import Front
 from .groups import FrontPanel
 from .lids import Lid
-from .ways import OpensBy
 
 #: A panel whose back edge nobody sees reaches so far behind its rim: share of the object's depth,
 #: and of the picture [pixels].

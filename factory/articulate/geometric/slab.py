@@ -16,7 +16,7 @@ STANDS_OFF = 0.08
 
 
 @dataclass(frozen=True)
-class Panel:
+class FrontSlab:
     """A slab in the front and what is mounted on it, view frame [m].
 
     Attributes:
