@@ -22,6 +22,7 @@ from .naming import safe_name, well_formed
 from .orientation import parse_up, rotation_to_z_up
 from .sidecar import Sidecar, read_sidecar
 from .sizes import Scale, guess_category, normalised, scale_by_size
+from .stated import read_stated
 
 _MOST_NOTES = 32
 _LONGEST_NOTE = 400
@@ -91,6 +92,7 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
     files = InputFiles(path.parent, config)
     visual = _load(path, files)
     sidecar = read_sidecar(path, files)
+    stated = read_stated(path, files)
     require_allowed(
         path.name, sidecar.license or visual.license, config.allowed_licenses, files.digest
     )
@@ -140,6 +142,7 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
         ),
         annotation_path=sidecar.annotation,
         annotation_data=files.read(sidecar.annotation) if sidecar.annotation else None,
+        stated=stated,
     )
 
 

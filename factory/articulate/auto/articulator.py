@@ -23,6 +23,7 @@ from ..articulator import Articulator
 from ..geometric import GeometricArticulator
 from ..naming import JOINT_SUFFIX, numbered
 from ..rigid import rigid_articulation
+from ..stated import StatedArticulator
 from .contacts import contacts_of, settled
 from .hidden import without_hidden
 from .partition import Sharing, share_out, shells
@@ -198,6 +199,8 @@ def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
     Raises:
         ConfigError: no usable checkpoint, or a setting that cannot be.
     """
+    if intake.stated is not None:
+        return StatedArticulator(intake.stated)
     annotation = annotation_of(intake)
     if annotation is not None:
         return annotated_articulator(intake, annotation)
