@@ -18,7 +18,7 @@ from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct, ValidationError, convert
 
-from ..errors import InputRejected
+from ..errors import ConfigError, InputRejected
 from ..geometry.crossings import Side
 from ..part import PartKind
 from .files import InputFiles, lies_below
@@ -184,14 +184,14 @@ def stated_from(values: object) -> Stated:
     """Return the statement that a decoded JSON or TOML document makes.
 
     Raises:
-        ValueError: with the place, what is wrong there and what would be right.
+        ConfigError: with the place, what is wrong there and what would be right.
     """
     for fault in _wrong_words(values, Stated, "$"):
-        raise ValueError(fault)
+        raise ConfigError(fault)
     try:
         return convert(values, Stated)
     except ValidationError as error:
-        raise ValueError(str(error)) from error
+        raise ConfigError(str(error)) from error
 
 
 def _parse(path: Path, files: InputFiles) -> Stated:
@@ -211,7 +211,7 @@ def _parse(path: Path, files: InputFiles) -> Stated:
         raise _bad(path, f"is not {form}: {error}") from error
     try:
         return stated_from(values)
-    except ValueError as error:
+    except ConfigError as error:
         raise _bad(path, str(error)) from error
 
 
