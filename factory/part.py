@@ -23,6 +23,8 @@ class PartKind(StrEnum):
     FLAP = "flap"
     """A panel of an upright side that is hinged at its lower or upper edge."""
     LID = "lid"
+    SCREEN = "screen"
+    """Of a laptop: hinged on what lies below it."""
     RACK = "rack"
     KNOB = "knob"
     BUTTON = "button"
@@ -173,7 +175,6 @@ class Part:
                 slides.
         confidence: that these faces are one part, 0 to 1, as the articulator rates itself; ``None``
             if it does not.
-        guesses: what was assumed of it, each the end of a sentence that starts with its name.
         kind: what it is.
         panel: its outline, where it closes an opening; ``None`` for other parts.
         handle: where it is held, as far as its proposer knows; ``None`` if it says nothing.
@@ -183,7 +184,6 @@ class Part:
     name: str
     faces: IntArray
     confidence: float | None = None
-    guesses: tuple[str, ...] = ()
     kind: PartKind = PartKind.PART
     panel: Panel | None = None
     handle: Handle | None = None

@@ -15,7 +15,9 @@ from ..intake.annotation import AnnotatedJoint, Annotation
 from ..intake.importers.prediction import read_prediction
 from ..intake.intake import Intake
 from ..mesh import FloatArray, IntArray, Mesh, read_only
+from ..part import Proposer
 from .draft import Draft, ordered
+from .locate import sourced
 from .ranges import closed_at_lower, sound_limits, with_zero_inside, without_still_joints
 from .welding import unlabelled_to_root, welded, without_empty_leaves
 
@@ -124,7 +126,7 @@ class AnnotatedArticulator:
         draft = closed_at_lower(draft)
         if not draft.joints:
             draft = draft.noting("nothing in this object moves")
-        return _finished(draft, self.name)
+        return sourced(_finished(draft, self.name), Proposer.ANNOTATION)
 
     def _drafted(self, mesh: Mesh) -> Draft:
         if len(self.source_faces) != len(mesh.faces):

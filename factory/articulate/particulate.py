@@ -21,8 +21,10 @@ from ..models.particulate.prediction import MotionClass
 from ..models.service import identity_of, network_for
 from ..models.weights.checkpoint import describe
 from ..models.weights.sources import fetch
+from ..part import Proposer
 from ..runtime.store import digest_file
 from .annotated import AnnotatedArticulator
+from .locate import sourced
 from .settings import decode_rules, require_usable
 
 #: Probabilities and agreements below this are told [-].
@@ -97,7 +99,7 @@ class ParticulateArticulator:
         def rated_joint(joint: Joint) -> Joint:
             return replace(joint, confidence=moved.get(joint.name) if joint.movable else None)
 
-        return replace(
+        rated = replace(
             plain,
             parts=tuple(rated_part(part) for part in plain.parts),
             joints=tuple(rated_joint(joint) for joint in plain.joints),
@@ -105,6 +107,7 @@ class ParticulateArticulator:
             notes=(*_notes(found), *plain.notes),
             weights=self.weights,
         )
+        return sourced(rated, Proposer.NETWORK)
 
 
 def _annotation(reading: Decoded) -> Annotation:

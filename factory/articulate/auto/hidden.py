@@ -9,7 +9,7 @@ from ...geometry.elevations import elevation
 from ...geometry.triangles import face_areas
 from ...mesh import IntArray, Mesh
 from ...part import Proposer
-from .proposal import Proposal
+from ..proposal import Proposal
 
 #: What has at most this share of a mesh's area, and shows at most this share of its own, through
 #: gaps, is no mover.

@@ -36,6 +36,14 @@ class Behind:
     roomy: bool = True
 
 
+@dataclass(frozen=True)
+class FrontFace:
+    """A panel that is believed to move, and why."""
+
+    panel: FrontSlab
+    behind: Behind
+
+
 def look_behind(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -> Behind:
     """Everything :class:`Behind` says, for one panel among all."""
     if panel.is_box:

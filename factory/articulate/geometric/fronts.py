@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ...articulation import JointKind
 from ...mesh import FloatArray, IntArray
-from .behind import Behind, covers, look_behind
+from ...part import OpensBy, PartKind
+from ..proposal import Motion
+from .behind import FrontFace, covers, look_behind
+from .hinge_sides import WIDE, handle_side, hinge_side
 from .knobs import find_knobs
 from .mounted import is_crowded
 from .movers import Mover
@@ -26,20 +27,8 @@ DRAWER_SHARE = 0.92
 """A drawer slides this share of its depth."""
 ALL_WALLS = 5
 MANY_BUTTONS = 6
-WIDE = 1.3
-"""Width over height from which a front looks like a drawer's."""
 KNUCKLES = 0.08
 """Radius of what belongs to a hinge, over the panel's shorter side."""
-OFF_CENTER = 0.15
-"""A handle further than this share of the panel from its middle is at one side."""
-
-
-@dataclass(frozen=True)
-class FrontFace:
-    """A panel that is believed to move, and why."""
-
-    panel: FrontSlab
-    behind: Behind
 
 
 def find_fronts(scene: Scene) -> tuple[Mover, ...]:
@@ -61,7 +50,7 @@ def find_fronts(scene: Scene) -> tuple[Mover, ...]:
     points, owner = surface_points(scene)
     movers = [_mover(scene, front, fronts, points, owner) for front in fronts]
     found = tuple(m for m in movers if m is not None)
-    if not any(m.label == "door" for m in found):
+    if not any(m.kind is PartKind.DOOR for m in found):
         return found
     return found + find_knobs(scene, np.concatenate([m.pieces for m in found]))
 
@@ -136,7 +125,7 @@ def _in_frame(scene: Scene, panel: FrontSlab) -> bool:
     frame = (
         panel.width <= 0.97 * scene.size[SIDEWAYS] and panel.width >= 0.35 * scene.size[SIDEWAYS]
     )
-    return bool(flat and tall and frame and panel.handle is not None and _handle_side(panel) != 0)
+    return bool(flat and tall and frame and panel.handle is not None and handle_side(panel) != 0)
 
 
 def _is_plausible(
@@ -226,24 +215,17 @@ def _mover(
     behind = front.behind
     pieces = np.union1d(panel.pieces, np.union1d(behind.box_pieces, behind.attached))
     weight = panel.area * (3.0 if panel.handle is not None else 1.0)
-    side, guesses = _hinge_side(scene, front, fronts)
-    if side == "slide":
+    side, guesses = hinge_side(scene, front, fronts)
+    if side is OpensBy.OUT:
         reach = behind.depth if not behind.solid else 0.5 * float(scene.size[FRONT])
         travel = DRAWER_SHARE * min(reach, float(scene.box[1, FRONT] - panel.low[FRONT]))
         origin = np.array([panel.center[SIDEWAYS], panel.low[FRONT], panel.center[UP]])
         if travel < scene.touch:
             return None
-        return Mover(
-            "drawer",
-            JointKind.PRISMATIC,
-            np.array([0.0, -1.0, 0.0]),
-            origin,
-            0.0,
-            travel,
-            pieces,
-            guesses,
-            weight,
-        )
+        motion = Motion(JointKind.PRISMATIC, np.array([0.0, -1.0, 0.0]), origin, 0.0, travel)
+        outline = panel.outline(side)
+        grip = panel.grip(motion)
+        return Mover(PartKind.DRAWER, motion, pieces, guesses, weight, outline, grip)
     surroundings = points[~np.isin(owner, pieces)]
     axis, origin, turn = _hinge(scene, panel, side, surroundings)
     if turn < LEAST_TURN:
@@ -253,28 +235,30 @@ def _mover(
             *guesses,
             f"opens only {np.degrees(turn):.0f} degrees before it meets its surroundings",
         )
-    return Mover("door", JointKind.REVOLUTE, axis, origin, 0.0, turn, pieces, guesses, weight)
+    motion = Motion(JointKind.REVOLUTE, axis, origin, 0.0, turn)
+    outline = panel.outline(side)
+    return Mover(PartKind.DOOR, motion, pieces, guesses, weight, outline, panel.grip(motion))
 
 
 def _hinge(
-    scene: Scene, panel: FrontSlab, side: str, surroundings: FloatArray
+    scene: Scene, panel: FrontSlab, side: OpensBy, surroundings: FloatArray
 ) -> tuple[FloatArray, FloatArray, float]:
     """Return the axis, origin and free turn [rad] of a hinge at one edge.
 
     The back corner, or the front one if it opens wider.
     """
     across, at_low = {
-        "left": (SIDEWAYS, True),
-        "right": (SIDEWAYS, False),
-        "bottom": (UP, True),
-        "top": (UP, False),
+        OpensBy.LEFT: (SIDEWAYS, True),
+        OpensBy.RIGHT: (SIDEWAYS, False),
+        OpensBy.BOTTOM: (UP, True),
+        OpensBy.TOP: (UP, False),
     }[side]
     axis = np.zeros(3)
     axis[UP if across == SIDEWAYS else SIDEWAYS] = {
-        "left": -1.0,
-        "right": 1.0,
-        "bottom": 1.0,
-        "top": -1.0,
+        OpensBy.LEFT: -1.0,
+        OpensBy.RIGHT: 1.0,
+        OpensBy.BOTTOM: 1.0,
+        OpensBy.TOP: -1.0,
     }[side]
     margin = np.minimum(np.array([1.0, 0.5, 1.0]) * scene.touch, 0.2 * (panel.high - panel.low))
     box = np.stack([panel.low + margin, panel.high - margin])
@@ -310,88 +294,3 @@ def _is_thick_door(scene: Scene, panel: FrontSlab) -> bool:
         and scene.size[FRONT] >= 0.6 * scene.size[SIDEWAYS]
     )
     return bool(upright and panel.depth >= max(0.045 * scene.size[FRONT], 0.065 * panel.width))
-
-
-def _handle_side(panel: FrontSlab) -> int:
-    """-1: the handle is at the left, 1: at the right, 0: in the middle or there is none."""
-    if panel.handle is None:
-        return 0
-    offset = (panel.handle[:, SIDEWAYS].mean() - panel.center[SIDEWAYS]) / panel.width
-    return int(np.sign(offset)) if abs(offset) > OFF_CENTER else 0
-
-
-def _hinge_side(
-    scene: Scene, front: FrontFace, fronts: list[FrontFace]
-) -> tuple[str, tuple[str, ...]]:
-    """``slide``, ``left``, ``right``, ``bottom`` or ``top``, and what was assumed."""
-    panel = front.panel
-    if len(front.behind.box_pieces):
-        return "slide", ()
-    side = _handle_side(panel)
-    if side:
-        return ("left" if side > 0 else "right"), ()
-    if panel.handle is None:
-        low = panel.width >= 1.6 * panel.height and panel.height <= 0.35 * scene.size[UP]
-        if low:
-            return "slide", ("has no handle; assumed to be a drawer, since it is wide and low",)
-        return _side_by_neighbours(front, fronts)
-    return _by_centred_handle(scene, front, fronts, panel.handle)
-
-
-def _by_centred_handle(
-    scene: Scene, front: FrontFace, fronts: list[FrontFace], handle: FloatArray
-) -> tuple[str, tuple[str, ...]]:
-    """Return a handle in the middle of the width: an oven's door, a flap, a drawer, or no clue."""
-    panel = front.panel
-    aspect = panel.width / panel.height
-    rise = (handle[:, UP].mean() - panel.center[UP]) / panel.height
-    spans = panel.width >= 0.6 * scene.size[SIDEWAYS] and panel.height >= 0.3 * scene.size[UP]
-    width, _, height = handle[1] - handle[0]
-    narrowest = 0.55 if width >= max(3.0 * height, 0.4 * panel.width) else 0.65
-    if _in_stack(panel, fronts):
-        return "slide", ("has no box behind its front; assumed to be a drawer, as one of a stack",)
-    if spans and narrowest <= aspect <= 1.9 and rise > 0.2:
-        return "bottom", ()
-    if aspect >= 1.2 and rise < -0.3:
-        return "top", ()
-    if aspect >= WIDE:
-        return "slide", (
-            (
-                "has no box behind its front; assumed to be a drawer, "
-                "since it is wide with a centred handle"
-            ),
-        )
-    return _side_by_neighbours(front, fronts)
-
-
-def _in_stack(panel: FrontSlab, fronts: list[FrontFace]) -> bool:
-    """Three or more panels of one width, stacked, all with centred handles: a chest of drawers."""
-    tolerance = 0.05 * panel.width
-    stack = [
-        f
-        for f in fronts
-        if f.panel.handle is not None
-        and _handle_side(f.panel) == 0
-        and abs(f.panel.low[SIDEWAYS] - panel.low[SIDEWAYS]) <= tolerance
-        and abs(f.panel.high[SIDEWAYS] - panel.high[SIDEWAYS]) <= tolerance
-    ]
-    return len(stack) >= 3 and panel.height <= 1.2 * panel.width
-
-
-def _side_by_neighbours(front: FrontFace, fronts: list[FrontFace]) -> tuple[str, tuple[str, ...]]:
-    """Doors in a row open in pairs, away from each other; a lone one hinges at the left."""
-    panel = front.panel
-    row = [
-        f
-        for f in fronts
-        if abs(f.panel.low[UP] - panel.low[UP]) + abs(f.panel.high[UP] - panel.high[UP])
-        <= 0.1 * panel.height
-        and not len(f.behind.box_pieces)
-    ]
-    row.sort(key=lambda f: float(f.panel.low[SIDEWAYS]))
-    place = row.index(front)
-    what = "has no handle" if panel.handle is None else "has its handle in the middle"
-    if len(row) == 1:
-        return "left", (f"{what}; hinge side assumed left",)
-    side = "left" if place % 2 == 0 else "right"
-    return side, (f"{what}; hinge side assumed {side}, away from its neighbour",)

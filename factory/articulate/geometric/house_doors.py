@@ -6,6 +6,8 @@ import numpy as np
 
 from ...articulation import JointKind
 from ...mesh import IntArray
+from ...part import PartKind
+from ..proposal import Motion
 from .movers import Mover
 from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
 
@@ -131,7 +133,8 @@ def _leaf(scene: Scene, leaf: int, leaves: IntArray, group: IntArray) -> Mover:
     axis = np.array([0.0, 0.0, -1.0 if at_left else 1.0])
     guesses = (*guesses, "hangs in a frame; which way and how far it opens is assumed")
     weight = float(np.prod((high - low)[RECT]))
-    return Mover("door", JointKind.REVOLUTE, axis, origin, 0.0, LIMIT, group, guesses, weight)
+    motion = Motion(JointKind.REVOLUTE, axis, origin, 0.0, LIMIT)
+    return Mover(PartKind.DOOR, motion, group, guesses, weight)
 
 
 def _handle_offset(scene: Scene, leaf: int, group: IntArray) -> float:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from ...articulation import JointKind
 from ...mesh import FloatArray, IntArray
+from ...part import PartKind
+from ..proposal import Motion
 from .movers import Mover
 from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
 
@@ -25,7 +26,7 @@ def find_top_knobs(above: Scene, taken: IntArray) -> tuple[Mover, ...]:
     knobs = [m for m in find_knobs(above, taken) if len(m.pieces)]
     if len(knobs) < ROW:
         return ()
-    places = np.array([m.origin[RECT] for m in knobs])
+    places = np.array([m.motion.origin[RECT] for m in knobs])
     places = places - places.mean(axis=0)
     spread = np.linalg.svd(places, compute_uv=False)
     return tuple(knobs) if spread[1] <= 0.1 * spread[0] else ()
@@ -126,4 +127,4 @@ def _knob(scene: Scene, knob: int, pieces: IntArray) -> Mover:
     origin: FloatArray = (scene.low[knob] + scene.high[knob]) / 2.0
     axis = np.array([0.0, 1.0, 0.0])
     guess = ("is round and turns without end; its stops are unknown",)
-    return Mover("knob", JointKind.CONTINUOUS, axis, origin, -np.pi, np.pi, pieces, guess, 0.0)
+    return Mover(PartKind.KNOB, Motion.endless(axis, origin), pieces, guess)

@@ -8,6 +8,8 @@ import numpy as np
 
 from ...articulation import JointKind
 from ...mesh import FloatArray, IntArray
+from ...part import PartKind
+from ..proposal import Motion
 from .movers import Mover
 from .scene import FRONT, SIDEWAYS, UP, Scene
 from .sweep import free_turn, surface_points
@@ -15,7 +17,7 @@ from .sweep import free_turn, surface_points
 PLAN = [SIDEWAYS, FRONT]
 COVERING = 0.65
 """Share of the object, seen from above, that a lid covers at least."""
-LIMITS = {"lid": np.radians(100.0), "screen": np.radians(120.0)}
+LIMITS = {PartKind.LID: np.radians(100.0), PartKind.SCREEN: np.radians(120.0)}
 LEAST_TURN = np.radians(45.0)
 LEAST_KEYS = 20
 SIDES = ((FRONT, 1), (FRONT, -1), (SIDEWAYS, 1), (SIDEWAYS, -1))
@@ -55,7 +57,7 @@ def find_lid(scene: Scene) -> tuple[Mover, ...]:
         if tab is None and scene.size[UP] > 0.8 * max(scene.size[PLAN]):
             continue
         side, guess = _hinge_side(scene, cover, tab)
-        return _hinged(scene, cover, side, "lid", guess)
+        return _hinged(scene, cover, side, PartKind.LID, guess)
     return ()
 
 
@@ -169,7 +171,7 @@ def _hinge_side(
 
 
 def _hinged(
-    scene: Scene, cover: Cover, side: tuple[int, int], label: str, guess: tuple[str, ...]
+    scene: Scene, cover: Cover, side: tuple[int, int], kind: PartKind, guess: tuple[str, ...]
 ) -> tuple[Mover, ...]:
     across, sign = side
     origin = cover.center
@@ -181,12 +183,13 @@ def _hinged(
     margin = np.minimum(scene.touch, 0.2 * (cover.high - cover.low))
     rest = points[~np.isin(owner, cover.pieces)]
     turn = free_turn(
-        rest, np.stack([cover.low + margin, cover.high - margin]), axis, origin, LIMITS[label]
+        rest, np.stack([cover.low + margin, cover.high - margin]), axis, origin, LIMITS[kind]
     )
     if turn < LEAST_TURN:
         return ()
     weight = float(np.prod((cover.high - cover.low)[PLAN]))
-    return (Mover(label, JointKind.REVOLUTE, axis, origin, 0.0, turn, cover.pieces, guess, weight),)
+    motion = Motion(JointKind.REVOLUTE, axis, origin, 0.0, turn)
+    return (Mover(kind, motion, cover.pieces, guess, weight),)
 
 
 def _screen(scene: Scene, slab: int) -> tuple[Mover, ...]:
@@ -214,8 +217,8 @@ def _screen(scene: Scene, slab: int) -> tuple[Mover, ...]:
     group = np.union1d(group, np.array(moving, dtype=np.int64))
     cover = Cover(scene.low[slab], scene.high[slab], np.union1d(group, barrels))
     return tuple(
-        replace(mover, pieces=group, origin=_at_barrels(mover.origin, middle[barrels], across))
-        for mover in _hinged(scene, cover, (across, sign), "screen", ())
+        replace(mover, pieces=group, motion=_at_barrels(mover.motion, middle[barrels], across))
+        for mover in _hinged(scene, cover, (across, sign), PartKind.SCREEN, ())
     )
 
 
@@ -224,8 +227,9 @@ def _touch(scene: Scene, a: int, b: int) -> bool:
     return bool((gap <= scene.touch).all())
 
 
-def _at_barrels(origin: FloatArray, barrels: FloatArray, across: int) -> FloatArray:
-    moved = origin.copy()
+def _at_barrels(motion: Motion, barrels: FloatArray, across: int) -> Motion:
+    """Return the hinge in the middle of its barrels, if there are some."""
+    moved = motion.origin.copy()
     if len(barrels):
         moved[[across, UP]] = barrels[:, [across, UP]].mean(axis=0)
-    return moved
+    return replace(motion, origin=moved)

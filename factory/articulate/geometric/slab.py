@@ -7,10 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...mesh import FloatArray, IntArray
+from ...part import Handle, OpensBy, Panel
+from ..proposal import Motion
 from .scene import FRONT, RECT, SIDEWAYS, UP
 
 #: Against rounding [m].
 HAIR = 1e-9
+#: Rows: to the right, up and away from the viewer, in the view frame.
+VIEW = np.eye(3)[[SIDEWAYS, UP, FRONT]]
 STANDS_OFF = 0.08
 """Pieces below this share of a panel do not hide it."""
 
@@ -73,6 +77,20 @@ class FrontSlab:
     def pieces(self) -> IntArray:
         """Return the slabs and what is mounted on them, sorted."""
         return np.array(sorted({*self.slabs, *self.mounted}), dtype=np.int64)
+
+    def outline(self, opens: OpensBy) -> Panel:
+        """Return it as a panel, in the view frame, that opens so."""
+        across = [SIDEWAYS, UP]
+        return Panel(VIEW, self.low[across], self.high[across], self.low[FRONT], self.depth, opens)
+
+    def grip(self, motion: Motion) -> Handle | None:
+        """Return the handle of a panel that moves so, in the view frame; ``None`` without one."""
+        if self.handle is None:
+            return None
+        point = self.handle.mean(axis=0)
+        point[FRONT] = self.handle[0, FRONT]
+        pull = motion.velocity(point)
+        return Handle(point, -VIEW[2], pull / np.linalg.norm(pull), source="protrusion")
 
 
 def overlap_area(

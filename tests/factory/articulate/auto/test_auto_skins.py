@@ -8,7 +8,7 @@ import numpy as np
 from one_piece import bin_with_lid, drawers, plain_box
 
 from asset_factory.factory.articulate.auto.articulator import WithoutNetwork
-from asset_factory.factory.articulate.auto.skins import Make, seam_readings
+from asset_factory.factory.articulate.auto.skins import Make, seam_hypotheses
 from asset_factory.factory.config import AutoConfig
 from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.learn.objects import make_object
@@ -49,17 +49,19 @@ def test_auto_reads_a_skin_by_its_seams() -> None:
 
 def test_what_is_unsure_stays_with_the_base() -> None:
     mesh = drawers()
-    every = seam_readings(mesh, 0.0, "auto")[0]
+    every = seam_hypotheses(mesh, 0.0, "auto")[0].articulation
     confidences = sorted(part.confidence or 0.0 for part in every.parts[1:])
-    some = seam_readings(mesh, confidences[1] - 1e-12, "auto")[0]
+    some = seam_hypotheses(mesh, confidences[1] - 1e-12, "auto")[0].articulation
     assert 1 < len(some.parts) <= len(every.parts)
     assert sum(len(part.faces) for part in some.parts) == len(some.mesh.faces)
-    (none,) = seam_readings(mesh, 0.999, "auto")
-    assert not none.movable_joints
+    (none,) = seam_hypotheses(mesh, 0.999, "auto")
+    assert not none.articulation.movable_joints
 
 
-def test_other_readings_differ_from_the_likeliest() -> None:
-    found = WithoutNetwork(AutoConfig(least_confidence=0.0)).readings(bin_with_lid())
-    told = [[(joint.kind, joint.axis.tolist()) for joint in each.joints] for each in found]
+def test_other_hypotheses_differ_from_the_likeliest() -> None:
+    found = WithoutNetwork(AutoConfig(least_confidence=0.0)).hypotheses(bin_with_lid())
+    told = [
+        [(joint.kind, joint.axis.tolist()) for joint in each.articulation.joints] for each in found
+    ]
     assert len(told) > 1
     assert all(told.count(each) == 1 for each in told)
