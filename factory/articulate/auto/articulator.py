@@ -212,10 +212,15 @@ def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
         ConfigError: no usable checkpoint, or a setting that cannot be.
     """
     if intake.stated is not None:
-        return StatedArticulator(intake.stated)
+        return StatedArticulator(intake.stated, _guess(config))
     annotation = annotation_of(intake)
     if annotation is not None:
         return annotated_articulator(intake, annotation)
+    return _guess(config)
+
+
+def _guess(config: BuildConfig) -> Articulator:
+    """Return who is asked where nothing came with the input."""
     if find_spec("torch") is None:
         return WithoutNetwork(config.auto)
     if config.particulate.checkpoint == SHIPPED:

@@ -13,6 +13,7 @@ from ...geometry.crossings import Side
 from ...intake.stated import Hinge, StatedPart, StatedView
 from ...mesh import Mesh
 from ...part import OpensBy, PartKind
+from ..proposal import Motion
 from ..seams.cutting import Region
 from ..seams.fronts import AROUND, OPPOSITE, Front, fronts_of
 from ..seams.groups import FrontPanel
@@ -223,7 +224,7 @@ def _control(part: _Boxed) -> OpeningPart:
     raster = relief.raster
     box = part.panel.rectangle
     for knob in knobs_on(relief, part.front.face):
-        if box.holds(raster.pixels(knob.origin)[:2]):
+        if box.holds(raster.pixels(knob.motion.origin)[:2]):
             return knob
     right, up, away = raster.side.frame
     carrier = float(np.median(part.front.face.height[_slices(box)]))
@@ -233,13 +234,11 @@ def _control(part: _Boxed) -> OpeningPart:
     height, across = (low + high) / 2.0
     origin = across * right + height * up + back * away
     region = box_before(raster.side, low, high, back)
-    kind = part.stated.kind
-    if kind is PartKind.BUTTON:
-        slide = JointKind.PRISMATIC
-        return OpeningPart(kind, region, slide, away, origin, BUTTON_TRAVEL_M, 1.0, 1.0)
-    return OpeningPart(
-        kind, region, JointKind.CONTINUOUS, away, origin, np.pi, 1.0, 1.0, lower=-np.pi
-    )
+    if part.stated.kind is PartKind.BUTTON:
+        motion = Motion(JointKind.PRISMATIC, away, origin, 0.0, BUTTON_TRAVEL_M)
+    else:
+        motion = Motion.endless(away, origin)
+    return OpeningPart(part.stated.kind, region, motion, 1.0, 1.0)
 
 
 def _slices(box: Rectangle) -> tuple[slice, slice]:
@@ -258,8 +257,9 @@ def _as_stated(mover: OpeningPart, part: StatedPart, mesh: Mesh) -> OpeningPart:
             np.concatenate([region.normals, np.stack([right, -right, up, -up])]),
             np.concatenate([region.offsets, [high[0], -low[0], high[1], -low[1]]]),
         )
-    mover = replace(mover, name=part.name or str(part.kind), region=region)
+    mover = replace(mover, kind=part.kind, region=region)
     if part.range is None:
         return mover
-    unit = MM if mover.kind is JointKind.PRISMATIC else float(np.degrees(1.0))
-    return replace(mover, lower=part.range[0] / unit, upper=part.range[1] / unit)
+    unit = MM if mover.motion.kind is JointKind.PRISMATIC else float(np.degrees(1.0))
+    lower, upper = (each / unit for each in part.range)
+    return replace(mover, motion=replace(mover.motion, lower=lower, upper=upper))

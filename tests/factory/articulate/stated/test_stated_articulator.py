@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from one_piece import doors, drawers, fridge
 
+from asset_factory.factory.articulate.seams.articulator import SeamsArticulator
 from asset_factory.factory.articulate.stated import StatedArticulator
 from asset_factory.factory.articulation import JointKind, rotation_about
 from asset_factory.factory.errors import InputRejected
@@ -18,7 +19,8 @@ FINE = 0.02
 
 
 def articulated(mesh, *parts, **stated):
-    return StatedArticulator(stated_from({"parts": list(parts), **stated})).readings(mesh)
+    made = StatedArticulator(stated_from({"parts": list(parts), **stated})).hypotheses(mesh)
+    return tuple(each.articulation for each in made)
 
 
 def box_of(articulation, part):
@@ -117,7 +119,7 @@ def test_nothing_opens_where_that_is_said():
     assert made.movable_joints == ()
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(st.tuples(*[st.floats(0.0, 1.0)] * 4))
 def test_any_box_is_an_articulation_or_a_sentence(corners):
     x0, x1 = sorted(corners[:2])
@@ -129,3 +131,40 @@ def test_any_box_is_an_articulation_or_a_sentence(corners):
         made = articulated(doors(), part)[0]
         assert len(made.parts) == 2
         assert len(made.parts[0].faces) + len(made.parts[1].faces) == len(made.mesh.faces)
+
+
+def test_a_part_has_the_name_and_carries_what_was_stated():
+    door = {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1], "name": "freezer"}
+    knob = {"kind": "knob", "side": "front", "box": [0.05, 0.7, 0.15, 0.9], "parent": "freezer"}
+    made = articulated(fridge(), {**door, "hinge": "right"}, {**knob, "name": "grip"})[0]
+    assert [part.name for part in made.parts] == ["base", "freezer", "grip"]
+    assert [joint.name for joint in made.joints] == ["freezer_hinge", "grip_turn"]
+    assert made.joints[1].parent == 1
+    assert {part.source.proposer for part in made.parts[1:]} == {"sidecar"}
+
+
+def test_a_sidecar_of_another_mesh_is_refused():
+    with pytest.raises(InputRejected, match=r"sides are 1\.00 : 1\.00 : 1\.00, this one's are"):
+        articulated(fridge(), size=[2, 2, 2])
+    articulated(
+        fridge(), {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1]}, size=[6, 6, 16]
+    )
+
+
+class Guess:
+    """Sees whatever the seams of a one-piece mesh show."""
+
+    name = "guess"
+
+    def articulate(self, mesh):
+        return SeamsArticulator().articulate(mesh)
+
+
+def test_what_is_expected_is_found_or_counted():
+    expected = stated_from({"parts": [{"kind": "drawer", "count": 3}]})
+    made = StatedArticulator(expected, Guess()).articulate(drawers())
+    assert [part.kind for part in made.parts[1:]] == ["drawer"] * 3
+    too_many = stated_from({"parts": [{"kind": "drawer", "count": 4}]})
+    with pytest.raises(InputRejected, match="found 3 of 4 drawers") as caught:
+        StatedArticulator(too_many, Guess()).articulate(drawers())
+    assert caught.value.code == "stated_part_not_found"
