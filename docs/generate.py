@@ -206,9 +206,7 @@ def results() -> str:
         for each in sorted(of_section, key=lambda result: result["order"]):
             text += f"### {each['title']}\n\n{textwrap.fill(each['means'].strip(), 160)}\n\n"
             text += table(tuple(each["columns"]), [tuple(row) for row in each["rows"]])
-            made = (
-                f"`{each['command']}`" if "command" in each else "No command of the project"
-            )
+            made = f"`{each['command']}`" if "command" in each else "No command of the project"
             text += f"\n{made}, {each['date']}, at {each['commit']}. "
             text += f"Held out: {each['held_out']}.\n\n"
     return text

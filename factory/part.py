@@ -53,6 +53,7 @@ class Proposer(StrEnum):
     """Who says that a part moves."""
 
     ANNOTATION = "annotation"
+    SIDECAR = "sidecar"
     RULES = "rules"
     SIDES = "sides"
     NETWORK = "network"

@@ -38,6 +38,7 @@ ARTICULATORS: Mapping[str, ArticulatorEntry] = MappingProxyType(
             ArticulatorEntry(
                 "auto", "auto", "what came with the input, else all of these weighed", True
             ),
+            ArticulatorEntry("stated", "stated.articulator", "the parts that its sidecar states"),
             ArticulatorEntry("annotated", "annotated", "the joints that came with the input"),
             ArticulatorEntry("geometric", "geometric", "rules of shape, without learning"),
             ArticulatorEntry(

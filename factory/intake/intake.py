@@ -9,6 +9,7 @@ import numpy as np
 
 from ..mesh import FloatArray, IntArray, Mesh, read_only
 from .annotation import Annotation
+from .stated import Stated
 
 
 @dataclass(frozen=True)
@@ -62,6 +63,7 @@ class Intake:
         annotation_path: an annotation file named by the sidecar, not yet understood.
         annotation_data: its content, as it was when the rest was read; ``None``: it is read when it
             is wanted.
+        stated: which parts open, said by somebody beside the mesh; ``None`` if nobody did.
     """
 
     name: str
@@ -72,6 +74,7 @@ class Intake:
     annotation: Annotation | None = None
     annotation_path: Path | None = None
     annotation_data: bytes | None = None
+    stated: Stated | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "source_faces", read_only(self.source_faces, np.int64))

@@ -25,6 +25,7 @@ from .orientation import rotation_to_z_up
 from .placing import check_config, given_scale, given_up
 from .sidecar import Sidecar, read_sidecar
 from .sizes import guess_category, normalised, scale_by_size
+from .stated import read_stated
 
 _MOST_NOTES = 32
 _LONGEST_NOTE = 400
@@ -94,6 +95,7 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
     files = InputFiles(path.parent, config)
     visual = _load(path, files)
     sidecar = read_sidecar(path, files)
+    stated = read_stated(path, files)
     require_allowed(
         path.name, sidecar.license or visual.license, config.allowed_licenses, files.digest
     )
@@ -147,6 +149,7 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
         ),
         annotation_path=sidecar.annotation,
         annotation_data=files.read(sidecar.annotation) if sidecar.annotation else None,
+        stated=stated,
     )
 
 

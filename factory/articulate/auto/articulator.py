@@ -24,6 +24,7 @@ from ..assembly import assembled
 from ..geometric import GeometricArticulator
 from ..proposal import Hypothesis, Proposal
 from ..rigid import rigid_articulation
+from ..stated import StatedArticulator
 from .contacts import contacts_of, settled
 from .hidden import without_hidden
 from .one_piece import MeshOrigin, different, least_of, seam_hypotheses
@@ -210,9 +211,16 @@ def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
     Raises:
         ConfigError: no usable checkpoint, or a setting that cannot be.
     """
+    if intake.stated is not None:
+        return StatedArticulator(intake.stated, _guess(config))
     annotation = annotation_of(intake)
     if annotation is not None:
         return annotated_articulator(intake, annotation)
+    return _guess(config)
+
+
+def _guess(config: BuildConfig) -> Articulator:
+    """Return who is asked where nothing came with the input."""
     if find_spec("torch") is None:
         return WithoutNetwork(config.auto)
     if config.particulate.checkpoint == SHIPPED:

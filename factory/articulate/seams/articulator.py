@@ -40,7 +40,7 @@ class SeamsArticulator:
         if not found:
             note = "nothing on its sides looks like a door, drawer or lid"
             return (Hypothesis.of(rigid_articulation(mesh, self.name, (note,))),)
-        cut = _cut(mesh, found)
+        cut = cut_along(mesh, found)
         return tuple(Hypothesis.of(_articulation(cut.mesh, movers)) for movers in found)
 
 
@@ -49,7 +49,8 @@ def articulator_for(intake: Intake, config: BuildConfig) -> SeamsArticulator:
     return SeamsArticulator()
 
 
-def _cut(mesh: Mesh, found: Sequence[Movers]) -> CutMesh:
+def cut_along(mesh: Mesh, found: Sequence[Movers]) -> CutMesh:
+    """Cut a mesh along the outlines of the parts of all hypotheses."""
     cut = uncut(mesh)
     done: list[Region] = []
     for region in (mover.region for movers in found for mover in movers):

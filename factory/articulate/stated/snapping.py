@@ -1,0 +1,108 @@
+"""A box that somebody drew on a side, moved to the seams that it means."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...geometry.crossings import Side
+from ...intake.stated import Box
+from ...mesh import FloatArray, IntArray, Mesh
+from ..seams.fronts import Front
+from ..seams.rectangles import Lines, Rectangle
+
+#: A stated edge may be off by this share of the side's picture, and by so many pixels at least.
+OFF = 0.05
+LEAST_OFF = 4.0
+#: A seam is meant if it is covered to this share along the edge; one at the end of the reach
+#: counts half.
+COVERED = 0.35
+#: A stated edge this near to the outline is the outline.
+AT_OUTLINE = 0.02
+
+
+@dataclass(frozen=True)
+class StatedFrame:
+    """What a side's shares are of, in that side's frame: right and up [m].
+
+    Attributes:
+        low: left and lower end, shape [2].
+        size: width and height, shape [2].
+    """
+
+    low: FloatArray
+    size: FloatArray
+
+    @classmethod
+    def of(cls, mesh: Mesh, side: Side) -> StatedFrame:
+        """Return the picture of a whole mesh."""
+        ends = mesh.bounds @ side.frame.T
+        return cls(ends.min(axis=0)[:2], np.abs(ends[1] - ends[0])[:2])
+
+    def place(self, box: Box) -> FloatArray:
+        """Return a box's corners [m], low and high, shape [2, 2]."""
+        return np.asarray(self.low + np.array(box).reshape(2, 2) * self.size)
+
+
+def snap(front: Front, frame: StatedFrame, box: Box) -> Rectangle:
+    """Return the rectangle of seams that a stated box means, in pixels of its side.
+
+    An edge near which no seam runs stays where it was stated.
+
+    Args:
+        front: the side.
+        frame: of the mesh on that side.
+        box: left, lower, right, upper edge, in shares of the picture.
+    """
+    raster = front.relief.raster
+    corners = (frame.place(box) - raster.low) / raster.pixel
+    stated = np.rint(corners[:, ::-1]).astype(np.int64)
+    reach = np.maximum(OFF * frame.size[::-1] / raster.pixel, LEAST_OFF)
+    first_row, last_row, first_column, last_column = front.relief.box
+    outline = np.array([[first_row, first_column], [last_row, last_column]])
+    stated = np.clip(stated, outline[0], outline[1])
+    lines = (front.scene.level, front.scene.upright)
+    ends = np.array(box).reshape(2, 2)[:, ::-1]
+    placed = stated.copy()
+    for axis in (0, 1):
+        start, stop = placed[:, 1 - axis]
+        for end in (0, 1):
+            if abs(ends[end, axis] - end) <= AT_OUTLINE:
+                placed[end, axis] = outline[end, axis]
+            else:
+                at = _nearest_seam(
+                    lines[axis], stated[end, axis], reach[axis], int(start), int(stop)
+                )
+                placed[end, axis] = stated[end, axis] if at is None else at
+    sides, relief = (
+        np.array(
+            [
+                _cover(lines[axis], int(placed[end, axis]), placed[:, 1 - axis], shape)
+                for axis in (0, 1)
+                for end in (0, 1)
+            ]
+        )
+        for shape in (False, True)
+    )
+    return Rectangle(placed[0], placed[1], sides, relief)
+
+
+def _nearest_seam(lines: Lines, stated: int, reach: float, start: int, stop: int) -> int | None:
+    """Return the line within reach that covers an edge best, the nearer counting more."""
+    away = np.abs(lines.at - stated)
+    near = np.flatnonzero(away <= reach)
+    if not len(near) or stop <= start:
+        return None
+    cover = lines.covered(near, np.int64(start), np.int64(stop))  # type: ignore[arg-type]
+    value = np.where(cover >= COVERED, cover * (1.0 - 0.5 * away[near] / reach), 0.0)
+    return int(lines.at[near[value.argmax()]]) if value.any() else None
+
+
+def _cover(lines: Lines, at: int, along: IntArray, shape: bool) -> float:
+    """Return how far the line at a place is covered between two ends; 0 where there is no line."""
+    index = np.flatnonzero(lines.at == at)
+    if not len(index) or along[1] <= along[0]:
+        return 0.0
+    covered = lines.in_relief if shape else lines.covered
+    return float(covered(index, along[0], along[1])[0])

@@ -1,0 +1,268 @@
+"""Parts that somebody states: ``fridge.parts.json`` or ``.parts.toml`` beside ``fridge.glb``.
+
+A person, a vision-language model or a script says which parts open; where exactly they are is found
+on the mesh. The classes here are the file's format, and its JSON schema is made from them.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import tomllib
+from collections.abc import Iterator, Mapping
+from difflib import get_close_matches
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from msgspec import Meta, Struct, ValidationError, convert
+
+from asset_factory.sim_checks.read.document import inside
+
+from ..errors import ConfigError, InputRejected
+from ..geometry.crossings import Side
+from ..part import PartKind
+from .files import InputFiles
+from .reads import ABSENT, note_link_out, note_read
+
+MOST_BYTES = 256 * 1024
+MOST_PARTS = 128
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_.-]{0,63}")
+
+Share = Annotated[float, Meta(ge=0.0, le=1.0)]
+#: Left, lower, right and upper edge, in shares of a side's picture: x to the right, y up.
+Box = tuple[Share, Share, Share, Share]
+
+
+class Hinge(StrEnum):
+    """Edge at which a part is hinged: of its side's picture, or of the object seen from above."""
+
+    LEFT = "left"
+    RIGHT = "right"
+    TOP = "top"
+    BOTTOM = "bottom"
+    FRONT = "front"
+    BACK = "back"
+
+
+class StatedView(Struct, frozen=True, forbid_unknown_fields=True):
+    """Where a part is seen on one side.
+
+    Attributes:
+        side: as somebody sees it who stands before the object's front.
+        box: the part's rectangle there.
+    """
+
+    side: Side
+    box: Box
+
+    def __post_init__(self) -> None:
+        if self.box[0] >= self.box[2] or self.box[1] >= self.box[3]:
+            raise ValueError("box is [x0, y0, x1, y1] with x0 < x1 and y0 < y1")
+
+
+class StatedAlternative(Struct, frozen=True, forbid_unknown_fields=True):
+    """Another way in which a part may open.
+
+    Attributes:
+        kind: what else it may be; as stated, if left out.
+        hinge: where else it may be hinged; ``None``: wherever fits.
+    """
+
+    kind: PartKind | None = None
+    hinge: Hinge | None = None
+
+
+class StatedPart(Struct, frozen=True, forbid_unknown_fields=True):
+    """One part that opens; everything but its kind may be left out.
+
+    Attributes:
+        kind: ``door``, ``drawer``, ``flap``, ``lid``, ``knob`` ...
+        side: on which it is seen.
+        box: its rectangle on that side; a lid on top is stated by a side's box above its seam.
+        hinge: edge of the box, or, of a lid, edge of the object; left out: wherever fits.
+        name: of the link.
+        range: joint limits [deg] or [mm], with 0 as drawn.
+        parent: name of the part that carries it.
+        count: of alike parts whose places are not stated.
+        drawn: how far it stands open in the mesh [deg] or [mm], or ``"open"``.
+        alternatives: other ways in which it may open, tried after this one.
+        also: where further sides show it, which bounds its depth.
+    """
+
+    kind: PartKind
+    side: Side | None = None
+    box: Box | None = None
+    hinge: Hinge | None = None
+    name: str | None = None
+    range: tuple[float, float] | None = None
+    parent: str | None = None
+    count: Annotated[int, Meta(ge=1, le=MOST_PARTS)] = 1
+    drawn: float | Literal["open"] | None = None
+    alternatives: tuple[StatedAlternative, ...] = ()
+    also: tuple[StatedView, ...] = ()
+
+    def __post_init__(self) -> None:
+        for broken in _faults_of(self):
+            raise ValueError(broken)
+
+    @property
+    def view(self) -> StatedView | None:
+        """Return where it is seen, if that is stated."""
+        if self.side is None or self.box is None:
+            return None
+        return StatedView(self.side, self.box)
+
+
+class Stated(Struct, frozen=True, forbid_unknown_fields=True):
+    """All that a file states of one object.
+
+    Attributes:
+        front: axis of the object frame (z up) towards which its front looks.
+        opens: ``false``: nothing does.
+        size: width, depth and height of the mesh that it was written for, in any unit: one whose
+            sides are otherwise to one another is refused.
+        parts: that open.
+    """
+
+    front: Literal["-y", "y", "-x", "x"] = "-y"
+    opens: bool = True
+    size: tuple[float, float, float] | None = None
+    parts: Annotated[tuple[StatedPart, ...], Meta(max_length=MOST_PARTS)] = ()
+
+    def __post_init__(self) -> None:
+        if self.size is not None and not all(0.0 < each < math.inf for each in self.size):
+            raise ValueError("size is three positive numbers: width, depth and height")
+        if not self.opens and self.parts:
+            raise ValueError("opens is false and parts are stated, want one of the two")
+        names = [part.name for part in self.parts if part.name is not None]
+        for name in sorted(set(names)):
+            if names.count(name) > 1:
+                raise ValueError(f"{names.count(name)} parts are named {name!r}, want one each")
+        for part in self.parts:
+            if part.parent is not None and part.parent not in names:
+                near = _meant(part.parent, names)
+                raise ValueError(f"parent {part.parent[:64]!r} is no part's name{near}")
+
+
+#: Kinds that open.
+OPENING_KINDS = tuple(kind for kind in PartKind if kind not in (PartKind.BODY, PartKind.PART))
+_CHOICES: Mapping[str, tuple[str, ...]] = {
+    "kind": OPENING_KINDS,
+    "side": tuple(side for side in Side if side is not Side.BOTTOM),
+    "hinge": tuple(Hinge),
+}
+_INNER: Mapping[str, type[Struct]] = {
+    "parts": StatedPart,
+    "alternatives": StatedAlternative,
+    "also": StatedView,
+}
+
+
+def read_stated(path: Path, files: InputFiles) -> Stated | None:
+    """Return the parts that are stated beside mesh file ``path``; ``None`` if there is no file.
+
+    Raises:
+        InputRejected: ``bad_sidecar``, with the place and what it may contain.
+    """
+    for candidate in stated_paths(path):
+        if candidate.is_file():
+            return _parse(candidate, files)
+        note_read(candidate, ABSENT)
+    return None
+
+
+def stated_paths(path: Path) -> tuple[Path, ...]:
+    """Return where the stated parts of mesh file ``path`` may be, the one that wins first."""
+    stems = (path.name, path.stem)
+    return tuple(path.with_name(stem + end) for stem in stems for end in _ENDS)
+
+
+_ENDS = (".parts.json", ".parts.toml")
+
+
+def stated_from(values: object) -> Stated:
+    """Return the statement that a decoded JSON or TOML document makes.
+
+    Raises:
+        ConfigError: with the place, what is wrong there and what would be right.
+    """
+    for fault in _wrong_words(values, Stated, "$"):
+        raise ConfigError(fault)
+    try:
+        return convert(values, Stated)
+    except ValidationError as error:
+        raise ConfigError(str(error)) from error
+
+
+def _parse(path: Path, files: InputFiles) -> Stated:
+    if path.stat().st_size > MOST_BYTES:
+        raise _bad(path, f"is {path.stat().st_size} bytes, want at most {MOST_BYTES}")
+    if not inside(path, path.parent.resolve()):
+        note_link_out(path, path.parent)
+        raise InputRejected(
+            "external_reference", f"{path.name}: is a link that leads outside the input's folder"
+        )
+    text = files.read(path)
+    form = "TOML" if path.suffix == ".toml" else "JSON"
+    try:
+        decoded = text.decode("utf-8")
+        values = tomllib.loads(decoded) if form == "TOML" else json.loads(decoded)
+    except (ValueError, RecursionError) as error:
+        raise _bad(path, f"is not {form}: {error}") from error
+    try:
+        return stated_from(values)
+    except ConfigError as error:
+        raise _bad(path, str(error)) from error
+
+
+def _wrong_words(values: object, form: type[Struct], place: str) -> Iterator[str]:
+    """Yield what is called by a name that nothing has, and which name may be meant."""
+    if not isinstance(values, dict):
+        return
+    for key, value in values.items():
+        known = form.__struct_fields__
+        if key not in known:
+            yield f"{place} does not know {str(key)[:64]!r}{_meant(str(key), known)}"
+        elif key in _CHOICES and value is not None and value not in _CHOICES[key]:
+            yield f"{place}.{key} is {str(value)[:64]!r}{_meant(str(value), _CHOICES[key])}"
+        elif key in _INNER and isinstance(value, list):
+            for number, entry in enumerate(value):
+                yield from _wrong_words(entry, _INNER[key], f"{place}.{key}[{number}]")
+
+
+def _meant(word: str, known: tuple[str, ...] | list[str]) -> str:
+    near = get_close_matches(word, known, n=1)
+    if near:
+        return f"; did you mean {str(near[0])!r}?"
+    return f"; known are {', '.join(known)}" if known else ""
+
+
+def _faults_of(part: StatedPart) -> Iterator[str]:
+    """Yield what of a part contradicts itself."""
+    if part.name is not None and not NAME.fullmatch(part.name):
+        yield "name is a letter and then at most 63 letters, digits, '_', '-' or '.'"
+    if (part.side is None) != (part.box is None):
+        yield "side and box come together"
+    if part.box is not None and (part.box[0] >= part.box[2] or part.box[1] >= part.box[3]):
+        yield "box is [x0, y0, x1, y1] with x0 < x1 and y0 < y1"
+    if part.count > 1 and (part.box is not None or part.name is not None):
+        yield "count is for parts without a box or a name"
+    if part.kind is PartKind.DRAWER and part.hinge is not None:
+        yield "a drawer slides, so that it has no hinge"
+    if part.range is not None and not -math.inf < part.range[0] < part.range[1] < math.inf:
+        yield "range is [lower, upper] with lower < upper"
+    if isinstance(part.drawn, float) and not math.isfinite(part.drawn):
+        yield 'drawn is a number, degrees or millimetres, or "open"'
+
+
+def _bad(path: Path, why: str) -> InputRejected:
+    return InputRejected("bad_sidecar", f"{path.name}: {why}")
+
+
+def schema() -> dict[str, Any]:
+    """Return the JSON schema of the file."""
+    from msgspec.json import schema as schema_of
+
+    return schema_of(Stated)

@@ -1,0 +1,150 @@
+"""A sidecar of parts is read strictly, and says what is wrong where."""
+
+import json
+import math
+from contextlib import suppress
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from asset_factory.factory.config import IntakeConfig
+from asset_factory.factory.errors import ConfigError, InputRejected
+from asset_factory.factory.geometry.crossings import Side
+from asset_factory.factory.intake.files import InputFiles
+from asset_factory.factory.intake.stated import (
+    MOST_BYTES,
+    MOST_PARTS,
+    Hinge,
+    read_stated,
+    schema,
+    stated_from,
+)
+from asset_factory.factory.part import PartKind
+
+DOOR = {"kind": "door", "side": "front", "box": [0.1, 0.1, 0.9, 0.9]}
+
+
+def read(tmp_path, text, name="fridge.parts.json"):
+    (tmp_path / name).write_text(text)
+    return read_stated(tmp_path / "fridge.glb", InputFiles(tmp_path, IntakeConfig()))
+
+
+def refused(tmp_path, text, name="fridge.parts.json"):
+    with pytest.raises(InputRejected) as caught:
+        read(tmp_path, text, name)
+    assert caught.value.code == "bad_sidecar"
+    assert name in str(caught.value)
+    return str(caught.value)
+
+
+def test_without_a_file_nothing_is_stated(tmp_path):
+    assert read_stated(tmp_path / "fridge.glb", InputFiles(tmp_path, IntakeConfig())) is None
+
+
+def test_json_and_toml_state_the_same(tmp_path):
+    by_json = read(tmp_path, json.dumps({"parts": [{**DOOR, "hinge": "left"}]}))
+    (tmp_path / "fridge.parts.json").unlink()
+    toml = '[[parts]]\nkind = "door"\nside = "front"\nbox = [0.1, 0.1, 0.9, 0.9]\nhinge = "left"\n'
+    assert read(tmp_path, toml, "fridge.parts.toml") == by_json
+    (part,) = by_json.parts
+    assert (part.kind, part.side, part.hinge) == (PartKind.DOOR, Side.FRONT, Hinge.LEFT)
+
+
+def test_the_name_with_its_ending_wins(tmp_path):
+    (tmp_path / "fridge.glb.parts.json").write_text('{"opens": false}')
+    assert read(tmp_path, "{}").opens is False
+
+
+def test_a_kind_alone_is_enough():
+    assert stated_from({"parts": [{"kind": "drawer", "count": 3}]}).parts[0].count == 3
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        ({"part": []}, "did you mean 'parts'?"),
+        ({"parts": [{"kind": "dor"}]}, "$.parts[0].kind is 'dor'; did you mean 'door'?"),
+        ({"parts": [{"kind": "body"}]}, "$.parts[0].kind is 'body'"),
+        ({"parts": [{**DOOR, "hing": "left"}]}, "does not know 'hing'; did you mean 'hinge'?"),
+        ({"parts": [{**DOOR, "side": "frnt"}]}, "$.parts[0].side is 'frnt'"),
+        ({"parts": [{**DOOR, "side": "bottom"}]}, "$.parts[0].side is 'bottom'"),
+        ({"parts": [{**DOOR, "also": [{"sid": "top"}]}]}, "$.parts[0].also[0] does not know 'sid'"),
+        ({"parts": [{**DOOR, "box": [0, 0, 2, 1]}]}, "$.parts[0].box[2]"),
+        ({"parts": [{**DOOR, "box": [0, 1, 1, 0]}]}, "x0 < x1 and y0 < y1"),
+        ({"parts": [{**DOOR, "box": [0, 1]}]}, "$.parts[0].box"),
+        ({"parts": [{"kind": "door", "side": "front"}]}, "side and box come together"),
+        ({"parts": [{**DOOR, "count": 2}]}, "count is for parts without a box"),
+        ({"parts": [{**DOOR, "name": "<b>door</b>"}]}, "name is a letter"),
+        ({"parts": [{**DOOR, "name": "a"}, {**DOOR, "name": "a"}]}, "2 parts are named 'a'"),
+        ({"parts": [{**DOOR, "parent": "left"}]}, "parent 'left' is no part's name"),
+        ({"parts": [{**DOOR, "range": [1, 0]}]}, "range is [lower, upper]"),
+        ({"parts": [{**DOOR, "drawn": "shut"}]}, "$.parts[0].drawn"),
+        ({"parts": [{"kind": "drawer", "hinge": "left"}]}, "a drawer slides"),
+        ({"parts": [DOOR] * (MOST_PARTS + 1)}, "$.parts"),
+        ({"opens": False, "parts": [DOOR]}, "want one of the two"),
+        ({"size": [1, 0, 1]}, "size is three positive numbers"),
+        ({"parts": 3}, "$.parts"),
+        ([], "Expected `object`"),
+    ],
+)
+def test_what_cannot_be_meant_is_refused_with_its_place(values, said):
+    with pytest.raises(ConfigError) as caught:
+        stated_from(values)
+    assert said in str(caught.value)
+
+
+@pytest.mark.parametrize("text", ["{", "[" * 100_000, "\x00", '{"parts": [{"kind": NaN}]}'])
+def test_broken_text_is_refused(tmp_path, text):
+    refused(tmp_path, text)
+
+
+def test_a_box_is_no_place_for_infinity(tmp_path):
+    text = json.dumps({"parts": [{**DOOR, "box": [0.0, 0.0, math.inf, 1.0]}]})
+    assert "box" in refused(tmp_path, text)
+    text = json.dumps({"parts": [{**DOOR, "box": [0.0, 0.0, math.nan, 1.0]}]})
+    assert "box" in refused(tmp_path, text)
+
+
+def test_a_huge_file_is_refused_unread(tmp_path):
+    assert f"at most {MOST_BYTES}" in refused(tmp_path, " " * (MOST_BYTES + 1))
+
+
+def test_a_link_out_of_the_folder_is_refused(tmp_path):
+    (tmp_path / "secret.json").write_text("{}")
+    inner = tmp_path / "inner"
+    inner.mkdir()
+    (inner / "fridge.parts.json").symlink_to(tmp_path / "secret.json")
+    with pytest.raises(InputRejected) as caught:
+        read_stated(inner / "fridge.glb", InputFiles(inner, IntakeConfig()))
+    assert caught.value.code == "external_reference"
+
+
+JSON = st.recursive(
+    st.none() | st.booleans() | st.floats() | st.integers() | st.text(max_size=8),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=8), inner),
+    max_leaves=8,
+)
+FIELDS = st.sampled_from(["kind", "side", "box", "hinge", "name", "range", "drawn", "also"])
+
+
+@given(st.lists(st.dictionaries(FIELDS, JSON), max_size=3))
+def test_any_document_is_a_statement_or_a_sentence(parts):
+    with suppress(ConfigError):
+        assert len(stated_from({"parts": parts}).parts) == len(parts)
+
+
+def test_the_schema_names_every_field():
+    text = json.dumps(schema())
+    for name in (
+        "parts",
+        "front",
+        "opens",
+        "size",
+        "box",
+        "hinge",
+        "drawn",
+        "alternatives",
+        "also",
+    ):
+        assert f'"{name}"' in text
