@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -28,12 +29,14 @@ class DescriptionError(ValueError):
     Attributes:
         code: stable reason code, e.g. ``missing_file``, ``outside_folder``, ``invalid_xml``.
         message: one sentence: what, where, what would work.
+        places: where a file was looked for that is missing, or that is not to be read.
     """
 
-    def __init__(self, code: str, message: str) -> None:
-        super().__init__(code, message)
+    def __init__(self, code: str, message: str, places: Sequence[Path] = ()) -> None:
+        super().__init__(code, message, places)
         self.code = code
         self.message = message
+        self.places = tuple(places)
 
     def __str__(self) -> str:
         return f"{self.code}: {self.message}"

@@ -79,7 +79,7 @@ def manifest_of(layout: Layout, provenance: Provenance) -> Manifest:
 
 
 def tool_versions() -> dict[str, str | None]:
-    """Installed versions of what made the asset; ``None`` for what is not installed."""
+    """Return the installed versions of what made the asset; ``None`` for what is not installed."""
     versions: dict[str, str | None] = {}
     for tool in TOOLS:
         try:
@@ -90,7 +90,7 @@ def tool_versions() -> dict[str, str | None]:
 
 
 def hull_aspect(hull: Hull) -> float:
-    """Longest over shortest side of a hull's principal box; GPU PhysX refuses oblong hulls."""
+    """Return longest over shortest side of a hull's principal box, which GPU PhysX limits."""
     centered = hull.vertices - hull.vertices.mean(axis=0)
     _, _, axes = np.linalg.svd(centered, full_matrices=False)
     sides = np.ptp(centered @ axes.T, axis=0)

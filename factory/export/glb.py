@@ -121,7 +121,7 @@ def _animations(articulation: Articulation, buffer: Buffer) -> list[dict[str, An
 
 
 def _keys(articulation: Articulation, joint: Joint, buffer: Buffer) -> tuple[int, int]:
-    """A joint's way to its upper limit and back: accessors of the times and of what is then."""
+    """Add a joint's way to its upper limit and back; return accessors of times and of poses."""
     steps = int(np.ceil((joint.upper - joint.lower) / KEY_STEP)) if joint.turns else 1
     share = np.linspace(0.0, 1.0, max(steps, 1) + 1)
     times = np.concatenate([share * OPENING_S, OPENING_S + RESTING_S + share * OPENING_S])

@@ -90,7 +90,7 @@ def lay_out(asset: Asset, folder: Path, excluded_pairs: tuple[tuple[str, str], .
 
 
 def child_offset(articulation: Articulation, part: int) -> FloatArray:
-    """A link frame's origin in its parent's at rest [m], shape [3]; the axes are parallel."""
+    """Return a link frame's origin in its parent's at rest [m], shape [3]; axes are parallel."""
     joint = articulation.parent_joint(part)
     return np.zeros(3) if joint is None else joint.origin - articulation.link_frame(joint.parent)
 

@@ -15,7 +15,7 @@ FEWEST_VERTICES = 4
 
 
 def hull_obj(hull: Hull, origin: FloatArray) -> str:
-    """One convex piece as OBJ, in a link frame with its origin at ``origin`` [m], object frame."""
+    """Return a convex piece as OBJ, in a link frame at ``origin`` [m] in the object frame."""
     return _lines([*vectors("v", hull.vertices - origin), *_faces(hull.faces, None, None)])
 
 
@@ -69,7 +69,7 @@ def _lines(lines: list[str]) -> str:
 def _corner_table(
     corners: FloatArray | None, missing: FloatArray
 ) -> tuple[FloatArray, IntArray | None]:
-    """Distinct rounded corner values, sorted, and each corner's index, shape [face_count, 3]."""
+    """Return distinct rounded corner values, sorted, and each corner's index, [face_count, 3]."""
     if corners is None or not np.isfinite(corners).any():
         return np.zeros((0, len(missing))), None
     complete = np.where(np.isfinite(corners).all(axis=-1, keepdims=True), corners, missing)
@@ -79,7 +79,7 @@ def _corner_table(
 
 
 def filled_normals(mesh: Mesh) -> FloatArray:
-    """Corner normals, with the face's own where the input had none, so edges stay sharp there."""
+    """Return corner normals; where the input had none the face's own, so edges stay sharp there."""
     corners = mesh.vertices[mesh.faces]
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(cross, axis=1, keepdims=True)

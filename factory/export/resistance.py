@@ -77,12 +77,12 @@ class Resistance:
 
     @property
     def armature(self) -> float:
-        """Added to ``inertia`` in MuJoCo [kg m2] or [kg]."""
+        """Return what is added to ``inertia`` in MuJoCo [kg m2] or [kg]."""
         return ARMATURE_SHARE * self.inertia
 
 
 def joint_resistances(asset: Asset) -> tuple[Resistance, ...]:
-    """One per joint, in order; stated values win if engines can bear them, 0 for fixed joints."""
+    """Return one per joint; stated values win if engines bear them, 0 for fixed joints."""
     articulation = asset.articulation
     closed = articulation.poses({joint.name: joint.lower for joint in articulation.joints})
     return tuple(_resistance(asset, joint, closed) for joint in articulation.joints)
@@ -161,7 +161,7 @@ def _reach(asset: Asset, carried: tuple[int, ...], joint: Joint, otherwise: floa
 def _gravity_opens(
     asset: Asset, carried: tuple[int, ...], joint: Joint, closed: FloatArray
 ) -> float:
-    """Generalised gravity force that opens, every joint at lower [N m] or [N]; at least 0."""
+    """Return the gravity force that opens, every joint at lower [N m] or [N]; at least 0."""
     frame = closed[joint.parent]
     axis = frame[:3, :3] @ joint.axis
     origin = frame[:3, :3] @ joint.origin + frame[:3, 3]

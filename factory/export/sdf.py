@@ -78,7 +78,7 @@ def _mesh(parent: ElementTree.Element, file: str) -> ElementTree.Element:
 
 
 def _material(piece: VisualPiece) -> ElementTree.Element:
-    """Its colour; and its texture for renderers that take one, others read it beside the OBJ."""
+    """Write a colour, and a texture for renderers that take one; others read it beside the OBJ."""
     material = Element("material")
     red, green, blue = srgb_of(piece.material.color[:3])
     shown = vector([red, green, blue, piece.material.color[3]], DECIMALS_UNIT)

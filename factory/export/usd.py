@@ -164,7 +164,7 @@ def _joint(
     resistance: Resistance,
     links: list[Usd.Prim],
 ) -> None:
-    """A joint along or about the x axis of its own frame; value 0 is the rest pose."""
+    """Write a joint along or about the x axis of its own frame; value 0 is the rest pose."""
     from pxr import Gf, Sdf, UsdPhysics
 
     if not joint.movable:

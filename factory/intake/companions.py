@@ -107,7 +107,7 @@ def _folders(data: bytes, root: Path) -> Iterator[Path]:
 
 
 def _names(data: bytes) -> Iterator[str]:
-    """What may be a file's name in a text: up to a known suffix, from wherever it may begin."""
+    """Yield what may be a file's name in a text: up to a known suffix, from where it may begin."""
     seen = set()
     for found in _SUFFIX.finditer(data):
         text = _BEFORE.split(data[max(0, found.start() - _LONGEST) : found.end()])[-1]

@@ -25,7 +25,7 @@ MAIN_LAYERS = ("instance", "model", "asset")
 
 
 def find_inputs(paths: Sequence[Path]) -> tuple[Path, ...]:
-    """Mesh files and robot descriptions, each once, folders searched to any depth in sorted order.
+    """Find mesh files and robot descriptions, each once, in folders of any depth, in sorted order.
 
     A mesh that a description (``.urdf``, or ``.xml`` with the root ``mujoco``) in its folder or
     above refers to, under whatever suffix, or that lies in or below a subfolder from which it takes
@@ -116,7 +116,7 @@ def _taken(reference: str, subfolders: frozenset[str]) -> tuple[str, str]:
 
 
 def _root_tag(path: Path) -> str | None:
-    """The name of an XML file's root element; ``None`` if there is none near its beginning."""
+    """Return the name of an XML file's root element; ``None`` if none is near its beginning."""
     tags: list[str] = []
     parser = expat.ParserCreate(namespace_separator=" ")
     parser.StartElementHandler = lambda tag, _: tags.append(tag)

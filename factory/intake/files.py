@@ -42,12 +42,12 @@ class InputFiles:
 
     @property
     def digests(self) -> tuple[str, ...]:
-        """SHA-256 of each file read, in that order."""
+        """Return the SHA-256 of each file read, in that order."""
         return tuple(self._digests)
 
     @property
     def digest(self) -> str:
-        """SHA-256 over the files read, in the order they were read; of one file, its own digest."""
+        """Return the SHA-256 over the files read, in that order; of one file, its own digest."""
         if len(self._digests) == 1:
             return self._digests[0]
         return digest_bytes("\n".join(self._digests).encode())
@@ -112,7 +112,7 @@ class InputFiles:
         return path
 
     def read_reference(self, reference: str, base: Path) -> bytes:
-        """The content of the file ``reference`` names. Raises as :meth:`find` and :meth:`read`."""
+        """Return the content of a file referred to; raise as :meth:`find` and :meth:`read`."""
         return self.read(self.find(reference, base))
 
 

@@ -15,7 +15,7 @@ _JPEG_MAGIC = b"\xff\xd8\xff"
 
 
 def load_texture(data: bytes, name: str, files: InputFiles) -> Texture | None:
-    """An encoded image as a texture; PNG and JPEG keep their bytes, everything else becomes PNG.
+    """Return an encoded image as a texture; PNG and JPEG keep their bytes, others become PNG.
 
     The header's size is checked before a pixel is decoded; the image is then decoded once, so that
     no simulator meets a broken one.

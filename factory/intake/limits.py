@@ -54,6 +54,6 @@ def require_sensible_size(what: str, bounds: FloatArray) -> None:
 
 
 def unreadable(what: str, why: str) -> InputRejected:
-    """A rejection for a file that breaks its own format; ``why`` is shortened to one line."""
+    """Return the rejection of a file that breaks its format; ``why`` is cut to one line."""
     words = " ".join(why.split()) or "no reason given"
     return InputRejected("unreadable", f"{what}: {words[:240]}")

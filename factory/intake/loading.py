@@ -9,19 +9,20 @@ from pathlib import Path
 import numpy as np
 
 from ..config import IntakeConfig
-from ..errors import ConfigError, InputRejected
+from ..errors import InputRejected
 from ..geometry.clean import clean
 from ..geometry.soup import Soup
-from ..mesh import FloatArray, IntArray, Mesh
+from ..mesh import IntArray, Mesh
 from .files import InputFiles, lies_below
 from .formats.catalog import FORMATS, Reader, format_of
 from .intake import Intake, Provenance
 from .licenses import require_allowed
 from .limits import require_sensible_size, unreadable
 from .naming import safe_name, well_formed
-from .orientation import parse_up, rotation_to_z_up
+from .orientation import rotation_to_z_up
+from .placing import check_config, given_scale, given_up
 from .sidecar import Sidecar, read_sidecar
-from .sizes import Scale, guess_category, normalised, scale_by_size
+from .sizes import guess_category, normalised, scale_by_size
 
 _MOST_NOTES = 32
 _LONGEST_NOTE = 400
@@ -87,7 +88,7 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
             ``license_disallowed``.
         ConfigError: ``config.up`` or ``config.height`` cannot be.
     """
-    _check_config(config)
+    check_config(config)
     files = InputFiles(path.parent, config)
     visual = _load(path, files)
     sidecar = read_sidecar(path, files)
@@ -95,14 +96,18 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
         path.name, sidecar.license or visual.license, config.allowed_licenses, files.digest
     )
     notes = list(visual.notes)
-    up, up_source = _choose_up(path, config, sidecar)
+    form = format_of(path)
+    said = ("y", "format") if form is not None and form.y_up else ("z", "default")
+    up, up_source = given_up(config, sidecar) or said
     if up_source == "default":
         notes.append(f"The up axis was taken to be {up}: {path.suffix.lower()} does not say.")
     transform = np.eye(4)
     transform[:3, :3] = rotation_to_z_up(up)
     mesh = visual.mesh if up == "z" else visual.mesh.transformed(transform)
     category = _choose_category(path, sidecar, notes)
-    scale = _choose_scale(mesh.extents, config, sidecar, category, path.name)
+    scale = given_scale(mesh.extents, config, sidecar, path.name) or scale_by_size(
+        mesh.extents, category
+    )
     if scale.note:
         notes.append(scale.note)
     if (
@@ -163,7 +168,7 @@ def _load(path: Path, files: InputFiles) -> Visual:
 
 
 def _few(notes: tuple[str, ...]) -> tuple[str, ...]:
-    """The first of a file's complaints: a thousand missing textures need no thousand sentences."""
+    """Keep the first of a file's complaints: nobody reads of a thousand missing textures."""
     short = tuple(note[:_LONGEST_NOTE] for note in notes[:_MOST_NOTES])
     return (
         short
@@ -197,24 +202,6 @@ def _said(error: Exception) -> str:
     return f"{type(error).__name__}: {error}"
 
 
-def _check_config(config: IntakeConfig) -> None:
-    if config.up != "auto":
-        parse_up(config.up)
-    if config.height is not None and not 0.0 < config.height < float("inf"):
-        raise ConfigError(f"height {config.height}: want a positive number of metres")
-
-
-def _choose_up(path: Path, config: IntakeConfig, sidecar: Sidecar) -> tuple[str, str]:
-    if config.up != "auto":
-        return parse_up(config.up), "option"
-    if sidecar.up is not None:
-        return sidecar.up, "sidecar"
-    form = format_of(path)
-    if form is not None and form.y_up:
-        return "y", "format"
-    return "z", "default"
-
-
 def _choose_category(path: Path, sidecar: Sidecar, notes: list[str]) -> str | None:
     if sidecar.category is not None:
         return normalised(sidecar.category)
@@ -224,22 +211,3 @@ def _choose_category(path: Path, sidecar: Sidecar, notes: list[str]) -> str | No
             f"The category {category} was guessed from the name {path.parent.name}/{path.name}."
         )
     return category
-
-
-def _choose_scale(
-    extents: FloatArray, config: IntakeConfig, sidecar: Sidecar, category: str | None, name: str
-) -> Scale:
-    height, source = (
-        (config.height, "option") if config.height is not None else (sidecar.height, "sidecar")
-    )
-    if height is None:
-        return (
-            Scale(sidecar.scale, "sidecar")
-            if sidecar.scale is not None
-            else scale_by_size(extents, category)
-        )
-    if not extents[2] > 0.0:
-        raise InputRejected(
-            "zero_size", f"{name}: has no height to scale to {height:g} m; give a scale instead"
-        )
-    return Scale(height / float(extents[2]), source)

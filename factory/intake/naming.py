@@ -11,7 +11,7 @@ GENERIC_STEMS = frozenset({"asset", "mesh", "mobility", "model", "object", "scen
 
 
 def safe_name(path: Path) -> str:
-    """A name of letters, digits, ``_``, ``-`` for the asset in ``path``, e.g. ``kitchen_cabinet``.
+    """Return an asset's name, of letters, digits, ``_``, ``-``, e.g. ``kitchen_cabinet``.
 
     A generic stem such as ``mobility.urdf`` is preceded by its folder's name.
     """
@@ -26,5 +26,5 @@ def full_name(path: Path) -> str:
 
 
 def well_formed(text: str) -> str:
-    """A text that can be written as UTF-8: file names may hold surrogate-escaped raw bytes."""
+    """Return a text as UTF-8 can be written: file names may hold surrogate-escaped raw bytes."""
     return text.encode("utf-8", "backslashreplace").decode("utf-8")

@@ -42,7 +42,7 @@ def note_link_out(path: Path, folder: Path) -> None:
 
 
 def digest_read(path: Path) -> str:
-    """SHA-256 of a file, noted as read. Raises OSError if it cannot be read."""
+    """Return the SHA-256 of a file, noted as read. Raises OSError if it cannot be read."""
     digest = digest_file(path)
     note_read(path, digest)
     return digest
@@ -50,7 +50,7 @@ def digest_read(path: Path) -> str:
 
 @contextmanager
 def recorded(source: Path) -> Iterator[Reads]:
-    """Everything read for the input ``source`` while inside; filled on exit, also on errors."""
+    """Record what is read for the input ``source``; filled on exit, also on errors."""
     noted: dict[Path, str] = {}
     reads: Reads = {}
     token = _OPEN.set(noted)
@@ -90,7 +90,7 @@ def leads_out(source: Path, name: str) -> bool:
 
 
 def content_digest(path: Path) -> str:
-    """SHA-256 of a file as it is now; ``ABSENT`` if there is none or it cannot be read.
+    """Return the SHA-256 of a file as it is now; ``ABSENT`` if none is there or can be read.
 
     Of more than :data:`MOST_DIGESTED`, it is that of the size, and of how the file begins.
     """

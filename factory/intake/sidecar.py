@@ -44,7 +44,7 @@ class Sidecar:
 
 
 def read_sidecar(path: Path, files: InputFiles) -> Sidecar:
-    """The sidecar of mesh file ``path``; empty if none. The longer name wins over the shorter.
+    """Read the sidecar of mesh file ``path``; empty if none. The longer name wins.
 
     Raises:
         InputRejected: ``bad_sidecar``, with what it may contain; ``external_reference`` for its

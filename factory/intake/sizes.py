@@ -132,7 +132,7 @@ def _named_in(words: list[str], *, anywhere: bool) -> str | None:
 
 
 def _match(words: list[str], parts: list[str]) -> int:
-    """2: the same words, one plural allowed; 1: one word ends in the name; 0: neither."""
+    """Return 2 for the same words, one plural allowed; 1 if one word ends in the name; else 0."""
     if len(words) != len(parts):
         return 0
     if words == parts or [*words[:-1], words[-1].removesuffix("s")] == parts:
@@ -185,7 +185,7 @@ def scale_by_size(extents: FloatArray, category: str | None) -> Scale:
 
 
 def _best_unit(value: float, size: Size, expected: float) -> tuple[float, str] | None:
-    """The unit that makes ``value`` plausible and closest to the expected size, as a ratio."""
+    """Return the unit that makes ``value`` plausible and closest to the expected size."""
     fits = {
         (factor, name): handicap * max(value * factor / expected, expected / (value * factor))
         for factor, name, handicap in UNITS

@@ -90,12 +90,12 @@ class Source:
 
     @property
     def loaded_key(self) -> str:
-        """Of what :meth:`load` gave."""
+        """Return the key of what :meth:`load` gave."""
         return loaded_key(self.path, self.reads, self.config)
 
     @property
     def id(self) -> str:
-        """Return the same input has the same id anywhere, another one another.
+        """Return an id: of the same input the same anywhere, of another one another.
 
         What was not read to its end has one from its name and its own bytes; where it has more
         files than one, one that is no asset's, for the same bytes with other files beside them may
@@ -107,14 +107,14 @@ class Source:
 
     @property
     def unloaded_ids(self) -> tuple[str, ...]:
-        """Ids of an input not read in full: as a single file, one of several, or unlicensed."""
+        """Return ids of an input not read in full: a single file, one of several, or unlicensed."""
         place = digest_bytes(os.fsencode(self.place))
         own = content_digest(self.path) or place
         digests = (own, *(digest_bytes(f"unread {digest}".encode()) for digest in (own, place)))
         return tuple(asset_id(safe_name(self.path), self._told_apart(digest)) for digest in digests)
 
     def _told_apart(self, digest: str) -> str:
-        """The digest, and what tells apart inputs of the same bytes and the same safe name."""
+        """Return the digest, with what tells apart inputs of the same bytes and safe name."""
         by_folder = guess_category(self.path.stem, self.path.absolute().parent.name)
         other = [full_name(self.path)] if full_name(self.path) != safe_name(self.path) else []
         other += [by_folder or ""] if by_folder != guess_category(self.path.stem) else []
@@ -130,7 +130,7 @@ def _unjudged(error: OSError) -> Unjudged:
 
 
 def loaded_key(path: Path, reads: Reads, config: BuildConfig) -> str:
-    """Of what loading one input gives: its files, what its name says, and how it is read.
+    """Return the key of what loading gives: an input's files, its name, and how it is read.
 
     Args:
         path: the input.
@@ -149,5 +149,5 @@ _category = lru_cache(maxsize=1024)(guess_category)
 
 
 def asset_id(name: str, digest: str) -> str:
-    """``name`` and the first digits of the input's digest."""
+    """Return ``name`` and the first digits of the input's digest."""
     return f"{name}-{digest[:ID_DIGITS]}"

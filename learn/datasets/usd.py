@@ -17,8 +17,7 @@ from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.errors import ConfigError, InputRejected
 from asset_factory.factory.intake.discover import MAIN_LAYERS
-from asset_factory.factory.intake.importers.usd import read_annotated
-from asset_factory.factory.intake.importers.usd_layers import require_own_layers
+from asset_factory.factory.intake.importers.usd import read_annotated, require_own_layers
 from asset_factory.sim_checks.read.usd.layers import is_usd
 
 from .categories import categories_of

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -21,29 +22,43 @@ MAX_ITEMS = 1_000_000
 MAX_DEPTH = 32
 
 
-def parse_document(path: Path) -> ET.Element:
+def parse_document(path: Path, most: int = MAX_DOCUMENT_BYTES) -> ET.Element:
     """Return the root element of an XML file that declares no document type and so no entities.
 
+    Args:
+        path: of the file.
+        most: largest file that is read [bytes].
+
     Raises:
-        DescriptionError: ``missing_file``, ``too_large``, ``invalid_xml`` or ``forbidden_doctype``.
+        DescriptionError: ``missing_file``, ``unreadable``, ``too_large``, ``invalid_xml`` or
+            ``forbidden_doctype``.
     """
+    return parse_xml(read_document(path, most), path.name)
+
+
+def read_document(path: Path, most: int = MAX_DOCUMENT_BYTES) -> bytes:
+    """Return the text of an XML file, unparsed; arguments and errors as above."""
+    most = min(most, MAX_DOCUMENT_BYTES)
     try:
-        size = path.stat().st_size
-        if size > MAX_DOCUMENT_BYTES:
-            raise DescriptionError(
-                "too_large",
-                f"{path.name}: {size} bytes of XML, at most {MAX_DOCUMENT_BYTES} are read",
-            )
-        data = read_regular(path, MAX_DOCUMENT_BYTES)
+        return read_regular(path, most)
+    except FileNotFoundError as error:
+        raise DescriptionError("missing_file", f"{path.name}: is not there", (path,)) from error
     except OSError as error:
-        raise DescriptionError(
-            "missing_file", f"{path.name}: cannot be opened ({error.strerror})"
-        ) from error
+        if error.errno == errno.EFBIG:
+            size = path.stat().st_size
+            message = f"{path.name}: {size} bytes of XML, at most {most} are read"
+            raise DescriptionError("too_large", message) from error
+        message = f"{path.name}: cannot be read: {error.strerror}"
+        raise DescriptionError("unreadable", message) from error
+
+
+def parse_xml(data: bytes, name: str) -> ET.Element:
+    """Return the root element of an XML text; ``name`` opens the sentence of what is refused."""
     items = data.count(b"<") + data.count(b"=")
     if items > MAX_ITEMS:
-        message = f"{path.name}: {items} elements and attributes, at most {MAX_ITEMS} are read"
+        message = f"{name}: {items} elements and attributes, at most {MAX_ITEMS} are read"
         raise DescriptionError("too_large", message)
-    with _refusing(path.name):
+    with _refusing(name):
         root: ET.Element = fromstring(data, forbid_dtd=True)
         return root
 
@@ -64,7 +79,7 @@ class _NoTree:
     """What a parser builds that is only to look."""
 
     def close(self) -> None:
-        """The end of the document."""
+        """End the document."""
 
 
 @contextmanager
@@ -74,10 +89,11 @@ def _refusing(name: str) -> Iterator[None]:
     except DTDForbidden as error:
         raise DescriptionError(
             "forbidden_doctype",
-            f"document type {error.name!r} declared; entities are not read, remove it",
+            f"{name}: declares a document type or entities; "
+            "remove the <!DOCTYPE ...> to have it read",
         ) from error
     except (ET.ParseError, ValueError, LookupError) as error:
-        raise DescriptionError("invalid_xml", f"{name}: {error}") from error
+        raise DescriptionError("invalid_xml", f"{name}: is no XML: {error}") from error
 
 
 def find_file(reference: str, folder: Path) -> Path:
@@ -89,14 +105,12 @@ def find_file(reference: str, folder: Path) -> Path:
     Raises:
         DescriptionError: ``outside_folder`` or ``missing_file``.
     """
-    for place in locate(reference, folder.resolve()):
-        # Path.is_file raises at names that are too long.
-        with suppress(OSError):
-            if place.is_file():
-                return place.resolve()
-    raise DescriptionError(
-        "missing_file", f"{reference[:160]!r}: no such file in the description's folder"
-    )
+    places = locate(reference, folder.resolve())
+    for place in places:
+        if is_file(place):
+            return place.resolve()
+    message = f"{reference[:160]!r}: no such file in the description's folder"
+    raise DescriptionError("missing_file", message, places)
 
 
 def locate(reference: str, folder: Path) -> list[Path]:
@@ -106,24 +120,31 @@ def locate(reference: str, folder: Path) -> list[Path]:
         DescriptionError: ``outside_folder``.
     """
     scheme, _, rest = reference.rpartition("://")
-    if scheme in ("package", "model"):
+    if scheme.lower() in ("package", "model"):
         parts = PurePosixPath(rest).parts
         places = [
             folder.joinpath(*parts[start:])
             for start in range(max(0, len(parts) - MAX_DEPTH), len(parts))
         ]
-    elif scheme in ("", "file"):
+    elif scheme.lower() in ("", "file"):
         places = [folder / (rest if scheme else reference).replace("\\", "/")]
     else:
         raise DescriptionError(
-            "outside_folder", f"{reference[:160]!r}: only files beside the description are read"
+            "outside_folder",
+            f"{reference[:160]!r} is an address; only files beside the description are read",
         )
-    places = [place for place in places if inside(place, folder)]
-    if not places:
-        raise DescriptionError(
-            "outside_folder", f"{reference[:160]!r} leaves the description's folder; copy it inside"
-        )
-    return places
+    within = [place for place in places if inside(place, folder)]
+    if not within:
+        message = f"{reference[:160]!r} leaves the description's folder; copy it inside"
+        raise DescriptionError("outside_folder", message, places)
+    return within
+
+
+def is_file(place: Path) -> bool:
+    """Return whether a file lies there; none has a name that is too long."""
+    with suppress(OSError):
+        return place.is_file()
+    return False
 
 
 def inside(path: Path, folder: Path) -> bool:

@@ -6,46 +6,28 @@ import os
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..description import (
     DescribedShape,
     Description,
-    DescriptionError,
     FloatArray,
     IntArray,
     JointLine,
     Link,
-    LinkInertia,
     Mimic,
 )
+from ..geometry.kinematics import rotation_about
 from .document import parse_document
-from .multiplied import MOST, refuse_multiplied
-from .native import COMPILER_BYTES, memory_bounded
+from .mjcf_model import MESH, CompiledGeom, CompiledJoint, CompiledModel, compile_model
+from .multiplied import refuse_multiplied
 from .primitives import box, capsule, cylinder, ellipsoid
-from .references import refuse_outside_mjcf
-
-if TYPE_CHECKING:
-    from mujoco import MjModel
-
-#: mjtGeom and mjtJoint, https://mujoco.readthedocs.io/en/stable/APIreference/APItypes.html
-SPHERE = 2
-CAPSULE = 3
-ELLIPSOID = 4
-CYLINDER = 5
-BOX = 6
-MESH = 7
-FREE = 0
-BALL = 1
-SLIDE = 2
-#: mjtEq
-EQUALITY_JOINT = 2
+from .references import named_files
 
 
 def read_mjcf(path: Path) -> Description:
-    """Compile an MJCF file with MuJoCo and read back bodies, joints and geoms.
+    """Compile an MJCF file with MuJoCo and describe its bodies, joints and geoms.
 
     A geom collides when ``contype`` or ``conaffinity`` is set, else it is visual; planes and height
     fields are left out. A joint that does not pass through its body's origin, and all but the last
@@ -55,122 +37,126 @@ def read_mjcf(path: Path) -> Description:
     Raises:
         DescriptionError: with MuJoCo's own words.
     """
-    import mujoco  # the engine's own compiler is the only true reader of its format
-
     document = parse_document(path)
-    refuse_outside_mjcf(path, document)
+    named_files(path, document)
     refuse_multiplied(path, document)
-    # Its own way is a log file in whatever folder the program was started from.
-    mujoco.set_mju_user_warning(_say)
-    # It remembers meshes by their file's name and the second they were written in.
-    mujoco.mj_clearCache(mujoco.mj_getCache())
-    try:
-        with memory_bounded(COMPILER_BYTES):
-            model = mujoco.MjModel.from_xml_path(str(path.resolve()))
-    except MemoryError as error:
-        raise DescriptionError("too_large", f"{path.name}: {error}") from error
-    except (ValueError, RuntimeError, mujoco.FatalError) as error:
-        raise DescriptionError("unreadable", f"{path.name}: {error}") from error
-    _refuse_many(path.name, model)
-    links: list[Link] = []
-    joints: list[JointLine] = []
-    for body in range(model.nbody):
-        if body > 0:
-            _place(model, body, links, joints)
-        collisions, visuals = _shapes(model, body, path.resolve().parent)
-        links.append(Link(_body_name(model, body), _inertia(model, body), collisions, visuals))
-    mimics = _mimics(model)
-    followed = tuple(replace(joint, mimic=mimics.get(joint.name)) for joint in joints)
-    return Description(path, "mjcf", tuple(links), followed, _excluded(model))
+    model = compile_model(path)
+    return _Describer(model, path.parent.resolve()).describe(path)
 
 
-def _refuse_many(name: str, model: MjModel) -> None:
-    for what, count, most in (
-        ("bodies", model.nbody, MOST["bodies"]),
-        ("geoms", model.ngeom, MOST["geoms"]),
-    ):
-        if count > most:
-            raise DescriptionError(
-                "too_large", f"{name}: {count} {what} once compiled, at most {most} are read"
-            )
+class _Describer:
+    """Says of a compiled model what a description says."""
 
+    def __init__(self, model: CompiledModel, folder: Path) -> None:
+        self._model = model
+        self._folder = folder
+        self._names = [body.name or f"body{index}" for index, body in enumerate(model.bodies)]
+        self._joints: list[list[int]] = [[] for _ in model.bodies]
+        for index, joint in enumerate(model.joints):
+            self._joints[joint.body].append(index)
+        self._geoms: list[list[CompiledGeom]] = [[] for _ in model.bodies]
+        for geom in model.geoms:
+            self._geoms[geom.body].append(geom)
+        self._links: list[Link] = []
+        self._lines: list[JointLine] = []
 
-def _say(words: str) -> None:
-    os.write(2, f"MuJoCo: {words}\n".encode())
+    def describe(self, path: Path) -> Description:
+        for index, body in enumerate(self._model.bodies):
+            if index > 0:
+                self._place(index)
+            shapes = [
+                (geom.collides, shape)
+                for geom in self._geoms[index]
+                if (shape := self._shape(geom)) is not None
+            ]
+            collisions = tuple(shape for collides, shape in shapes if collides)
+            visuals = tuple(shape for collides, shape in shapes if not collides)
+            self._links.append(Link(self._names[index], body.inertia, collisions, visuals))
+        mimics = self._mimics()
+        joints = tuple(replace(line, mimic=mimics.get(line.name)) for line in self._lines)
+        return Description(path, "mjcf", tuple(self._links), joints, self._excluded())
 
+    def _joint_name(self, index: int) -> str:
+        joint = self._model.joints[index]
+        place = self._joints[joint.body].index(index)
+        return joint.name or f"{self._names[joint.body]}_joint{place}"
 
-def _mimics(model: MjModel) -> dict[str, Mimic]:
-    """Follower -> leader of joint equalities; of the polynomial, only constant and linear part.
+    def _mimics(self) -> dict[str, Mimic]:
+        """Return follower -> leader of joint equalities; only constant and linear part.
 
-    An equality that names no second joint locks the first one; there is no leader to tell.
-    """
-    found: dict[str, Mimic] = {}
-    for index in np.flatnonzero((model.eq_type == EQUALITY_JOINT) & (model.eq_active0 != 0)):
-        follower = int(model.eq_obj1id[index])
-        leader = int(model.eq_obj2id[index])
-        if leader < 0:
-            continue
-        constant, linear = (float(number) for number in model.eq_data[index, :2])
-        # The polynomial speaks of how far both joints are from their reference.
-        here, there = (
-            float(model.qpos0[int(model.jnt_qposadr[joint])]) for joint in (follower, leader)
-        )
-        mimic = Mimic(_joint_name(model, leader), linear, here + constant - linear * there)
-        found.setdefault(_joint_name(model, follower), mimic)
-    return found
+        An equality that names no second joint locks the first one; there is no leader to tell.
+        """
+        found: dict[str, Mimic] = {}
+        for equality in self._model.equalities:
+            follower, leader = equality.joints
+            if equality.kind != "joint" or not equality.active or leader < 0:
+                continue
+            # The polynomial speaks of how far both joints are from their reference.
+            here, there = (self._model.joints[index].reference for index in equality.joints)
+            offset = here + equality.constant - equality.linear * there
+            mimic = Mimic(self._joint_name(leader), equality.linear, offset)
+            found.setdefault(self._joint_name(follower), mimic)
+        return found
 
+    def _excluded(self) -> frozenset[frozenset[str]]:
+        """Return the pairs of bodies excluded by name, or whose contact bits never meet."""
+        pairs = set(self._model.excluded)
+        types, affinities = np.zeros((2, len(self._names)), dtype=np.int64)
+        for geom in self._model.geoms:
+            types[geom.body] |= geom.contact_type
+            affinities[geom.body] |= geom.contact_affinity
+        meet = (types[:, None] & affinities[None, :]) | (affinities[:, None] & types[None, :])
+        solid = (types | affinities) != 0
+        pairs |= {
+            (int(a), int(b)) for a, b in np.argwhere((meet == 0) & solid[:, None] & solid[None, :])
+        }
+        return frozenset(frozenset((self._names[a], self._names[b])) for a, b in pairs if a != b)
 
-def _excluded(model: MjModel) -> frozenset[frozenset[str]]:
-    """Return the pairs of bodies excluded by name, or whose contact bits never meet."""
-    pairs = {divmod(int(signature), 1 << 16) for signature in model.exclude_signature}
-    types = np.zeros(model.nbody, dtype=np.int64)
-    affinities = np.zeros(model.nbody, dtype=np.int64)
-    np.bitwise_or.at(types, model.geom_bodyid, model.geom_contype)
-    np.bitwise_or.at(affinities, model.geom_bodyid, model.geom_conaffinity)
-    meet = (types[:, None] & affinities[None, :]) | (affinities[:, None] & types[None, :])
-    solid = (types | affinities) != 0
-    pairs |= {
-        (int(a), int(b)) for a, b in np.argwhere((meet == 0) & solid[:, None] & solid[None, :])
-    }
-    return frozenset(
-        frozenset((_body_name(model, a), _body_name(model, b))) for a, b in pairs if a != b
-    )
+    def _place(self, body: int) -> None:
+        """Append the joints that hold a body, and the virtual links between them."""
+        name = self._names[body]
+        parent = self._names[self._model.bodies[body].parent]
+        pending = self._model.bodies[body].pose
+        for index in self._joints[body]:
+            joint = self._model.joints[index]
+            label = self._joint_name(index)
+            if joint.kind in ("free", "ball"):
+                word = "floating" if joint.kind == "free" else "ball"
+                child = self._virtual(name, label)
+                self._lines.append(_line(label, word, parent, child, pending))
+                pending = np.eye(4)
+            else:
+                last = index == self._joints[body][-1] and not joint.anchor.any()
+                child = name if last else self._virtual(name, label)
+                before = pending @ _translation(joint.anchor) @ _undo_reference(joint)
+                self._lines.append(_moving(joint, label, (parent, child), before))
+                pending = _translation(-joint.anchor)
+            parent = child
+        if parent != name:
+            self._lines.append(_line(f"{name}_fixed", "fixed", parent, name, pending))
 
+    def _virtual(self, body: str, joint: str) -> str:
+        name = f"{body}@{joint}"
+        self._links.append(Link(name, None, (), (), virtual=True))
+        return name
 
-def _place(model: MjModel, body: int, links: list[Link], joints: list[JointLine]) -> None:
-    """Append the joints that hold a body, and the virtual links between them."""
-    name = _body_name(model, body)
-    parent = _body_name(model, int(model.body_parentid[body]))
-    pending = _pose(model.body_pos[body], model.body_quat[body])
-    first = int(model.body_jntadr[body])
-    count = int(model.body_jntnum[body])
-    for index in range(first, first + count):
-        kind = int(model.jnt_type[index])
-        joint_name = _joint_name(model, index)
-        if kind in (FREE, BALL):
-            word = "floating" if kind == FREE else "ball"
-            joints.append(
-                _line(joint_name, word, parent, _virtual(name, joint_name, links), pending)
-            )
-            parent = joints[-1].child
-            pending = np.eye(4)
-            continue
-        axis = np.array(model.jnt_axis[index])
-        anchor = np.array(model.jnt_pos[index])
-        before = pending @ _translation(anchor) @ _undo_reference(model, index, axis)
-        last = index == first + count - 1 and not anchor.any()
-        child = name if last else _virtual(name, joint_name, links)
-        joints.append(_moving(model, index, joint_name, (parent, child), before))
-        parent = child
-        pending = _translation(-anchor)
-    if parent != name:
-        joints.append(_line(f"{name}_fixed", "fixed", parent, name, pending))
-
-
-def _virtual(body: str, joint: str, links: list[Link]) -> str:
-    name = f"{body}@{joint}"
-    links.append(Link(name, None, (), (), virtual=True))
-    return name
+    def _shape(self, geom: CompiledGeom) -> DescribedShape | None:
+        file = None
+        if geom.shape in _PRIMITIVES:
+            vertices, faces = _PRIMITIVES[geom.shape](geom.size)
+            name = geom.shape
+        elif geom.shape == MESH:
+            mesh = self._model.meshes[geom.mesh]
+            vertices = mesh.vertices
+            faces = mesh.faces
+            name = mesh.name
+            # Reports do not tell where the folder is.
+            place = os.path.relpath(self._folder / mesh.file, self._folder)
+            file = Path(place).as_posix() if mesh.file else None
+        else:
+            return None
+        placed = vertices @ geom.pose[:3, :3].T + geom.pose[:3, 3]
+        return DescribedShape(geom.name or name, geom.shape, placed, faces, file)
 
 
 def _line(name: str, kind: str, parent: str, child: str, origin: FloatArray) -> JointLine:
@@ -178,130 +164,43 @@ def _line(name: str, kind: str, parent: str, child: str, origin: FloatArray) -> 
 
 
 def _moving(
-    model: MjModel, index: int, name: str, ends: tuple[str, str], origin: FloatArray
+    joint: CompiledJoint, name: str, ends: tuple[str, str], origin: FloatArray
 ) -> JointLine:
-    slide = int(model.jnt_type[index]) == SLIDE
-    limited = bool(model.jnt_limited[index])
-    lower, upper = (float(value) for value in model.jnt_range[index])
-    dof = int(model.jnt_dofadr[index])
+    turning = "continuous" if joint.lower is None else "revolute"
     return JointLine(
         name=name,
-        kind="prismatic" if slide else "revolute" if limited else "continuous",
+        kind="prismatic" if joint.kind == "slide" else turning,
         parent=ends[0],
         child=ends[1],
         origin=origin,
-        axis=np.array(model.jnt_axis[index]),
-        lower=lower if limited else None,
-        upper=upper if limited else None,
-        damping=float(np.atleast_1d(model.dof_damping[dof])[0]),
-        friction=float(model.dof_frictionloss[dof]),
+        axis=joint.axis,
+        lower=joint.lower,
+        upper=joint.upper,
+        damping=joint.damping,
+        friction=joint.friction,
     )
 
 
-def _undo_reference(model: MjModel, index: int, axis: FloatArray) -> FloatArray:
-    """From the compiled pose, where the joint's value is its reference, to the pose at value 0."""
-    from scipy.spatial.transform import Rotation
-
-    reference = float(model.qpos0[int(model.jnt_qposadr[index])])
-    if int(model.jnt_type[index]) == SLIDE:
-        return _translation(-reference * axis)
+def _undo_reference(joint: CompiledJoint) -> FloatArray:
+    """Return the way from the compiled pose, at the joint's reference, to the pose at value 0."""
+    if joint.kind == "slide":
+        return _translation(-joint.reference * joint.axis)
     pose = np.eye(4)
-    pose[:3, :3] = Rotation.from_rotvec(-reference * axis).as_matrix()
+    pose[:3, :3] = rotation_about(joint.axis, -joint.reference)
     return pose
 
 
-def _inertia(model: MjModel, body: int) -> LinkInertia | None:
-    mass = float(model.body_mass[body])
-    if mass <= 0.0:
-        return None
-    frame = _pose(model.body_ipos[body], model.body_iquat[body])
-    tensor = frame[:3, :3] @ np.diag(model.body_inertia[body]) @ frame[:3, :3].T
-    return LinkInertia(mass, frame[:3, 3], tensor)
-
-
-def _shapes(
-    model: MjModel, body: int, folder: Path
-) -> tuple[tuple[DescribedShape, ...], tuple[DescribedShape, ...]]:
-    collisions: list[DescribedShape] = []
-    visuals: list[DescribedShape] = []
-    first = int(model.body_geomadr[body])
-    for index in range(first, first + int(model.body_geomnum[body])):
-        built = _geometry(model, index, folder)
-        if built is None:
-            continue
-        kind, vertices, faces, file = built
-        pose = _pose(model.geom_pos[index], model.geom_quat[index])
-        placed = vertices @ pose[:3, :3].T + pose[:3, 3]
-        name = model.geom(index).name or (
-            model.mesh(int(model.geom_dataid[index])).name if kind == "mesh" else kind
-        )
-        collides = bool(model.geom_contype[index] | model.geom_conaffinity[index])
-        (collisions if collides else visuals).append(
-            DescribedShape(name, kind, placed, faces, file)
-        )
-    return tuple(collisions), tuple(visuals)
-
-
-def _geometry(
-    model: MjModel, index: int, folder: Path
-) -> tuple[str, FloatArray, IntArray, str | None] | None:
-    kind = int(model.geom_type[index])
-    size = np.array(model.geom_size[index])
-    if kind in _PRIMITIVES:
-        word, build = _PRIMITIVES[kind]
-        return (word, *build(size), None)
-    if kind != MESH:
-        return None
-    mesh = model.mesh(int(model.geom_dataid[index]))
-    first = int(mesh.vertadr[0])
-    count = int(mesh.vertnum[0])
-    vertices = np.array(model.mesh_vert[first : first + count], dtype=np.float64)
-    first = int(mesh.faceadr[0])
-    count = int(mesh.facenum[0])
-    faces = np.array(model.mesh_face[first : first + count], dtype=np.int64)
-    return "mesh", vertices, faces, _mesh_file(model, int(model.geom_dataid[index]), folder)
-
-
-#: Word and builder by geom type; MuJoCo's sizes are half extents.
-_PRIMITIVES: dict[int, tuple[str, Callable[[FloatArray], tuple[FloatArray, IntArray]]]] = {
-    BOX: ("box", lambda size: box(2.0 * size)),
-    SPHERE: ("sphere", lambda size: ellipsoid(np.full(3, size[0]))),
-    ELLIPSOID: ("ellipsoid", ellipsoid),
-    CYLINDER: ("cylinder", lambda size: cylinder(float(size[0]), 2.0 * float(size[1]))),
-    CAPSULE: ("capsule", lambda size: capsule(float(size[0]), 2.0 * float(size[1]))),
+#: Builders by MuJoCo's name of a shape; its sizes are half extents.
+_PRIMITIVES: dict[str, Callable[[FloatArray], tuple[FloatArray, IntArray]]] = {
+    "box": lambda size: box(2.0 * size),
+    "sphere": lambda size: ellipsoid(np.full(3, size[0])),
+    "ellipsoid": ellipsoid,
+    "cylinder": lambda size: cylinder(float(size[0]), 2.0 * float(size[1])),
+    "capsule": lambda size: capsule(float(size[0]), 2.0 * float(size[1])),
 }
-
-
-def _mesh_file(model: MjModel, mesh: int, folder: Path) -> str | None:
-    """A mesh's file relative to the description's folder, so that reports hide where that is."""
-    start = int(model.mesh_pathadr[mesh])
-    if start < 0:
-        return None
-    text = bytes(model.paths)[start:].split(b"\0", 1)[0].decode("utf-8", "replace")
-    return Path(os.path.relpath(folder / text, folder)).as_posix()
-
-
-def _body_name(model: MjModel, body: int) -> str:
-    return str(model.body(body).name) or f"body{body}"
-
-
-def _joint_name(model: MjModel, joint: int) -> str:
-    body = int(model.jnt_bodyid[joint])
-    nameless = f"{_body_name(model, body)}_joint{joint - int(model.body_jntadr[body])}"
-    return str(model.joint(joint).name) or nameless
 
 
 def _translation(offset: FloatArray) -> FloatArray:
     pose = np.eye(4)
     pose[:3, 3] = offset
-    return pose
-
-
-def _pose(position: FloatArray, quaternion: FloatArray) -> FloatArray:
-    """From a position [m] and a (w, x, y, z) unit quaternion; shape [4, 4]."""
-    from scipy.spatial.transform import Rotation
-
-    pose = np.eye(4)
-    pose[:3, :3] = Rotation.from_quat(np.roll(quaternion, -1)).as_matrix()
-    pose[:3, 3] = position
     return pose

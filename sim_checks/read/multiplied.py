@@ -32,7 +32,8 @@ def refuse_multiplied(path: Path, document: ET.Element) -> None:
     Raises:
         DescriptionError: ``too_large``, or what is wrong with an inner document.
     """
-    model = read_model(path.resolve(), document, path.parent.resolve())
+    folder = path.parent.resolve()
+    model = read_model(folder / path.name, document, folder)
     counts = _ElementCount(model, {}).all
     for what, most in MOST.items():
         if counts[what] > most:
@@ -100,7 +101,7 @@ class _ElementCount:
 
     @cached_property
     def _attachable(self) -> Counter[str]:
-        """The most that an ``attach`` brings: a name in a file may say which model it means."""
+        """Return the most that an ``attach`` brings: it may mean any model that is named."""
         documents = self._documents.items()
         named = ((at, element) for at, root in documents for element in root.iter("model"))
         files = (file for at, element in named for file in self._model.inner(element, at))

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import resource
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from ..processes.isolation import Failure, Outcome
+from ..description import DescriptionError
+from ..processes.isolation import Failure, Limits, Outcome, run_isolated
+
+T = TypeVar("T")
+#: Time only ends what hangs, and is no verdict; the compiler has a limit of memory of its own.
+COMPILE_LIMITS = Limits(wall_s=120.0, memory_bytes=8 * 2**30)
 
 #: Of MuJoCo's compiler, beyond what the process holds before [bytes]; real objects take 0.1 GiB.
 COMPILER_BYTES = 2 * 2**30
@@ -18,9 +23,30 @@ READER_BYTES = 3 * 2**30
 _WORDS = ("Could not allocate memory", "Caught an unknown exception")
 
 
+def read_apart(function: Callable[[Path], T], path: Path) -> T:
+    """Call what has MuJoCo compile a file, in a child that may crash.
+
+    Args:
+        function: as for :func:`run_isolated`.
+        path: its argument.
+
+    Raises:
+        DescriptionError: what the function raises, or ``unreadable`` where it dies of the file.
+        TimeoutError, ChildProcessError: nobody can say; see :func:`require_word`.
+    """
+    outcome = run_isolated(function, path, limits=COMPILE_LIMITS)
+    if isinstance(outcome.error, DescriptionError):
+        raise outcome.error
+    require_word(outcome, path.name)
+    if outcome.failure is not None or outcome.value is None:
+        message = f"{path.name}: MuJoCo cannot compile it: {outcome.detail}"
+        raise DescriptionError("unreadable", message)
+    return outcome.value
+
+
 @contextmanager
 def memory_bounded(most: int) -> Iterator[None]:
-    """Within this, the process may take so much more address space; only in a killable child.
+    """Limit how much more address space the process may take; only in a killable child.
 
     Raises:
         MemoryError: it asked for more.

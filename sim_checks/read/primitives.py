@@ -39,7 +39,7 @@ def capsule(radius: float, length: float) -> tuple[FloatArray, IntArray]:
 
 
 def ellipsoid(radii: FloatArray) -> tuple[FloatArray, IntArray]:
-    """An ellipsoid with half axes ``radii`` [m], shape [3]; a sphere where they are equal."""
+    """Return an ellipsoid with half axes ``radii`` [m], shape [3]; a sphere where all are equal."""
     vertices, faces = _ball()
     return vertices * radii, faces
 

@@ -7,14 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from ..description import ABSURD, Description, DescriptionError, sensible
-from ..processes.isolation import Limits, run_isolated
 from .document import parse_document
 from .mjcf import read_mjcf
-from .native import require_word
+from .native import read_apart
 from .urdf import read_urdf
-
-#: Time only ends what hangs, and is no verdict; the compiler has a limit of memory of its own.
-COMPILE_LIMITS = Limits(wall_s=120.0, memory_bytes=8 * 2**30)
 
 
 def read_description(path: Path) -> Description:
@@ -30,19 +26,11 @@ def read_description(path: Path) -> Description:
     """
     if format_of(path) == "urdf":
         return read_here(path)
-    outcome = run_isolated(read_here, path, limits=COMPILE_LIMITS)
-    if isinstance(outcome.error, DescriptionError):
-        raise outcome.error
-    require_word(outcome, path.name)
-    if outcome.failure is not None or outcome.value is None:
-        raise DescriptionError(
-            "unreadable", f"{path.name}: MuJoCo could not compile it: {outcome.detail}"
-        )
-    return outcome.value
+    return read_apart(read_here, path)
 
 
 def read_here(path: Path) -> Description:
-    """As :func:`read_description`, in this process: for callers that are a killable child."""
+    """Read as :func:`read_description` does, in this process, which must be a killable child."""
     # What is made of numbers that are none is refused, not warned of.
     with np.errstate(all="ignore"):
         description = read_urdf(path) if format_of(path) == "urdf" else read_mjcf(path)
@@ -67,7 +55,7 @@ def _refuse_senseless(description: Description) -> None:
 
 
 def format_of(path: Path) -> str:
-    """``urdf`` or ``mjcf``, by the document's root element.
+    """Return ``urdf`` or ``mjcf``, by the document's root element.
 
     Raises:
         DescriptionError: if it is no XML document, or of another kind.

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..description import DescriptionError
-from .document import inside, locate, parse_document
+from .document import inside, is_file, locate, parse_document
 from .meshes import MAX_MESH_BYTES
 from .regular import read_regular
 
@@ -23,6 +23,25 @@ MOST_NESTED = 16
 MOST_DOCUMENTS = 256
 #: Elements whose files are whole documents, which name files of their own.
 DOCUMENTS = ("include", "model")
+
+
+#: Returns the root element of a document.
+Parser = Callable[[Path], ET.Element]
+
+
+@dataclass(frozen=True)
+class NamedFile:
+    """A file that an element of an MJCF names.
+
+    Attributes:
+        said: the element and its reference, for a sentence.
+        places: where MuJoCo may look for it.
+        files: those that lie there, resolved, each once.
+    """
+
+    said: str
+    places: tuple[Path, ...]
+    files: tuple[Path, ...]
 
 
 @dataclass(frozen=True)
@@ -59,7 +78,7 @@ class MujocoModel:
         bases = [self.base, document.parent]
         return [base / folder / name for name in names for folder in folders for base in bases]
 
-    def inner(self, element: ET.Element, document: Path) -> list[Path]:
+    def inner(self, element: ET.Element, document: Path) -> tuple[Path, ...]:
         """Return the documents that an element of :data:`DOCUMENTS` may mean, of those there."""
         places = self.places(element, "file", document) if element.get("file") else []
         return _found([place for place in places if inside(place, self.folder)])
@@ -69,112 +88,115 @@ def _plain(reference: str) -> str:
     return reference.rpartition("://")[2].replace("\\", "/")
 
 
-def refuse_outside_mjcf(path: Path, document: ET.Element) -> None:
-    """Refuse an MJCF model that names a file outside its folder.
-
-    Every attribute that names a file counts, in every document that is included or attached,
-    however deep.
+def named_files(
+    path: Path, document: ET.Element, parse: Parser = parse_document
+) -> tuple[NamedFile, ...]:
+    """Return every file that an MJCF model names, in every document that it includes or attaches.
 
     Args:
         path: the outermost file.
         document: its root element.
+        parse: reads an inner document.
 
     Raises:
         DescriptionError: ``outside_folder``; ``nested_too_deep`` for documents that hold each
             other; and whatever is wrong with an inner document.
     """
-    _refuse_model(path.resolve(), document, path.parent.resolve(), (), iter(range(MOST_DOCUMENTS)))
+    folder = path.parent.resolve()
+    walk = _Walk(folder, parse)
+    walk.follow(folder / path.name, document)
+    return tuple(walk.named)
 
 
-def read_model(
-    path: Path,
-    document: ET.Element,
-    folder: Path,
-    above: Sequence[Path] = (),
-    left: Iterator[int] | None = None,
-) -> MujocoModel:
+def read_model(path: Path, document: ET.Element, folder: Path) -> MujocoModel:
     """Read what a model's main file includes.
 
     Args:
-        path: of the main file, resolved.
+        path: of the main file.
         document: its root element.
         folder: nothing outside is opened, a resolved path.
-        above: documents that this model is nested in.
-        left: one item for each document that may still be read.
 
     Raises:
-        DescriptionError: as :func:`refuse_outside_mjcf`.
+        DescriptionError: as :func:`named_files`.
     """
-    left = iter(range(MOST_DOCUMENTS)) if left is None else left
-    documents = tuple(_with_included(path, document, folder, path.parent, above, left))
-    return MujocoModel(folder, path.parent, documents)
+    return _Walk(folder, parse_document).model(path, document)
 
 
-def _refuse_model(
-    path: Path, document: ET.Element, folder: Path, above: Sequence[Path], left: Iterator[int]
-) -> None:
-    model = read_model(path, document, folder, above, left)
-    documents = model.documents
-    for at, root in documents:
-        for element in root.iter():
-            for key in element.attrib:
-                if key.startswith("file") and element.tag != "include":
-                    _refuse_places(element.get(key, ""), model.places(element, key, at), folder)
-    for at, root in documents:
-        for element in root.iter("model"):
-            for inner in model.inner(element, at):
-                _refuse_model(
-                    inner, parse_document(inner), folder, _nested(inner, (*above, path)), left
-                )
+class _Walk:
+    """Follows an MJCF into the documents that it includes and attaches.
+
+    Attributes:
+        named: every file that was named so far.
+    """
+
+    def __init__(self, folder: Path, parse: Parser) -> None:
+        self._folder = folder
+        self._parse = parse
+        self._left = MOST_DOCUMENTS
+        self.named: list[NamedFile] = []
+
+    def model(self, path: Path, document: ET.Element, above: tuple[Path, ...] = ()) -> MujocoModel:
+        """Return a main file, nested in the documents ``above``, with all that it includes."""
+        documents = tuple(self._with_included(path, document, path.parent, above))
+        return MujocoModel(self._folder, path.parent, documents)
+
+    def follow(self, path: Path, document: ET.Element, above: tuple[Path, ...] = ()) -> None:
+        """Note the files of a model and of those that it attaches."""
+        model = self.model(path, document, above)
+        for at, root in model.documents:
+            for element in root.iter():
+                for key in element.attrib:
+                    if key.startswith("file") and element.tag != "include":
+                        self._note(element, key, model.places(element, key, at))
+        for at, root in model.documents:
+            for element in root.iter("model"):
+                for inner in model.inner(element, at):
+                    self.follow(inner, self._parse(inner), _nested(inner, (*above, path)))
+
+    def _with_included(
+        self, path: Path, document: ET.Element, base: Path, above: tuple[Path, ...]
+    ) -> Iterator[tuple[Path, ET.Element]]:
+        """Yield a document and those that it includes."""
+        self._left -= 1
+        if self._left < 0:
+            message = (
+                f"{path.name}: the model holds over {MOST_DOCUMENTS} documents, "
+                "at most so many are read"
+            )
+            raise DescriptionError("nested_too_deep", message)
+        yield path, document
+        model = MujocoModel(self._folder, base, ())
+        for element in document.iter("include"):
+            for inner in self._note(element, "file", model.places(element, "file", path)):
+                chain = _nested(inner, (*above, path))
+                yield from self._with_included(inner, self._parse(inner), base, chain)
+
+    def _note(self, element: ET.Element, key: str, places: Sequence[Path]) -> tuple[Path, ...]:
+        """Return the files that an element may mean, of those there; refuse what leads out."""
+        reference = element.get(key, "")
+        if not reference:
+            return ()
+        if "://" in reference:
+            locate(reference, self._folder)
+        outside = [place for place in places if not inside(place, self._folder)]
+        # Which rule it goes by depends on its version: a place it might look at counts where
+        # something lies there.
+        if places[0] in outside or any(_exists(place) for place in outside):
+            message = f"{reference[:160]!r} leaves the description's folder; copy it inside"
+            raise DescriptionError("outside_folder", message, outside)
+        files = _found([place for place in places if place not in outside])
+        self.named.append(NamedFile(f"<{element.tag}> {reference[:160]!r}", tuple(places), files))
+        return files
 
 
-def _with_included(
-    path: Path,
-    document: ET.Element,
-    folder: Path,
-    base: Path,
-    above: Sequence[Path],
-    left: Iterator[int],
-) -> Iterator[tuple[Path, ET.Element]]:
-    """A document and those it includes; ``left`` has one item for each that may still be read."""
-    if next(left, None) is None:
-        message = (
-            f"{path.name}: the model holds over {MOST_DOCUMENTS} documents, "
-            "at most so many are read"
-        )
-        raise DescriptionError("nested_too_deep", message)
-    yield path, document
-    model = MujocoModel(folder, base, ())
-    for element in document.iter("include"):
-        places = model.places(element, "file", path)
-        _refuse_places(element.get("file", ""), places, folder)
-        for inner in _found(places):
-            chain = _nested(inner, (*above, path))
-            yield from _with_included(inner, parse_document(inner), folder, base, chain, left)
+def _found(places: Sequence[Path]) -> tuple[Path, ...]:
+    return tuple(dict.fromkeys(place.resolve() for place in places if is_file(place)))
 
 
-def _refuse_places(reference: str, places: Sequence[Path], folder: Path) -> None:
-    outside = [place for place in places if not inside(place, folder)]
-    # Which rule it goes by depends on its version: a place it might look at counts where something
-    # lies there.
-    if (
-        reference
-        and outside
-        and (places[0] in outside or any(_is(Path.exists, place) for place in outside))
-    ):
-        raise DescriptionError(
-            "outside_folder", f"{reference[:160]!r} leaves the description's folder; copy it inside"
-        )
-
-
-def _found(places: Sequence[Path]) -> list[Path]:
-    return list(dict.fromkeys(place.resolve() for place in places if _is(Path.is_file, place)))
-
-
-def _is(what: Callable[[Path], bool], place: Path) -> bool:
-    # Both raise at names that are too long.
+def _exists(place: Path) -> bool:
+    # Path.exists raises at names that are too long.
     with suppress(OSError):
-        return what(place)
+        return place.exists()
     return False
 
 

@@ -14,13 +14,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from asset_factory.sim_checks.read.document import refuse_doctype
+
 from ...errors import InputRejected
 from ...geometry.soup import Soup, plain_soup, stack_corners, unique_names
 from ...mesh import FloatArray, Material, Texture
-from ..declarations import refuse_declarations
 from ..files import InputFiles
 from ..images import encode_png, load_texture
 from ..limits import require_at_most, unreadable
+from ..rejecting import rejecting
 
 if TYPE_CHECKING:
     import trimesh
@@ -65,7 +67,8 @@ def read_dae(data: bytes, path: Path, files: InputFiles) -> Soup:
             "unsupported",
             f"{path.name}: COLLADA needs the package pycollada; install it or convert",
         )
-    refuse_declarations(data, path.name)
+    with rejecting(path.name, path.parent):
+        refuse_doctype(data, path.name)
 
     import trimesh
 

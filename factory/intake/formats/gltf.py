@@ -42,7 +42,7 @@ class _Primitive:
 
 
 def read_gltf(data: bytes, path: Path, files: InputFiles) -> Soup:
-    """Triangles of a ``.glb`` or ``.gltf`` file, in the file's own frame (y up) and units.
+    """Return the triangles of a ``.glb`` or ``.gltf`` file, in its own frame (y up) and units.
 
     Raises:
         InputRejected: ``unreadable``, ``unsupported``, ``too_large`` or ``external_reference``.

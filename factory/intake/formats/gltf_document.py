@@ -85,7 +85,7 @@ class GltfDocument:
         return value if isinstance(value, list) else []
 
     def get(self, key: str, index: int) -> dict[str, Any]:
-        """Entry ``index`` of a top-level array. Raises InputRejected ``unreadable`` naming it."""
+        """Return an entry of a top-level array. Raises InputRejected ``unreadable`` naming it."""
         entries = self.items(key)
         if not isinstance(index, int) or not 0 <= index < len(entries):
             raise unreadable(self.name, f"refers to {key}[{index}], but there are {len(entries)}")
@@ -103,7 +103,7 @@ class GltfDocument:
         return self.files.read_reference(unquote(uri), self._folder)
 
     def view_bytes(self, index: int) -> tuple[bytes, int, int, int]:
-        """Buffer, offset, length and stride (0: tightly packed) of one buffer view."""
+        """Return buffer, offset, length and stride (0: tightly packed) of one buffer view."""
         view = self.get("bufferViews", index)
         if "EXT_meshopt_compression" in view.get("extensions", {}):
             raise _unsupported(self.name, "EXT_meshopt_compression")
@@ -126,7 +126,7 @@ class GltfDocument:
         return data[offset : offset + length]
 
     def accessor_count(self, index: int) -> int:
-        """Number of elements, refused before anything is allocated if there are too many."""
+        """Return the number of elements; too many are refused before anything is allocated."""
         count = int(self.get("accessors", index)["count"])
         if count < 0:
             raise unreadable(self.name, f"accessors[{index}] has count {count}")
@@ -136,7 +136,7 @@ class GltfDocument:
         return count
 
     def accessor(self, index: int) -> npt.NDArray[Any]:
-        """Elements of an accessor, shape [count, width]; normalised integers become floats."""
+        """Return an accessor's elements, [count, width]; normalised integers become floats."""
         if index not in self._accessors:
             self._accessors[index] = self._read_accessor(index)
         return self._accessors[index]

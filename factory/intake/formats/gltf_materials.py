@@ -29,7 +29,7 @@ class GltfMaterial:
 
 
 def read_materials(document: GltfDocument) -> tuple[list[GltfMaterial], list[str]]:
-    """Every material of the document in order, and notes on textures that had to be left out."""
+    """Return all materials in order, and notes on textures that had to be left out."""
     entries = document.items("materials")
     names = unique_names(str(entry.get("name", f"material_{i}")) for i, entry in enumerate(entries))
     notes: list[str] = []
@@ -72,7 +72,7 @@ def _material(
 
 
 def _coordinates(reference: dict[str, Any]) -> tuple[int, FloatArray]:
-    """Coordinate set and transform, by the extension KHR_texture_transform."""
+    """Return coordinate set and transform, by the extension KHR_texture_transform."""
     transform = reference.get("extensions", {}).get("KHR_texture_transform", {})
     (offset_u, offset_v) = transform.get("offset", (0.0, 0.0))
     (scale_u, scale_v) = transform.get("scale", (1.0, 1.0))

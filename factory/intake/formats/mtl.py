@@ -44,7 +44,7 @@ class _Maps:
 
 
 def read_mtl(data: bytes, folder: Path, files: InputFiles, notes: list[str]) -> dict[str, Material]:
-    """Materials by name. A diffuse map replaces the diffuse colour, as modelling tools show it.
+    """Return materials by name; a diffuse map replaces the diffuse colour, as in modelling tools.
 
     Args:
         data: the library.

@@ -35,7 +35,7 @@ class _Lines:
 
 
 def read_obj(data: bytes, path: Path, files: InputFiles) -> Soup:
-    """Triangles of an OBJ file and the materials of its libraries, in its own frame and units.
+    """Return an OBJ file's triangles and its libraries' materials, in its own frame and units.
 
     A library or texture that is missing is noted, not fatal.
 
@@ -93,7 +93,7 @@ def _take_face(lines: _Lines, words: list[bytes]) -> None:
 
 
 def _corner(lines: _Lines, word: bytes) -> tuple[int, int, int]:
-    """Indices of ``v/vt/vn``; negative ones count from the last line read, 0 is not valid."""
+    """Return the indices of ``v/vt/vn``; negative ones count from the last line, 0 is not valid."""
     parts = word.split(b"/")
     sizes = (len(lines.positions) // 3, len(lines.coordinates) // 2, len(lines.normals) // 3)
     result = [-1, -1, -1]

@@ -97,7 +97,7 @@ def read_header(data: bytes, name: str) -> PlyHeader:
 
 
 def read_tables(data: bytes, header: PlyHeader, name: str) -> dict[str, PlyTable]:
-    """Every table by element name. Raises InputRejected, or whatever a broken body leads to."""
+    """Return tables by element name. Raises InputRejected, or whatever a broken body leads to."""
     if header.order is None:
         return _text(data[header.start :], header.elements, name)
     start = header.start
@@ -162,7 +162,7 @@ def _text_table(element: PlyElement, rows: list[list[bytes]]) -> PlyTable:
 
 
 def _binary_table(data: bytes, start: int, element: PlyElement, order: str) -> tuple[PlyTable, int]:
-    """One element's values, and where the next one starts. Lists of one length are read at once."""
+    """Return an element's values, and where the next starts; equal lists are read at once."""
     sizes = [0 if length is None else -1 for _, _, length in element.properties]
     if element.count:
         sizes = _first_sizes(data, start, element, order)

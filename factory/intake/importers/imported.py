@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mesh import FloatArray, Mesh
+from ...mesh import Mesh
 from ..annotation import AnnotatedJoint
 
 
@@ -37,7 +37,7 @@ class Imported:
 
 
 def rigid_groups(count: int, welds: list[tuple[int, int]]) -> list[int]:
-    """For each of ``count`` parts the smallest id among the parts it is welded to.
+    """Return for each of ``count`` parts the smallest id among the parts it is welded to.
 
     Args:
         count: number of parts.
@@ -51,9 +51,7 @@ def rigid_groups(count: int, welds: list[tuple[int, int]]) -> list[int]:
     return group
 
 
-def rigid(rotation: FloatArray, translation: FloatArray) -> FloatArray:
-    """The 4x4 matrix of a rotation, shape [3, 3], followed by a translation [m], shape [3]."""
-    matrix = np.eye(4)
-    matrix[:3, :3] = rotation
-    matrix[:3, 3] = translation
-    return matrix
+def fixed(name: str, parent: int, child: int) -> AnnotatedJoint:
+    """Return a joint that holds one part to another."""
+    up = np.array([0.0, 0.0, 1.0])
+    return AnnotatedJoint(name, "fixed", parent, child, up, np.zeros(3), None, None)

@@ -7,18 +7,20 @@ from pathlib import Path
 import numpy as np
 
 from ...config import IntakeConfig
-from ...errors import ConfigError, InputRejected
+from ...errors import InputRejected
 from ...mesh import FloatArray, IntArray, Mesh, concatenate
 from ...runtime.store import digest_bytes
 from ..annotation import Annotation
 from ..files import InputFiles
 from ..intake import Intake, Provenance
 from ..licenses import require_allowed
-from ..limits import require_sensible_size, unreadable
+from ..limits import require_sensible_size
 from ..naming import safe_name, well_formed
-from ..orientation import parse_up, rotation_to_z_up
+from ..orientation import rotation_to_z_up
+from ..placing import check_config, given_scale, given_up
+from ..rejecting import rejecting
 from ..sidecar import Sidecar, read_sidecar
-from ..sizes import guess_category, normalised, scale_by_size
+from ..sizes import Scale, guess_category, normalised, scale_by_size
 from .imported import Imported
 from .mjcf import import_mjcf
 from .urdf import import_urdf
@@ -26,7 +28,7 @@ from .xml_source import read_xml
 
 
 def load_description(path: Path, config: IntakeConfig) -> Intake:
-    """An existing articulated object as an input: its visual geometry with every joint at zero.
+    """Return an articulated object as an input: its visual geometry with every joint at zero.
 
     Zero is the joint value 0 of a URDF and ``qpos0`` of an MJCF. The annotation speaks of the root
     frame, metres and z up by both specifications; ``transform`` leads from there to the object
@@ -47,20 +49,19 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
         TimeoutError, ChildProcessError: what reads it hung or was killed, which is no verdict.
         ConfigError: ``config.up`` or ``config.height`` cannot be.
     """
-    if config.height is not None and not 0.0 < config.height < float("inf"):
-        raise ConfigError(f"height {config.height}: want a positive number of metres")
+    check_config(config)
     files = InputFiles(path.parent, config)
     sidecar = read_sidecar(path, files)
     imported = _imported(path, config)
     digest = digest_bytes("\n".join([*imported.digests, *files.digests]).encode())
     license = _allowed_license(path.name, sidecar, imported, config, digest)
     whole, face_part, kept = _joined(imported, path.name)
-    up, up_source = _choose_up(config, sidecar)
+    up, up_source = given_up(config, sidecar) or ("z", "format")
     rotation = rotation_to_z_up(up)
     extents = np.ptp(whole.vertices[np.unique(whole.faces[kept])] @ rotation.T, axis=0)
-    scale, scale_source = _choose_scale(extents, config, sidecar, path.name)
+    scale = given_scale(extents, config, sidecar, path.name) or Scale(1.0, "format")
     require_sensible_size(
-        path.name, np.stack([whole.vertices.min(axis=0), whole.vertices.max(axis=0)]) * scale
+        path.name, np.stack([whole.vertices.min(axis=0), whole.vertices.max(axis=0)]) * scale.factor
     )
     category = (
         normalised(sidecar.category)
@@ -68,7 +69,7 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
         else guess_category(path.stem, path.parent.name)
     )
     transform = np.eye(4)
-    transform[:3, :3] = scale * rotation
+    transform[:3, :3] = scale.factor * rotation
     return Intake(
         name=safe_name(path),
         mesh=whole.submesh(kept).transformed(transform),
@@ -80,33 +81,25 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
             category=category,
             up=up,
             up_source=up_source,
-            scale=scale,
-            scale_source=scale_source,
+            scale=scale.factor,
+            scale_source=scale.source,
             density=sidecar.density,
             license=license,
             dropped_degenerate=imported.dropped_degenerate + len(whole.faces) - len(kept),
             dropped_non_finite=imported.dropped_non_finite,
-            notes=(*imported.notes, *_doubts(extents * scale, category)),
+            notes=(*imported.notes, *_doubts(extents * scale.factor, category)),
         ),
         annotation=Annotation(face_part, imported.part_names, imported.joints, imported.source),
     )
 
 
 def _imported(path: Path, config: IntakeConfig) -> Imported:
-    """Run a reader on a file from anybody: whatever it trips over is a fault of the file."""
     root = read_xml(path, config.max_bytes)
-    try:
-        with np.errstate(all="ignore"):
-            if root.tag == "robot":
-                return import_urdf(root, path, config)
-            if root.tag == "mujoco":
-                return import_mjcf(root, path, config)
-    except (InputRejected, TimeoutError, ChildProcessError):
-        raise
-    except MemoryError as error:
-        raise InputRejected("too_large", f"{path.name}: does not fit into memory") from error
-    except Exception as error:
-        raise unreadable(path.name, f"{type(error).__name__}: {error}") from error
+    with rejecting(path.name, path.parent), np.errstate(all="ignore"):
+        if root.tag == "robot":
+            return import_urdf(root, path, config)
+        if root.tag == "mujoco":
+            return import_mjcf(root, path, config)
     raise InputRejected(
         "unreadable", f"{path.name}: begins with <{root.tag[:80]}>, want <robot> or <mujoco>"
     )
@@ -115,7 +108,7 @@ def _imported(path: Path, config: IntakeConfig) -> Imported:
 def _allowed_license(
     name: str, sidecar: Sidecar, imported: Imported, config: IntakeConfig, digest: str
 ) -> str | None:
-    """The license of the whole; if none is stated, those of its files, each to be allowed."""
+    """Return the license of the whole; if none is stated, those of its files, each allowed."""
     licenses = (sidecar.license,) if sidecar.license else imported.licenses
     for license in licenses or (None,):
         require_allowed(name, license, config.allowed_licenses, digest)
@@ -143,27 +136,6 @@ def _faces_with_area(mesh: Mesh) -> IntArray:
         np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
     )
     return np.flatnonzero(doubled > 0.0)
-
-
-def _choose_up(config: IntakeConfig, sidecar: Sidecar) -> tuple[str, str]:
-    if config.up != "auto":
-        return parse_up(config.up), "option"
-    return (sidecar.up, "sidecar") if sidecar.up else ("z", "format")
-
-
-def _choose_scale(
-    extents: FloatArray, config: IntakeConfig, sidecar: Sidecar, file: str
-) -> tuple[float, str]:
-    height, source = (
-        (config.height, "option") if config.height is not None else (sidecar.height, "sidecar")
-    )
-    if height is None:
-        return (sidecar.scale, "sidecar") if sidecar.scale is not None else (1.0, "format")
-    if not extents[2] > 0.0:
-        raise InputRejected(
-            "zero_size", f"{file}: has no height to scale to {height:g} m; give a scale instead"
-        )
-    return height / float(extents[2]), source
 
 
 def _doubts(extents: FloatArray, category: str | None) -> list[str]:

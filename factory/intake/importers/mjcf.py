@@ -6,31 +6,36 @@ The format: https://mujoco.readthedocs.io/en/stable/XMLreference.html.
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from asset_factory.sim_checks.description import DescriptionError
-from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
+from asset_factory.sim_checks.read.mjcf_model import (
+    CompiledGeom,
+    CompiledJoint,
+    CompiledModel,
+    compile_model,
+)
 from asset_factory.sim_checks.read.multiplied import refuse_multiplied
-from asset_factory.sim_checks.read.native import require_word
+from asset_factory.sim_checks.read.native import read_apart
+from asset_factory.sim_checks.read.references import named_files
 
 from ...config import IntakeConfig
 from ...errors import InputRejected
-from ...mesh import Material, Mesh, Texture
+from ...mesh import FloatArray, Material, Mesh, Texture
 from ..annotation import AnnotatedJoint
 from ..files import InputFiles
 from ..images import load_texture
 from ..limits import require_at_most
 from ..reads import digest_read
 from . import primitives
-from .imported import Imported
-from .mjcf_files import referenced_files
-from .mjcf_model import MESH, CompiledGeom, CompiledJoint, CompiledModel, compile_model
+from .imported import Imported, fixed
+from .xml_source import read_xml
 
-#: Time only ends what hangs, and is no verdict; the compiler has a limit of memory of its own.
-COMPILER_LIMITS = Limits(wall_s=120.0, memory_bytes=8 * 1024**3)
 KINDS = {"hinge": "revolute", "slide": "prismatic"}
 #: Geoms of these groups are shown by MuJoCo's viewer unless asked otherwise.
 SHOWN_GROUPS = range(3)
@@ -48,58 +53,83 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Imported:
         config: limits on the files it refers to.
 
     Raises:
-        InputRejected: ``unsupported_joint``, ``missing_file``, ``external_reference``,
-            ``unreadable``, ``too_large``.
+        InputRejected: ``unsupported_joint``, ``too_large``.
+        DescriptionError: what its reader refuses.
         TimeoutError, ChildProcessError: the compiler hung or was killed, which is no verdict.
     """
-    files = referenced_files(root, path, config.max_bytes)
+    files = _referenced_files(root, path, config.max_bytes)
     size = sum(file.stat().st_size for file in files)
     require_at_most("all files together", size, config.max_bytes, "bytes")
-    try:
-        refuse_multiplied(path, root)
-    except DescriptionError as error:
-        code = error.code if error.code == "too_large" else "unreadable"
-        raise InputRejected(code, error.message) from error
+    refuse_multiplied(path, root)
     # Before they are compiled: whoever changes them after this is found out by the digest.
     digests = tuple(digest_read(file) for file in (path, *files))
     model = _compiled(path)
     visuals = _visuals(model)
     faces = sum(len(model.meshes[geom.mesh].faces) for geom in visuals if geom.mesh >= 0)
     require_at_most(path.name, faces, config.max_faces, "faces")
-    notes = list(model.notes)
+    notes = list(_notes(model))
     images = _images(model, path.parent, config)
+    poses = _world_poses(model)
     pieces = []
     for geom in visuals:
         mesh = _mesh_of(geom, model, images)
         if mesh is None:
             notes.append(f"body {_body_name(model, geom.body)!r}: a {geom.shape} geom is left out")
         else:
-            pieces.append((geom.body, mesh))
-    names, joints = _jointed(model, notes)
+            pieces.append((geom.body, mesh.transformed(poses[geom.body] @ geom.pose)))
+    names, joints = _jointed(model, poses, notes)
     return Imported(tuple(pieces), names, joints, digests, tuple(notes), "mjcf")
 
 
+def _referenced_files(root: ET.Element, path: Path, max_bytes: int) -> list[Path]:
+    """Return every file that an MJCF and its inner documents refer to, each once."""
+    found: dict[Path, None] = {}
+    for named in named_files(path, root, partial(read_xml, max_bytes=max_bytes)):
+        if not named.files:
+            message = f"{path.name}: {named.said} is not there; want it below its folder"
+            raise DescriptionError("missing_file", message, named.places)
+        found |= dict.fromkeys(named.files)
+    return list(found)
+
+
 def _compiled(path: Path) -> CompiledModel:
-    outcome = run_isolated(compile_model, str(path), limits=COMPILER_LIMITS)
-    require_word(outcome, path.name)
-    if isinstance(outcome.error, MemoryError):
-        raise InputRejected("too_large", f"{path.name}: {outcome.error}")
-    if outcome.failure is not None or outcome.value is None:
-        said = " ".join(outcome.detail.replace(str(path.parent), "").split())
-        raise InputRejected("unreadable", f"{path.name}: MuJoCo cannot compile it: {said}")
-    return outcome.value
+    return read_apart(partial(compile_model, lenient=True), path)
+
+
+def _world_poses(model: CompiledModel) -> list[FloatArray]:
+    """Return the pose of each body in the world, shape [4, 4] each; parents come first."""
+    poses: list[FloatArray] = []
+    for index, body in enumerate(model.bodies):
+        poses.append(poses[body.parent] @ body.pose if index else body.pose)
+    return poses
+
+
+def _notes(model: CompiledModel) -> Iterator[str]:
+    """Yield what the file says and the import ignores."""
+    for equality in model.equalities:
+        if equality.kind == "joint":
+            follower = model.joints[equality.joints[0]].name
+            yield (
+                f"joint {follower!r} is coupled by an equality in the file; "
+                "that is ignored, it moves freely"
+            )
+        else:
+            yield f"a {equality.kind} equality in the file is ignored"
+    for what, count in model.others:
+        if count:
+            yield f"the file has {count} {what}(s), which are ignored"
 
 
 def _body_name(model: CompiledModel, body: int) -> str:
-    return model.body_names[body] or f"body_{body}"
+    return model.bodies[body].name or f"body_{body}"
 
 
 def _visuals(model: CompiledModel) -> list[CompiledGeom]:
-    """Return the geoms to show, judged for each group of bodies welded together."""
+    """Return the geoms to show, chosen for each group of bodies welded together."""
     by_weld: dict[int, list[CompiledGeom]] = {}
     for geom in model.geoms:
         if geom.shape != "plane":
-            by_weld.setdefault(model.body_weld[geom.body], []).append(geom)
+            by_weld.setdefault(model.bodies[geom.body].weld, []).append(geom)
     chosen = {id(geom) for geoms in by_weld.values() for geom in shown(geoms)}
     return [geom for geom in model.geoms if id(geom) in chosen]
 
@@ -108,9 +138,8 @@ def shown(geoms: list[CompiledGeom]) -> list[CompiledGeom]:
     """Return the geoms of one rigid body that are there to be seen.
 
     Where some collide and some do not, those that do not are visuals, and so is whatever shares
-    their
-    visibility group. Else: those in the groups a viewer shows, if there are any. Never fully
-        transparent ones.
+    their visibility group. Else: those in the groups a viewer shows, if there are any. Never fully
+    transparent ones.
     """
     opaque = [g for g in geoms if g.rgba[3] > 0.0] or geoms
     visible = [g for g in opaque if g.group in SHOWN_GROUPS] or opaque
@@ -121,7 +150,7 @@ def shown(geoms: list[CompiledGeom]) -> list[CompiledGeom]:
 def _mesh_of(geom: CompiledGeom, model: CompiledModel, images: dict[int, Texture]) -> Mesh | None:
     texture = model.textures[geom.texture] if geom.texture >= 0 else None
     red, green, blue, alpha = np.clip(geom.rgba, 0.0, 1.0).tolist()
-    uv = model.meshes[geom.mesh].uv if geom.shape == MESH else None
+    uv = model.meshes[geom.mesh].uv if geom.mesh >= 0 else None
     image = images.get(geom.texture) if uv is not None else None
     if texture is not None and image is None:
         # Projected textures have no coordinates to keep: their mean colour is closest.
@@ -130,15 +159,16 @@ def _mesh_of(geom: CompiledGeom, model: CompiledModel, images: dict[int, Texture
     mesh = _shape(geom, model, material)
     if mesh is not None and image is not None and uv is not None:
         mesh = replace(mesh, corner_uv=uv * geom.uv_scale)
-    return None if mesh is None else mesh.transformed(geom.pose)
+    return mesh
 
 
 def _shape(geom: CompiledGeom, model: CompiledModel, material: Material) -> Mesh | None:
     radius, half, _ = geom.size.tolist()
+    if geom.mesh >= 0:
+        mesh = model.meshes[geom.mesh]
+        return Mesh.from_triangles(mesh.vertices, mesh.faces, material)
+    shape = None
     match geom.shape:
-        case "mesh":
-            mesh = model.meshes[geom.mesh]
-            shape = Mesh.from_triangles(mesh.vertices, mesh.faces, material)
         case "box":
             shape = primitives.box(2.0 * geom.size, material)
         case "sphere":
@@ -149,8 +179,6 @@ def _shape(geom: CompiledGeom, model: CompiledModel, material: Material) -> Mesh
             shape = primitives.cylinder(radius, 2.0 * half, material)
         case "capsule":
             shape = primitives.capsule(radius, 2.0 * half, material)
-        case _:
-            return None
     return shape
 
 
@@ -173,14 +201,17 @@ def _images(model: CompiledModel, folder: Path, config: IntakeConfig) -> dict[in
 
 
 def _jointed(
-    model: CompiledModel, notes: list[str]
+    model: CompiledModel, poses: list[FloatArray], notes: list[str]
 ) -> tuple[tuple[str, ...], tuple[AnnotatedJoint, ...]]:
-    """Part names, bodies first and then carriers, and joints."""
-    names = [_body_name(model, body) for body in range(len(model.body_names))]
+    """Return part names, bodies first and then carriers, and joints."""
+    names = [_body_name(model, body) for body in range(len(model.bodies))]
     joints: list[AnnotatedJoint] = []
-    for body in range(1, len(model.body_names)):
-        parent = model.body_parent[body]
-        own = [joint for joint in model.joints if joint.body == body]
+    by_body: dict[int, list[CompiledJoint]] = {}
+    for joint in model.joints:
+        by_body.setdefault(joint.body, []).append(joint)
+    for body in range(1, len(model.bodies)):
+        parent = model.bodies[body].parent
+        own = by_body.get(body, [])
         moving = [joint for joint in own if joint.kind in KINDS]
         for joint in own:
             if joint.kind == "ball":
@@ -192,33 +223,33 @@ def _jointed(
             if joint.kind == "free":
                 notes.append(f"body {names[body]!r} floats freely in the file; it is held fixed")
         if not moving:
-            joints.append(_fixed(names[body], parent, body))
+            joints.append(fixed(f"{names[body]}_fixed", parent, body))
         for index, joint in enumerate(moving):
             child = body if index == len(moving) - 1 else len(names)
             if child != body:
                 names.append(f"{names[body]}_carrier")
             label = joint.name or f"{names[body]}_joint" + (f"_{index}" if len(moving) > 1 else "")
-            joints.append(_annotated(joint, label, parent, child))
+            joints.append(_annotated(joint, label, parent, child, poses[body]))
             parent = child
     return tuple(names), tuple(joints)
 
 
-def _fixed(name: str, parent: int, child: int) -> AnnotatedJoint:
-    return AnnotatedJoint(
-        f"{name}_fixed", "fixed", parent, child, np.array([0.0, 0.0, 1.0]), np.zeros(3), None, None
+def _annotated(
+    joint: CompiledJoint, name: str, parent: int, child: int, pose: FloatArray
+) -> AnnotatedJoint:
+    """Return a joint of a body that the file poses so; limits count from there."""
+    lower, upper = (
+        None if limit is None else limit - joint.reference for limit in (joint.lower, joint.upper)
     )
-
-
-def _annotated(joint: CompiledJoint, name: str, parent: int, child: int) -> AnnotatedJoint:
     return AnnotatedJoint(
         name=name,
         kind=KINDS[joint.kind],
         parent=parent,
         child=child,
-        axis=joint.axis,
-        origin=joint.anchor,
-        lower=joint.lower,
-        upper=joint.upper,
+        axis=pose[:3, :3] @ joint.axis,
+        origin=pose[:3, :3] @ joint.anchor + pose[:3, 3],
+        lower=lower,
+        upper=upper,
         # 0 is MJCF's default: nobody said anything.
         damping=joint.damping or None,
         friction=joint.friction or None,

@@ -78,7 +78,7 @@ def read_prediction(path: Path, face_count: int, data: bytes | None = None) -> A
 
 
 def point_on_line(direction: FloatArray, moment: FloatArray) -> FloatArray:
-    """The point nearest the origin of the line ``(l, m = l x p)``, ``l`` of any length, [3]."""
+    """Return the point nearest the origin of a line ``(l, m = l x p)``, shape [3]."""
     squared = float(direction @ direction)
     return np.cross(moment, direction) / squared if squared > 0.0 else np.zeros(3)
 

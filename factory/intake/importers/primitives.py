@@ -37,14 +37,14 @@ def ellipsoid(radii: npt.ArrayLike, material: Material) -> Mesh:
 
 
 def capsule(radius: float, length: float, material: Material) -> Mesh:
-    """A cylinder along z of ``radius``, ``length`` [m] with half spheres as ends, centred at 0."""
+    """Return a cylinder along z of ``radius``, ``length`` [m] with half spheres as ends, at 0."""
     angles = np.linspace(-np.pi / 2.0, 0.0, RINGS // 2 + 1)
     low = np.stack([radius * np.cos(angles), radius * np.sin(angles) - length / 2.0], axis=1)
     return _revolved(np.concatenate([low, low[::-1] * [1.0, -1.0]]), material)
 
 
 def _revolved(profile: FloatArray, material: Material) -> Mesh:
-    """A profile of (radius, height) [m] from the bottom pole to the top pole, turned about z."""
+    """Turn a profile of (radius, height) [m], from the bottom pole to the top pole, about z."""
     angles = np.arange(SECTIONS) * (2.0 * np.pi / SECTIONS)
     circle = np.stack([np.cos(angles), np.sin(angles), np.zeros(SECTIONS)], axis=1)
     rings = [

@@ -8,11 +8,15 @@ from pathlib import Path
 
 import numpy as np
 
+from asset_factory.sim_checks.read.urdf_elements import UrdfElements
+
 from ...config import IntakeConfig
 from ...mesh import Material, Mesh, Texture
 from ..files import InputFiles
 from ..images import load_texture
-from .xml_source import find_reference, numbers
+from .xml_source import find_reference
+
+_ELEMENTS = UrdfElements(lenient=True)
 
 
 class Palette:
@@ -31,11 +35,11 @@ class Palette:
 
     @property
     def digest(self) -> str:
-        """SHA-256 of the textures read so far, in the order of first use."""
+        """Return the SHA-256 of the textures read so far, in the order of first use."""
         return self._files.digest
 
     def material(self, shape: ET.Element, where: str) -> Material | None:
-        """What the shape's ``<material>`` says; ``None`` if it has none or an undefined one."""
+        """Return what a shape's ``<material>`` says; ``None`` if none, or an undefined one."""
         element = shape.find("material")
         if element is None:
             return None
@@ -46,12 +50,9 @@ class Palette:
         texture = element.find("texture")
         if color is None and texture is None:
             return None
-        rgba = numbers(
-            None if color is None else color.get("rgba"),
-            4,
-            (1.0, 1.0, 1.0, 1.0),
-            f"{where}: <color rgba>",
-        )
+        rgba = np.ones(4)
+        if color is not None:
+            rgba = _ELEMENTS.vector(color, "rgba", where, "1 1 1 1", count=4)
         red, green, blue, alpha = np.clip(rgba, 0.0, 1.0).tolist()
         image = None if texture is None else self._texture(texture.get("filename", ""), where)
         return Material(name or "material", (red, green, blue, alpha), image)
@@ -66,7 +67,7 @@ class Palette:
 
 
 def painted(mesh: Mesh, shape: ET.Element, palette: Palette, where: str) -> Mesh:
-    """The mesh in the colours of the shape's ``<material>``, unless its file has its own look."""
+    """Return a mesh in the colours of its shape's ``<material>``, unless its file has its own."""
     says_itself = (
         len(mesh.materials) > 1
         or mesh.materials[0].texture is not None

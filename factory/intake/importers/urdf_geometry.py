@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+
+from asset_factory.sim_checks.read.urdf_elements import UrdfElements, UrdfGeometry
 
 from ...config import IntakeConfig
 from ...errors import InputRejected
@@ -13,7 +16,7 @@ from ...mesh import Material, Mesh
 from ..limits import require_at_most
 from ..loading import Visual, load_visual
 from . import primitives
-from .xml_source import find_reference, numbers
+from .xml_source import find_reference
 
 #: The material of a shape that says nothing about its looks.
 PLAIN = Material("default")
@@ -21,6 +24,13 @@ PLAIN = Material("default")
 NOTHING_TO_SEE = ("empty", "zero_size")
 #: Objects of a hundred mesh files would otherwise repeat themselves a hundred times.
 FEW_NOTES = 3
+_ELEMENTS = UrdfElements(lenient=True)
+_PRIMITIVES: dict[str, Callable[..., Mesh]] = {
+    "box": lambda *edges: primitives.box(edges, PLAIN),
+    "sphere": lambda radius: primitives.ellipsoid([radius] * 3, PLAIN),
+    "cylinder": lambda radius, length: primitives.cylinder(radius, length, PLAIN),
+    "capsule": lambda radius, length: primitives.capsule(radius, length, PLAIN),
+}
 
 
 class GeometryReader:
@@ -41,54 +51,34 @@ class GeometryReader:
 
     @property
     def notes(self) -> list[str]:
-        """What was left out, one sentence each; of what the mesh files say only the first few."""
+        """Return what was left out, a sentence each; of what mesh files say only the first few."""
         more = len(self._said) - FEW_NOTES
         tail = [f"{more} more notes of this kind on other mesh files"] if more > 0 else []
         return [*self._left_out, *self._said[:FEW_NOTES], *tail]
 
     @property
-    def digests(self) -> tuple[str, ...]:
-        """SHA-256 of each mesh file with all that it refers to, in the order of first use."""
-        return tuple(visual.digest for visual in self._visuals.values() if visual is not None)
-
-    @property
-    def licenses(self) -> tuple[str, ...]:
-        """Return what the mesh files say of their licenses, each once."""
-        said = (visual.license for visual in self._visuals.values() if visual is not None)
-        return tuple(dict.fromkeys(license for license in said if license))
-
-    @property
-    def dropped_degenerate(self) -> int:
-        """Return the faces without area that the mesh files had."""
-        return sum(
-            visual.dropped_degenerate for visual in self._visuals.values() if visual is not None
-        )
-
-    @property
-    def dropped_non_finite(self) -> int:
-        """Return the faces with a NaN or infinite corner that the mesh files had."""
-        return sum(
-            visual.dropped_non_finite for visual in self._visuals.values() if visual is not None
-        )
+    def visuals(self) -> tuple[Visual, ...]:
+        """Return what was read of each mesh file, in the order of first use."""
+        return tuple(visual for visual in self._visuals.values() if visual is not None)
 
     def read(self, shape: ET.Element, where: str) -> Mesh | None:
-        """The geometry of a ``<visual>`` or ``<collision>`` [m]; ``None`` if nothing is visible.
+        """Return what a ``<visual>`` or ``<collision>`` shows [m]; ``None`` if nothing.
 
         Raises:
+            DescriptionError: its numbers cannot be read.
             InputRejected: see :func:`find_reference`, and whatever is wrong with a mesh file.
         """
-        geometry = shape.find("geometry")
-        element = None if geometry is None or not len(geometry) else geometry[0]
-        if element is None:
+        geometry = _ELEMENTS.geometry(shape, where)
+        if geometry is None:
             self._left_out.append(f"{where}: a shape without geometry is left out")
             return None
-        if element.tag == "mesh":
-            return self._mesh(element, where)
-        return _primitive(element, where)
+        if geometry.kind == "mesh":
+            return self._mesh(geometry, where)
+        return _PRIMITIVES[geometry.kind](*geometry.size)
 
-    def _mesh(self, element: ET.Element, where: str) -> Mesh | None:
-        path = find_reference(element.get("filename", ""), self._folder, where)
-        scale = numbers(element.get("scale"), 3, (1.0, 1.0, 1.0), f"{where}: <mesh scale>")
+    def _mesh(self, geometry: UrdfGeometry, where: str) -> Mesh | None:
+        path = find_reference(geometry.file, self._folder, where)
+        scale = geometry.scale
         if not scale.all():
             raise InputRejected(
                 "unreadable", f"{where}: <mesh scale> is {scale.tolist()}, want no zero"
@@ -116,29 +106,3 @@ class GeometryReader:
             return None
         self._said += [f"{path.name}: {note}" for note in visual.notes]
         return visual
-
-
-def _primitive(element: ET.Element, where: str) -> Mesh:
-    def sizes(attribute: str, count: int) -> list[float]:
-        said = f"{where}: <{element.tag} {attribute}>"
-        values = numbers(element.get(attribute), count, (0.0,) * count, said)
-        if not (values > 0.0).all():
-            raise InputRejected(
-                "unreadable", f"{said} is {element.get(attribute)!r}, want {count} positive numbers"
-            )
-        return [float(value) for value in values]
-
-    def size(attribute: str) -> float:
-        return sizes(attribute, 1)[0]
-
-    if element.tag == "box":
-        return primitives.box(sizes("size", 3), PLAIN)
-    if element.tag == "sphere":
-        return primitives.ellipsoid(sizes("radius", 1) * 3, PLAIN)
-    if element.tag == "cylinder":
-        return primitives.cylinder(size("radius"), size("length"), PLAIN)
-    if element.tag == "capsule":
-        return primitives.capsule(size("radius"), size("length"), PLAIN)
-    raise InputRejected(
-        "unreadable", f"{where}: <{element.tag}> is no geometry; want mesh, box, cylinder or sphere"
-    )

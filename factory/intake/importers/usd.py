@@ -5,16 +5,20 @@ The schema: https://openusd.org/release/api/usd_physics_page_front.html.
 
 from __future__ import annotations
 
-import importlib.util
 from pathlib import Path
 
 import numpy as np
 
 from asset_factory.sim_checks.processes.isolation import WarmChild
-from asset_factory.sim_checks.read.usd.refusing import LIMITS, ask_of
+from asset_factory.sim_checks.read.usd.layers import require_inside
+from asset_factory.sim_checks.read.usd.refusing import ask_of
+from asset_factory.sim_checks.read.usd.shapes import PhysicsSurface
+from asset_factory.sim_checks.read.usd.stage import PhysicsStage, read_stage, require_library
 
 from ...config import IntakeConfig
 from ...errors import InputRejected
+from ...geometry.clean import clean
+from ...geometry.soup import plain_soup
 from ...mesh import FloatArray, IntArray, Mesh, concatenate
 from ...runtime.store import digest_bytes
 from ..annotation import Annotation
@@ -25,11 +29,12 @@ from ..limits import require_at_most, require_sensible_size
 from ..naming import safe_name, well_formed
 from ..orientation import rotation_to_z_up
 from ..reads import digest_read
+from ..rejecting import rejecting
 from ..sidecar import read_sidecar
 from ..sizes import guess_category, normalised
-from .usd_layers import rejecting, require_own_layers
-from .usd_stage import UsdStage, read_stage
 from .usd_tree import annotation_of
+
+_COLLIDER_WORDS = ("collision", "collider", "collisions", "colliders")
 
 
 def load_usd(path: Path, config: IntakeConfig) -> Intake:
@@ -45,30 +50,42 @@ def load_usd(path: Path, config: IntakeConfig) -> Intake:
             ``not_a_tree``, ``unsupported_joint``, ``bad_sidecar``, ``license_disallowed``.
         TimeoutError, ChildProcessError: what reads it hung or was killed, which is no verdict.
     """
-    if importlib.util.find_spec("pxr") is None:
-        raise InputRejected(
-            "unsupported", f"{path.name}: reading USD needs usd-core: pip install usd-core"
-        )
-    files = InputFiles(path.parent, config)
-    sidecar = read_sidecar(path, files)
-    with WarmChild() as child, rejecting(path):
-        layers = ask_of(
-            child, path.name, require_own_layers, path, path.parent, config.max_bytes, limits=LIMITS
-        )
+    with WarmChild() as child, rejecting(path.name, path.parent):
+        require_library(path.name)
+        files = InputFiles(path.parent, config)
+        sidecar = read_sidecar(path, files)
+        layers = ask_of(child, path.name, require_inside, path, path.parent, config.max_bytes)
         digests = [digest_read(layer) for layer in layers]
         digest = digest_bytes("\n".join([*digests, *files.digests]).encode())
         require_allowed(path.name, sidecar.license, config.allowed_licenses, digest)
-        stage = ask_of(child, path.name, read_stage, path, config.max_faces, limits=LIMITS)
+        stage = ask_of(child, path.name, _read_leniently, path)
     mesh, annotation, transform = _annotated(stage, path.name, config.max_faces)
     require_sensible_size(path.name, mesh.bounds)
     return _intake(path, mesh, annotation, transform, digest, sidecar.license)
 
 
-def read_annotated(path: Path, max_faces: int) -> tuple[Mesh, Annotation, FloatArray]:
-    """All surfaces of a stage as one mesh, its parts and joints, and how it was turned and scaled.
+def require_own_layers(main: Path, folder: Path, max_bytes: int) -> None:
+    """Refuse a USD asset that leads out of a folder, or is too large, as an input.
 
     Args:
-        path: of the root layer; see :func:`.usd_layers.require_own_layers` for what to ask before.
+        main: the layer to begin with.
+        folder: everything lies in or below it, symbolic links followed.
+        max_bytes: of all layers' files together [bytes].
+
+    Raises:
+        InputRejected: ``external_reference``, ``missing_file``, ``unreadable``, ``unsupported``
+            (value clips and computed references, whose files cannot be known beforehand),
+            ``too_large``.
+    """
+    with rejecting(main.name, folder):
+        require_inside(main, folder, max_bytes)
+
+
+def read_annotated(path: Path, max_faces: int) -> tuple[Mesh, Annotation, FloatArray]:
+    """Return all surfaces of a stage as one mesh, its parts and joints, and how it was turned.
+
+    Args:
+        path: of the root layer; see :func:`require_own_layers` for what to ask before.
         max_faces: most triangles.
 
     Returns:
@@ -79,17 +96,54 @@ def read_annotated(path: Path, max_faces: int) -> tuple[Mesh, Annotation, FloatA
         InputRejected: ``unreadable``, ``empty``, ``too_large``, ``not_a_tree``,
             ``unsupported_joint``.
     """
-    return _annotated(read_stage(path, max_faces), path.name, max_faces)
+    with rejecting(path.name, path.parent):
+        return _annotated(_read_leniently(path), path.name, max_faces)
 
 
-def _annotated(stage: UsdStage, name: str, max_faces: int) -> tuple[Mesh, Annotation, FloatArray]:
-    if not stage.pieces:
+def _read_leniently(path: Path) -> PhysicsStage:
+    return read_stage(path, lenient=True)
+
+
+def _annotated(
+    stage: PhysicsStage, name: str, max_faces: int
+) -> tuple[Mesh, Annotation, FloatArray]:
+    pieces = _pieces(stage, name, max_faces)
+    if not pieces:
         raise InputRejected("empty", f"{name}: holds no surface that is shown")
-    whole = concatenate([mesh for _, mesh in stage.pieces])
-    require_at_most(name, len(whole.faces), max_faces, "faces")
     transform = np.eye(4)
     transform[:3, :3] = stage.metres * rotation_to_z_up(stage.up)
-    return whole.transformed(transform), annotation_of(stage, name), transform
+    bodies = [body for body, mesh in pieces for _ in range(len(mesh.faces))]
+    annotation = annotation_of(stage, bodies, transform, name)
+    return concatenate([mesh for _, mesh in pieces]), annotation, transform
+
+
+def _pieces(stage: PhysicsStage, name: str, max_faces: int) -> list[tuple[str, Mesh]]:
+    """Return body and shown surface [m], z up; of a body that has others, not its colliders."""
+    found: list[tuple[str, bool, Mesh]] = []
+    faces = 0
+    for surface in stage.surfaces:
+        pose = stage.bodies[surface.body].pose
+        vertices = surface.vertices @ pose[:3, :3].T + pose[:3, 3]
+        try:
+            mesh = clean(plain_soup(vertices[surface.faces]), surface.name).mesh
+        except InputRejected as error:
+            if error.code in ("empty", "zero_size"):
+                continue
+            raise
+        faces += len(mesh.faces)
+        require_at_most(name, faces, max_faces, "faces")
+        found.append((surface.body, _is_collider(surface), mesh))
+    seen = {body for body, collider, _ in found if not collider}
+    return [(body, mesh) for body, collider, mesh in found if not collider or body not in seen]
+
+
+def _is_collider(surface: PhysicsSurface) -> bool:
+    """Return whether a surface lies in a group called after collisions, or is called so itself."""
+    return any(
+        word in _COLLIDER_WORDS
+        for name in surface.path.lower().split("/")
+        for word in name.split("_")
+    )
 
 
 def _intake(

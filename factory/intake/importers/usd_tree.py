@@ -3,98 +3,156 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from asset_factory.sim_checks.read.usd.bodies import WORLD
+from asset_factory.sim_checks.read.usd.joints import PhysicsJoint
+from asset_factory.sim_checks.read.usd.stage import PhysicsStage
+
+from ...articulation import rotation_about
 from ...errors import InputRejected
+from ...mesh import FloatArray, IntArray
 from ..annotation import AnnotatedJoint, Annotation
-from .imported import rigid_groups
-from .usd_joints import UsdJoint
-from .usd_stage import STATIC, UsdStage
+from ..limits import unreadable
+from .imported import fixed, rigid_groups
+
+ALIGNED = np.radians(2.0)
+"""Angle between two bodies' joint frames, about another axis than the joint's, to match [rad].
+
+Beyond it nothing is known about the joint's value at the authored pose."""
+CLOSE = 0.02
+"""The same for their distance off the axis, as a share of that along it or of the joint's range."""
 
 
 @dataclass(frozen=True)
 class _Link:
     """A moving joint between two groups of welded bodies, of its ``body0`` and ``body1``."""
 
-    joint: UsdJoint
+    joint: AnnotatedJoint
     first: int
     second: int
 
 
-def annotation_of(stage: UsdStage, file: str) -> Annotation:
-    """Parts and joints of a stage, in its frame and units; faces in the order of its pieces.
+def annotation_of(
+    stage: PhysicsStage, face_body: Sequence[str], transform: FloatArray, file: str
+) -> Annotation:
+    """Return parts and joints of a stage, in the file's own frame and units.
 
     Bodies that no joint holds stand still: they are fixed to the root.
 
     Args:
-        stage: with at least one piece.
+        stage: with at least one surface.
+        face_body: of which body each face is.
+        transform: from the file's frame to the stage's, shape [4, 4].
         file: name for messages.
 
     Raises:
-        InputRejected: ``not_a_tree``: the joints close a loop.
+        InputRejected: ``unsupported_joint``; ``not_a_tree``: the joints close a loop.
     """
-    bodies = list(
-        dict.fromkeys(
-            [*(body for body, _ in stage.pieces), *(b for j in stage.joints for b in j.bodies)]
-        )
-    )
+    ends = [body for joint in stage.joints for body in joint.bodies]
+    bodies = list(dict.fromkeys([*face_body, *ends]))
     index = {body: number for number, body in enumerate(bodies)}
-    ends = [(joint, index[joint.bodies[0]], index[joint.bodies[1]]) for joint in stage.joints]
-    group = rigid_groups(len(bodies), [(a, b) for joint, a, b in ends if joint.kind == "fixed"])
-    links = [_Link(joint, group[a], group[b]) for joint, a, b in ends if joint.kind != "fixed"]
-    face_group = np.concatenate(
-        [np.full(len(mesh.faces), group[index[body]]) for body, mesh in stage.pieces]
-    )
-    order = _by_rank(
-        links,
-        group,
-        [index[body] for body in stage.roots if body in index],
-        index.get(STATIC),
-        face_group,
-    )
-    joints = _directed(links, order, file)
+    joints = [_joint_at_pose(joint, stage, index, transform) for joint in stage.joints]
+    group = rigid_groups(len(bodies), [(j.parent, j.child) for j in joints if j.kind == "fixed"])
+    links = [_Link(j, group[j.parent], group[j.child]) for j in joints if j.kind != "fixed"]
+    face_group = np.array([group[index[body]] for body in face_body])
+    roots = {group[index[body]] for body in stage.roots if body in index}
+    world = group[index[WORLD]] if WORLD in index else None
+    order = _by_rank(links, group, roots, world, face_group)
     number = {g: part for part, g in enumerate(order)}
     return Annotation(
         face_part=np.array([number[g] for g in face_group.tolist()]),
-        part_names=tuple(_name(bodies[g]) for g in order),
+        part_names=tuple(bodies[g].rsplit("/", 1)[-1] or "base" for g in order),
         joints=tuple(
-            _annotated(
-                link,
-                number[parent],
-                number[child],
-                reversed_=link is not None and link.second == parent,
-            )
-            for link, parent, child in joints
+            _directed(link, number, parent, child)
+            for link, parent, child in _hung(links, order, file)
         ),
         source="usd",
     )
 
 
+def _joint_at_pose(
+    joint: PhysicsJoint, stage: PhysicsStage, index: dict[str, int], transform: FloatArray
+) -> AnnotatedJoint:
+    """Return a joint between bodies, which are numbered by ``index``; limits from the pose."""
+    if joint.kind not in ("revolute", "prismatic", "fixed"):
+        raise InputRejected(
+            "unsupported_joint",
+            f"joint {joint.name!r}: is a {joint.kind}; want a revolute, prismatic or fixed joint",
+        )
+    poses = [stage.bodies[body].pose for body in joint.bodies]
+    first, second = (pose @ frame for pose, frame in zip(poses, joint.frames, strict=True))
+    at = _value_at_pose(joint, first, second) if joint.placed else 0.0
+    # A slide's limits are in the file's units, whatever the scale of its body.
+    unit = float(np.cbrt(np.prod(stage.bodies[joint.bodies[0]].scale)))
+    length = unit if joint.kind == "prismatic" else 1.0
+    travelled = at / stage.metres if joint.kind == "prismatic" else at
+    lower, upper = (
+        None if limit is None else limit / length - travelled
+        for limit in (joint.lower, joint.upper)
+    )
+    back = np.linalg.inv(transform)
+    axis = transform[:3, :3].T @ first[:3, :3] @ joint.axis / stage.metres
+    anchor = back[:3, :3] @ first[:3, 3]
+    if not (np.isfinite(axis).all() and np.isfinite(anchor).all()):
+        raise unreadable(f"joint {joint.name!r}", "its frame is not finite")
+    parent, child = (index[body] for body in joint.bodies)
+    return AnnotatedJoint(joint.name, joint.kind, parent, child, axis, anchor, lower, upper)
+
+
+def _value_at_pose(joint: PhysicsJoint, first: FloatArray, second: FloatArray) -> float:
+    """Return the joint's value at the authored pose [rad] or [m]; 0 where frames do not match.
+
+    Args:
+        joint: of which the file states both frames.
+        first: the frame on ``body0``, in the stage's, shape [4, 4].
+        second: the frame on ``body1``.
+    """
+    relative = first[:3, :3].T @ second[:3, :3]
+    cross = np.array(
+        [
+            relative[2, 1] - relative[1, 2],
+            relative[0, 2] - relative[2, 0],
+            relative[1, 0] - relative[0, 1],
+        ]
+    )
+    # Twice the sine and twice the cosine of a rotation about the axis; of another one the rest
+    # below is not small.
+    angle = float(np.arctan2(joint.axis @ cross, np.trace(relative) - 1.0))
+    turned = angle if joint.kind == "revolute" else 0.0
+    rest = rotation_about(joint.axis, -turned) @ relative
+    off_angle = float(np.arccos(np.clip((np.trace(rest) - 1.0) / 2.0, -1.0, 1.0)))
+    between = first[:3, :3].T @ (second[:3, 3] - first[:3, 3])
+    along = float(between @ joint.axis)
+    off_axis = float(np.linalg.norm(between - along * joint.axis))
+    if joint.kind == "revolute":
+        return turned if off_angle <= ALIGNED else 0.0
+    reach = max(abs(along), abs(joint.upper or 0.0))
+    return along if off_angle <= ALIGNED and off_axis <= CLOSE * reach else 0.0
+
+
 def _by_rank(
     links: list[_Link],
     group: list[int],
-    roots: list[int],
-    static: int | None,
-    face_group: np.ndarray,
+    roots: set[int],
+    world: int | None,
+    face_group: IntArray,
 ) -> list[int]:
-    """The groups, best root first: the world's, articulation root, no ``body1``, then size."""
+    """Return the groups, best root first: world, articulation root, no ``body1``, then size."""
     faces = Counter(face_group.tolist())
-    world = None if static is None else group[static]
-    first = {group[body] for body in roots}
     moved = {link.second for link in links}
 
     def rank(g: int) -> tuple[bool, bool, bool, int, int]:
-        return g != world, g not in first, g in moved, -faces[g], g
+        return g != world, g not in roots, g in moved, -faces[g], g
 
     return sorted(set(group), key=rank)
 
 
-def _directed(
-    links: list[_Link], order: list[int], file: str
-) -> list[tuple[_Link | None, int, int]]:
-    """Every joint with its parent's and child's group, away from the root; ``None``: fixed."""
+def _hung(links: list[_Link], order: list[int], file: str) -> list[tuple[_Link | None, int, int]]:
+    """Return joints with their parent's and child's group, from the root on; ``None``: fixed."""
     at: dict[int, list[int]] = {}
     for number, link in enumerate(links):
         for end in (link.first, link.second):
@@ -128,17 +186,11 @@ def _directed(
     return joints
 
 
-def _annotated(link: _Link | None, parent: int, child: int, *, reversed_: bool) -> AnnotatedJoint:
-    """Return the joint; seen from ``body1``, ``body0`` moves the other way round."""
+def _directed(
+    link: _Link | None, number: dict[int, int], parent: int, child: int
+) -> AnnotatedJoint:
+    """Return the joint between parts; seen from ``body1``, ``body0`` moves the other way round."""
     if link is None:
-        up = np.array([0.0, 0.0, 1.0])
-        return AnnotatedJoint(f"hold_{child}", "fixed", parent, child, up, np.zeros(3), None, None)
-    joint = link.joint
-    axis = -joint.axis if reversed_ else joint.axis
-    return AnnotatedJoint(
-        joint.name, joint.kind, parent, child, axis, joint.anchor, joint.lower, joint.upper
-    )
-
-
-def _name(body: str) -> str:
-    return body.rsplit("/", 1)[-1] or "base"
+        return fixed(f"hold_{number[child]}", number[parent], number[child])
+    axis = -link.joint.axis if link.second == parent else link.joint.axis
+    return replace(link.joint, parent=number[parent], child=number[child], axis=axis)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import re
 from pathlib import Path
 from xml.etree import ElementTree
@@ -16,7 +15,7 @@ from .joints import PhysicsJoint
 from .layers import require_inside
 from .refusing import refusing
 from .shapes import PhysicsSurface
-from .stage import PhysicsStage, read_stage
+from .stage import PhysicsStage, read_stage, require_library
 
 NAME = "asset.urdf"
 #: Below this cosine of the pitch, roll and yaw are one and the same.
@@ -41,17 +40,14 @@ def write_as_urdf(path: Path, folder: Path) -> Path:
     Raises:
         DescriptionError: with a stable code, whatever is wrong with the file.
     """
-    if importlib.util.find_spec("pxr") is None:
-        raise DescriptionError(
-            "unknown_format", f"{path.name}: reading USD needs usd-core: pip install usd-core"
-        )
+    require_library(path.name)
     with refusing(path.name, path.resolve().parent), memory_bounded(READER_BYTES):
-        require_inside(path)
-        stage = read_stage(path)
-        if not any(body.visuals or body.collisions for body in stage.bodies.values()):
-            raise DescriptionError("no_links", f"{path.name}: holds no surface")
-        file = folder / NAME
-        file.write_bytes(_Urdf(stage, folder).document(path.stem))
+        require_inside(path, path.parent)
+    stage = read_stage(path)
+    if not stage.surfaces:
+        raise DescriptionError("no_links", f"{path.name}: holds no surface")
+    file = folder / NAME
+    file.write_bytes(_Urdf(stage, folder).document(path.stem))
     return file
 
 
@@ -63,12 +59,11 @@ class _Urdf:
         self._names = _names([path for path in stage.bodies if self._is_link(path)])
 
     def _is_link(self, path: str) -> bool:
-        """Return the world is a link only where something is seen of it or moves against it."""
+        """Tell whether a body is a link: the world is where something of it is seen or moves."""
         if path != WORLD:
             return True
-        world = self._stage.bodies[WORLD]
         movable = any(j.kind != "fixed" and WORLD in j.bodies for j in self._stage.joints)
-        return bool(world.visuals or world.collisions or movable)
+        return movable or any(surface.body == WORLD for surface in self._stage.surfaces)
 
     def document(self, name: str) -> bytes:
         """Return the whole file."""
@@ -92,7 +87,10 @@ class _Urdf:
         back = np.asarray(np.linalg.inv(self._frame(body.path)), dtype=np.float64)
         if body.inertia is not None:
             _write_inertia(link, body.inertia, back)
-        for what, surfaces in (("visual", body.visuals), ("collision", body.collisions)):
+        own = [surface for surface in self._stage.surfaces if surface.body == body.path]
+        visuals = [surface for surface in own if surface.seen]
+        collisions = [surface for surface in own if surface.touched]
+        for what, surfaces in (("visual", visuals), ("collision", collisions)):
             for number, surface in enumerate(surfaces):
                 file = f"{self._names[body.path]}_{what}_{number}.obj"
                 _write_obj(self._folder / file, surface, back)
@@ -134,7 +132,7 @@ class _Urdf:
 def _hung(stage: PhysicsStage) -> list[tuple[PhysicsJoint, int]]:
     """Return every joint, with which of its bodies hangs on the other, from the roots down.
 
-    A joint that would hang a body twice keeps ``body1`` below: the judge says that it is no tree.
+    A joint that would hang a body twice keeps ``body1`` below: the lint says that it is no tree.
     """
     waiting = list(stage.joints)
     held = {joint.bodies[1] for joint in waiting}
@@ -186,7 +184,7 @@ def _write_obj(file: Path, surface: PhysicsSurface, back: FloatArray) -> None:
 
 
 def _place(pose: FloatArray) -> dict[str, str]:
-    """As URDF writes a pose: a place, and angles about the fixed x, y and z axis."""
+    """Write a pose as URDF does: a place, and angles about the fixed x, y and z axis."""
     turn = pose[:3, :3]
     level = float(np.hypot(turn[0, 0], turn[1, 0]))
     pitch = np.arctan2(-turn[2, 0], level)

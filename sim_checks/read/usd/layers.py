@@ -62,20 +62,31 @@ def layer_files(main: Path, folder: Path) -> Iterator[Path]:
         refuse_multiplied(main.name, str(main.resolve()), layers, named)
 
 
-def require_inside(path: Path) -> None:
-    """Refuse an asset that leads out of its folder, or is too large.
+def require_inside(path: Path, folder: Path, most_bytes: int = MOST_BYTES) -> tuple[Path, ...]:
+    """Refuse an asset that leads out of a folder by composition arcs, or is too large.
+
+    Args:
+        path: the layer to begin with.
+        folder: everything lies in or below it, symbolic links followed.
+        most_bytes: largest size of all layers' files together.
+
+    Returns:
+        The files that it is composed of, in order of their names.
 
     Raises:
         DescriptionError: ``too_large``, and those of :func:`layer_files`.
     """
-    total = 0
-    for number, file in enumerate(layer_files(path, path.parent), start=1):
-        total += file.stat().st_size
-        if number > MOST_LAYERS or total > MOST_BYTES:
-            raise DescriptionError(
-                "too_large",
-                f"{path.name}: over {MOST_LAYERS} layers, or {MOST_BYTES} bytes together",
+    files: dict[Path, int] = {}
+    for number, file in enumerate(layer_files(path, folder), start=1):
+        files[file] = file.stat().st_size
+        total = sum(files.values())
+        if number > MOST_LAYERS or total > most_bytes:
+            message = (
+                f"{path.name}: {number:,} layers of {total:,} bytes together, the limit is "
+                f"{MOST_LAYERS:,} and {most_bytes:,}; simplify it or raise the limit"
             )
+            raise DescriptionError("too_large", message)
+    return tuple(sorted(files))
 
 
 def _identifier(reference: str, layer: Any) -> str:
@@ -118,7 +129,7 @@ def _own_file(identifier: str, root: Path) -> Path:
 
 
 def _refuse_clips(layer: Any) -> None:
-    """Clips name files in ways that only composition knows."""
+    """Refuse value clips, which name files in ways that only composition knows."""
     from pxr import Sdf
 
     found: list[str] = []

@@ -52,7 +52,7 @@ def is_rigid_body(prim: Any) -> bool:
 
 
 def is_joint_in_use(prim: Any) -> bool:
-    """Whether it is a joint that is enabled and in the tree: loop-closing ones are left out."""
+    """Tell whether it is a joint that is enabled and in the tree; one that closes a loop is not."""
     from pxr import UsdPhysics
 
     if not prim.IsA(UsdPhysics.Joint):
@@ -63,7 +63,7 @@ def is_joint_in_use(prim: Any) -> bool:
 
 
 def joint_kind(prim: Any) -> str:
-    """``revolute``, ``prismatic``, ``fixed``, or the file's word for any other joint."""
+    """Return ``revolute``, ``prismatic``, ``fixed``, or the file's word for any other joint."""
     from pxr import UsdPhysics
 
     for kind, schema in (

@@ -24,7 +24,7 @@ LIMITS = Limits(wall_s=120.0, memory_bytes=4 * 2**30)
 
 @contextmanager
 def refusing(name: str, folder: Path) -> Iterator[None]:
-    """Within this, exceptions of USD's library, few of which pickle, become a refusal.
+    """Turn exceptions of USD's library, few of which pickle, into a refusal.
 
     Args:
         name: of the file, which opens the sentence.

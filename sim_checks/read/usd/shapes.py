@@ -23,25 +23,35 @@ class PhysicsSurface:
     """Triangles.
 
     Attributes:
-        name: of the prim.
+        path: of the prim.
+        body: path of the body that it is part of.
+        seen, touched: whether it is shown, and whether it collides.
         vertices: body frame [m], shape [n, 3].
         faces: shape [m, 3].
     """
 
-    name: str
+    path: str
+    body: str
+    seen: bool
+    touched: bool
     vertices: FloatArray
     faces: IntArray
 
+    @property
+    def name(self) -> str:
+        """Return the name of the prim."""
+        return self.path.rpartition("/")[2]
 
-def read_surface(prim: Any, place: FloatArray) -> PhysicsSurface | None:
+
+def read_triangles(prim: Any, place: FloatArray) -> tuple[FloatArray, IntArray] | None:
     """Return a mesh, box, ball, cylinder or capsule as triangles; ``None`` for any other thing.
 
     Args:
-        prim: a ``UsdGeom.Gprim``.
+        prim: a ``UsdGeom.Gprim``; of what moves by time samples, its first shape is taken.
         place: of it in its body's frame, metres and scale included, shape [4, 4].
 
     Raises:
-        DescriptionError: ``unreadable_mesh``.
+        DescriptionError: ``unreadable_mesh``, ``not_finite``.
     """
     from pxr import UsdGeom
 
@@ -49,51 +59,81 @@ def read_surface(prim: Any, place: FloatArray) -> PhysicsSurface | None:
     if found is None or not len(found[1]):
         return None
     vertices, faces = found
-    return PhysicsSurface(str(prim.GetName()), vertices @ place[:3, :3].T + place[:3, 3], faces)
+    if np.linalg.det(place[:3, :3]) < 0.0:
+        faces = faces[:, [0, 2, 1]]
+    return vertices @ place[:3, :3].T + place[:3, 3], faces
+
+
+def _value(attribute: Any) -> Any:
+    """Return a value as authored; of what moves by time samples, the first."""
+    from pxr import Usd
+
+    value = attribute.Get()
+    return attribute.Get(Usd.TimeCode.EarliestTime()) if value is None else value
+
+
+def _array(attribute: Any, dtype: type) -> Any:
+    value = _value(attribute)
+    return np.array(() if value is None else value, dtype=dtype)
 
 
 def _mesh(mesh: Any) -> tuple[FloatArray, IntArray]:
-    points = np.array(mesh.GetPointsAttr().Get() or (), dtype=np.float64).reshape(-1, 3)
-    counts = np.array(mesh.GetFaceVertexCountsAttr().Get() or (), dtype=np.int64)
-    corners = np.array(mesh.GetFaceVertexIndicesAttr().Get() or (), dtype=np.int64)
-    if (
-        counts.sum() != len(corners)
-        or (counts < 0).any()
-        or (len(corners) and not 0 <= corners.min() <= corners.max() < len(points))
-    ):
-        raise DescriptionError(
-            "unreadable_mesh",
-            f"{mesh.GetPrim().GetName()}: its faces name points that it does not have",
-        )
-    # Fans: the first corner of each polygon with every two that follow one another.
-    first = np.repeat(np.cumsum(counts) - counts, np.maximum(counts - 2, 0))
-    ends = np.cumsum(np.maximum(counts - 2, 0))
-    step = np.arange(len(first)) - np.repeat(
-        ends - np.maximum(counts - 2, 0), np.maximum(counts - 2, 0)
-    )
-    faces = (
-        np.column_stack([corners[first], corners[first + step + 1], corners[first + step + 2]])
-        if len(first)
-        else np.zeros((0, 3), dtype=np.int64)
-    )
+    from pxr import UsdGeom
+
+    points = _array(mesh.GetPointsAttr(), float).reshape(-1, 3)
+    counts = _array(mesh.GetFaceVertexCountsAttr(), np.int64)
+    corners = _array(mesh.GetFaceVertexIndicesAttr(), np.int64)
+    where = f"mesh {mesh.GetPrim().GetName()!r}"
+    if not (len(points) and len(counts) and len(corners)):
+        return np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)
+    if counts.min() < 0 or counts.sum() != len(corners):
+        message = f"{where}: its faces count {counts.sum()} corners and it has {len(corners)}"
+        raise DescriptionError("unreadable_mesh", message)
+    if not 0 <= corners.min() <= corners.max() < len(points):
+        message = f"{where}: its faces name points outside the {len(points)} that it has"
+        raise DescriptionError("unreadable_mesh", message)
+    if not np.isfinite(points).all():
+        raise DescriptionError("not_finite", f"{where}: a point is not finite")
+    holes = _array(mesh.GetHoleIndicesAttr(), np.int64)
+    solid = np.ones(len(counts), dtype=np.bool_)
+    solid[holes[(holes >= 0) & (holes < len(counts))]] = False
+    faces = _fan(counts, corners, solid)
+    if _value(mesh.GetOrientationAttr()) == UsdGeom.Tokens.leftHanded:
+        faces = faces[:, [0, 2, 1]]
     return points, faces
+
+
+def _fan(counts: IntArray, corners: IntArray, wanted: np.ndarray) -> IntArray:
+    """Return polygons as triangles around their first corners, shape [triangle_count, 3].
+
+    Args:
+        counts: corners of each polygon, shape [polygon_count].
+        corners: of all polygons in order, shape [sum of ``counts``].
+        wanted: which polygons, shape [polygon_count].
+    """
+    each = np.where(wanted, np.maximum(counts - 2, 0), 0)
+    polygon = np.repeat(np.arange(len(counts)), each)
+    first = (np.cumsum(counts) - counts)[polygon]
+    step = np.arange(len(polygon)) - np.repeat(np.cumsum(each) - each, each)
+    return np.column_stack([corners[first], corners[first + step + 1], corners[first + step + 2]])
 
 
 def _primitive(prim: Any) -> tuple[FloatArray, IntArray] | None:
     from pxr import UsdGeom
 
+    def number(attribute: Any) -> float:
+        return float(_value(attribute))
+
     if prim.IsA(UsdGeom.Cube):
-        return primitives.box(np.full(3, float(UsdGeom.Cube(prim).GetSizeAttr().Get())))
+        return primitives.box(np.full(3, number(UsdGeom.Cube(prim).GetSizeAttr())))
     if prim.IsA(UsdGeom.Sphere):
-        return primitives.ellipsoid(np.full(3, float(UsdGeom.Sphere(prim).GetRadiusAttr().Get())))
+        return primitives.ellipsoid(np.full(3, number(UsdGeom.Sphere(prim).GetRadiusAttr())))
     for schema, make in (
         (UsdGeom.Cylinder, primitives.cylinder),
         (UsdGeom.Capsule, primitives.capsule),
     ):
         if prim.IsA(schema):
             shape = schema(prim)
-            vertices, faces = make(
-                float(shape.GetRadiusAttr().Get()), float(shape.GetHeightAttr().Get())
-            )
-            return vertices @ ALONG[str(shape.GetAxisAttr().Get())].T, faces
+            vertices, faces = make(number(shape.GetRadiusAttr()), number(shape.GetHeightAttr()))
+            return vertices @ ALONG[str(_value(shape.GetAxisAttr()))].T, faces
     return None

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import importlib.util
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -9,11 +11,13 @@ from typing import Any
 import numpy as np
 
 from ...description import DescriptionError, FloatArray, LinkInertia
+from ..native import READER_BYTES, memory_bounded
 from ..urdf import MAX_TRIANGLES
-from .bodies import WORLD, PhysicsBody, rotation_of
+from .bodies import WORLD, PhysicsBody, rotation_of, split_scale
 from .joints import PhysicsJoint, read_joint
 from .prims import is_joint_in_use, is_on, is_rigid_body, is_shown, list_prims
-from .shapes import read_surface
+from .refusing import refusing
+from .shapes import PhysicsSurface, read_triangles
 
 
 @dataclass(frozen=True)
@@ -22,52 +26,127 @@ class PhysicsStage:
 
     Attributes:
         bodies: by path, :data:`WORLD` first.
-        joints: between them.
+        surfaces: of all bodies, in the order of the stage.
+        joints: between bodies.
+        roots: paths of bodies that an articulation begins with.
+        metres: of one of the file's units.
+        up: the file's up axis, ``y`` or ``z``.
     """
 
     bodies: dict[str, PhysicsBody]
+    surfaces: tuple[PhysicsSurface, ...]
     joints: tuple[PhysicsJoint, ...]
+    roots: frozenset[str]
+    metres: float
+    up: str
 
 
-def read_stage(path: Path) -> PhysicsStage:
-    """Compose a stage and read its physics; call it within :func:`.refusing.refusing`.
+def require_library(name: str) -> None:
+    """Refuse a USD file, of that name, where the library that reads it is not installed.
 
     Raises:
-        DescriptionError: ``invalid_number``, ``not_finite``, ``too_large``.
+        DescriptionError: ``unknown_format``.
     """
-    from pxr import Usd, UsdGeom, UsdPhysics
-
-    stage = Usd.Stage.Open(str(path.resolve()))
-    metres = float(UsdGeom.GetStageMetersPerUnit(stage))
-    kilograms = float(UsdPhysics.GetStageKilogramsPerUnit(stage))
-    if not (0.0 < metres < np.inf and 0.0 < kilograms < np.inf):
+    if importlib.util.find_spec("pxr") is None:
         raise DescriptionError(
-            "invalid_number", f"{path.name}: its units are {metres} m, {kilograms} kg"
+            "unknown_format", f"{name}: reading USD needs usd-core: pip install usd-core"
         )
-    world = np.diag([metres, metres, metres, 1.0])
-    if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.y:
-        world = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]]) @ world
-    cache = UsdGeom.XformCache()
 
-    def pose_of(prim: Any) -> FloatArray:
-        return np.asarray(world @ np.array(cache.GetLocalToWorldTransform(prim)).T)
 
-    prims = list_prims(stage, path.name)
-    bodies = {WORLD: PhysicsBody(WORLD, np.eye(4), np.full(3, metres))}
-    for prim in prims:
-        if is_rigid_body(prim):
-            pose, scale = _rigid(pose_of(prim))
-            name = str(prim.GetPath())
-            bodies[name] = PhysicsBody(name, pose, scale, _inertia(prim, scale, kilograms))
-    triangles = 0
-    for prim in prims:
-        if prim.IsA(UsdGeom.Gprim):
-            triangles += _add_surface(prim, bodies[_body_of(prim, bodies)], pose_of(prim))
+def read_stage(path: Path, *, lenient: bool = False) -> PhysicsStage:
+    """Compose a stage and read its physics; call it in a killable child.
+
+    Args:
+        path: of the root layer; :func:`.layers.require_inside` has seen what it is composed of.
+        lenient: read of surfaces only those that are shown; where no prim at all is a rigid body,
+            take what the joints hold for bodies.
+
+    Raises:
+        DescriptionError: ``invalid_number``, ``not_finite``, ``unreadable_mesh``, ``too_large``,
+            or ``unreadable`` whatever the library makes of the file.
+    """
+    with refusing(path.name, path.resolve().parent), memory_bounded(READER_BYTES):
+        return _Reader(path, lenient=lenient).read()
+
+
+class _Reader:
+    def __init__(self, path: Path, *, lenient: bool) -> None:
+        from pxr import Usd, UsdGeom, UsdPhysics
+
+        self._name = path.name
+        self._lenient = lenient
+        self._stage = Usd.Stage.Open(str(path.resolve()))
+        self._cache = UsdGeom.XformCache()
+        self._metres = float(UsdGeom.GetStageMetersPerUnit(self._stage))
+        self._kilograms = float(UsdPhysics.GetStageKilogramsPerUnit(self._stage))
+        if not (0.0 < self._metres < np.inf and 0.0 < self._kilograms < np.inf):
+            message = f"{self._name}: its units are {self._metres} m, {self._kilograms} kg"
+            raise DescriptionError("invalid_number", message)
+        self._up = str(UsdGeom.GetStageUpAxis(self._stage)).lower()
+        self._world = np.diag([self._metres, self._metres, self._metres, 1.0])
+        if self._up == "y":
+            turn = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]])
+            self._world = turn @ self._world
+        self._prims = list_prims(self._stage, self._name)
+
+    def read(self) -> PhysicsStage:
+        from pxr import UsdPhysics
+
+        joints = [prim for prim in self._prims if is_joint_in_use(prim)]
+        bodies = {WORLD: PhysicsBody(WORLD, np.eye(4), np.full(3, self._metres))}
+        for prim in self._body_prims(joints):
+            path = str(prim.GetPath())
+            pose, scale = split_scale(self._pose_of(prim))
+            bodies[path] = PhysicsBody(path, pose, scale, _inertia(prim, scale, self._kilograms))
+        roots = (prim for prim in self._prims if prim.HasAPI(UsdPhysics.ArticulationRootAPI))
+        return PhysicsStage(
+            bodies,
+            tuple(self._surfaces(bodies)),
+            tuple(read_joint(prim, bodies, self._pose_of) for prim in joints),
+            frozenset(_body_of(prim, bodies) for prim in roots if prim not in joints) - {WORLD},
+            self._metres,
+            self._up,
+        )
+
+    def _pose_of(self, prim: Any | None) -> FloatArray:
+        """Return a prim's pose in the world, metres and scale included; of ``None`` the stage's."""
+        own = np.eye(4) if prim is None else np.array(self._cache.GetLocalToWorldTransform(prim)).T
+        return np.asarray(self._world @ own)
+
+    def _body_prims(self, joints: list[Any]) -> list[Any]:
+        from pxr import UsdPhysics
+
+        rigid = [prim for prim in self._prims if is_rigid_body(prim)]
+        if rigid or not self._lenient:
+            return rigid
+        ends = (UsdPhysics.Joint(prim) for prim in joints)
+        relations = (rel for joint in ends for rel in (joint.GetBody0Rel(), joint.GetBody1Rel()))
+        held = {str(target) for rel in relations for target in rel.GetForwardedTargets()}
+        return [prim for prim in self._prims if str(prim.GetPath()) in held - {WORLD}]
+
+    def _surfaces(self, bodies: dict[str, PhysicsBody]) -> Iterator[PhysicsSurface]:
+        """Yield what is seen or touched."""
+        from pxr import UsdGeom, UsdPhysics
+
+        triangles = 0
+        for prim in self._prims:
+            if not prim.IsA(UsdGeom.Gprim):
+                continue
+            seen = is_shown(prim)
+            touched = prim.HasAPI(UsdPhysics.CollisionAPI) and is_on(
+                UsdPhysics.CollisionAPI(prim).GetCollisionEnabledAttr()
+            )
+            if not (seen or (touched and not self._lenient)):
+                continue
+            body = _body_of(prim, bodies)
+            found = read_triangles(prim, np.linalg.inv(bodies[body].pose) @ self._pose_of(prim))
+            if found is None:
+                continue
+            triangles += len(found[1])
             if triangles > MAX_TRIANGLES:
-                words = f"{path.name}: over {MAX_TRIANGLES:,} triangles, at most so many are read"
+                words = f"{self._name}: over {MAX_TRIANGLES:,} triangles, at most so many are read"
                 raise DescriptionError("too_large", words)
-    joints = tuple(read_joint(prim, bodies) for prim in prims if is_joint_in_use(prim))
-    return PhysicsStage(bodies, joints)
+            yield PhysicsSurface(str(prim.GetPath()), body, seen, touched, *found)
 
 
 def _body_of(prim: Any, bodies: dict[str, PhysicsBody]) -> str:
@@ -76,37 +155,6 @@ def _body_of(prim: Any, bodies: dict[str, PhysicsBody]) -> str:
     while str(path) not in bodies:
         path = path.GetParentPath()
     return str(path)
-
-
-def _add_surface(prim: Any, body: PhysicsBody, pose: FloatArray) -> int:
-    """Add what is seen or touched of a prim to its body; how many triangles that are."""
-    from pxr import UsdPhysics
-
-    seen = is_shown(prim)
-    touched = prim.HasAPI(UsdPhysics.CollisionAPI) and is_on(
-        UsdPhysics.CollisionAPI(prim).GetCollisionEnabledAttr()
-    )
-    surface = read_surface(prim, np.linalg.inv(body.pose) @ pose) if seen or touched else None
-    if surface is None:
-        return 0
-    if seen:
-        body.visuals.append(surface)
-    if touched:
-        body.collisions.append(surface)
-    return len(surface.faces)
-
-
-def _rigid(pose: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return a pose without its scale, and the scale, shape [3]."""
-    scale = np.linalg.norm(pose[:3, :3], axis=0)
-    if not (np.isfinite(pose).all() and (scale > 0.0).all()):
-        raise DescriptionError("not_finite", "a body's place is not finite, or its scale is 0")
-    u, _, v = np.linalg.svd(pose[:3, :3] / scale)
-    turn = u @ np.diag([1.0, 1.0, float(np.sign(np.linalg.det(u @ v)))]) @ v
-    rigid = np.eye(4)
-    rigid[:3, :3] = turn
-    rigid[:3, 3] = pose[:3, 3]
-    return rigid, scale
 
 
 def _inertia(prim: Any, scale: FloatArray, kilograms: float) -> LinkInertia | None:

@@ -306,8 +306,8 @@ def test_the_compiler_of_mjcf_leaves_no_log_behind(tmp_path: Path) -> None:
     )
     code = (
         "import sys, pathlib\n"
-        "from asset_factory.factory.intake.importers.mjcf_model import compile_model\n"
-        "try:\n    compile_model(sys.argv[1])\nexcept ValueError:\n    pass\n"
+        "from asset_factory.sim_checks.read.mjcf_model import compile_model\n"
+        "try:\n    compile_model(pathlib.Path(sys.argv[1]))\nexcept ValueError:\n    pass\n"
     )
     (tmp_path / "elsewhere").mkdir()
     environment = {**os.environ, "OMP_NUM_THREADS": "1"}

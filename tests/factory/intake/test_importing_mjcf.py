@@ -13,8 +13,8 @@ from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.importers.load import load_description
 from asset_factory.factory.intake.importers.mjcf import shown
-from asset_factory.factory.intake.importers.mjcf_model import CompiledGeom
 from asset_factory.factory.intake.intake import Intake
+from asset_factory.sim_checks.read.mjcf_model import CompiledGeom
 
 pytest.importorskip("mujoco")
 
@@ -125,17 +125,14 @@ def test_limits_count_from_the_reference_pose(tmp_path: Path) -> None:
 
 def geom(group: int, collides: bool, alpha: float = 1.0) -> CompiledGeom:
     return CompiledGeom(
-        1,
-        "box",
-        np.ones(3),
-        np.eye(4),
-        -1,
-        (1.0, 1.0, 1.0, alpha),
-        -1,
-        (1.0, 1.0),
-        "",
-        collides,
-        group,
+        name="",
+        body=1,
+        shape="box",
+        size=np.ones(3),
+        pose=np.eye(4),
+        rgba=(1.0, 1.0, 1.0, alpha),
+        contact_type=int(collides),
+        group=group,
     )
 
 

@@ -11,7 +11,7 @@ pytest.importorskip("pxr")
 from usda import CABINET, stage, write
 
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.intake.importers.usd_layers import require_own_layers
+from asset_factory.factory.intake.importers.usd import require_own_layers
 
 ROOM = 10_000_000
 
@@ -98,6 +98,6 @@ def test_own_layers_and_looks_elsewhere_are_fine(tmp_path):
             "asset map = @../../outside.png@\n}\n"
         ),
     )
-    require_own_layers(main, folder, ROOM)
+    require_own_layers(main, main.parent, ROOM)
     with pytest.raises(InputRejected, match="limit"):
         require_own_layers(main, folder, 1000)

@@ -34,7 +34,7 @@ def test_names_that_no_file_has_are_missing_in_mjcf_too(tmp_path):
     name = "n" * 300 + ".stl"
     path = tmp_path / "a.xml"
     path.write_text(f'<mujoco><asset><mesh name="m" file="{name}"/></asset></mujoco>')
-    references.refuse_outside_mjcf(path, document.parse_document(path))
+    references.named_files(path, document.parse_document(path))
 
 
 def test_includes_that_double_are_counted(tmp_path):
@@ -44,9 +44,7 @@ def test_includes_that_double_are_counted(tmp_path):
     (tmp_path / "12.xml").write_text("<mujoco/>")
     started = time.process_time()
     with pytest.raises(DescriptionError) as caught:
-        references.refuse_outside_mjcf(
-            tmp_path / "0.xml", document.parse_document(tmp_path / "0.xml")
-        )
+        references.named_files(tmp_path / "0.xml", document.parse_document(tmp_path / "0.xml"))
     assert caught.value.code == "nested_too_deep"
     assert time.process_time() - started < QUICK_S
 

@@ -13,7 +13,7 @@ from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.load import load
 from asset_factory.sim_checks.description import DescriptionError
 from asset_factory.sim_checks.processes.isolation import Failure, Outcome
-from asset_factory.sim_checks.read import multiplied
+from asset_factory.sim_checks.read import multiplied, native
 from asset_factory.sim_checks.read.document import parse_document
 from asset_factory.sim_checks.read.multiplied import refuse_multiplied
 from asset_factory.sim_checks.read.native import COMPILER_BYTES, memory_bounded
@@ -83,7 +83,7 @@ def test_what_multiplies_without_bounds_is_refused_by_counting(tmp_path, name, m
     assert refused.value.code == "too_large"
     assert time.process_time() - started < 2.0
     # Intake says so before anything is compiled.
-    monkeypatch.setattr("asset_factory.factory.intake.importers.mjcf.run_isolated", None)
+    monkeypatch.setattr("asset_factory.factory.intake.importers.mjcf.read_apart", None)
     with pytest.raises(InputRejected) as rejected:
         load(path, IntakeConfig())
     assert rejected.value.code == "too_large"
@@ -156,8 +156,7 @@ def test_a_compiler_that_hangs_or_is_killed_gives_no_verdict(
     tmp_path, monkeypatch, outcome, raised, code
 ):
     path = written(tmp_path, BODY)
-    for module in ("sim_checks.read.read", "factory.intake.importers.mjcf"):
-        monkeypatch.setattr(f"asset_factory.{module}.run_isolated", lambda *_, **__: outcome)
+    monkeypatch.setattr(native, "run_isolated", lambda *_, **__: outcome)
     with pytest.raises(raised or DescriptionError) as refused:
         read_description(path)
     with pytest.raises(raised or InputRejected) as rejected:

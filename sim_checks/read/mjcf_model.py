@@ -1,0 +1,385 @@
+"""MuJoCo's own compiler, read back as plain arrays.
+
+MJCF has defaults, classes, includes, frames and half a dozen ways to write a rotation; the only
+faithful reader is the compiler itself. It is native code on somebody else's file: call it where it
+can die.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..description import DescriptionError, FloatArray, IntArray, LinkInertia
+from .multiplied import MOST
+from .native import COMPILER_BYTES, memory_bounded
+
+if TYPE_CHECKING:
+    from mujoco import MjModel, MjSpec
+
+MESH = "mesh"
+
+
+@dataclass(frozen=True)
+class CompiledBody:
+    """A body in the pose that the file gives it.
+
+    Attributes:
+        name: empty where unnamed.
+        parent: index of the body that holds it; the world holds itself.
+        weld: index of the topmost body that it is rigidly part of.
+        pose: its frame in its parent's, shape [4, 4].
+        inertia: ``None`` for a body without mass.
+    """
+
+    name: str
+    parent: int
+    weld: int
+    pose: FloatArray
+    inertia: LinkInertia | None
+
+
+@dataclass(frozen=True)
+class CompiledJoint:
+    """A joint of a body.
+
+    Attributes:
+        name: empty where unnamed.
+        kind: ``free``, ``ball``, ``slide`` or ``hinge``.
+        body: index of the body that it moves.
+        axis, anchor: direction, and a point on it [m], body frame, shape [3].
+        reference: its value in the file's pose [rad] or [m].
+        lower, upper: [rad] or [m]; ``None`` where it has no limits.
+        damping, friction: [N m s/rad, N m] or [N s/m, N].
+    """
+
+    name: str
+    kind: str
+    body: int
+    axis: FloatArray
+    anchor: FloatArray
+    reference: float
+    lower: float | None
+    upper: float | None
+    damping: float
+    friction: float
+
+
+@dataclass(frozen=True)
+class CompiledGeom:
+    """A geom of a body.
+
+    Attributes:
+        name: empty where unnamed.
+        body: index of its body.
+        shape: ``mesh``, ``box``, ``sphere``, ``capsule``, ``cylinder``, ``ellipsoid``, or another
+            MuJoCo name.
+        size: MuJoCo's half sizes [m], shape [3].
+        pose: its frame in its body's, shape [4, 4].
+        mesh: index into the model's meshes, or -1.
+        rgba: colour, each in [0, 1].
+        texture: index into the model's textures, or -1.
+        uv_scale: factors on the texture coordinates.
+        material: name, or empty.
+        contact_type, contact_affinity: bits that must meet another geom's to collide with it.
+        group: visibility group.
+    """
+
+    name: str
+    body: int
+    shape: str
+    size: FloatArray
+    pose: FloatArray
+    mesh: int = -1
+    rgba: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
+    texture: int = -1
+    uv_scale: tuple[float, float] = (1.0, 1.0)
+    material: str = ""
+    contact_type: int = 0
+    contact_affinity: int = 0
+    group: int = 0
+
+    @property
+    def collides(self) -> bool:
+        """Return whether it can touch anything."""
+        return bool(self.contact_type | self.contact_affinity)
+
+
+@dataclass(frozen=True)
+class CompiledMesh:
+    """Triangles in the geom's frame [m].
+
+    Attributes:
+        file: as the compiler names it; empty for one that is written in the document.
+        uv: by face corner, origin bottom left, shape [face_count, 3, 2]; ``None`` without.
+    """
+
+    name: str
+    file: str
+    vertices: FloatArray
+    faces: IntArray
+    uv: FloatArray | None
+
+
+@dataclass(frozen=True)
+class CompiledTexture:
+    """An image by name of file (empty for a built-in one) and its mean colour, RGB in [0, 1]."""
+
+    file: str
+    flat: bool
+    mean: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class CompiledEquality:
+    """A constraint.
+
+    Attributes:
+        kind: MuJoCo's name, such as ``joint`` or ``weld``.
+        joints: of kind ``joint``: indices of the follower and of its leader, -1 for none.
+        constant, linear: of its polynomial, about both joints' references.
+        active: whether it holds from the start.
+    """
+
+    kind: str
+    joints: tuple[int, int]
+    constant: float
+    linear: float
+    active: bool
+
+
+@dataclass(frozen=True)
+class CompiledModel:
+    """A model in MuJoCo's order, the world first.
+
+    Attributes:
+        excluded: pairs of bodies that the file forbids to collide.
+        others: how many things there are that no other field tells, by MuJoCo's name.
+    """
+
+    bodies: tuple[CompiledBody, ...]
+    joints: tuple[CompiledJoint, ...]
+    geoms: tuple[CompiledGeom, ...]
+    meshes: tuple[CompiledMesh, ...]
+    textures: tuple[CompiledTexture, ...]
+    equalities: tuple[CompiledEquality, ...]
+    excluded: tuple[tuple[int, int], ...]
+    others: tuple[tuple[str, int], ...]
+
+
+def compile_model(path: Path, *, lenient: bool = False) -> CompiledModel:
+    """Compile the MJCF file at ``path``; call it in a killable child.
+
+    Args:
+        path: a file whose references were checked by :func:`.references.named_files`.
+        lenient: keep names and looks that the file drops, and accept bodies that are too light.
+
+    Raises:
+        DescriptionError: ``too_large``, or ``unreadable`` with MuJoCo's own words.
+    """
+    import mujoco  # the engine's own compiler is the only true reader of its format
+
+    main = str(path.parent.resolve() / path.name)
+    # Its own way is a log file in whatever folder the program was started from.
+    mujoco.set_mju_user_warning(_say)
+    # It remembers meshes by their file's name and the second they were written in.
+    mujoco.mj_clearCache(mujoco.mj_getCache())
+    try:
+        with memory_bounded(COMPILER_BYTES):
+            model = _compile_leniently(main) if lenient else mujoco.MjModel.from_xml_path(main)
+    except MemoryError as error:
+        raise DescriptionError("too_large", f"{path.name}: {error}") from error
+    except (ValueError, RuntimeError, mujoco.FatalError) as error:
+        words = " ".join(str(error).replace(str(path.parent.resolve()), "").split())
+        message = f"{path.name}: MuJoCo cannot compile it: {words}"
+        raise DescriptionError("unreadable", message) from error
+    _refuse_many(path.name, model)
+    return CompiledModel(
+        bodies=tuple(_body(model, i) for i in range(model.nbody)),
+        joints=tuple(_joint(model, i) for i in range(model.njnt)),
+        geoms=tuple(_geom(model, i) for i in range(model.ngeom)),
+        meshes=tuple(_mesh(model, i) for i in range(model.nmesh)),
+        textures=tuple(_texture(model, i) for i in range(model.ntex)),
+        equalities=tuple(_equality(model, i) for i in range(model.neq)),
+        excluded=tuple(divmod(int(pair), 1 << 16) for pair in model.exclude_signature),
+        others=(("tendon", model.ntendon), ("flex", model.nflex), ("skin", model.nskin)),
+    )
+
+
+def _say(words: str) -> None:
+    os.write(2, f"MuJoCo: {words}\n".encode())
+
+
+def _compile_leniently(path: str) -> MjModel:
+    import mujoco
+
+    try:
+        return _undiscarding(path).compile()
+    except ValueError:
+        # A body too thin for MuJoCo's own masses is no reason to refuse its shape.
+        spec = _undiscarding(path)
+        spec.compiler.boundmass = 1e-3
+        spec.compiler.boundinertia = 1e-6
+        spec.compiler.balanceinertia = True
+        for mesh in spec.meshes:
+            mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
+        return spec.compile()
+
+
+def _undiscarding(path: str) -> MjSpec:
+    import mujoco
+
+    spec = mujoco.MjSpec.from_file(path)
+    spec.compiler.discardvisual = False
+    spec.compiler.fusestatic = False
+    return spec
+
+
+def _refuse_many(name: str, model: MjModel) -> None:
+    for what, count in (("bodies", model.nbody), ("geoms", model.ngeom)):
+        if count > MOST[what]:
+            message = f"{name}: {count} {what} once compiled, at most {MOST[what]} are read"
+            raise DescriptionError("too_large", message)
+
+
+def _body(model: MjModel, index: int) -> CompiledBody:
+    mass = float(model.body_mass[index])
+    inertia = None
+    if mass > 0.0:
+        frame = _pose(model.body_ipos[index], model.body_iquat[index])
+        tensor = frame[:3, :3] @ np.diag(model.body_inertia[index]) @ frame[:3, :3].T
+        inertia = LinkInertia(mass, frame[:3, 3], tensor)
+    return CompiledBody(
+        name=str(model.body(index).name),
+        parent=int(model.body_parentid[index]),
+        weld=int(model.body_weldid[index]),
+        pose=_pose(model.body_pos[index], model.body_quat[index]),
+        inertia=inertia,
+    )
+
+
+def _joint(model: MjModel, index: int) -> CompiledJoint:
+    import mujoco
+
+    limited = bool(model.jnt_limited[index])
+    lower, upper = (float(value) for value in model.jnt_range[index])
+    dof = int(model.jnt_dofadr[index])
+    return CompiledJoint(
+        name=str(model.joint(index).name),
+        kind=mujoco.mjtJoint(model.jnt_type[index]).name.removeprefix("mjJNT_").lower(),
+        body=int(model.jnt_bodyid[index]),
+        axis=np.array(model.jnt_axis[index]),
+        anchor=np.array(model.jnt_pos[index]),
+        reference=float(model.qpos0[int(model.jnt_qposadr[index])]),
+        lower=lower if limited else None,
+        upper=upper if limited else None,
+        damping=float(np.ravel(model.dof_damping[dof])[0]),
+        friction=float(np.ravel(model.dof_frictionloss[dof])[0]),
+    )
+
+
+def _geom(model: MjModel, index: int) -> CompiledGeom:
+    import mujoco
+
+    material = int(model.geom_matid[index])
+    shape = mujoco.mjtGeom(model.geom_type[index]).name.removeprefix("mjGEOM_").lower()
+    color = model.geom_rgba[index] if material < 0 else model.mat_rgba[material]
+    red, green, blue, alpha = color.tolist()
+    return CompiledGeom(
+        name=str(model.geom(index).name),
+        body=int(model.geom_bodyid[index]),
+        shape=shape,
+        size=np.array(model.geom_size[index]),
+        pose=_pose(model.geom_pos[index], model.geom_quat[index]),
+        # A signed-distance geom carries an ordinary mesh as well.
+        mesh=int(model.geom_dataid[index]) if shape in (MESH, "sdf") else -1,
+        rgba=(red, green, blue, alpha),
+        texture=-1 if material < 0 else _texture_of(model, material),
+        uv_scale=(1.0, 1.0) if material < 0 else tuple(model.mat_texrepeat[material].tolist()),
+        material="" if material < 0 else str(model.mat(material).name),
+        contact_type=int(model.geom_contype[index]),
+        contact_affinity=int(model.geom_conaffinity[index]),
+        group=int(model.geom_group[index]),
+    )
+
+
+def _texture_of(model: MjModel, material: int) -> int:
+    import mujoco
+
+    roles = model.mat_texid[material]
+    for role in (mujoco.mjtTextureRole.mjTEXROLE_RGB, mujoco.mjtTextureRole.mjTEXROLE_RGBA):
+        if roles[int(role)] >= 0:
+            return int(roles[int(role)])
+    return -1
+
+
+def _mesh(model: MjModel, index: int) -> CompiledMesh:
+    mesh = model.mesh(index)
+    first = int(mesh.vertadr[0])
+    count = int(mesh.vertnum[0])
+    face = int(mesh.faceadr[0])
+    face_count = int(mesh.facenum[0])
+    uv = None
+    if model.mesh_texcoordnum[index] > 0:
+        start = model.mesh_texcoordadr[index]
+        end = start + model.mesh_texcoordnum[index]
+        # MuJoCo counts rows from the top of the image.
+        uv = model.mesh_texcoord[start:end].astype(np.float64) * [1.0, -1.0] + [0.0, 1.0]
+        uv = uv[model.mesh_facetexcoord[face : face + face_count]]
+    return CompiledMesh(
+        name=str(mesh.name),
+        file=_file(model, int(model.mesh_pathadr[index])),
+        vertices=model.mesh_vert[first : first + count].astype(np.float64),
+        faces=model.mesh_face[face : face + face_count].astype(np.int64),
+        uv=uv,
+    )
+
+
+def _texture(model: MjModel, index: int) -> CompiledTexture:
+    import mujoco
+
+    channels = int(model.tex_nchannel[index])
+    start = int(model.tex_adr[index])
+    size = int(model.tex_width[index]) * int(model.tex_height[index]) * channels
+    pixels = model.tex_data[start : start + size].reshape(-1, channels)
+    mean = pixels.mean(axis=0) / 255.0 if len(pixels) else np.ones(channels)
+    red, green, blue = (mean[:3] if channels > 2 else np.repeat(mean[:1], 3)).tolist()
+    return CompiledTexture(
+        file=_file(model, int(model.tex_pathadr[index])),
+        flat=int(model.tex_type[index]) == int(mujoco.mjtTexture.mjTEXTURE_2D),
+        mean=(red, green, blue),
+    )
+
+
+def _equality(model: MjModel, index: int) -> CompiledEquality:
+    import mujoco
+
+    constant, linear = (float(number) for number in model.eq_data[index, :2])
+    return CompiledEquality(
+        kind=mujoco.mjtEq(model.eq_type[index]).name.removeprefix("mjEQ_").lower(),
+        joints=(int(model.eq_obj1id[index]), int(model.eq_obj2id[index])),
+        constant=constant,
+        linear=linear,
+        active=bool(model.eq_active0[index]),
+    )
+
+
+def _file(model: MjModel, start: int) -> str:
+    """Return a name in the model's list of files; empty for none."""
+    if start < 0:
+        return ""
+    return bytes(model.paths[start:]).split(b"\0", 1)[0].decode("utf-8", "replace")
+
+
+def _pose(position: FloatArray, quaternion: FloatArray) -> FloatArray:
+    """Return the pose of a position [m] and a (w, x, y, z) unit quaternion; shape [4, 4]."""
+    from scipy.spatial.transform import Rotation
+
+    pose = np.eye(4)
+    pose[:3, :3] = Rotation.from_quat(np.roll(quaternion, -1)).as_matrix()
+    pose[:3, 3] = position
+    return pose
