@@ -9,7 +9,7 @@ from pathlib import Path
 from ..errors import ConfigError, InputRejected
 from .files import InputFiles, lies_below
 from .orientation import parse_up
-from .reads import ABSENT, note_link_out, note_read
+from .reads import ABSENT
 
 _TEXTS = ("category", "up", "license", "annotation")
 _NUMBERS = ("height", "scale", "density")
@@ -53,7 +53,7 @@ def read_sidecar(path: Path, files: InputFiles) -> Sidecar:
     for candidate in sidecar_paths(path):
         if candidate.is_file():
             return _parse(candidate, files)
-        note_read(candidate, ABSENT)
+        files.log.note(candidate, ABSENT)
     return Sidecar()
 
 
@@ -66,7 +66,7 @@ def _parse(path: Path, files: InputFiles) -> Sidecar:
     if path.stat().st_size > _MAX_BYTES:
         raise _bad(path, f"is {path.stat().st_size} bytes, want at most {_MAX_BYTES}")
     if not lies_below(path, path.parent.resolve()):
-        note_link_out(path, path.parent)
+        files.log.note_link_out(path, path.parent)
         raise InputRejected(
             "external_reference", f"{path.name}: is a link that leads outside the input's folder"
         )
