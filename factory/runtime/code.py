@@ -1,6 +1,7 @@
 """The digest of the source that a stage runs: a changed line renews its results, no number does.
 
-Imports are found by reading sources: nothing is imported for it, nothing listed by hand.
+Imports are found by reading sources: nothing is imported for it, nothing listed by hand. Sources
+are read as text, in a few hundredths of a second; to parse them all would take one and more.
 """
 
 from __future__ import annotations
@@ -107,7 +108,9 @@ def _module(name: str) -> _Module:
         absolute = _absolute(source, package)
         if absolute.partition(".")[0] == top:
             imports.append((absolute, target))
-            bound[alias] = (absolute, target)
+            # A name of its own that is no module is in the package itself.
+            if absolute != name:
+                bound[alias] = (absolute, target)
     return _Module(digest_bytes(text.encode()), tuple(imports), bound)
 
 

@@ -23,10 +23,13 @@ SOURCES = {
     "kitchen/bake.py": "def bake():\n    from kitchen.oven import hot\n",
     "kitchen/oven.py": "import kitchen.plates as plates\nhot = 1\n",
     "kitchen/plates.py": "import json\n",
-    "kitchen/tools/__init__.py": "from .knives import knife\nfrom .spoons import spoon\n",
+    "kitchen/tools/__init__.py": (
+        "from .knives import knife\nfrom .spoons import spoon\nfrom . import shelf\n"
+    ),
     "kitchen/tools/knives.py": "knife = 1\n",
     "kitchen/tools/spoons.py": "spoon = 1\n",
     "kitchen/tools/pots.py": "pan = 1\n",
+    "kitchen/look.py": "from .tools import shelf\n",
     "kitchen/guest.py": (
         "from typing import TYPE_CHECKING\n\nif TYPE_CHECKING:\n    from .cook import it\n\nx = 1\n"
     ),
@@ -86,6 +89,16 @@ def test_a_package_counts_as_all_that_is_in_it(digest, tmp_path) -> None:
     assert digest("kitchen.tools") == before
     (tmp_path / "kitchen/tools/forks.py").write_text("")
     assert digest("kitchen.tools") != before
+
+
+def test_a_package_counts_where_a_name_is_its_own(digest) -> None:
+    digest("kitchen.look")
+    assert modules_run_by("kitchen.look") == {
+        "kitchen.look",
+        "kitchen.tools",
+        "kitchen.tools.knives",
+        "kitchen.tools.spoons",
+    }
 
 
 def test_line_ends_change_nothing(digest, tmp_path) -> None:
