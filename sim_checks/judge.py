@@ -16,9 +16,9 @@ from .checks.result import CheckResult
 from .config import CheckConfig
 from .description import Description, DescriptionError
 from .processes.isolation import Failure, Outcome, WarmChild
+from .read.native import ask_of
 from .read.usd.as_urdf import write_as_urdf
 from .read.usd.layers import is_usd
-from .read.usd.refusing import ask_of
 from .report import KILLED, OUT_OF_TIME, Finding, Report, Severity
 
 DEFAULT_CONFIG = CheckConfig()

@@ -55,7 +55,7 @@ FORMATS = (
 
 
 def formats_named(names: tuple[str, ...]) -> tuple[Format, ...]:
-    """Return those formats, in the table's order, and URDF and MJCF, which the judge reads.
+    """Return those formats, in the table's order, and URDF and MJCF, which the checks read.
 
     Raises:
         ConfigError: there is no such format, or what it needs is not installed.

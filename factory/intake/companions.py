@@ -10,11 +10,11 @@ from itertools import islice
 from pathlib import Path
 from urllib.parse import unquote
 
+from asset_factory.sim_checks.read.document import inside
 from asset_factory.sim_checks.read.regular import open_regular
 from asset_factory.sim_checks.read.usd.layers import SUFFIXES as USD_SUFFIXES
 from asset_factory.sim_checks.read.usd.layers import is_usd
 
-from .files import lies_below
 from .formats.catalog import FORMATS
 from .references import MOST_BYTES, REFERENCE
 from .sidecar import sidecar_paths
@@ -73,7 +73,7 @@ def companions(source: Path, known: frozenset[str] = frozenset()) -> frozenset[s
     while waiting:
         path = waiting.pop()
         # The input itself may be a link to anywhere.
-        here = path == source or lies_below(path, real)
+        here = path == source or inside(path, real)
         if path.suffix.lower() in _LEAVES | USD_SUFFIXES or not here:
             continue
         with suppress(OSError), open_regular(path) as file:

@@ -8,12 +8,12 @@ from contextlib import suppress
 from pathlib import Path
 from xml.parsers import expat
 
+from asset_factory.sim_checks.read.document import inside
 from asset_factory.sim_checks.read.regular import open_regular
 from asset_factory.sim_checks.read.usd.layers import is_usd
 
 from ..errors import ConfigError
 from ..runtime.layout import ASSETS, DATABASE, REJECTED, WITHDRAWN
-from .files import lies_below
 from .formats.catalog import is_mesh
 from .references import References
 
@@ -83,7 +83,7 @@ def _inputs_below(folder: Path) -> Iterator[Path]:
             name for name in subfolders if not name.startswith(".") and name not in made
         )
         candidates = [here / name for name in sorted(names) if not name.startswith(".")]
-        candidates = [c for c in candidates if c.is_file() and lies_below(c, real)]
+        candidates = [c for c in candidates if c.is_file() and inside(c, real)]
         descriptions = [c for c in candidates if is_description(c)]
         named: set[str] = set()
         stems = {c.stem for c in candidates}

@@ -7,6 +7,7 @@ import re
 from contextlib import suppress
 from pathlib import Path
 
+from asset_factory.sim_checks.read.document import inside
 from asset_factory.sim_checks.read.regular import open_regular
 
 from ..config import IntakeConfig
@@ -108,7 +109,7 @@ class InputFiles:
         if _SCHEME.match(plain) or _DRIVE.match(plain) or plain.startswith("/"):
             raise _external(reference, "is absolute")
         path = base / plain
-        if not lies_below(path, self._real_root):
+        if not inside(path, self._real_root):
             self.log.note_link_out(path, self._root)
             raise _external(reference, "leads outside the input's folder")
         return path
@@ -116,14 +117,6 @@ class InputFiles:
     def read_reference(self, reference: str, base: Path) -> bytes:
         """Return the content of a file referred to; raise as :meth:`find` and :meth:`read`."""
         return self.read(self.find(reference, base))
-
-
-def lies_below(path: Path, folder: Path) -> bool:
-    """Return whether a path, every link in it followed, lies in ``folder``, a resolved path."""
-    # Path.resolve raises at links in a circle.
-    with suppress(OSError, ValueError):
-        return Path(os.path.realpath(path)).is_relative_to(folder)
-    return False
 
 
 def is_there(path: Path) -> bool:

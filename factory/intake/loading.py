@@ -8,12 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
+from asset_factory.sim_checks.read.document import inside
+
 from ..config import IntakeConfig
 from ..errors import InputRejected
 from ..geometry.clean import clean
 from ..geometry.soup import Soup
 from ..mesh import IntArray, Mesh
-from .files import InputFiles, lies_below
+from .files import InputFiles
 from .formats.catalog import FORMATS, Reader, format_of
 from .intake import Intake, Provenance
 from .licenses import require_allowed
@@ -71,7 +73,7 @@ def load_visual(path: Path, root: Path, limits: IntakeConfig, log: ReadLog | Non
             ``zero_size`` or ``external_reference``.
     """
     files = InputFiles(root, limits, log)
-    if not lies_below(path, root.resolve()):
+    if not inside(path, root.resolve()):
         raise InputRejected(
             "external_reference", f"{path.name}: lies outside the folder of its description"
         )

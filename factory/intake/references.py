@@ -8,9 +8,8 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
+from asset_factory.sim_checks.read.document import inside
 from asset_factory.sim_checks.read.regular import open_regular
-
-from .files import lies_below
 
 #: What names a file in a URDF or MJCF, or a folder of them; no path has more letters.
 REFERENCE = re.compile(rb"""\b(filename|file|meshdir|assetdir)\s*=\s*["']([^"']{0,4096})["']""")
@@ -62,7 +61,7 @@ class References:
     def _named_in(self, path: Path) -> Iterator[tuple[str, str]]:
         """Yield the attributes that name something, and what."""
         data = b""
-        if lies_below(path, self._real):
+        if inside(path, self._real):
             with suppress(OSError), open_regular(path) as file:
                 data = file.read(min(MOST_BYTES, self._left))
         self._left -= len(data)

@@ -6,8 +6,10 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
+from asset_factory.sim_checks.read.document import inside
+
 from ..errors import ConfigError, InputRejected
-from .files import InputFiles, lies_below
+from .files import InputFiles
 from .orientation import parse_up
 from .reads import ABSENT
 
@@ -65,7 +67,7 @@ def sidecar_paths(path: Path) -> tuple[Path, Path]:
 def _parse(path: Path, files: InputFiles) -> Sidecar:
     if path.stat().st_size > _MAX_BYTES:
         raise _bad(path, f"is {path.stat().st_size} bytes, want at most {_MAX_BYTES}")
-    if not lies_below(path, path.parent.resolve()):
+    if not inside(path, path.parent.resolve()):
         files.log.note_link_out(path, path.parent)
         raise InputRejected(
             "external_reference", f"{path.name}: is a link that leads outside the input's folder"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import os
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -149,8 +150,7 @@ def is_file(place: Path) -> bool:
 
 def inside(path: Path, folder: Path) -> bool:
     """Return whether a path, every link in it followed, lies in ``folder``, a resolved path."""
-    try:
-        return path.resolve().is_relative_to(folder)
-    except (OSError, RuntimeError, ValueError):
-        # Links in a circle, or a name that no file can have.
-        return False
+    # Path.resolve raises at links in a circle; a name that no file can have leads nowhere.
+    with suppress(OSError, ValueError):
+        return Path(os.path.realpath(path)).is_relative_to(folder)
+    return False

@@ -51,12 +51,6 @@ class _Describer:
         self._model = model
         self._folder = folder
         self._names = [body.name or f"body{index}" for index, body in enumerate(model.bodies)]
-        self._joints: list[list[int]] = [[] for _ in model.bodies]
-        for index, joint in enumerate(model.joints):
-            self._joints[joint.body].append(index)
-        self._geoms: list[list[CompiledGeom]] = [[] for _ in model.bodies]
-        for geom in model.geoms:
-            self._geoms[geom.body].append(geom)
         self._links: list[Link] = []
         self._lines: list[JointLine] = []
 
@@ -66,7 +60,7 @@ class _Describer:
                 self._place(index)
             shapes = [
                 (geom.collides, shape)
-                for geom in self._geoms[index]
+                for geom in self._model.geoms[body.geoms.start : body.geoms.stop]
                 if (shape := self._shape(geom)) is not None
             ]
             collisions = tuple(shape for collides, shape in shapes if collides)
@@ -78,7 +72,7 @@ class _Describer:
 
     def _joint_name(self, index: int) -> str:
         joint = self._model.joints[index]
-        place = self._joints[joint.body].index(index)
+        place = self._model.bodies[joint.body].joints.index(index)
         return joint.name or f"{self._names[joint.body]}_joint{place}"
 
     def _mimics(self) -> dict[str, Mimic]:
@@ -117,7 +111,8 @@ class _Describer:
         name = self._names[body]
         parent = self._names[self._model.bodies[body].parent]
         pending = self._model.bodies[body].pose
-        for index in self._joints[body]:
+        joints = self._model.bodies[body].joints
+        for index in joints:
             joint = self._model.joints[index]
             label = self._joint_name(index)
             if joint.kind in ("free", "ball"):
@@ -126,7 +121,7 @@ class _Describer:
                 self._lines.append(_line(label, word, parent, child, pending))
                 pending = np.eye(4)
             else:
-                last = index == self._joints[body][-1] and not joint.anchor.any()
+                last = index == joints[-1] and not joint.anchor.any()
                 child = name if last else self._virtual(name, label)
                 before = pending @ _translation(joint.anchor) @ _undo_reference(joint)
                 self._lines.append(_moving(joint, label, (parent, child), before))

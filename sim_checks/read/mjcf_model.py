@@ -34,6 +34,7 @@ class CompiledBody:
         weld: index of the topmost body that it is rigidly part of.
         pose: its frame in its parent's, shape [4, 4].
         inertia: ``None`` for a body without mass.
+        joints, geoms: indices of its own.
     """
 
     name: str
@@ -41,6 +42,8 @@ class CompiledBody:
     weld: int
     pose: FloatArray
     inertia: LinkInertia | None
+    joints: range
+    geoms: range
 
 
 @dataclass(frozen=True)
@@ -253,12 +256,16 @@ def _body(model: MjModel, index: int) -> CompiledBody:
         frame = _pose(model.body_ipos[index], model.body_iquat[index])
         tensor = frame[:3, :3] @ np.diag(model.body_inertia[index]) @ frame[:3, :3].T
         inertia = LinkInertia(mass, frame[:3, 3], tensor)
+    joint = int(model.body_jntadr[index])
+    geom = int(model.body_geomadr[index])
     return CompiledBody(
         name=str(model.body(index).name),
         parent=int(model.body_parentid[index]),
         weld=int(model.body_weldid[index]),
         pose=_pose(model.body_pos[index], model.body_quat[index]),
         inertia=inertia,
+        joints=range(joint, joint + int(model.body_jntnum[index])),
+        geoms=range(geom, geom + int(model.body_geomnum[index])),
     )
 
 

@@ -9,12 +9,13 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ..description import DescriptionError
-from ..processes.isolation import Failure, Limits, Outcome, run_isolated
+from ..processes.isolation import Failure, Limits, Outcome, WarmChild
 
 T = TypeVar("T")
-#: Time only ends what hangs, and is no verdict; the compiler has a limit of memory of its own.
+#: Time only ends what hangs, and is no verdict.
+LIMITS = Limits(wall_s=120.0, memory_bytes=4 * 2**30)
+#: MuJoCo's compiler has a limit of memory of its own.
 COMPILE_LIMITS = Limits(wall_s=120.0, memory_bytes=8 * 2**30)
-
 #: Of MuJoCo's compiler, beyond what the process holds before [bytes]; real objects take 0.1 GiB.
 COMPILER_BYTES = 2 * 2**30
 #: Of USD's library, which maps its files as well, and of what is made of them.
@@ -24,24 +25,37 @@ _WORDS = ("Could not allocate memory", "Caught an unknown exception")
 
 
 def read_apart(function: Callable[[Path], T], path: Path) -> T:
-    """Call what has MuJoCo compile a file, in a child that may crash.
+    """Call what has MuJoCo compile a file, in a child that may crash; errors of :func:`ask_of`."""
+    with WarmChild() as child:
+        return ask_of(child, path.name, function, path, limits=COMPILE_LIMITS)
+
+
+def ask_of(
+    child: WarmChild, name: str, function: Callable[..., T], *args: Any, limits: Limits = LIMITS
+) -> T:
+    """Call a native reader in a child; a file that it dies of twice cannot be read.
 
     Args:
-        function: as for :func:`run_isolated`.
-        path: its argument.
+        child: to be asked.
+        name: of the file, which opens the sentence.
+        function: as for :meth:`WarmChild.call`.
+        *args: its arguments.
+        limits: of each call.
 
     Raises:
-        DescriptionError: what the function raises, or ``unreadable`` where it dies of the file.
+        DescriptionError: what the function raises, ``unreadable`` or ``too_large``.
         TimeoutError, ChildProcessError: nobody can say; see :func:`require_word`.
     """
-    outcome = run_isolated(function, path, limits=COMPILE_LIMITS)
+    outcome = child.call(function, *args, limits=limits)
+    if outcome.failure is Failure.CRASHED and not outcome.killed:
+        outcome = child.call(function, *args, limits=limits)
     if isinstance(outcome.error, DescriptionError):
         raise outcome.error
-    require_word(outcome, path.name)
-    if outcome.failure is not None or outcome.value is None:
-        message = f"{path.name}: MuJoCo cannot compile it: {outcome.detail}"
-        raise DescriptionError("unreadable", message)
-    return outcome.value
+    require_word(outcome, name)
+    if outcome.failure is not None:
+        code = "too_large" if isinstance(outcome.error, MemoryError) else "unreadable"
+        raise DescriptionError(code, f"{name}: its reader fails: {outcome.detail}")
+    return outcome.unwrap()
 
 
 @contextmanager

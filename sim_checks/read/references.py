@@ -35,7 +35,7 @@ class NamedFile:
 
     Attributes:
         said: the element and its reference, for a sentence.
-        places: where MuJoCo may look for it.
+        places: where in the folder MuJoCo may look for it.
         files: those that lie there, resolved, each once.
     """
 
@@ -184,8 +184,9 @@ class _Walk:
         if places[0] in outside or any(_exists(place) for place in outside):
             message = f"{reference[:160]!r} leaves the description's folder; copy it inside"
             raise DescriptionError("outside_folder", message, outside)
-        files = _found([place for place in places if place not in outside])
-        self.named.append(NamedFile(f"<{element.tag}> {reference[:160]!r}", tuple(places), files))
+        within = tuple(place for place in places if place not in outside)
+        files = _found(within)
+        self.named.append(NamedFile(f"<{element.tag}> {reference[:160]!r}", within, files))
         return files
 
 

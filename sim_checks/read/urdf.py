@@ -24,11 +24,10 @@ from .document import find_file, parse_document
 from .meshes import read_mesh
 from .primitives import box, capsule, cylinder, ellipsoid
 from .references import refuse_outside_mesh, refuse_outside_urdf
-from .urdf_elements import UrdfElements, number, read_mimic
+from .urdf_elements import STRICT, number, read_mimic
 
 #: Of all shapes of one file together.
 MAX_TRIANGLES = 20_000_000
-_ELEMENTS = UrdfElements()
 _PRIMITIVES: dict[str, Callable[..., tuple[FloatArray, IntArray]]] = {
     "box": lambda *edges: box(np.array(edges)),
     "cylinder": cylinder,
@@ -71,7 +70,7 @@ def read_urdf(path: Path) -> Description:
     refuse_outside_urdf(path, robot)
     shapes = _Shapes(path.parent.resolve())
     links = tuple(_link(element, shapes) for element in robot.findall("link"))
-    joints = tuple(_ELEMENTS.joint(element) for element in robot.findall("joint"))
+    joints = tuple(STRICT.joint(element) for element in robot.findall("joint"))
     if not links:
         raise DescriptionError("no_links", f"{path.name}: <robot> holds no <link>")
     return Description(path, "urdf", links, joints)
@@ -87,13 +86,13 @@ def read_mimics(path: Path) -> dict[str, Mimic | None]:
         item for item in parse_document(path).findall("joint") if item.get("type") in MOVING_KINDS
     ]
     return {
-        _ELEMENTS.name(item): read_mimic(item.find("mimic"), f"joint {item.get('name')!r}")
+        STRICT.name(item): read_mimic(item.find("mimic"), f"joint {item.get('name')!r}")
         for item in moving
     }
 
 
 def _link(element: ET.Element, shapes: _Shapes) -> Link:
-    name = _ELEMENTS.name(element)
+    name = STRICT.name(element)
     collisions = tuple(_shape(item, name, shapes) for item in element.findall("collision"))
     visuals = tuple(_shape(item, name, shapes) for item in element.findall("visual"))
     inertial = element.find("inertial")
@@ -109,7 +108,7 @@ def _inertia(element: ET.Element, link: str) -> LinkInertia | None:
     xx, xy, xz, yy, yz, zz = (
         number(tensor, key, where, 0.0) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
     )
-    pose = _ELEMENTS.origin(element, where)
+    pose = STRICT.origin(element, where)
     matrix = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     rotation = pose[:3, :3]
     return LinkInertia(
@@ -119,7 +118,7 @@ def _inertia(element: ET.Element, link: str) -> LinkInertia | None:
 
 def _shape(element: ET.Element, link: str, shapes: _Shapes) -> DescribedShape:
     where = f"<{element.tag}> of link {link!r}"
-    geometry = _ELEMENTS.geometry(element, where)
+    geometry = STRICT.geometry(element, where)
     if geometry is None:
         raise DescriptionError("missing_geometry", f"{where} holds no geometry")
     file: str | None = None
@@ -133,6 +132,6 @@ def _shape(element: ET.Element, link: str, shapes: _Shapes) -> DescribedShape:
     else:
         vertices, faces = _PRIMITIVES[geometry.kind](*geometry.size)
     shapes.count(len(faces), where)
-    pose = _ELEMENTS.origin(element, where)
+    pose = STRICT.origin(element, where)
     placed = vertices @ pose[:3, :3].T + pose[:3, 3]
     return DescribedShape(element.get("name") or name, geometry.kind, placed, faces, file)

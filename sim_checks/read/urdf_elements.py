@@ -162,6 +162,11 @@ class UrdfElements:
         return np.array(values)
 
 
+#: What is refused, and what an import forgives.
+STRICT = UrdfElements()
+LENIENT = UrdfElements(lenient=True)
+
+
 def _driven(line: JointLine, element: ET.Element, where: str) -> JointLine:
     """Return a joint with what engines drive it by."""
     limit = element.find("limit")

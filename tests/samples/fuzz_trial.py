@@ -276,10 +276,10 @@ def _check(path: Path, folder: Path) -> tuple[str, str]:
     """As ``factory check`` does, MJCF and USD in a child that may die."""
     from asset_factory.sim_checks.description import DescriptionError
     from asset_factory.sim_checks.processes.isolation import WarmChild
+    from asset_factory.sim_checks.read.native import ask_of
     from asset_factory.sim_checks.read.read import read_description
     from asset_factory.sim_checks.read.usd.as_urdf import write_as_urdf
     from asset_factory.sim_checks.read.usd.layers import is_usd
-    from asset_factory.sim_checks.read.usd.refusing import ask_of
 
     def read() -> str:
         if not is_usd(path):

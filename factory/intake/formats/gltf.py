@@ -24,7 +24,7 @@ from .gltf_materials import GltfMaterial, read_materials
 _TRIANGLES = 4
 _STRIP = 5
 _FAN = 6
-_LETTERS_OF_LICENCE = 1000
+_LETTERS_OF_LICENSE = 1000
 #: Of one scene; each takes time, whether or not it has anything to show.
 _MOST_NODES = 200_000
 _MOST_PRIMITIVES = 100_000
@@ -227,7 +227,7 @@ def _assemble(
             _look(materials[index] if index >= 0 else None, tint, name)
             for (index, tint), name in zip(looks, names, strict=True)
         ),
-        license=" ".join(str(license_text).split())[:_LETTERS_OF_LICENCE] or None
+        license=" ".join(str(license_text).split())[:_LETTERS_OF_LICENSE] or None
         if license_text
         else None,
         notes=tuple(dict.fromkeys(notes)),

@@ -8,6 +8,7 @@ import numpy as np
 
 from ...config import IntakeConfig
 from ...errors import InputRejected
+from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, IntArray, Mesh, concatenate
 from ...runtime.store import digest_bytes
 from ..annotation import Annotation
@@ -122,7 +123,7 @@ def _joined(imported: Imported, name: str) -> tuple[Mesh, IntArray, IntArray]:
     if not imported.pieces:
         raise InputRejected("empty", f"{name}: no link has any geometry")
     whole = concatenate([mesh for _, mesh in imported.pieces])
-    kept = _faces_with_area(whole)
+    kept = np.flatnonzero(face_areas(whole) > 0.0)
     if not len(kept):
         raise InputRejected("empty", f"{name}: no face of its geometry has any area")
     return (
@@ -130,14 +131,6 @@ def _joined(imported: Imported, name: str) -> tuple[Mesh, IntArray, IntArray]:
         np.concatenate([np.full(len(mesh.faces), part) for part, mesh in imported.pieces]),
         kept,
     )
-
-
-def _faces_with_area(mesh: Mesh) -> IntArray:
-    corners = mesh.vertices[mesh.faces]
-    doubled = np.linalg.norm(
-        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
-    )
-    return np.flatnonzero(doubled > 0.0)
 
 
 def _doubts(extents: FloatArray, category: str | None) -> list[str]:

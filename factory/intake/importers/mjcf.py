@@ -206,12 +206,9 @@ def _jointed(
     """Return part names, bodies first and then carriers, and joints."""
     names = [_body_name(model, body) for body in range(len(model.bodies))]
     joints: list[AnnotatedJoint] = []
-    by_body: dict[int, list[CompiledJoint]] = {}
-    for joint in model.joints:
-        by_body.setdefault(joint.body, []).append(joint)
     for body in range(1, len(model.bodies)):
         parent = model.bodies[body].parent
-        own = by_body.get(body, [])
+        own = [model.joints[index] for index in model.bodies[body].joints]
         moving = [joint for joint in own if joint.kind in KINDS]
         for joint in own:
             if joint.kind == "ball":

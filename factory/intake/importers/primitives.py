@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from asset_factory.sim_checks.read import primitives
+
 from ...mesh import FloatArray, Material, Mesh
 
 SECTIONS = 32
@@ -13,10 +15,8 @@ RINGS = 16
 
 def box(size: npt.ArrayLike, material: Material) -> Mesh:
     """Return an axis-aligned box of side lengths ``size`` [m], shape [3], centred at the origin."""
-    corners = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
-    quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
-    faces = [triangle for a, b, c, d in quads for triangle in ((a, b, c), (a, c, d))]
-    return Mesh.from_triangles(corners * np.asarray(size, dtype=np.float64), faces, material)
+    vertices, faces = primitives.box(np.asarray(size, dtype=np.float64))
+    return Mesh.from_triangles(vertices, faces, material)
 
 
 def cylinder(radius: float, length: float, material: Material) -> Mesh:

@@ -14,7 +14,7 @@ import numpy as np
 
 from asset_factory.sim_checks.description import FloatArray, JointLine
 from asset_factory.sim_checks.geometry.kinematics import MOVING_KINDS
-from asset_factory.sim_checks.read.urdf_elements import UrdfElements
+from asset_factory.sim_checks.read.urdf_elements import LENIENT
 
 from ...config import IntakeConfig
 from ...errors import InputRejected
@@ -29,7 +29,6 @@ from .urdf_geometry import GeometryReader
 
 MAX_LINKS = 4096
 MAX_SHAPES = 10_000
-_ELEMENTS = UrdfElements(lenient=True)
 
 
 def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
@@ -48,7 +47,7 @@ def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLo
     links = robot.findall("link")
     for what, elements in (("links", links), ("joints", robot.findall("joint"))):
         require_at_most(path.name, len(elements), MAX_LINKS, what)
-    names = tuple(_ELEMENTS.name(link) for link in links)
+    names = tuple(LENIENT.name(link) for link in links)
     _refuse_repeats(names, path.name)
     known = frozenset(names)
     joints = [_joint(element, known, path.name) for element in robot.findall("joint")]
@@ -69,7 +68,7 @@ def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLo
             faces += len(mesh.faces)
             require_at_most(path.name, faces, config.max_faces, "faces")
             posed = painted(mesh, element, palette, where).transformed(
-                poses[names[part]] @ _ELEMENTS.origin(element, where)
+                poses[names[part]] @ LENIENT.origin(element, where)
             )
             pieces.append((part, posed))
     return Imported(
@@ -99,7 +98,7 @@ def _refuse_repeats(names: tuple[str, ...], file: str) -> None:
 
 
 def _joint(element: ET.Element, links: frozenset[str], file: str) -> JointLine:
-    joint = _ELEMENTS.joint(element)
+    joint = LENIENT.joint(element)
     where = f"{file}: joint {joint.name!r}"
     if joint.kind not in (*MOVING_KINDS, "fixed", "floating"):
         raise InputRejected(

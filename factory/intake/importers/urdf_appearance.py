@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from asset_factory.sim_checks.read.urdf_elements import UrdfElements
+from asset_factory.sim_checks.read.urdf_elements import LENIENT
 
 from ...config import IntakeConfig
 from ...mesh import Material, Mesh, Texture
@@ -16,8 +16,6 @@ from ..files import InputFiles
 from ..images import load_texture
 from ..reads import ReadLog
 from .xml_source import find_reference
-
-_ELEMENTS = UrdfElements(lenient=True)
 
 
 class Palette:
@@ -53,7 +51,7 @@ class Palette:
             return None
         rgba = np.ones(4)
         if color is not None:
-            rgba = _ELEMENTS.vector(color, "rgba", where, "1 1 1 1", count=4)
+            rgba = LENIENT.vector(color, "rgba", where, "1 1 1 1", count=4)
         red, green, blue, alpha = np.clip(rgba, 0.0, 1.0).tolist()
         image = None if texture is None else self._texture(texture.get("filename", ""), where)
         return Material(name or "material", (red, green, blue, alpha), image)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from asset_factory.sim_checks.read.urdf_elements import UrdfElements, UrdfGeometry
+from asset_factory.sim_checks.read.urdf_elements import LENIENT, UrdfGeometry
 
 from ...config import IntakeConfig
 from ...errors import InputRejected
@@ -25,7 +25,6 @@ PLAIN = Material("default")
 NOTHING_TO_SEE = ("empty", "zero_size")
 #: Objects of a hundred mesh files would otherwise repeat themselves a hundred times.
 FEW_NOTES = 3
-_ELEMENTS = UrdfElements(lenient=True)
 _PRIMITIVES: dict[str, Callable[..., Mesh]] = {
     "box": lambda *edges: primitives.box(edges, PLAIN),
     "sphere": lambda radius: primitives.ellipsoid([radius] * 3, PLAIN),
@@ -71,7 +70,7 @@ class GeometryReader:
             DescriptionError: its numbers cannot be read.
             InputRejected: see :func:`find_reference`, and whatever is wrong with a mesh file.
         """
-        geometry = _ELEMENTS.geometry(shape, where)
+        geometry = LENIENT.geometry(shape, where)
         if geometry is None:
             self._left_out.append(f"{where}: a shape without geometry is left out")
             return None

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from asset_factory.sim_checks.processes.isolation import WarmChild
+from asset_factory.sim_checks.read.native import ask_of
 from asset_factory.sim_checks.read.usd.layers import require_inside
-from asset_factory.sim_checks.read.usd.refusing import ask_of
 from asset_factory.sim_checks.read.usd.shapes import PhysicsSurface
 from asset_factory.sim_checks.read.usd.stage import PhysicsStage, read_stage, require_library
 
@@ -113,8 +113,7 @@ def _annotated(
         raise InputRejected("empty", f"{name}: holds no surface that is shown")
     transform = np.eye(4)
     transform[:3, :3] = stage.metres * rotation_to_z_up(stage.up)
-    bodies = [body for body, mesh in pieces for _ in range(len(mesh.faces))]
-    annotation = annotation_of(stage, bodies, transform, name)
+    annotation = annotation_of(stage, pieces, transform, name)
     return concatenate([mesh for _, mesh in pieces]), annotation, transform
 
 

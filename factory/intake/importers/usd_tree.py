@@ -14,7 +14,7 @@ from asset_factory.sim_checks.read.usd.stage import PhysicsStage
 
 from ...articulation import rotation_about
 from ...errors import InputRejected
-from ...mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray, Mesh
 from ..annotation import AnnotatedJoint, Annotation
 from ..limits import unreadable
 from .imported import fixed, rigid_groups
@@ -37,7 +37,7 @@ class _Link:
 
 
 def annotation_of(
-    stage: PhysicsStage, face_body: Sequence[str], transform: FloatArray, file: str
+    stage: PhysicsStage, pieces: Sequence[tuple[str, Mesh]], transform: FloatArray, file: str
 ) -> Annotation:
     """Return parts and joints of a stage, in the file's own frame and units.
 
@@ -45,7 +45,7 @@ def annotation_of(
 
     Args:
         stage: with at least one surface.
-        face_body: of which body each face is.
+        pieces: body and mesh, which give the order of faces.
         transform: from the file's frame to the stage's, shape [4, 4].
         file: name for messages.
 
@@ -53,18 +53,19 @@ def annotation_of(
         InputRejected: ``unsupported_joint``; ``not_a_tree``: the joints close a loop.
     """
     ends = [body for joint in stage.joints for body in joint.bodies]
-    bodies = list(dict.fromkeys([*face_body, *ends]))
+    bodies = list(dict.fromkeys([*(body for body, _ in pieces), *ends]))
     index = {body: number for number, body in enumerate(bodies)}
     joints = [_joint_at_pose(joint, stage, index, transform) for joint in stage.joints]
     group = rigid_groups(len(bodies), [(j.parent, j.child) for j in joints if j.kind == "fixed"])
     links = [_Link(j, group[j.parent], group[j.child]) for j in joints if j.kind != "fixed"]
-    face_group = np.array([group[index[body]] for body in face_body])
+    sizes = [len(mesh.faces) for _, mesh in pieces]
+    face_group = np.repeat([group[index[body]] for body, _ in pieces], sizes)
     roots = {group[index[body]] for body in stage.roots if body in index}
     world = group[index[WORLD]] if WORLD in index else None
     order = _by_rank(links, group, roots, world, face_group)
     number = {g: part for part, g in enumerate(order)}
     return Annotation(
-        face_part=np.array([number[g] for g in face_group.tolist()]),
+        face_part=np.repeat([number[group[index[body]]] for body, _ in pieces], sizes),
         part_names=tuple(bodies[g].rsplit("/", 1)[-1] or "base" for g in order),
         joints=tuple(
             _directed(link, number, parent, child)

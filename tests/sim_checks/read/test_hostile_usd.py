@@ -19,8 +19,8 @@ from asset_factory.sim_checks import Status
 from asset_factory.sim_checks.description import DescriptionError
 from asset_factory.sim_checks.judge import Judge
 from asset_factory.sim_checks.processes.isolation import Limits, WarmChild
-from asset_factory.sim_checks.read.native import memory_bounded
-from asset_factory.sim_checks.read.usd.refusing import ask_of, refusing
+from asset_factory.sim_checks.read.native import ask_of, memory_bounded
+from asset_factory.sim_checks.read.usd.refusing import refusing
 
 SHORT = Limits(wall_s=60.0)
 

@@ -156,7 +156,7 @@ def test_a_compiler_that_hangs_or_is_killed_gives_no_verdict(
     tmp_path, monkeypatch, outcome, raised, code
 ):
     path = written(tmp_path, BODY)
-    monkeypatch.setattr(native, "run_isolated", lambda *_, **__: outcome)
+    monkeypatch.setattr(native.WarmChild, "call", lambda *_, **__: outcome)
     with pytest.raises(raised or DescriptionError) as refused:
         read_description(path)
     with pytest.raises(raised or InputRejected) as rejected:

@@ -88,6 +88,48 @@ def test_units_and_the_up_axis_of_a_stage_are_heeded(tmp_path):
     assert not base.collisions
 
 
+def volume(shape) -> float:
+    """Return the signed volume of triangles [m3]: positive where they face outwards."""
+    a, b, c = (shape.vertices[shape.faces[:, corner]] for corner in range(3))
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
+
+
+def test_mirrored_and_left_handed_meshes_face_as_the_file_means_and_holes_are_none(tmp_path):
+    size = (1.0, 0.6, 0.8)
+    left = usda.mesh("left", size, 'uniform token orientation = "leftHanded"')
+    mirrored = usda.mesh("mirrored", size).replace(
+        usda.CUBE,
+        "float3 xformOp:scale = (-1, 1, 1)\n"
+        f'uniform token[] xformOpOrder = ["xformOp:scale"]\n{usda.CUBE}',
+    )
+    holed = usda.mesh("holed", size, "int[] holeIndices = [2, 4]")
+    body = usda.body("base", (0, 0, 0), left + mirrored + holed)
+    path = usda.write(tmp_path, usda.stage(body))
+    (base,) = read(path, tmp_path / "urdf").links
+    shapes = {shape.name: shape for shape in base.visuals}
+    assert volume(shapes["mirrored"]) == pytest.approx(0.48, rel=1e-6)
+    assert len(shapes["holed"].faces) == 8
+    # The cube is written counter-clockwise, so a file that calls it left-handed has it inside out.
+    assert volume(shapes["left"]) == pytest.approx(-0.48, rel=1e-6)
+
+
+def test_a_joint_may_hold_something_inside_a_body_or_the_world_of_a_stage_with_y_up(tmp_path):
+    grip = (
+        'def Xform "grip"\n{\ndouble3 xformOp:translate = (0.1, 0.2, 0)\n'
+        'uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
+    )
+    door = usda.body("door", (0, 0, 0), usda.mesh("panel", (1.0, 0.02, 0.8)) + grip)
+    where = "point3f physics:localPos0 = (0, 3, 0)\npoint3f physics:localPos1 = (0, 0, 0)\n"
+    hinge = usda.joint("hinge", "Revolute", "", "/obj/door/grip", where)
+    path = usda.write(tmp_path, usda.stage(door + hinge, 'metersPerUnit = 1\nupAxis = "Y"'))
+    description = read(path, tmp_path / "urdf")
+    (line,) = description.joints
+    # Three along y in the file is three up; the panel's middle is (-0.1, -0.2) from the grip.
+    assert np.allclose(line.origin[:3, 3], [0.0, 0.0, 3.0])
+    panel = description.links[-1].visuals[0].vertices
+    assert np.allclose((panel.max(axis=0) + panel.min(axis=0)) / 2, [-0.1, -0.2, 0.0])
+
+
 def test_an_asset_that_leads_out_of_its_folder_or_is_none_is_refused(tmp_path):
     usda.write(tmp_path, usda.stage(usda.CABINET), "outside.usda")
     away = "#usda 1.0\n(\nsubLayers = [@../outside.usda@]\n)\n"
