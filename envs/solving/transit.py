@@ -64,7 +64,7 @@ class _MotionTree:
         self.nodes = [root]
 
     def extend(self, sample: FloatArray) -> bool:
-        """Grow from the nearest node towards a sample; tell whether the line was free."""
+        """Extend the nearest node towards a sample; tell whether the line was free."""
         nearest = int(np.argmin(np.linalg.norm(np.array(self.nodes) - sample, axis=1)))
         offset = sample - self.nodes[nearest]
         step = self.nodes[nearest] + offset * min(
@@ -77,7 +77,7 @@ class _MotionTree:
         return True
 
     def connect(self, sample: FloatArray) -> bool:
-        """Grow to a sample; tell whether it was reached."""
+        """Extend the tree to a sample; tell whether it was reached."""
         while self.extend(sample):
             if np.abs(self.nodes[-1] - sample).max() < 1e-9:
                 return True
