@@ -14,7 +14,7 @@ from ..config import IntakeConfig
 from ..errors import InputRejected
 from ..runtime.store import digest_bytes
 from .limits import require_at_most, unreadable
-from .reads import ABSENT, note_link_out, note_read
+from .reads import ABSENT, ReadLog
 
 _SCHEME = re.compile(r"^[A-Za-z][A-Za-z0-9+.-]+:")
 _DRIVE = re.compile(r"^[A-Za-z]:")
@@ -30,10 +30,12 @@ class InputFiles:
     Args:
         root: nothing outside this folder is read, through symbolic links or otherwise.
         limits: ``max_bytes`` bounds all files together, ``max_texture_pixels`` each image.
+        log: of the files that are read; one of its own by default.
     """
 
-    def __init__(self, root: Path, limits: IntakeConfig) -> None:
+    def __init__(self, root: Path, limits: IntakeConfig, log: ReadLog | None = None) -> None:
         self.limits = limits
+        self.log = log or ReadLog()
         self._root = root
         self._real_root = root.resolve()
         self._digests: list[str] = []
@@ -63,7 +65,7 @@ class InputFiles:
         if path in self._cache:
             return self._cache[path]
         if not is_there(path):
-            note_read(path, ABSENT)
+            self.log.note(path, ABSENT)
             raise FileNotFoundError(path.name)
         if not path.is_file():
             raise unreadable(path.name, "is not a regular file")
@@ -78,7 +80,7 @@ class InputFiles:
             )
         self._bytes += len(data)
         self._digests.append(digest_bytes(data))
-        note_read(path, self._digests[-1])
+        self.log.note(path, self._digests[-1])
         self._cache[path] = data
         return data
 
@@ -108,7 +110,7 @@ class InputFiles:
             raise _external(reference, "is absolute")
         path = base / plain
         if not inside(path, self._real_root):
-            note_link_out(path, self._root)
+            self.log.note_link_out(path, self._root)
             raise _external(reference, "leads outside the input's folder")
         return path
 

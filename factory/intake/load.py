@@ -13,6 +13,7 @@ from .importers.load import load_description
 from .importers.usd import load_usd
 from .intake import Intake
 from .loading import load_mesh
+from .reads import ReadLog
 
 LOAD = Stage(
     "load",
@@ -24,18 +25,19 @@ LOAD = Stage(
 DESCRIPTION_SUFFIXES = frozenset({".urdf", ".xml"}) | USD_SUFFIXES
 
 
-def load(path: Path, config: IntakeConfig) -> Intake:
+def load(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> Intake:
     """Load one input.
 
     Args:
         path: a mesh file, a URDF, an MJCF, or a USD layer.
         config: up axis, size and limits.
+        log: of the files that are read; filled also where it raises.
 
     Raises:
         InputRejected: with a reason code.
     """
     if is_usd(path):
-        return load_usd(path, config)
+        return load_usd(path, config, log)
     if path.suffix.lower() in DESCRIPTION_SUFFIXES:
-        return load_description(path, config)
-    return load_mesh(path, config)
+        return load_description(path, config, log)
+    return load_mesh(path, config, log)

@@ -23,6 +23,7 @@ from .limits import require_sensible_size, unreadable
 from .naming import safe_name, well_formed
 from .orientation import rotation_to_z_up
 from .placing import check_config, given_scale, given_up
+from .reads import ReadLog
 from .sidecar import Sidecar, read_sidecar
 from .sizes import guess_category, normalised, scale_by_size
 from .stated import read_stated
@@ -56,7 +57,7 @@ class Visual:
     notes: tuple[str, ...]
 
 
-def load_visual(path: Path, root: Path, limits: IntakeConfig) -> Visual:
+def load_visual(path: Path, root: Path, limits: IntakeConfig, log: ReadLog | None = None) -> Visual:
     """Read one mesh file as it is: no up axis change, no scaling (COLLADA: to m by its unit).
 
     The file's own face order is: glTF by node, depth first, then primitive; everything else as in
@@ -66,12 +67,13 @@ def load_visual(path: Path, root: Path, limits: IntakeConfig) -> Visual:
         path: in one of ``FORMATS``, below ``root``.
         root: nothing outside this folder is read.
         limits: ``max_bytes``, ``max_faces`` and ``max_texture_pixels`` are obeyed.
+        log: of the files that are read.
 
     Raises:
         InputRejected: ``unreadable``, ``unsupported``, ``empty``, ``too_large``, ``not_finite``,
             ``zero_size`` or ``external_reference``.
     """
-    files = InputFiles(root, limits)
+    files = InputFiles(root, limits, log)
     if not inside(path, root.resolve()):
         raise InputRejected(
             "external_reference", f"{path.name}: lies outside the folder of its description"
@@ -79,12 +81,13 @@ def load_visual(path: Path, root: Path, limits: IntakeConfig) -> Visual:
     return _load(path, files)
 
 
-def load_mesh(path: Path, config: IntakeConfig) -> Intake:
+def load_mesh(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> Intake:
     """Read one mesh file with its sidecar; turn it z up and bring it to metres. Its origin stays.
 
     Args:
         path: as in :func:`load_visual`; what it refers to lies in its folder or below.
         config: up axis, height and limits.
+        log: of the files that are read.
 
     Raises:
         InputRejected: as :func:`load_visual`, or ``bad_sidecar``, ``absurd_size``,
@@ -92,7 +95,7 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
         ConfigError: ``config.up`` or ``config.height`` cannot be.
     """
     check_config(config)
-    files = InputFiles(path.parent, config)
+    files = InputFiles(path.parent, config, log)
     visual = _load(path, files)
     sidecar = read_sidecar(path, files)
     stated = read_stated(path, files)

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Mapping
 from pathlib import Path
 
 from asset_factory.sim_checks.read.regular import open_regular
@@ -24,46 +22,39 @@ OUTSIDE = "outside"
 MOST_DIGESTED = 4 * 2**30
 _HEAD_BYTES = 2**20
 
-_OPEN: ContextVar[dict[Path, str] | None] = ContextVar("reads", default=None)
 
+class ReadLog:
+    """The files that were read for one input, and those looked for but missing."""
 
-def note_read(path: Path, digest: str) -> None:
-    """Record that ``path`` was read, with its SHA-256; ``ABSENT``: the file was not there."""
-    noted = _OPEN.get()
-    if noted is not None:
+    def __init__(self) -> None:
+        self._digests: dict[Path, str] = {}
+
+    def note(self, path: Path, digest: str) -> None:
+        """Note that a file was read, with its SHA-256; ``ABSENT``: it was not there."""
         # What was seen first is what the input was made of, unless it was not there then.
-        noted[path] = noted.get(path, ABSENT) or digest
+        self._digests[path] = self._digests.get(path, ABSENT) or digest
 
+    def note_link_out(self, path: Path, folder: Path) -> None:
+        """Note that a link in an input's folder leads out of it; a real file may replace it."""
+        if "\0" not in str(path) and Path(os.path.normpath(path)).is_relative_to(folder):
+            self.note(path, OUTSIDE)
 
-def note_link_out(path: Path, folder: Path) -> None:
-    """Record that a link in an input's folder leads out of it; a real file may replace it."""
-    if "\0" not in str(path) and Path(os.path.normpath(path)).is_relative_to(folder):
-        note_read(path, OUTSIDE)
+    def digest(self, path: Path) -> str:
+        """Return SHA-256 of a file, and note it as read. Raises OSError if it cannot be read."""
+        digest = digest_file(path)
+        self.note(path, digest)
+        return digest
 
-
-def digest_read(path: Path) -> str:
-    """Return the SHA-256 of a file, noted as read. Raises OSError if it cannot be read."""
-    digest = digest_file(path)
-    note_read(path, digest)
-    return digest
-
-
-@contextmanager
-def recorded(source: Path) -> Iterator[Reads]:
-    """Record what is read for the input ``source``; filled on exit, also on errors."""
-    noted: dict[Path, str] = {}
-    reads: Reads = {}
-    token = _OPEN.set(noted)
-    try:
-        yield reads
-    finally:
-        _OPEN.reset(token)
+    def reads_of(self, source: Path) -> Reads:
+        """Return what was noted, by paths relative to the folder of the input ``source``."""
         folder = source.absolute().parent
         real = source.parent.resolve()
-        for path, digest in noted.items():
+        reads = {}
+        for path, digest in self._digests.items():
             whole = path.absolute()
             base = folder if whole.is_relative_to(folder) else real
             reads[os.path.relpath(whole, base)] = digest
+        return reads
 
 
 def unchanged(source: Path, reads: Mapping[str, str]) -> bool:

@@ -10,7 +10,7 @@ from asset_factory.sim_checks.description import DescriptionError
 
 from ..errors import InputRejected
 from .limits import unreadable
-from .reads import ABSENT, note_link_out, note_read
+from .reads import ABSENT, ReadLog
 
 #: Codes of inputs by those of descriptions; any other is ``unreadable``.
 _CODES = {
@@ -22,12 +22,13 @@ _CODES = {
 
 
 @contextmanager
-def rejecting(name: str, folder: Path) -> Iterator[None]:
+def rejecting(name: str, folder: Path, log: ReadLog | None = None) -> Iterator[None]:
     """Turn what is raised over a file from anybody into a rejection: the file is at fault.
 
     Args:
         name: opens the sentence of what no reader says itself.
-        folder: of the input; sentences do not tell where it is, and links out of it are noted.
+        folder: of the input; sentences do not tell where it is.
+        log: where it is noted what was looked for, and which links lead out of the folder.
 
     Raises:
         InputRejected: ``missing_file``, ``external_reference``, ``too_large``, ``unsupported``,
@@ -39,7 +40,8 @@ def rejecting(name: str, folder: Path) -> Iterator[None]:
     except (InputRejected, TimeoutError, ChildProcessError):
         raise
     except DescriptionError as error:
-        _note_places(error, folder)
+        if log is not None:
+            _note_places(error, folder, log)
         code = _CODES.get(error.code, "unreadable")
         raise InputRejected(code, error.message) from error
     except MemoryError as error:
@@ -49,10 +51,10 @@ def rejecting(name: str, folder: Path) -> Iterator[None]:
         raise unreadable(name, f"{type(error).__name__}: {words}") from error
 
 
-def _note_places(error: DescriptionError, folder: Path) -> None:
+def _note_places(error: DescriptionError, folder: Path, log: ReadLog) -> None:
     """Note where a file was looked for: the input is another one once it lies there."""
     for place in error.places:
         if error.code == "outside_folder":
-            note_link_out(place, folder.resolve())
+            log.note_link_out(place, folder.resolve())
         else:
-            note_read(place, ABSENT)
+            log.note(place, ABSENT)

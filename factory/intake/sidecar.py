@@ -11,7 +11,7 @@ from asset_factory.sim_checks.read.document import inside
 from ..errors import ConfigError, InputRejected
 from .files import InputFiles
 from .orientation import parse_up
-from .reads import ABSENT, note_link_out, note_read
+from .reads import ABSENT
 
 _TEXTS = ("category", "up", "license", "annotation")
 _NUMBERS = ("height", "scale", "density")
@@ -55,7 +55,7 @@ def read_sidecar(path: Path, files: InputFiles) -> Sidecar:
     for candidate in sidecar_paths(path):
         if candidate.is_file():
             return _parse(candidate, files)
-        note_read(candidate, ABSENT)
+        files.log.note(candidate, ABSENT)
     return Sidecar()
 
 
@@ -68,7 +68,7 @@ def _parse(path: Path, files: InputFiles) -> Sidecar:
     if path.stat().st_size > _MAX_BYTES:
         raise _bad(path, f"is {path.stat().st_size} bytes, want at most {_MAX_BYTES}")
     if not inside(path, path.parent.resolve()):
-        note_link_out(path, path.parent)
+        files.log.note_link_out(path, path.parent)
         raise InputRejected(
             "external_reference", f"{path.name}: is a link that leads outside the input's folder"
         )

@@ -16,7 +16,7 @@ from ..runtime.store import digest_bytes
 from .intake import Intake
 from .load import LOAD, load
 from .naming import full_name, safe_name
-from .reads import Reads, content_digest, recorded, unchanged
+from .reads import ReadLog, Reads, content_digest, unchanged
 from .sizes import guess_category
 
 #: How often an input is read that somebody is writing at the same time.
@@ -57,22 +57,23 @@ class Source:
             Unjudged: what reads it hung, or somebody ended it.
         """
         for _ in range(MOST_READINGS):
+            log = ReadLog()
             try:
-                with recorded(self.path) as reads:
-                    intake = load(self.path, self.config.intake)
+                intake = load(self.path, self.config.intake, log)
             except InputRejected as rejection:
                 self.digest = rejection.digest
+                reads = log.reads_of(self.path)
                 self.reads = {self.path.name: content_digest(self.path), **reads}
                 if unchanged(self.path, reads):
                     raise
                 continue
             except (TimeoutError, ChildProcessError) as error:
-                self.reads = {self.path.name: content_digest(self.path), **reads}
+                self.reads = {self.path.name: content_digest(self.path), **log.reads_of(self.path)}
                 raise _unjudged(error) from error
-            self.reads = reads
+            self.reads = log.reads_of(self.path)
             self.digest = intake.provenance.digest
             # Files read one after the other may be of two versions.
-            if unchanged(self.path, reads):
+            if unchanged(self.path, self.reads):
                 return intake
         self.digest = ""
         self.keyed = False

@@ -67,7 +67,7 @@ def read_dae(data: bytes, path: Path, files: InputFiles) -> Soup:
             "unsupported",
             f"{path.name}: COLLADA needs the package pycollada; install it or convert",
         )
-    with rejecting(path.name, path.parent):
+    with rejecting(path.name, path.parent, files.log):
         refuse_doctype(data, path.name)
 
     import trimesh

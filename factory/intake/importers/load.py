@@ -19,6 +19,7 @@ from ..limits import require_sensible_size
 from ..naming import safe_name, well_formed
 from ..orientation import rotation_to_z_up
 from ..placing import check_config, given_scale, given_up
+from ..reads import ReadLog
 from ..rejecting import rejecting
 from ..sidecar import Sidecar, read_sidecar
 from ..sizes import Scale, guess_category, normalised, scale_by_size
@@ -28,7 +29,7 @@ from .urdf import import_urdf
 from .xml_source import read_xml
 
 
-def load_description(path: Path, config: IntakeConfig) -> Intake:
+def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> Intake:
     """Return an articulated object as an input: its visual geometry with every joint at zero.
 
     Zero is the joint value 0 of a URDF and ``qpos0`` of an MJCF. The annotation speaks of the root
@@ -38,6 +39,7 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
     Args:
         path: a URDF or MJCF file; everything it refers to lies in or below its folder.
         config: up axis, height and limits.
+        log: of the files that are read.
 
     Returns:
         An intake whose ``annotation`` is set; ``source_faces`` counts the faces of the
@@ -51,9 +53,9 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
         ConfigError: ``config.up`` or ``config.height`` cannot be.
     """
     check_config(config)
-    files = InputFiles(path.parent, config)
+    files = InputFiles(path.parent, config, log)
     sidecar = read_sidecar(path, files)
-    imported = _imported(path, config)
+    imported = _imported(path, config, files.log)
     digest = digest_bytes("\n".join([*imported.digests, *files.digests]).encode())
     license = _allowed_license(path.name, sidecar, imported, config, digest)
     whole, face_part, kept = _joined(imported, path.name)
@@ -94,13 +96,13 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
     )
 
 
-def _imported(path: Path, config: IntakeConfig) -> Imported:
-    root = read_xml(path, config.max_bytes)
-    with rejecting(path.name, path.parent), np.errstate(all="ignore"):
+def _imported(path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
+    root = read_xml(path, config.max_bytes, log)
+    with rejecting(path.name, path.parent, log), np.errstate(all="ignore"):
         if root.tag == "robot":
-            return import_urdf(root, path, config)
+            return import_urdf(root, path, config, log)
         if root.tag == "mujoco":
-            return import_mjcf(root, path, config)
+            return import_mjcf(root, path, config, log)
     raise InputRejected(
         "unreadable", f"{path.name}: begins with <{root.tag[:80]}>, want <robot> or <mujoco>"
     )

@@ -31,7 +31,7 @@ from ..annotation import AnnotatedJoint
 from ..files import InputFiles
 from ..images import load_texture
 from ..limits import require_at_most
-from ..reads import digest_read
+from ..reads import ReadLog
 from . import primitives
 from .imported import Imported, fixed
 from .xml_source import read_xml
@@ -41,7 +41,7 @@ KINDS = {"hinge": "revolute", "slide": "prismatic"}
 SHOWN_GROUPS = range(3)
 
 
-def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Imported:
+def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
     """Return every body's visual geoms and every joint of an MJCF, in the world frame.
 
     Several joints of one body become a chain through empty parts, in their order. A free joint is
@@ -51,24 +51,25 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Imported:
         root: the ``<mujoco>`` element.
         path: the file it came from; what it refers to lies in or below that file's folder.
         config: limits on the files it refers to.
+        log: of the files that are read.
 
     Raises:
         InputRejected: ``unsupported_joint``, ``too_large``.
         DescriptionError: what its reader refuses.
         TimeoutError, ChildProcessError: the compiler hung or was killed, which is no verdict.
     """
-    files = _referenced_files(root, path, config.max_bytes)
+    files = _referenced_files(root, path, config.max_bytes, log)
     size = sum(file.stat().st_size for file in files)
     require_at_most("all files together", size, config.max_bytes, "bytes")
     refuse_multiplied(path, root)
     # Before they are compiled: whoever changes them after this is found out by the digest.
-    digests = tuple(digest_read(file) for file in (path, *files))
+    digests = tuple(log.digest(file) for file in (path, *files))
     model = _compiled(path)
     visuals = _visuals(model)
     faces = sum(len(model.meshes[geom.mesh].faces) for geom in visuals if geom.mesh >= 0)
     require_at_most(path.name, faces, config.max_faces, "faces")
     notes = list(_notes(model))
-    images = _images(model, path.parent, config)
+    images = _images(model, InputFiles(path.parent, config, log), path.parent)
     poses = _world_poses(model)
     pieces = []
     for geom in visuals:
@@ -81,10 +82,10 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Imported:
     return Imported(tuple(pieces), names, joints, digests, tuple(notes), "mjcf")
 
 
-def _referenced_files(root: ET.Element, path: Path, max_bytes: int) -> list[Path]:
+def _referenced_files(root: ET.Element, path: Path, max_bytes: int, log: ReadLog) -> list[Path]:
     """Return every file that an MJCF and its inner documents refer to, each once."""
     found: dict[Path, None] = {}
-    for named in named_files(path, root, partial(read_xml, max_bytes=max_bytes)):
+    for named in named_files(path, root, partial(read_xml, max_bytes=max_bytes, log=log)):
         if not named.files:
             message = f"{path.name}: {named.said} is not there; want it below its folder"
             raise DescriptionError("missing_file", message, named.places)
@@ -182,9 +183,8 @@ def _shape(geom: CompiledGeom, model: CompiledModel, material: Material) -> Mesh
     return shape
 
 
-def _images(model: CompiledModel, folder: Path, config: IntakeConfig) -> dict[int, Texture]:
+def _images(model: CompiledModel, files: InputFiles, folder: Path) -> dict[int, Texture]:
     """Return the model's flat textures that come from files, by index."""
-    files = InputFiles(folder, config)
     images = {}
     for index, texture in enumerate(model.textures):
         path = folder / texture.file

@@ -22,6 +22,7 @@ from ...mesh import Mesh
 from ...runtime.store import digest_file
 from ..annotation import AnnotatedJoint
 from ..limits import require_at_most
+from ..reads import ReadLog
 from .imported import Imported, rigid_groups
 from .urdf_appearance import Palette, painted
 from .urdf_geometry import GeometryReader
@@ -30,13 +31,14 @@ MAX_LINKS = 4096
 MAX_SHAPES = 10_000
 
 
-def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig) -> Imported:
+def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
     """Return every link's visuals and every joint of a URDF, in the root link's frame.
 
     Args:
         robot: the ``<robot>`` element.
         path: the file it came from; what it refers to lies in or below that file's folder.
         config: limits on the files it refers to.
+        log: of the files that are read.
 
     Raises:
         InputRejected: ``not_a_tree``, ``unsupported_joint``, ``missing_file``,
@@ -51,8 +53,8 @@ def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig) -> Imported
     joints = [_joint(element, known, path.name) for element in robot.findall("joint")]
     poses = _poses_at_zero(names, _root_first(names, joints, path.name))
     notes = _notes(robot, joints)
-    reader = GeometryReader(path.parent, config)
-    palette = Palette(robot, path.parent, config)
+    reader = GeometryReader(path.parent, config, log)
+    palette = Palette(robot, path.parent, config, log)
     part_of = {name: part for part, name in enumerate(names)}
     welds = [(part_of[j.parent], part_of[j.child]) for j in joints if j.kind == "fixed"]
     shapes = _choose_shapes(links, rigid_groups(len(names), welds), notes)

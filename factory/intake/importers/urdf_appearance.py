@@ -14,15 +14,16 @@ from ...config import IntakeConfig
 from ...mesh import Material, Mesh, Texture
 from ..files import InputFiles
 from ..images import load_texture
+from ..reads import ReadLog
 from .xml_source import find_reference
 
 
 class Palette:
     """The materials that a file defines for all its links."""
 
-    def __init__(self, robot: ET.Element, folder: Path, config: IntakeConfig) -> None:
+    def __init__(self, robot: ET.Element, folder: Path, config: IntakeConfig, log: ReadLog) -> None:
         self._folder = folder
-        self._files = InputFiles(folder, config)
+        self._files = InputFiles(folder, config, log)
         self._global = {element.get("name", ""): element for element in robot.findall("material")}
         # A local definition may be referred to by name further down the file, as ROS's parser
         # allows.
@@ -58,7 +59,7 @@ class Palette:
     def _texture(self, reference: str, where: str) -> Texture | None:
         if not reference:
             return None
-        path = find_reference(reference, self._folder, where)
+        path = find_reference(reference, self._folder, where, self._files.log)
         if path not in self._textures:
             self._textures[path] = load_texture(self._files.read(path), path.name, self._files)
         return self._textures[path]

@@ -15,6 +15,7 @@ from ...errors import InputRejected
 from ...mesh import Material, Mesh
 from ..limits import require_at_most
 from ..loading import Visual, load_visual
+from ..reads import ReadLog
 from . import primitives
 from .xml_source import find_reference
 
@@ -38,10 +39,12 @@ class GeometryReader:
     Args:
         folder: everything lies in or below it.
         config: limits.
+        log: of the files that are read.
     """
 
-    def __init__(self, folder: Path, config: IntakeConfig) -> None:
+    def __init__(self, folder: Path, config: IntakeConfig, log: ReadLog) -> None:
         self._folder = folder
+        self._log = log
         self._config = config
         self._bytes = 0
         self._visuals: dict[Path, Visual | None] = {}
@@ -76,7 +79,7 @@ class GeometryReader:
         return _PRIMITIVES[geometry.kind](*geometry.size)
 
     def _mesh(self, geometry: UrdfGeometry, where: str) -> Mesh | None:
-        path = find_reference(geometry.file, self._folder, where)
+        path = find_reference(geometry.file, self._folder, where, self._log)
         scale = geometry.scale
         if not scale.all():
             raise InputRejected(
@@ -95,7 +98,7 @@ class GeometryReader:
         self._bytes += path.stat().st_size
         require_at_most("all mesh files together", self._bytes, self._config.max_bytes, "bytes")
         try:
-            visual = load_visual(path, self._folder, self._config)
+            visual = load_visual(path, self._folder, self._config, self._log)
         except InputRejected as error:
             if error.code not in NOTHING_TO_SEE:
                 raise

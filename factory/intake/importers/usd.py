@@ -28,7 +28,7 @@ from ..licenses import require_allowed
 from ..limits import require_at_most, require_sensible_size
 from ..naming import safe_name, well_formed
 from ..orientation import rotation_to_z_up
-from ..reads import digest_read
+from ..reads import ReadLog
 from ..rejecting import rejecting
 from ..sidecar import read_sidecar
 from ..sizes import guess_category, normalised
@@ -37,12 +37,13 @@ from .usd_tree import annotation_of
 _COLLIDER_WORDS = ("collision", "collider", "collisions", "colliders")
 
 
-def load_usd(path: Path, config: IntakeConfig) -> Intake:
+def load_usd(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> Intake:
     """Return an articulated USD asset as an input; a stage states its own units and up axis.
 
     Args:
         path: of the root layer; everything that it is composed of lies in or below its folder.
         config: limits.
+        log: of the files that are read.
 
     Raises:
         InputRejected: ``unsupported``: the library that reads USD is not installed;
@@ -50,12 +51,12 @@ def load_usd(path: Path, config: IntakeConfig) -> Intake:
             ``not_a_tree``, ``unsupported_joint``, ``bad_sidecar``, ``license_disallowed``.
         TimeoutError, ChildProcessError: what reads it hung or was killed, which is no verdict.
     """
-    with WarmChild() as child, rejecting(path.name, path.parent):
+    files = InputFiles(path.parent, config, log)
+    with WarmChild() as child, rejecting(path.name, path.parent, files.log):
         require_library(path.name)
-        files = InputFiles(path.parent, config)
         sidecar = read_sidecar(path, files)
         layers = ask_of(child, path.name, require_inside, path, path.parent, config.max_bytes)
-        digests = [digest_read(layer) for layer in layers]
+        digests = [files.log.digest(layer) for layer in layers]
         digest = digest_bytes("\n".join([*digests, *files.digests]).encode())
         require_allowed(path.name, sidecar.license, config.allowed_licenses, digest)
         stage = ask_of(child, path.name, _read_leniently, path)

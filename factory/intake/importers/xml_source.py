@@ -10,11 +10,11 @@ from asset_factory.sim_checks.description import DescriptionError
 from asset_factory.sim_checks.read.document import is_file, locate, parse_xml, read_document
 
 from ...runtime.store import digest_bytes
-from ..reads import ABSENT, note_read
+from ..reads import ABSENT, ReadLog
 from ..rejecting import rejecting
 
 
-def read_xml(path: Path, max_bytes: int) -> Element:
+def read_xml(path: Path, max_bytes: int, log: ReadLog) -> Element:
     """Return the root element of an XML file, noted as read.
 
     Raises:
@@ -22,23 +22,23 @@ def read_xml(path: Path, max_bytes: int) -> Element:
             elements; ``unreadable``: not well-formed, or it declares a document type or entities,
             which can expand without bound.
     """
-    with rejecting(path.name, path.parent):
+    with rejecting(path.name, path.parent, log):
         text = read_document(path, max_bytes)
-        note_read(path, digest_bytes(text))
+        log.note(path, digest_bytes(text))
         return parse_xml(text, path.name)
 
 
-def find_reference(reference: str, folder: Path, where: str) -> Path:
+def find_reference(reference: str, folder: Path, where: str, log: ReadLog) -> Path:
     """Return the file that ``reference`` names below ``folder``, as :func:`locate` understands it.
 
     Raises:
         InputRejected: ``external_reference`` or ``missing_file``; ``where`` opens the sentence.
     """
-    with rejecting(where, folder):
+    with rejecting(where, folder, log):
         for place in locate(unquote(reference.strip()).replace("\\", "/"), folder.resolve()):
             if is_file(place):
                 return place.resolve()
-            note_read(place, ABSENT)
+            log.note(place, ABSENT)
         raise DescriptionError(
             "missing_file",
             f"{where}: {reference[:160]!r} is not there; want it below the description's folder",

@@ -14,7 +14,7 @@ from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.companions import companions
 from asset_factory.factory.intake.discover import find_inputs
 from asset_factory.factory.intake.importers.xml_source import read_xml
-from asset_factory.factory.intake.reads import ABSENT, content_digest
+from asset_factory.factory.intake.reads import ABSENT, ReadLog, content_digest
 from asset_factory.sim_checks.description import DescriptionError
 from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 from asset_factory.sim_checks.read.document import parse_document
@@ -146,6 +146,6 @@ def test_a_pipe_has_no_digest_and_no_content(tmp_path):
     os.mkfifo(tmp_path / "pipe.xml")
     assert content_digest(tmp_path / "pipe.xml") == ABSENT
     with pytest.raises(InputRejected, match="not a regular file"):
-        read_xml(tmp_path / "pipe.xml", 100)
+        read_xml(tmp_path / "pipe.xml", 100, ReadLog())
     with pytest.raises(DescriptionError, match="not a regular file"):
         parse_document(tmp_path / "pipe.xml")

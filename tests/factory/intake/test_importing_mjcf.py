@@ -14,7 +14,7 @@ from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.importers.load import load_description
 from asset_factory.factory.intake.importers.mjcf import shown
 from asset_factory.factory.intake.intake import Intake
-from asset_factory.factory.intake.reads import ABSENT, recorded
+from asset_factory.factory.intake.reads import ABSENT, ReadLog
 from asset_factory.sim_checks.read.mjcf_model import CompiledGeom
 
 pytest.importorskip("mujoco")
@@ -220,7 +220,9 @@ def test_where_a_missing_file_was_looked_for_is_noted(tmp_path: Path) -> None:
         tmp_path,
         '<compiler meshdir="meshes"/><asset><mesh name="m" file="no.stl"/></asset>',
     )
-    with recorded(path) as reads, pytest.raises(InputRejected):
-        load_description(path, IntakeConfig())
+    log = ReadLog()
+    with pytest.raises(InputRejected):
+        load_description(path, IntakeConfig(), log)
+    reads = log.reads_of(path)
     assert reads["meshes/no.stl"] == ABSENT
     assert not any(name.startswith("..") for name in reads)

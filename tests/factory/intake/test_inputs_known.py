@@ -14,6 +14,7 @@ from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake import reads as reads_module
 from asset_factory.factory.intake import source as source_module
+from asset_factory.factory.intake.reads import ReadLog
 from asset_factory.factory.intake.source import Source
 from asset_factory.factory.jobs.probe import KnownReads
 from asset_factory.factory.registry import keys
@@ -155,13 +156,11 @@ def test_an_input_that_somebody_writes_is_read_again_and_then_refused(
     assert source_key(source) == ""
 
 
-def test_nobody_records_nothing_is_noted(tmp_path) -> None:
-    reads_module.note_read(tmp_path / "a", "0")
-    with reads_module.recorded(tmp_path / "input") as outer:
-        reads_module.note_read(tmp_path / "b", "")
-        reads_module.note_read(tmp_path / "b", "1")
-        reads_module.note_read(tmp_path / "b", "2")
-    assert outer == {"b": "1"}
+def test_what_was_seen_first_counts_unless_it_was_not_there(tmp_path) -> None:
+    log = ReadLog()
+    for digest in ("", "1", "2"):
+        log.note(tmp_path / "b", digest)
+    assert log.reads_of(tmp_path / "input") == {"b": "1"}
 
 
 def test_what_somebody_else_found_out_meanwhile_is_looked_at_again(tmp_path) -> None:
