@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from types import MappingProxyType
 
 import numpy as np
 
 from ..articulation import Articulation, Joint, JointKind, Part
 from ..mesh import IntArray, Mesh
 from ..part import PartKind
-from .naming import JOINT_SUFFIX, numbered
 from .proposal import Proposal
+
+#: What follows a part's name in its joint's.
+JOINT_SUFFIX: Mapping[JointKind, str] = MappingProxyType(
+    {
+        JointKind.PRISMATIC: "slide",
+        JointKind.REVOLUTE: "hinge",
+        JointKind.CONTINUOUS: "turn",
+    }
+)
 
 
 def assembled(
@@ -101,3 +111,13 @@ def _parents_first(hosts: Sequence[int]) -> list[int]:
         order += ready
         waiting = [number for number in waiting if number not in ready]
     return order
+
+
+def numbered(labels: Iterable[str]) -> list[str]:
+    """Return each label with its number among those alike: ``door_0``, ``door_1``, ``lid_0``."""
+    count: Counter[str] = Counter()
+    names = []
+    for label in labels:
+        names.append(f"{label}_{count[label]}")
+        count[label] += 1
+    return names

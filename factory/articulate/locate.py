@@ -55,7 +55,10 @@ def _located(mesh: Mesh, joint: Joint, part: Part) -> Part:
 
 
 def _panel(mesh: Mesh, joint: Joint, part: Part, points: FloatArray) -> Panel | None:
-    """Return what a part closes, seen from the side that it opens to; ``None`` for small things."""
+    """Return what a part closes, seen from the side that it opens to.
+
+    ``None`` for what is small, or deeper than wide and hinged, as the levers of taps are.
+    """
     if joint.kind is JointKind.CONTINUOUS:
         return None
     motion = Motion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper)
@@ -65,7 +68,9 @@ def _panel(mesh: Mesh, joint: Joint, part: Part, points: FloatArray) -> Panel | 
     local = points @ side.frame.T
     low = local.min(axis=0)
     high = local.max(axis=0)
-    if (high - low)[:2].min() < NARROWEST * float(mesh.extents.max()):
+    narrow = float((high - low)[:2].min())
+    deep = joint.turns and high[2] - low[2] > narrow
+    if deep or narrow < NARROWEST * float(mesh.extents.max()):
         return None
     opens = _edge(side, joint, low, high)
     return Panel(side.frame, low[:2], high[:2], _front(mesh, part, side), None, opens)

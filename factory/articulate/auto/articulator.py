@@ -26,11 +26,11 @@ from ..proposal import Hypothesis, Proposal
 from ..rigid import rigid_articulation
 from .contacts import contacts_of, settled
 from .hidden import without_hidden
+from .one_piece import MeshOrigin, different, least_of, seam_hypotheses
 from .partition import Sharing, share_out, shells
 from .parts import agreed_parts
 from .proposals import propose
 from .sides import SURE_SIGHT, sightings
-from .skins import Make, different, least_of, seam_hypotheses
 from .trust import Trust, load_trust
 from .views import MOST_VIEWS, look_around
 
@@ -82,8 +82,8 @@ class AutoArticulator:
         models how a thing works, models all of it. The whole of what they show comes last then.
         """
         least = least_of(self.trust, self.config.least_confidence)
-        make = Make.of(mesh)
-        if make.is_skin:
+        origin = MeshOrigin.of(mesh)
+        if origin.is_generated:
             return seam_hypotheses(mesh, least, self.name)
         proposals = self.proposals(mesh, face_areas(mesh))
         own = self.decide(mesh, proposals)
@@ -101,7 +101,7 @@ class AutoArticulator:
                 fuller.append(self.decide(shown.mesh, (*carried, *beside)))
             if len(panels) > len(beside):
                 full.append(self.decide(shown.mesh, (*carried, *panels)))
-        seams = seam_hypotheses(mesh, least, self.name) if make.one_piece else ()
+        seams = seam_hypotheses(mesh, least, self.name) if origin.one_piece else ()
         every = (*fuller, own, *full, *[each.articulation for each in seams])
         made = [each for each in every if each.movable_joints] or [own]
         weighed = [replace(each, weights=self.weights) for each in different(made)]
@@ -195,7 +195,7 @@ class WithoutNetwork:
     def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
         """Return what :meth:`articulate` does, and of a one-piece mesh what else it may be."""
         least = least_of(load_trust(), self.config.least_confidence)
-        if Make.of(mesh).one_piece:
+        if MeshOrigin.of(mesh).one_piece:
             return seam_hypotheses(mesh, least, self.name)
         return (Hypothesis.of(GeometricArticulator().articulate(mesh)),)
 

@@ -45,7 +45,7 @@ def openings_of(
 ) -> tuple[Opening, ...]:
     """Weigh the ways in which each panel may open by three opinions that count alike.
 
-    Rules, a judge of rectangles that learned, and the picture network; then its company.
+    Rules, a model of rectangles, and the picture network; then its company.
     """
     if not panels:
         return ()

@@ -51,6 +51,7 @@ TURN = Joint("j", JointKind.CONTINUOUS, 0, 1, -Y, (0.51, 0, 0.51), -np.pi, np.pi
         (KNOB, TURN, PartKind.KNOB, None),
         (KNOB, SLIDE, PartKind.BUTTON, None),
         (KNOB, hinge(-Z, (0.5, 0, 0.5)), PartKind.LEVER, None),
+        (box((0.4, -0.3, 0.4), (0.5, 0, 0.5)), hinge(-Z, (0.1, 0, 0.5)), PartKind.LEVER, None),
     ],
 )
 def test_a_part_is_told_by_its_shape_and_motion(

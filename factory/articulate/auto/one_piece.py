@@ -21,7 +21,7 @@ CRUMB = 0.05
 
 
 @dataclass(frozen=True)
-class Make:
+class MeshOrigin:
     """How a mesh was made.
 
     Attributes:
@@ -33,7 +33,7 @@ class Make:
     reconstructed: bool
 
     @classmethod
-    def of(cls, mesh: Mesh) -> Make:
+    def of(cls, mesh: Mesh) -> MeshOrigin:
         """Tell how any mesh was made."""
         surface = Surface.of(mesh.vertices, mesh.faces)
         areas = np.bincount(connected_components(mesh), weights=surface.areas)
@@ -45,7 +45,7 @@ class Make:
         return cls(bool(alone), surface.reconstructed)
 
     @property
-    def is_skin(self) -> bool:
+    def is_generated(self) -> bool:
         """Return whether it is what image-to-3D tools give: network and rules see rubbish in it."""
         return self.one_piece and self.reconstructed
 

@@ -8,7 +8,7 @@ import numpy as np
 from one_piece import bin_with_lid, drawers, plain_box
 
 from asset_factory.factory.articulate.auto.articulator import WithoutNetwork
-from asset_factory.factory.articulate.auto.skins import Make, seam_hypotheses
+from asset_factory.factory.articulate.auto.one_piece import MeshOrigin, seam_hypotheses
 from asset_factory.factory.config import AutoConfig
 from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.learn.objects import make_object
@@ -29,16 +29,16 @@ def bumpy(mesh: Mesh) -> Mesh:
 
 def test_one_surface_with_crumbs_is_one_piece_and_an_assembly_is_not() -> None:
     whole = plain_box()
-    assert Make.of(whole).one_piece
-    assert Make.of(crumb(whole, 0.05)).one_piece
-    assert not Make.of(crumb(whole, 0.8)).one_piece
-    assert not Make.of(make_object("cabinet", 0).mesh).one_piece
+    assert MeshOrigin.of(whole).one_piece
+    assert MeshOrigin.of(crumb(whole, 0.05)).one_piece
+    assert not MeshOrigin.of(crumb(whole, 0.8)).one_piece
+    assert not MeshOrigin.of(make_object("cabinet", 0).mesh).one_piece
 
 
 def test_only_what_bends_a_little_everywhere_is_a_skin() -> None:
-    assert not Make.of(drawers()).is_skin
-    assert Make.of(bumpy(drawers())).is_skin
-    assert not Make.of(bumpy(make_object("cabinet", 0).mesh)).is_skin
+    assert not MeshOrigin.of(drawers()).is_generated
+    assert MeshOrigin.of(bumpy(drawers())).is_generated
+    assert not MeshOrigin.of(bumpy(make_object("cabinet", 0).mesh)).is_generated
 
 
 def test_auto_reads_a_skin_by_its_seams() -> None:
