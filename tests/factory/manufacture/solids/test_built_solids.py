@@ -7,6 +7,7 @@ import pytest
 import trimesh
 from labelled_skins import SIZE, bin_with_lid, chest, cupboard
 
+from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import SolidsConfig
 from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.geometry.elevations import elevation
@@ -165,3 +166,12 @@ def test_the_same_skin_gives_the_same_solids():
     for a, b in zip(one.pieces, other.pieces, strict=True):
         for first, second in zip(a.hulls, b.hulls, strict=True):
             assert np.array_equal(first.vertices, second.vertices)
+
+
+def test_a_lid_that_is_lifted_gets_no_drawers_box() -> None:
+    hinged = bin_with_lid()
+    lift = replace(hinged.joints[0], kind=JointKind.PRISMATIC, axis=np.array([0.0, 0.0, 1.0]))
+    lifted = replace(hinged, joints=(replace(lift, upper=0.2),))
+    kinds = {record.kind for record in solids(lifted, CONFIG).surfaces}
+    assert "lid hollow" in kinds
+    assert "drawer box" not in kinds
