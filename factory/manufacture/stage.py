@@ -28,7 +28,7 @@ from .targets.handles import find_handle
 #: Its version is raised when the same hulls would be cut, weighed or held otherwise.
 FINISH = Stage(
     "finish",
-    version=19,
+    version=20,
     settings=("separate", "inertia", "decompose.max_vertices"),
     libraries=("numpy", "scipy", "trimesh", "manifold3d"),
 )
@@ -190,7 +190,7 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
             "planed",
             Severity.SOFT,
             f"so that {pair[0]!r} and {pair[1]!r} are clear of one another, their collision "
-            f"geometry was planed where that can be seen: {told}",
+            f"geometry was cut back where that can be seen: {told}",
             parts=pair,
             value=round(max(each.depth_m for each in trimmed) * 1000, 4),
             unit="mm",
