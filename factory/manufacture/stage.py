@@ -189,7 +189,7 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
             "planed",
             Severity.SOFT,
             f"so that {pair[0]!r} and {pair[1]!r} are clear of one another, their collision "
-            f"geometry was planed where that can be seen: {told}",
+            f"geometry was cut back where that can be seen: {told}",
             parts=pair,
             value=round(max(each.depth_m for each in trimmed) * 1000, 4),
             unit="mm",

@@ -5,12 +5,12 @@ may meet where the parts do not; what decomposition added is taken off again. Pa
 holds (a stem in its socket, a pole in its tube) are often modelled as overlapping solids; what is
 hidden there at rest is taken out of the collision geometry, and the report says how deep it was.
 And doors are modelled without the room that their edge needs to turn, or overlapping their
-neighbour; that is planed off the collision geometry within a budget, and the report says how much.
+neighbour; that is cut back in the collision geometry within a budget, and the report says how much.
 Each pair of hulls is cut by planes, at every sampled pose of the joints that move the two parts
 against one another, and along slides between them. What stands deep in a solid body turns or is
 pressed in a pit there.
 
-What is never cut: what a part runs into away from its hinge, and more than a joiner would plane
+What is never cut: what a part runs into away from its hinge, and more than a joiner would take
 off. A cut there would hide a fault of the asset.
 """
 

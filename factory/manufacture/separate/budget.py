@@ -99,7 +99,7 @@ class Loss:
         untouched: share of it that lies outside what is left by more than may be, hidden or not,
             after this cut and all before it; 0 where this one adds nothing to it.
         bared_m: deepest cut below its visible surface where nothing excuses it [m].
-        planed_m: the same beside a hinge, or in a part that no joint holds it in [m].
+        trimmed_m: the same beside a hinge, or in a part that no joint holds it in [m].
     """
 
     share: float
@@ -108,12 +108,12 @@ class Loss:
     bare_area: float
     untouched: float
     bared_m: float
-    planed_m: float
+    trimmed_m: float
 
     @property
     def deepest_m(self) -> float:
         """Return the deepest cut below its visible surface, excused or not [m]."""
-        return max(self.bared_m, self.planed_m)
+        return max(self.bared_m, self.trimmed_m)
 
 
 def loss(
@@ -145,8 +145,8 @@ def loss(
     depth = depth[taken]
     within = excuse.holds(points, config)
     hidden = within & excuse.held
-    planed = ~hidden & (within | _beside(points, excuse.hinges, config.hinge_m))
-    free = ~hidden & ~planed
+    trimmed = ~hidden & (within | _beside(points, excuse.hinges, config.hinge_m))
+    free = ~hidden & ~trimmed
     area, bare_area, untouched = _bared(surface, before, after, excuse, config)
     return Loss(
         share,
@@ -155,7 +155,7 @@ def loss(
         bare_area,
         untouched,
         float(depth[free].max(initial=0.0)),
-        float(depth[planed].max(initial=0.0)),
+        float(depth[trimmed].max(initial=0.0)),
     )
 
 
@@ -192,12 +192,12 @@ class CutLimits:
 
     Attributes:
         free_m: off both together where nothing excuses it [m].
-        planed_m: the same beside a hinge, or in a part that no joint holds it in [m].
+        trimmed_m: the same beside a hinge, or in a part that no joint holds it in [m].
         share: of the collision volume of either.
     """
 
     free_m: float
-    planed_m: float
+    trimmed_m: float
     share: float
 
 
@@ -220,7 +220,7 @@ def overdone(
     """
     for depths, limit in (
         ([each.bared_m for each in losses], limits.free_m),
-        ([each.planed_m for each in losses], limits.planed_m),
+        ([each.trimmed_m for each in losses], limits.trimmed_m),
     ):
         if sum(depths) > limit:
             return (
@@ -229,9 +229,9 @@ def overdone(
                 f"at most {limit * 1000:.3g} mm may go"
             )
     for name, each, encloses in zip(names, losses, solid, strict=True):
-        planed = each.deepest_m > config.visible_m
-        shares = [(each.share, limits.share)] if encloses or planed else []
-        shares += [(each.open_share, config.planed_volume)] if encloses and planed else []
+        trimmed = each.deepest_m > config.visible_m
+        shares = [(each.share, limits.share)] if encloses or trimmed else []
+        shares += [(each.open_share, config.planed_volume)] if encloses and trimmed else []
         for share, most in shares:
             if share > most:
                 return (

@@ -23,7 +23,7 @@ from asset_factory.factory.manufacture.separate.overlap import thickness_m
 from asset_factory.factory.mesh import Mesh
 
 CONFIG = SeparateConfig()
-LIMITS = CutLimits(free_m=0.006, planed_m=0.025, share=0.5)
+LIMITS = CutLimits(free_m=0.006, trimmed_m=0.025, share=0.5)
 NOTHING = Loss(*[0.0] * 7)
 
 
@@ -35,7 +35,7 @@ def test_a_cut_that_takes_nothing_is_fine():
     assert judged(NOTHING, solid=True) is None
 
 
-@pytest.mark.parametrize(("name", "most"), [("bared_m", 0.006), ("planed_m", 0.025)])
+@pytest.mark.parametrize(("name", "most"), [("bared_m", 0.006), ("trimmed_m", 0.025)])
 def test_depths_are_limited_for_both_parts_together(name, most):
     within = replace(NOTHING, **{name: 0.5 * most})
     both = [within, replace(NOTHING, **{name: 0.6 * most})]

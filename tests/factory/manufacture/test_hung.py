@@ -96,7 +96,7 @@ def test_what_is_alike_on_all_sides_of_its_axis_turns_about_its_middle():
 STOP = box((-0.02, 0.1, 0.28), (0.02, 0.14, 0.338))
 
 
-def test_what_a_lever_scrapes_on_its_way_is_planed_off():
+def test_what_a_lever_scrapes_on_its_way_is_cut_back():
     tree, result = cut(LEVER, TURN, [*POST, STOP])
     assert result.refused == {}
     assert 0.005 < max(each.depth_m for each in result.trimmed[PAIR]) < CONFIG.scraped_m
@@ -115,7 +115,7 @@ TWINS = {
 
 
 @pytest.mark.parametrize("name", TWINS)
-def test_a_lever_that_is_hung_wrongly_is_not_planed_free(name):
+def test_a_lever_that_is_hung_wrongly_is_not_cut_free(name):
     tree, result = cut(LEVER, TWINS[name], [*POST, STOP])
     assert PAIR in result.refused
     assert deepest(tree, result) > 0.001

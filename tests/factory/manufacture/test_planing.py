@@ -1,4 +1,4 @@
-"""A door without room for its edge is planed free; a door that is hung wrongly never is."""
+"""A door without room for its edge is cut free; a door that is hung wrongly never is."""
 
 from dataclasses import replace
 
@@ -103,14 +103,14 @@ TWINS = {
 
 
 @pytest.mark.parametrize("name", TWINS)
-def test_a_door_that_is_hung_wrongly_is_not_planed_free(name):
+def test_a_door_that_is_hung_wrongly_is_not_cut_free(name):
     tree, result = cut(TWINS[name])
     assert ("body", "door") in result.refused
     hulls = [list(piece.hulls) for piece in result.pieces]
     assert max(hull_depth(*hulls, pose) for pose in relative_poses(tree, 0, 1, 60)) > 0.001
 
 
-def test_neighbours_whose_edges_overlap_are_planed_apart_and_broad_overlaps_are_not():
+def test_neighbours_whose_edges_overlap_are_cut_apart_and_broad_overlaps_are_not():
     back = box((0, 0.1, 0), (1, 0.12, 0.6))
     for overlap, refused in ((0.006, False), (0.06, True)):
         left = box((0, 0, 0), (0.5 + overlap / 2, 0.018, 0.6))
@@ -153,7 +153,7 @@ def deepest(tree, result):
     return max(hull_depth(hulls[0], hulls[last], pose) for pose in way)
 
 
-def test_a_door_whose_far_edge_scrapes_its_frame_is_planed_there():
+def test_a_door_whose_far_edge_scrapes_its_frame_is_cut_back_there():
     # The hinge lies on the front, but the door reaches 4 mm into the opposite side.
     low, high = DOOR.vertices.min(axis=0), DOOR.vertices.max(axis=0)
     wide = box(low, high + np.array([GAP + 0.004, 0.0, 0.0]))
