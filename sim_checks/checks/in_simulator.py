@@ -9,6 +9,7 @@ from typing import Any
 
 from ..config import CheckConfig
 from ..description import Description
+from ..geometry.apart import joints_apart
 from ..processes.isolation import Failure, Outcome, WarmChild, run_isolated
 from ..report import KILLED, OUT_OF_TIME, Finding, Severity
 from ..simulators.catalog import install_line, installed, simulator
@@ -52,9 +53,10 @@ def judge_in_simulator(
     if too_large is not None:
         return _only(too_large)
     samples = pose_samples(description)
+    apart = joints_apart(description)
     ask = run_isolated if child is None else child.call
     outcome = ask(
-        observe, name, description.path, config.motion, samples, limits=config.child.limits
+        observe, name, description.path, config.motion, samples, apart, limits=config.child.limits
     )
     if outcome.value is None:
         return _only(_failure(outcome, name, description.path))

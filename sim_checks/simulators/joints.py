@@ -15,6 +15,9 @@ from .simulator import LoadedJoint, World
 FULL_TURN = 2.0 * math.pi
 GRAVITY = 9.81
 
+#: Names of joints that cannot reach one another, by group.
+Groups = tuple[tuple[str, ...], ...]
+
 
 @dataclass(frozen=True)
 class Ranges:
@@ -85,6 +88,12 @@ def companions(world: World, index: int) -> frozenset[int]:
     for _ in pairs:
         found |= {name for pair in pairs if pair & found for name in pair}
     return frozenset(i for i, joint in enumerate(world.joints) if joint.name in found)
+
+
+def any_carried(world: World) -> bool:
+    """Return whether a joint moves another one, so that the mass matrix changes as it does."""
+    each = sum(len(links) for links in world.carried)
+    return each > len(frozenset[str]().union(*world.carried))
 
 
 def uncoupled(world: World) -> list[int]:

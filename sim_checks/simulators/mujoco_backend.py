@@ -133,11 +133,11 @@ class MujocoWorld:
         """[rad/s] or [m/s], shape [joint_count]."""
         return np.array(self._data.qvel[self._dofs], np.float64)
 
-    def inertias(self) -> FloatArray:
-        """Return the diagonal of the mass matrix, shape [joint_count]."""
+    def mass_matrix(self) -> FloatArray:
+        """Return the joints' mass matrix [kg m2], [kg m] or [kg], [joint_count, joint_count]."""
         full = np.zeros((self._model.nv, self._model.nv))
         self._mujoco.mj_fullM(self._model, self._data, full)
-        return np.array(np.diag(full)[self._dofs], np.float64)
+        return full[np.ix_(self._dofs, self._dofs)]
 
     def energy(self) -> float:
         """Kinetic energy, and potential energy of the gravity and springs that are on [J]."""

@@ -155,9 +155,9 @@ class PybulletWorld:
         """[rad/s] or [m/s], shape [joint_count]."""
         return np.array(self._states()[1], np.float64)
 
-    def inertias(self) -> FloatArray:
-        """Return the diagonal of the mass matrix, shape [joint_count]."""
-        return self._dynamics.inertias(self._states()[0]) if self._ids else np.zeros(0)
+    def mass_matrix(self) -> FloatArray:
+        """Return the joints' mass matrix [kg m2], [kg m] or [kg], [joint_count, joint_count]."""
+        return self._dynamics.mass_matrix(self._states()[0]) if self._ids else np.zeros((0, 0))
 
     def energy(self) -> float:
         """Return the kinetic energy, and potential energy of gravity if it is on [J]."""

@@ -128,20 +128,19 @@ class SapienWorld:
         """[rad/s] or [m/s], shape [joint_count]."""
         return _vector(self._articulation.qvel) if self._articulation is not None else np.zeros(0)
 
-    def inertias(self) -> FloatArray:
-        """Return the diagonal of the mass matrix, shape [joint_count]."""
-        matrix = self._dynamics.compute_generalized_mass_matrix(self._articulation.qpos)  # type: ignore[union-attr]
-        return np.diag(np.asarray(matrix, np.float64)).copy()
+    def mass_matrix(self) -> FloatArray:
+        """Return the joints' mass matrix [kg m2], [kg m] or [kg], [joint_count, joint_count]."""
+        if self._articulation is None:
+            return np.zeros((0, 0))
+        matrix = self._dynamics.compute_generalized_mass_matrix(self._articulation.qpos)
+        return np.asarray(matrix, np.float64)
 
     def energy(self) -> float:
         """Return the kinetic energy, and potential energy of gravity if it is on [J]."""
         if self._articulation is None:
             return 0.0
         velocity = self.velocities()
-        matrix = np.asarray(
-            self._dynamics.compute_generalized_mass_matrix(self._articulation.qpos), np.float64
-        )
-        kinetic = 0.5 * float(velocity @ matrix @ velocity)
+        kinetic = 0.5 * float(velocity @ self.mass_matrix() @ velocity)
         if not self._falls:
             return kinetic
         heights = (

@@ -338,8 +338,8 @@ class World(Protocol):
     def velocities(self) -> FloatArray:
         """[rad/s] or [m/s], shape [joint_count]."""
 
-    def inertias(self) -> FloatArray:
-        """Inertia of each joint here, others at rest [kg m2] or [kg], shape [joint_count]."""
+    def mass_matrix(self) -> FloatArray:
+        """Return the mass matrix [kg m2], [kg m] or [kg], shape [joint_count, joint_count]."""
 
     def energy(self) -> float:
         """Return the kinetic energy plus potential energy of gravity and springs that are on [J].
