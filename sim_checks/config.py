@@ -288,7 +288,7 @@ class ChildConfig:
 
     @property
     def limits(self) -> Limits:
-        """For one file."""
+        """Return the limits for one file."""
         return Limits(self.wall_s, memory_bytes=self.memory_bytes)
 
 

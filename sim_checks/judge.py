@@ -51,7 +51,7 @@ class Judge:
     """
 
     def __init__(self, config: CheckConfig = DEFAULT_CONFIG, workers: int = 1) -> None:
-        """No process starts before it is needed.
+        """Keep the settings; no process starts before it is needed.
 
         Args:
             config: every threshold.

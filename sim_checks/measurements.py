@@ -130,7 +130,7 @@ class MeasuredPenetration:
             yield from joint.pairs
 
     def to_dict(self) -> dict[str, Any]:
-        """JSON data."""
+        """Return JSON data."""
         data: dict[str, Any] = _plain(asdict(self))
         return data
 

@@ -124,7 +124,7 @@ class Report:
 
     @property
     def passed(self) -> bool:
-        """No hard finding, and the judge finished."""
+        """Tell whether there is no error and validation finished."""
         return not self.hard
 
     @property
@@ -134,14 +134,14 @@ class Report:
 
     @property
     def status(self) -> Status:
-        """``unjudged`` where some judge crashed or timed out and nothing else rejects the asset."""
+        """Return ``unjudged`` where a check crashed or timed out and nothing else rejects."""
         if self.passed:
             return Status.PASSED
         judged = any(f.code not in UNJUDGED_CODES for f in self.hard)
         return Status.REJECTED if judged else Status.UNJUDGED
 
     def to_dict(self) -> dict[str, Any]:
-        """JSON data: ``passed``, ``findings`` and the rest."""
+        """Return JSON data: ``passed``, ``findings`` and the rest."""
         return {
             "passed": self.passed,
             "description": self.description,
@@ -163,7 +163,7 @@ class Report:
         }
 
     def to_json(self) -> str:
-        """Reproducible JSON text: fixed key order, no time, no machine."""
+        """Return reproducible JSON text: fixed key order, no time, no machine."""
         return json.dumps(self.to_dict(), indent=2, allow_nan=False) + "\n"
 
     @classmethod

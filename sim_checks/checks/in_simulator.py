@@ -74,7 +74,7 @@ def judge_in_simulator(
 
 
 def _writable(data: Any) -> Any:
-    """The same JSON data with ``None`` for NaN and infinity, which many broken files lead to."""
+    """Return the same JSON data with ``None`` for NaN and infinity, which broken files lead to."""
     if isinstance(data, Mapping):
         return {key: _writable(value) for key, value in data.items()}
     if isinstance(data, list | tuple):

@@ -101,7 +101,7 @@ class JointSweep:
 
     @property
     def excess(self) -> float:
-        """Worst excess over rest [m] that counts; negative is a gap, minus infinity far apart."""
+        """Return the worst excess over rest [m] that counts; negative is a gap."""
         plain = (pair.excess for pair in self.pairs if pair.contact.kind is PairKind.PLAIN)
         return max(plain, default=float("-inf"))
 

@@ -103,7 +103,7 @@ class _Order:
         return self._driven[index, opened]
 
     def _makers(self, index: int) -> Iterator[Joints]:
-        """The joints that move one of two links in contact, or were pushed; more as others join.
+        """Yield the joints that move one of two links in contact, or were pushed.
 
         Each alone before all of them: a lid makes way, and what unfolds the whole box does not.
         """

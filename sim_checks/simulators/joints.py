@@ -97,7 +97,7 @@ def any_carried(world: World) -> bool:
 
 
 def uncoupled(world: World) -> list[int]:
-    """Joints that no other is forced to move with; the rest may be moved without contact."""
+    """Return joints that no other is forced to move with; the rest may move without contact."""
     return [i for i in range(len(world.joints)) if len(companions(world, i)) == 1]
 
 
@@ -112,7 +112,7 @@ def moving_mass(world: World) -> float:
 
 
 def share(moved: float, size: float) -> float:
-    """Of the range; 0 for a joint without one."""
+    """Return a share of the range; 0 for a joint without one."""
     return float(moved / size) if size > 0.0 else 0.0
 
 

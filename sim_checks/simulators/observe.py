@@ -37,7 +37,7 @@ def observe(
     samples: tuple[JointValues, ...],
     apart: Groups = (),
 ) -> Observation:
-    """Everything the two simulator checks need, from a single load.
+    """Take all that the simulator checks need from a single load.
 
     Args:
         name: the engine.

@@ -53,7 +53,7 @@ class Dynamics:
         return matrix if matrix is not None else self._composed()
 
     def balance(self, position: FloatArray, velocity: FloatArray, gravity: float) -> FloatArray:
-        """Forces against gravity (along z, [m/s2]) and velocity effects, shape [joint_count].
+        """Return forces against gravity along z [m/s2] and velocity effects, [joint_count].
 
         The stand-in knows no velocity effects: at furniture's speeds the drive's own pull makes up
         for them.
@@ -121,7 +121,7 @@ class Dynamics:
     def _geometry(
         self,
     ) -> tuple[list[FloatArray], list[FloatArray], dict[int, FloatArray], dict[int, FloatArray]]:
-        """World axes and points of joints; world centres of mass and principal axes of links."""
+        """Return joints' world axes and points; links' world centres of mass and principal axes."""
         links = list(self._mass)
         states = self._bullet.getLinkStates(
             self._body, links, computeForwardKinematics=1, **self._client
