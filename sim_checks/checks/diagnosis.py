@@ -38,7 +38,7 @@ class Diagnosis:
     """Where to look again.
 
     Attributes:
-        pairs: the solids, and which pairs of them are not judged plainly.
+        pairs: the solids, and which pairs of them are exempt.
         rest: what every joint is held against.
         config: what is allowed.
         visible: what the parts show.

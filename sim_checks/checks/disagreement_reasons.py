@@ -1,4 +1,4 @@
-"""Why engines disagree: known traits of each, held against the judge's own depths and gaps."""
+"""Why engines disagree: known traits of each, held against the checks' own depths and gaps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One engine's verdict on one file: a single killable child looks, checks judge what it saw."""
+"""One engine's verdict on one file: a killable child observes, checks compare what it saw."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from .result import CheckResult
 def judge_in_simulator(
     description: Description, name: str, config: CheckConfig, child: WarmChild | None = None
 ) -> CheckResult:
-    """Load and drive the file in one engine, in one child process, and judge both.
+    """Load and drive the file in one engine, in one child process, and check both.
 
     A crash, a hang, a missing engine or a format it does not load is a finding, never an exception.
 

@@ -76,7 +76,7 @@ def interior_findings(
         config: how finely to look, and what must stay free.
 
     Returns:
-        ``interior_filled``: hard for a pocket, soft for any other large cavity. The numbers are
+        ``interior_filled``: error for a pocket, warning for any other large cavity. The numbers are
         ``None`` where there is no such space.
     """
     numbers: dict[str, Any] = {"interior_kept": None, "pocket_kept": None}

@@ -47,8 +47,8 @@ def check_penetration(
         most_looks: exact looks at two hulls, beyond which there is no verdict.
 
     Returns:
-        ``rest_penetration``, ``sweep_penetration`` (hard); ``hinge_overlap``,
-        ``excluded_penetration``, ``joint_dependency``, ``combination_penetration`` (soft); and
+        ``rest_penetration``, ``sweep_penetration`` (errors); ``hinge_overlap``,
+        ``excluded_penetration``, ``joint_dependency``, ``combination_penetration`` (warnings); and
         every number taken. Or ``too_large_to_judge`` alone.
 
     Raises:

@@ -160,7 +160,7 @@ class _RestingBody:
 
 
 def check_standing(description: Description, config: StandingConfig) -> CheckResult:
-    """Judge the object closed, with each joint anywhere in its range, and with all joints at upper.
+    """Check the object closed, with each joint anywhere in its range, and with all joints at upper.
 
     Joints closed means at lower. A moving part that touches the floor carries its share; one that
     goes below it is taken to rest on it.
@@ -170,8 +170,8 @@ def check_standing(description: Description, config: StandingConfig) -> CheckRes
         config: how much margin is wanted.
 
     Returns:
-        ``no_stable_footing``, or ``topples``, or else ``topples_when_pulled``, all soft: a thing
-        that is fastened to a wall or lies in a hand may well not stand. The measurements give
+        ``no_stable_footing``, or ``topples``, or else ``topples_when_pulled``, all warnings: a
+        thing that is fastened to a wall or lies in a hand may well not stand. The measurements give
         margin [mm], the lean that topples it [deg] and the pull that tips it where the joint sticks
         or ends [N], joint by joint; ``None`` where there is nothing to say.
     """

@@ -1,4 +1,4 @@
-"""Where every link is for given joint values: the judge's own forward kinematics."""
+"""Where every link is for given joint values: the checks' own forward kinematics."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""MuJoCo: the only module that says ``mujoco`` to judge."""
+"""MuJoCo: the only module of the checks that imports it, but for Newton."""
 
 from __future__ import annotations
 

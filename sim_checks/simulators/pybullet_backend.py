@@ -1,4 +1,4 @@
-"""PyBullet: the only module that says ``pybullet`` to judge."""
+"""PyBullet: the only module of the checks that imports it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""SAPIEN (PhysX articulations): the only module that says ``sapien`` to judge."""
+"""SAPIEN (PhysX articulations): the only module of the checks that imports it."""
 
 from __future__ import annotations
 
