@@ -1,4 +1,4 @@
-"""JUDGES: any URDF or MJCF in, a :class:`Report` of findings out.
+"""Validation: any URDF or MJCF in, a :class:`Report` of findings out.
 
 Knows files, not the factory's types.
 """

@@ -1,4 +1,4 @@
-"""Every threshold of the judge, with its unit and the reason for its default."""
+"""Every threshold of the checks, with its unit and the reason for its default."""
 
 from __future__ import annotations
 
@@ -148,7 +148,7 @@ class LintConfig:
             allows 64.
         hull_vertices: more corners than this on a hull are reported; GPU simulation allows 64.
         most_vertices: more corners than this reject: engines cook such a hull down to a few hundred
-            corners, each to others, and the judge measures one thinned to a few thousand.
+            corners, each to others, and the checks measure one thinned to a few thousand.
         hull_aspect: longest over shortest extent of a hull from which it is reported; PhysX on the
             GPU rejects oblong hulls from about this on.
         convexity: a collision mesh whose hull is this much larger than its own volume is not what
@@ -201,8 +201,8 @@ class LintConfig:
         cavity_share, pocket_share: what is smaller than this share of the link's convex hull is no
             cavity, or no pocket, worth speaking of: gaps behind handles, recessed panels.
         hand_m: a pocket is where a ball of this diameter [m], a hand, gets in and has its centre.
-        pocket_kept, interior_kept: share that collision shapes must leave free of a pocket (hard)
-            and of all free space within the link's outline (soft).
+        pocket_kept, interior_kept: share that collision shapes must leave free of a pocket (error)
+            and of all free space within the link's outline (warning).
     """
 
     hulls_per_link: int = 64
@@ -288,7 +288,7 @@ class ChildConfig:
 
     @property
     def limits(self) -> Limits:
-        """For one file."""
+        """Return the limits for one file."""
         return Limits(self.wall_s, memory_bytes=self.memory_bytes)
 
 
@@ -316,7 +316,7 @@ class WorkConfig:
 
 @dataclass(frozen=True)
 class CheckConfig:
-    """All of the judge's settings."""
+    """All settings of the checks."""
 
     lint: LintConfig = field(default_factory=LintConfig)
     standing: StandingConfig = field(default_factory=StandingConfig)

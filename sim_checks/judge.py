@@ -1,4 +1,4 @@
-"""Judge many files: one warm child for what needs no simulator, and one for each simulator."""
+"""Validate many files: one warm child for what needs no simulator, and one for each simulator."""
 
 from __future__ import annotations
 
@@ -42,14 +42,14 @@ class Examination:
 
 
 class Judge:
-    """Judges URDF, MJCF and USD files one after another; close it, or use it as a context manager.
+    """Validates URDF, MJCF and USD files one after another; close it, or use it by ``with``.
 
-    A report is the same whatever was judged before, in whatever order, and however many simulators
-    ran at once.
+    A report is the same whatever was validated before, in whatever order, and however many
+    simulators ran at once.
     """
 
     def __init__(self, config: CheckConfig = DEFAULT_CONFIG, workers: int = 1) -> None:
-        """No process starts before it is needed.
+        """Keep the settings; no process starts before it is needed.
 
         Args:
             config: every threshold.
@@ -102,7 +102,7 @@ class Judge:
         simulators: Sequence[str] = ("sapien",),
         examined: Examination | None = None,
     ) -> Report:
-        """Judge one file.
+        """Validate one file.
 
         Args:
             path: the file; its meshes lie in the same folder or below.
@@ -141,7 +141,7 @@ class Judge:
         return Report(path.name, took_part, tuple(findings), measurements, differences)
 
     def _check_usd(self, path: Path, simulators: Sequence[str]) -> Report:
-        """Judge the URDF that says what a USD asset says: no engine here reads USD."""
+        """Validate the URDF that says what a USD asset says: no engine here reads USD."""
         with TemporaryDirectory() as folder:
             limits = self._config.child.limits
             child = self._child("static")

@@ -18,7 +18,7 @@ class MeasuredContact:
         links, shapes: whose hulls are worst.
         depth_mm: of the hulls [mm]; negative is a gap.
         point_m: middle of the overlap in the root's frame [m]; ``None`` where they do not meet.
-        kind: how the pair is judged: ``plain``, ``hinge`` or ``excluded``.
+        kind: how an overlap of the pair counts: ``plain``, ``hinge`` or ``excluded``.
         visual_mm: of the visible surfaces [mm]: a positive gap, at most the clearance that is
             measured, or a negative depth; ``None`` where it was not measured.
         cause: why, where that can be told.
@@ -130,7 +130,7 @@ class MeasuredPenetration:
             yield from joint.pairs
 
     def to_dict(self) -> dict[str, Any]:
-        """JSON data."""
+        """Return JSON data."""
         data: dict[str, Any] = _plain(asdict(self))
         return data
 

@@ -1,4 +1,4 @@
-"""What a judge says: findings, each a code, a number and a sentence."""
+"""What a validation says: findings, each a code, a number and a sentence."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Status(StrEnum):
     PASSED = "passed"
     REJECTED = "rejected"
     UNJUDGED = "unjudged"
-    """The judge, not the asset, failed to finish."""
+    """The validation, not the asset, failed to finish."""
 
 
 #: Codes of findings that mean "no verdict".
@@ -45,14 +45,14 @@ class Finding:
 
     Attributes:
         code: stable reason code, e.g. ``rest_penetration``.
-        severity: hard findings reject.
+        severity: errors (``hard``) reject, warnings (``soft``) do not.
         message: one sentence with the number in it: what, where, what would be right.
         simulator: who found it, for findings that belong to one simulator.
         joint: name of the joint concerned.
         parts: names of the links concerned.
         joints: names of the joints concerned, of a finding about several.
         value, unit, limit: the measured number, its unit and the threshold it was held against.
-        cause: the likely reason where the judge can tell one from another, e.g. ``hull_inflation``.
+        cause: the likely reason where one can be told from another, e.g. ``hull_inflation``.
     """
 
     code: str
@@ -104,7 +104,7 @@ class Report:
     """The verdict on one description file.
 
     Attributes:
-        description: the file judged, as given or relative to its bundle.
+        description: the validated file, as given or relative to its bundle.
         simulators: who took part, in order.
         findings: in a fixed order, the same for the same input.
         measurements: every number taken, whether or not it became a finding; JSON data only.
@@ -124,7 +124,7 @@ class Report:
 
     @property
     def passed(self) -> bool:
-        """No hard finding, and the judge finished."""
+        """Tell whether there is no error and validation finished."""
         return not self.hard
 
     @property
@@ -134,14 +134,14 @@ class Report:
 
     @property
     def status(self) -> Status:
-        """``unjudged`` where some judge crashed or timed out and nothing else rejects the asset."""
+        """Return ``unjudged`` where a check crashed or timed out and nothing else rejects."""
         if self.passed:
             return Status.PASSED
         judged = any(f.code not in UNJUDGED_CODES for f in self.hard)
         return Status.REJECTED if judged else Status.UNJUDGED
 
     def to_dict(self) -> dict[str, Any]:
-        """JSON data: ``passed``, ``findings`` and the rest."""
+        """Return JSON data: ``passed``, ``findings`` and the rest."""
         return {
             "passed": self.passed,
             "description": self.description,
@@ -163,7 +163,7 @@ class Report:
         }
 
     def to_json(self) -> str:
-        """Reproducible JSON text: fixed key order, no time, no machine."""
+        """Return reproducible JSON text: fixed key order, no time, no machine."""
         return json.dumps(self.to_dict(), indent=2, allow_nan=False) + "\n"
 
     @classmethod

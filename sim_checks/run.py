@@ -1,4 +1,4 @@
-"""Judge one file, or a few: the one-shot face of :class:`~asset_factory.sim_checks.judge.Judge`."""
+"""Validate one file: one call of :class:`~asset_factory.sim_checks.judge.Judge`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def run_checks(
     config: CheckConfig = DEFAULT_CONFIG,
     examined: Examination | None = None,
 ) -> Report:
-    """Judge a URDF or MJCF file from anyone.
+    """Validate a URDF or MJCF file from anyone.
 
     Native code runs in killable children; whatever the file does to them becomes a finding.
 

@@ -25,7 +25,7 @@ DECIMALS = 12
 
 
 def pose_samples(description: Description) -> tuple[JointValues, ...]:
-    """Joint values where every engine must agree with our kinematics: ends and two mixtures.
+    """Return joint values where every engine must agree with our kinematics: ends and mixtures.
 
     The two mixtures are uneven.
 
@@ -139,7 +139,7 @@ def _finding(
 
 
 def _difference(ours: FloatArray, theirs: npt.NDArray[Any]) -> tuple[float, float]:
-    """Distance [m] and angle [rad] between two poses, [4, 4] each; infinite where one is NaN."""
+    """Return distance [m] and angle [rad] between two poses, [4, 4]; infinite where one is NaN."""
     if not np.isfinite(theirs).all():
         return math.inf, math.pi
     distance = float(np.linalg.norm(ours[:3, 3] - theirs[:3, 3]))

@@ -10,7 +10,7 @@ PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53)
 def combination_values(
     ranges: Mapping[str, tuple[float, float]], count: int
 ) -> list[dict[str, float]]:
-    """All joints at upper, then ``count`` points of the Halton sequence over the joints' ranges.
+    """Return all joints at upper, then ``count`` points of the Halton sequence over their ranges.
 
     With fewer than two joints there is nothing to combine.
     """

@@ -30,7 +30,7 @@ def check_creep(
     *,
     soft: bool,
 ) -> CheckResult:
-    """Judge what joints did that were left alone part-way open.
+    """Check what joints did that were left alone part-way open.
 
     Args:
         description: what the file says.

@@ -38,7 +38,7 @@ class Diagnosis:
     """Where to look again.
 
     Attributes:
-        pairs: the solids, and which pairs of them are not judged plainly.
+        pairs: the solids, and which pairs of them are exempt.
         rest: what every joint is held against.
         config: what is allowed.
         visible: what the parts show.
@@ -50,7 +50,7 @@ class Diagnosis:
     visible: Visible
 
     def explained(self, study: PenetrationStudy) -> PenetrationStudy:
-        """The same study, with visible surfaces and a cause for everything that is too deep."""
+        """Return the same study, with visible surfaces and a cause for all that is too deep."""
         joints = {joint.name: joint for joint in self.pairs.solids.tree.moving}
         return replace(
             study,
@@ -146,7 +146,7 @@ class Diagnosis:
         )
 
     def _other_motions(self, course: JointCourse) -> tuple[Path, ...]:
-        """The joint turned around; and a hinge at either edge, at the far one turning either way.
+        """Yield the joint turned around; and a hinge at either edge, the far one both ways.
 
         None for a joint that others follow: turned around, it would take them to where they never
         go.
@@ -190,6 +190,6 @@ class Diagnosis:
         return replace(item, contact=self._met_open(item.contact, item.excess))
 
     def _met_open(self, contact: Contact, excess: float) -> Contact:
-        """Two open joints may meet by design, so only causes that the surfaces show can be told."""
+        """Tell only causes that the surfaces show: two open joints may meet by design."""
         allowed = self.config.excess_m + max(0.0, contact.depth - excess)
         return self._judged(contact, allowed)

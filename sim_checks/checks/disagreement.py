@@ -117,7 +117,7 @@ def _link_poses(evidence: EngineEvidence) -> Dispute:
 
 
 def _joints(evidence: EngineEvidence) -> Iterator[str]:
-    """Every joint that any engine moved or left alone, once, in the order of the engines' lists."""
+    """Yield every joint that an engine moved or left alone, once, in the order of their lists."""
     motions = [evidence.said(name, "motion") for name in evidence.simulators]
     entries = (
         entry

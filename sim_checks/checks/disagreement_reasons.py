@@ -1,4 +1,4 @@
-"""Why engines disagree: known traits of each, held against the judge's own depths and gaps."""
+"""Why engines disagree: known traits of each, held against the checks' own depths and gaps."""
 
 from __future__ import annotations
 
@@ -38,15 +38,12 @@ class EngineEvidence:
     simulators: Sequence[str]
 
     def said(self, simulator: str, check: str) -> Mapping[str, Any]:
-        """The measurements of ``loading`` or ``motion``; empty if the engine got no further."""
+        """Return what ``loading`` or ``motion`` measured; empty if the engine got no further."""
         found: Mapping[str, Any] = self.measurements.get(simulator, {}).get(check, {})
         return found
 
     def answer(self, simulator: str, codes: frozenset[str], joint: str | None = None) -> str:
-        """``pass``, or the first of these codes among the engine's findings (on one joint).
-
-        All joints count where none is named.
-        """
+        """Return ``pass``, or the first of these codes that the engine found (on one joint)."""
         for finding in self.findings:
             concerned = finding.simulator == simulator and joint in (None, finding.joint)
             if concerned and finding.code in codes:
@@ -89,7 +86,7 @@ class Dispute:
 
     @property
     def parts(self) -> frozenset[str]:
-        """Parent and child of the joint, as a finding names them; empty if none does."""
+        """Return parent and child of the joint, as a finding names them; empty if none does."""
         for finding in self.evidence.findings:
             if (
                 finding.joint == self.joint
@@ -101,7 +98,7 @@ class Dispute:
 
     @property
     def blockers(self) -> frozenset[str]:
-        """The two links in contact where an engine stopped the joint; empty if none names any."""
+        """Return the two links in contact where an engine stopped the joint; empty if unknown."""
         for name in sorted(self.failing):
             for motion in self.evidence.said(name, "motion").get("joints", ()):
                 if motion["joint"] == self.joint and motion.get("blocked_by"):
@@ -109,9 +106,10 @@ class Dispute:
         return frozenset()
 
     def nearest(self) -> Mapping[str, Any] | None:
-        """The deepest overlap or narrowest gap of the parts that block the joint, or any near it.
+        """Return the deepest overlap or narrowest gap of the parts that block the joint.
 
-        On the joint's way, and at rest at its parent or child; ``None`` if nothing comes near.
+        Looked at are contacts on the joint's way, and at rest at its parent or child; of all of
+        them where nobody names what blocks it. ``None`` if nothing comes near.
         """
         contacts = list(self._contacts())
         blocking = [contact for contact in contacts if set(contact["links"]) == self.blockers]
@@ -129,34 +127,28 @@ class Dispute:
 
 
 def likely_reason(case: Dispute) -> str:
-    """A sentence with the number in it; ``unknown`` where no known trait explains the case."""
+    """Return a sentence with the number in it; ``unknown`` where no known trait explains it."""
     if case.question == "loads":
         return _loading(case) or UNKNOWN
     if case.question not in TOUCHING_QUESTIONS:
         return UNKNOWN
-    rules = (
-        _soft_limit,
-        _follower,
-        _explicit_damping,
-        _excluded,
-        _parent_and_child,
-        _across_a_slide,
-        _margin,
-        _flush,
-        _soft_contact,
-        _friction,
+    return (
+        _soft_limit(case)
+        or _follower(case)
+        or _explicit_damping(case)
+        or _contact(case)
+        or _friction(case)
+        or UNKNOWN
     )
-    return next((sentence for rule in rules if (sentence := rule(case)) is not None), UNKNOWN)
 
 
 def _loading(case: Dispute) -> str | None:
     refusing = [name for name, verdict in case.verdicts.items() if verdict == "load_failed"]
-    if refusing and len(refusing) == len(case.failing):
-        return (
-            f"the loader of {_titles(refusing)} asks more of a file; "
-            "its own words are in its finding"
-        )
-    return None
+    if not refusing or len(refusing) != len(case.failing):
+        return None
+    return (
+        f"the loader of {_titles(refusing)} asks more of a file; its own words are in its finding"
+    )
 
 
 def _soft_limit(case: Dispute) -> str | None:
@@ -164,14 +156,12 @@ def _soft_limit(case: Dispute) -> str | None:
     asked = case.question == "keeps_limits" and case.failing == {"mujoco"}
     if not asked or value is None or value > SOFT_LIMIT_SHARE:
         return None
-    return (
-        f"MuJoCo's limits are springs, which gave way by {value:.1%} of the range; "
-        "the others' are hard"
-    )
+    gave = f"MuJoCo's limits are springs, which gave way by {value:.1%} of the range"
+    return f"{gave}; the others' are hard"
 
 
 def _follower(case: Dispute) -> str | None:
-    """Only where some engine couples the joint, or what it pushed, to another joint."""
+    """Blame coupling where some engine couples the joint, or what it pushed, to another joint."""
     coupled: dict[str, set[str]] = {}
     concerned = {case.joint}
     for name in case.verdicts:
@@ -191,98 +181,50 @@ def _explicit_damping(case: Dispute) -> str | None:
     ]
     if not stiff or case.failing != {"pybullet"} or case.blockers:
         return None
-    share = f"{stiff[0].value:.3g} times the speed"
-    return (
-        f"damping takes {share} in one step, and Bullet, which integrates it explicitly, explodes"
-    )
+    takes = f"damping takes {stiff[0].value:.3g} times the speed in one step"
+    return f"{takes}, and Bullet, which integrates it explicitly, explodes"
 
 
-def _excluded(case: Dispute) -> str | None:
+def _contact(case: Dispute) -> str | None:
+    """Blame how the engines treat the deepest overlap or the narrowest gap."""
     contact = case.nearest()
-    if contact is None or contact["kind"] != "excluded" or "mujoco" not in case.passing:
+    if contact is None:
         return None
-    return (
-        f"the file excludes {_pair(contact)} from contact, which of these engines only MuJoCo reads"
-    )
+    pair = " and ".join(contact["links"])
+    if contact["kind"] == "excluded" and "mujoco" in case.passing:
+        return f"the file excludes {pair} from contact, which of these engines only MuJoCo reads"
+    if contact["depth_mm"] > TOUCH_MM:
+        return _overlap(case, contact, f"{pair} overlap by {contact['depth_mm']:.2f} mm")
+    return _gap(case, contact, pair)
 
 
-def _parent_and_child(case: Dispute) -> str | None:
-    contact = case.nearest()
-    if contact is None or "sapien" not in case.passing or contact["depth_mm"] <= TOUCH_MM:
-        return None
-    if set(contact["links"]) != case.parts:
-        return None
-    sentence = (
-        f"{_pair(contact)} overlap by {contact['depth_mm']:.2f} mm and are parent and "
-        "child, which PhysX never collides: SAPIEN cannot feel it"
-    )
-    if "pybullet" in case.passing and _is_across(case, contact):
-        sentence += "; nor can Bullet, which exerts no force for overlap across a slide's axis"
-    return sentence
-
-
-def _across_a_slide(case: Dispute) -> str | None:
-    contact = case.nearest()
-    if contact is None or "pybullet" not in case.passing or contact["depth_mm"] <= TOUCH_MM:
-        return None
-    if not _is_across(case, contact):
-        return None
-    return (
-        f"{_pair(contact)} overlap by {contact['depth_mm']:.2f} mm all along the slide, "
-        "and Bullet exerts no force for overlap across a slide's axis"
-    )
-
-
-def _is_across(case: Dispute, contact: Mapping[str, Any]) -> bool:
-    """Return whether an overlap of a slide neither grows nor begins as it moves."""
+def _overlap(case: Dispute, contact: Mapping[str, Any], overlap: str) -> str | None:
     slides = any(sweep["unit"] == "m" for sweep in case.evidence.sweeps(case.joint))
-    return slides and contact.get("excess_mm", 0.0) <= TOUCH_MM
+    # An overlap across a slide neither grows nor begins as it moves.
+    across = slides and contact.get("excess_mm", 0.0) <= TOUCH_MM and "pybullet" in case.passing
+    if "sapien" in case.passing and set(contact["links"]) == case.parts:
+        never = "are parent and child, which PhysX never collides: SAPIEN cannot feel it"
+        nor = "; nor can Bullet, which exerts no force for overlap across a slide's axis"
+        return f"{overlap} and {never}{nor if across else ''}"
+    if across:
+        no_force = "and Bullet exerts no force for overlap across a slide's axis"
+        return f"{overlap} all along the slide, {no_force}"
+    if "mujoco" in case.passing and contact["depth_mm"] <= SOFT_CONTACT_MM:
+        return f"{overlap}, and MuJoCo's soft contacts give way"
+    return None
 
 
-def _margin(case: Dispute) -> str | None:
-    contact = case.nearest()
-    if contact is None or case.failing != {"pybullet"} or contact["depth_mm"] > TOUCH_MM:
-        return None
-    margin = _margin_mm(contact["shapes"])
+def _gap(case: Dispute, contact: Mapping[str, Any], pair: str) -> str | None:
     gap = max(0.0, -contact["depth_mm"])
-    if gap >= margin:
-        return None
-    return (
-        f"{_pair(contact)} are {gap:.2f} mm apart, "
-        f"and Bullet wraps every mesh hull in {BULLET_MARGIN_MM:g} mm: to it they touch"
-    )
-
-
-def _flush(case: Dispute) -> str | None:
-    contact = case.nearest()
-    if (
-        contact is None
-        or abs(contact["depth_mm"]) > TOUCH_MM
-        or set(contact["links"]) != case.blockers
-    ):
-        return None
-    return (
-        f"{_pair(contact)} touch without a gap, measured to {TOUCH_MM:g} mm: whether "
-        f"{_titles(sorted(case.failing))} feels friction there or an edge is a matter of rounding"
-    )
-
-
-def _margin_mm(shapes: Sequence[str]) -> float:
-    return sum(BULLET_MARGIN_MM for shape in shapes if shape not in PRIMITIVES)
-
-
-def _soft_contact(case: Dispute) -> str | None:
-    contact = case.nearest()
-    if (
-        contact is None
-        or "mujoco" not in case.passing
-        or not TOUCH_MM < contact["depth_mm"] <= SOFT_CONTACT_MM
-    ):
-        return None
-    return (
-        f"{_pair(contact)} overlap by {contact['depth_mm']:.2f} mm, "
-        "and MuJoCo's soft contacts give way"
-    )
+    margin = sum(BULLET_MARGIN_MM for shape in contact["shapes"] if shape not in PRIMITIVES)
+    if case.failing == {"pybullet"} and gap < margin:
+        wraps = f"Bullet wraps every mesh hull in {BULLET_MARGIN_MM:g} mm"
+        return f"{pair} are {gap:.2f} mm apart, and {wraps}: to it they touch"
+    if gap <= TOUCH_MM and set(contact["links"]) == case.blockers:
+        feels = f"whether {_titles(sorted(case.failing))} feels friction there or an edge"
+        flush = f"{pair} touch without a gap, measured to {TOUCH_MM:g} mm"
+        return f"{flush}: {feels} is a matter of rounding"
+    return None
 
 
 def _friction(case: Dispute) -> str | None:
@@ -297,10 +239,6 @@ def _friction(case: Dispute) -> str | None:
         for finding in case.evidence.findings
     )
     return "nothing is in the way, and SAPIEN drops the file's joint friction" if dropped else None
-
-
-def _pair(contact: Mapping[str, Any]) -> str:
-    return " and ".join(contact["links"])
 
 
 def _titles(names: Sequence[str]) -> str:

@@ -1,4 +1,4 @@
-"""One engine's verdict on one file: a single killable child looks, checks judge what it saw."""
+"""One engine's verdict on one file: a killable child observes, checks compare what it saw."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Any
 
 from ..config import CheckConfig
 from ..description import Description
+from ..geometry.apart import joints_apart
 from ..processes.isolation import Failure, Outcome, WarmChild, run_isolated
 from ..report import KILLED, OUT_OF_TIME, Finding, Severity
 from ..simulators.catalog import install_line, installed, simulator
@@ -25,7 +26,7 @@ from .result import CheckResult
 def judge_in_simulator(
     description: Description, name: str, config: CheckConfig, child: WarmChild | None = None
 ) -> CheckResult:
-    """Load and drive the file in one engine, in one child process, and judge both.
+    """Load and drive the file in one engine, in one child process, and check both.
 
     A crash, a hang, a missing engine or a format it does not load is a finding, never an exception.
 
@@ -52,9 +53,10 @@ def judge_in_simulator(
     if too_large is not None:
         return _only(too_large)
     samples = pose_samples(description)
+    apart = joints_apart(description)
     ask = run_isolated if child is None else child.call
     outcome = ask(
-        observe, name, description.path, config.motion, samples, limits=config.child.limits
+        observe, name, description.path, config.motion, samples, apart, limits=config.child.limits
     )
     if outcome.value is None:
         return _only(_failure(outcome, name, description.path))
@@ -72,7 +74,7 @@ def judge_in_simulator(
 
 
 def _writable(data: Any) -> Any:
-    """The same JSON data with ``None`` for NaN and infinity, which many broken files lead to."""
+    """Return the same JSON data with ``None`` for NaN and infinity, which broken files lead to."""
     if isinstance(data, Mapping):
         return {key: _writable(value) for key, value in data.items()}
     if isinstance(data, list | tuple):

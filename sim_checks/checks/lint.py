@@ -26,7 +26,7 @@ DOWN: FloatArray = np.array([0.0, 0.0, -1.0])
 
 
 def check_lint(description: Description, config: LintConfig) -> CheckResult:
-    """Everything that can be known without moving anything.
+    """Check all that can be known without moving anything.
 
     Args:
         description: as read.

@@ -18,7 +18,7 @@ TRIANGLE_SLACK = 1e-3
 
 
 def missing_inertia_findings(description: Description) -> Iterator[Finding]:
-    """Hard where what moves has no inertia, soft where what stands still has none; in a URDF.
+    """Yield an error where a moving link has no inertia, a warning where a still one has none.
 
     MuJoCo's compiler makes up what an MJCF leaves out, by a rule of the format.
     """
@@ -46,7 +46,7 @@ def missing_inertia_findings(description: Description) -> Iterator[Finding]:
 
 
 def inertia_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
-    """Hard where no rigid body has such an inertia; soft where this one hardly can."""
+    """Yield an error where no rigid body has such an inertia, a warning where this hardly can."""
     inertia = link.inertia
     if inertia is None:
         return
@@ -123,7 +123,7 @@ def _plausible(
 def _center(
     link: Link, center: FloatArray, box: FloatArray, config: LintConfig
 ) -> Iterator[Finding]:
-    """How far the centre of mass lies outside the box around all that the link shows or touches."""
+    """Check how far the centre of mass lies outside the box around the link's shapes."""
     low, high = box
     diagonal = float(np.linalg.norm(high - low))
     outside = float(np.linalg.norm(np.maximum(0.0, np.maximum(low - center, center - high))))
@@ -148,7 +148,7 @@ def _center(
 
 
 def _density(link: Link, mass: float, config: LintConfig) -> Iterator[Finding]:
-    """Mass over the volume of the hulls; too much is an error only where nothing else has room."""
+    """Check mass over hull volume; too dense is an error only where nothing else has room."""
     volume = _volume(link)
     if not volume > 0.0 or config.density_low <= mass / volume <= config.density_high:
         return
@@ -228,7 +228,7 @@ def _volume(link: Link) -> float:
 
 
 def _visible_volume(link: Link, sheet: float) -> float:
-    """Volume that the visible surfaces enclose [m3], or that of sheets so thick, if that is more.
+    """Return the volume that visible surfaces enclose [m3], or of sheets so thick, if more.
 
     A surface counts with both of its sides; what lies in one another counts twice.
     """

@@ -50,7 +50,7 @@ class _Grid:
 
     @property
     def volume(self) -> float:
-        """Of one voxel [m3]."""
+        """Return the volume of one voxel [m3]."""
         return self.size**3
 
 
@@ -76,7 +76,7 @@ def interior_findings(
         config: how finely to look, and what must stay free.
 
     Returns:
-        ``interior_filled``: hard for a pocket, soft for any other large cavity. The numbers are
+        ``interior_filled``: error for a pocket, warning for any other large cavity. The numbers are
         ``None`` where there is no such space.
     """
     numbers: dict[str, Any] = {"interior_kept": None, "pocket_kept": None}
@@ -136,7 +136,7 @@ def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Iterat
 
 
 def _same(visuals: Sequence[DescribedShape], collisions: Sequence[DescribedShape]) -> bool:
-    """Whether the visuals are primitives and the collisions the same ones: nothing is filled."""
+    """Tell whether visuals and collisions are the same primitives: nothing is filled."""
 
     def keys(shapes: Sequence[DescribedShape]) -> list[bytes]:
         return sorted(shape.vertices.tobytes() for shape in shapes)
@@ -156,7 +156,7 @@ def _grid(shapes: Sequence[DescribedShape], config: LintConfig) -> _Grid:
 
 
 def _surface(shapes: Sequence[DescribedShape], grid: _Grid) -> BoolArray:
-    """Voxels that a triangle passes through, close enough that nothing leaks between them."""
+    """Return voxels that a triangle passes through, so close that nothing leaks between them."""
     marked = np.zeros(grid.shape, dtype=bool)
     corners = np.vstack([shape.vertices[shape.faces] for shape in shapes])
     corners = (corners - grid.start) / grid.size
@@ -191,7 +191,7 @@ def _points(
     along: npt.NDArray[np.int64],
     down: npt.NDArray[np.int64],
 ) -> FloatArray:
-    """Points on triangles in ``along + 1`` rows from side ac to corner b, [point_count, 3]."""
+    """Return points of triangles in ``along + 1`` rows from side ac to b, [point_count, 3]."""
     counts = (along + 1) * (down + 1)
     which = np.repeat(np.arange(len(a)), counts)
     place = np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)
@@ -237,14 +237,14 @@ def _directions() -> FloatArray:
 
 
 def _outside(surface: BoolArray) -> BoolArray:
-    """Free voxels that the outside reaches."""
+    """Return free voxels that the outside reaches."""
     labels, _ = ndimage.label(~surface)
     reached: BoolArray = labels == labels[0, 0, 0]
     return reached
 
 
 def _walled(surface: BoolArray, down: FloatArray) -> BoolArray:
-    """Voxels that meet the surface below and along at least :data:`WALLED` half-axes of six."""
+    """Return voxels that meet the surface below and along :data:`WALLED` half-axes or more."""
     met = np.zeros(surface.shape, dtype=np.int8)
     floor = np.zeros(surface.shape, dtype=bool)
     lowest = int(np.argmax(np.abs(down)))
@@ -277,7 +277,7 @@ def _kept(space: BoolArray, filled: BoolArray) -> float:
 
 
 def _rasterised(hull: CollisionHull, grid: _Grid) -> BoolArray:
-    """Voxels whose centre lies in the hull: for each column along z, from which height to which."""
+    """Return voxels whose centre is in the hull: for each column along z, the range of heights."""
     inside = np.zeros(grid.shape, dtype=bool)
     normals = hull.normals
     offsets = (hull.offsets - normals @ grid.start) / grid.size

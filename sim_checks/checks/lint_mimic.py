@@ -15,7 +15,7 @@ ROUNDING = 1e-3
 
 
 def mimic_findings(description: Description) -> Iterator[Finding]:
-    """Hard without a leader or a way to go; soft where the follower's limits stop its leader."""
+    """Yield errors without a leader or a way to go, warnings where a follower stops its leader."""
     moving = {joint.name: joint for joint in description.joints if joint.kind in MOVING_KINDS}
     sound = sound_mimics(description)
     wholes = {name: whole_chain(name, sound) for name in sound}

@@ -19,7 +19,7 @@ AROUND = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
 
 
 def range_findings(description: Description, config: LintConfig) -> Iterator[Finding]:
-    """Hard for impossible ranges and axes; soft for a tiny range, and for drives without force."""
+    """Yield errors for impossible ranges and axes, warnings for tiny ranges and drives."""
     tree: Tree | None = None
     poses: dict[str, FloatArray] = {}
     # Without a tree, which the lint says, nothing has a place.
@@ -199,7 +199,7 @@ def closed_poses(tree: Tree) -> dict[str, FloatArray]:
 
 
 def _boxes(description: Description, poses: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
-    """Corners of the boxes around the shapes of each posed link [m], shape [corner_count, 3]."""
+    """Return corners of boxes around the shapes of each posed link [m], shape [corner_count, 3]."""
     placed = (
         (link.name, poses[link.name], _corners(link))
         for link in description.links
@@ -226,6 +226,6 @@ def _corners(link: Link) -> FloatArray:
 
 
 def _diagonal(boxes: Iterable[FloatArray]) -> float:
-    """Of the box around everything [m]; 0 where there is nothing."""
+    """Return the diagonal of the box around everything [m]; 0 where there is nothing."""
     every = list(boxes)
     return float(np.linalg.norm(np.ptp(np.vstack(every), axis=0))) if every else 0.0

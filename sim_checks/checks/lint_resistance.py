@@ -33,7 +33,7 @@ class _Lever:
 
 
 def resistance_findings(description: Description, config: LintConfig) -> Iterator[Finding]:
-    """Hard where no hand can open the joint; soft where it takes much, or engines may explode.
+    """Yield errors where no hand opens the joint, warnings where it takes much or may explode.
 
     Explicit engines explode from too much damping.
     """

@@ -25,7 +25,7 @@ QUANTILE = 0.95
 def shape_findings(
     link: Link, down: FloatArray, config: LintConfig
 ) -> tuple[list[Finding], dict[str, Any]]:
-    """Findings and numbers of one link's shapes; ``down`` points down in its frame, shape [3]."""
+    """Check one link's shapes and measure them; ``down`` points down in its frame, shape [3]."""
     findings: list[Finding] = []
     hulls: list[CollisionHull] = []
     doubtful: list[Finding] = []
@@ -291,7 +291,7 @@ def _shift(low: FloatArray, high: FloatArray, hulls: list[CollisionHull]) -> flo
 def _sampled(
     shapes: tuple[DescribedShape, ...], count: int, generator: np.random.Generator
 ) -> FloatArray:
-    """Points spread over the surfaces by area [m], shape [count, 3]; none without area."""
+    """Return points spread over the surfaces by area [m], shape [count, 3]; none without area."""
     corners = np.vstack([shape.vertices[shape.faces] for shape in shapes])
     areas = 0.5 * np.linalg.norm(
         np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1

@@ -30,7 +30,7 @@ def joint_findings(
     simulator: str,
     config: LoadingConfig,
 ) -> Iterator[Finding]:
-    """Hard where a joint moves otherwise than the file says; soft for omissions and additions."""
+    """Yield errors where a joint moves otherwise than the file says, warnings for omissions."""
     for line in description.joints:
         if line.kind != "fixed":
             yield from _joint(line, joints.get(line.name), simulator, config)
@@ -77,7 +77,7 @@ def listed(names: list[str]) -> str:
 
 
 def rounded(value: float | None) -> float | None:
-    """To what single precision holds; ``None`` where there is no number to write."""
+    """Round to what single precision holds; ``None`` where there is no number to write."""
     return None if value is None or not math.isfinite(value) else float(f"{value:.7g}")
 
 
@@ -134,7 +134,7 @@ def _joint(
 
 
 def _turned(line: JointLine, held: LoadedJoint) -> float:
-    """Angle between the axis of the file and the engine's [rad]; 0 where one of them tells none."""
+    """Return the angle between the file's axis and the engine's [rad]; 0 where one tells none."""
     if (
         held.axis is None
         or line.kind not in MOVING_KINDS
@@ -200,7 +200,7 @@ def _coupling(
 def _otherwise(
     line: JointLine, said: Mimic, held: Mimic, simulator: str, config: LoadingConfig
 ) -> Iterator[Finding]:
-    """Coupled to whom the file says, but by other numbers."""
+    """Tell whether it follows the joint that the file says, but by other numbers."""
     pairs = ((said.multiplier, held.multiplier), (said.offset, held.offset))
     wrong = next((pair for pair in pairs if _differ(*pair, config.limit)), None)
     if wrong is not None:

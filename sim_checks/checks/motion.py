@@ -23,7 +23,7 @@ DECIMALS = 6
 def check_motion(
     description: Description, simulator: str, observation: Observation, config: CheckConfig
 ) -> CheckResult:
-    """Judge the drive of every joint, the rest at lower without weight, and the fall with it.
+    """Check the drive of every joint, the rest at lower without weight, and the fall with it.
 
     Args:
         description: what the file says; names the parts.

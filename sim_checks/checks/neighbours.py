@@ -54,7 +54,7 @@ def open_neighbours(pairs: Pairs, rest: Rest, config: PenetrationConfig) -> tupl
 
 
 def _near(solids: Solids, rest: Rest) -> Iterator[tuple[JointLine, JointLine]]:
-    """Ordered pairs of joints: the first's sweep comes near the open place of the second."""
+    """Yield ordered pairs of joints: the first's sweep comes near the second where that is open."""
     joints = [joint for joint in solids.tree.free if joint.name in rest.lower]
     independent = _independent(solids, joints)
     swept = _swept(solids, rest, [joints[i] for i in np.flatnonzero(independent.any(axis=1))])
@@ -87,7 +87,7 @@ def _independent(solids: Solids, joints: list[JointLine]) -> npt.NDArray[np.bool
 
 
 def _swept(solids: Solids, rest: Rest, joints: list[JointLine]) -> Mapping[str, FloatArray]:
-    """Boxes around everything below each joint, interval by interval from lower to upper [m]."""
+    """Return boxes around all below each joint, by interval from lower to upper [m]."""
     poses = solids.place(rest.lower)
     boxes: dict[str, FloatArray] = {}
     for joint in joints:

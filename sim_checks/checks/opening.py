@@ -102,7 +102,7 @@ class _OpeningOrder:
         return None
 
     def _trials(self, name: str) -> Iterator[Names]:
-        """A few sets of joints that may make way, with all that each needs; likely ones first."""
+        """Yield sets of joints that may make way, with all that each needs; likely ones first."""
         opened = CLOSED
         for widened in range(WIDENED):
             makers = [

@@ -1,4 +1,4 @@
-"""Pairs of solids: how each is judged, and where it meets."""
+"""Pairs of solids: which are exempt, and where they meet."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .penetration_study import Contact, PairKind, PartPair
 
 @dataclass(frozen=True)
 class Pairs:
-    """The solids, and which pairs of them are not judged plainly.
+    """The solids, and which pairs of them are exempt.
 
     Attributes:
         solids: posed by whoever asks.
@@ -25,7 +25,7 @@ class Pairs:
     knuckles: frozenset[PartPair] = frozenset()
 
     def kind(self, first: int, second: int) -> PairKind:
-        """Return how the pair is judged."""
+        """Return how an overlap of the pair counts."""
         links = frozenset((self.solids.items[first].link, self.solids.items[second].link))
         if links in self.excluded:
             return PairKind.EXCLUDED
@@ -57,7 +57,7 @@ class Pairs:
             first: index of a solid.
             second: index of another.
             depth: how deep they penetrate each other [m].
-            kind: how they are judged.
+            kind: how an overlap of them counts.
             pose: joint values that they are posed for.
             located: look for the point too, which takes long between round hulls.
         """

@@ -47,8 +47,8 @@ def check_penetration(
         most_looks: exact looks at two hulls, beyond which there is no verdict.
 
     Returns:
-        ``rest_penetration``, ``sweep_penetration`` (hard); ``hinge_overlap``,
-        ``excluded_penetration``, ``joint_dependency``, ``combination_penetration`` (soft); and
+        ``rest_penetration``, ``sweep_penetration`` (errors); ``hinge_overlap``,
+        ``excluded_penetration``, ``joint_dependency``, ``combination_penetration`` (warnings); and
         every number taken. Or ``too_large_to_judge`` alone.
 
     Raises:
@@ -111,7 +111,7 @@ def _knuckles(
 
 
 def _at_zero(pairs: Pairs, ranges: Ranges, config: PenetrationConfig) -> tuple[Contact, ...] | None:
-    """Contacts in the pose the file was drawn in, where that is reachable and not rest."""
+    """Return contacts in the pose of the file, where that is reachable and not rest."""
     reachable = all(low <= 0.0 <= high for low, high in ranges.values())
     if not reachable or all(low == 0.0 for low, _ in ranges.values()):
         return None
@@ -122,7 +122,7 @@ def _at_zero(pairs: Pairs, ranges: Ranges, config: PenetrationConfig) -> tuple[C
 def _combinations(
     pairs: Pairs, ranges: Ranges, standings: Sequence[SolidPair], config: PenetrationConfig
 ) -> tuple[Combination, ...]:
-    """For every pair of parts, the combination in which it lies deepest beyond rest."""
+    """Return the combination in which each pair of parts overlaps deepest beyond rest."""
     rest = {(pair.first, pair.second): max(0.0, pair.overlap.depth) for pair in standings}
     worst: dict[PartPair, Combination] = {}
     for values in combination_values(ranges, config.combinations):

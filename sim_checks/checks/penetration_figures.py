@@ -21,7 +21,7 @@ def unit_of(kind: str) -> str:
 
 
 def mm(metres: float) -> float:
-    """Millimetres to a tenth of a micrometre, so that a last bit does not change a report."""
+    """Round to a tenth of a micrometre [mm], so that a last bit does not change a report."""
     return round(metres * 1000.0, 4) + 0.0
 
 

@@ -13,7 +13,7 @@ from .result import CheckResult
 
 
 def report(study: PenetrationStudy, config: PenetrationConfig) -> CheckResult:
-    """Findings in the order rest, joints, neighbours, combinations; and every number taken.
+    """Return findings in the order rest, joints, neighbours, combinations; and every number.
 
     The measurements are plain JSON data. Wherever two parts were found to meet, ``visual_mm`` says
     how their visible surfaces stand there (a positive gap, at most the clearance that is measured,

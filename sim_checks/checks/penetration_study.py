@@ -12,7 +12,7 @@ PartPair = tuple[int, int]
 
 
 class PairKind(StrEnum):
-    """How an overlap of two hulls is judged."""
+    """How an overlap of two hulls counts."""
 
     PLAIN = "plain"
     HINGE = "hinge"
@@ -30,7 +30,7 @@ class Contact:
         links, shapes: whose hulls are worst.
         depth: [m]; negative is a gap.
         point: middle of the overlap in the root's frame [m]; ``None`` where the hulls do not meet.
-        kind: how the pair is judged.
+        kind: how an overlap of the pair counts.
         hulls: which two hulls, as indices into the description's solids.
         pose: joint values [rad] or [m] in which they meet so.
         visual: how the visible surfaces of the two parts stand there [m]: a positive gap or a
@@ -101,7 +101,7 @@ class JointSweep:
 
     @property
     def excess(self) -> float:
-        """Worst excess over rest [m] that counts; negative is a gap, minus infinity far apart."""
+        """Return the worst excess over rest [m] that counts; negative is a gap."""
         plain = (pair.excess for pair in self.pairs if pair.contact.kind is PairKind.PLAIN)
         return max(plain, default=float("-inf"))
 

@@ -83,7 +83,7 @@ class _RestingBody:
         return max(0.0, self.floor - float(self._placed(values)[:, 2].min()))
 
     def stance(self, values: Mapping[str, float]) -> Stance:
-        """Margin and tilt here."""
+        """Return the margin and tilt here."""
         edges = self._support(values)
         if edges is None:
             return Stance(None, None)
@@ -92,7 +92,7 @@ class _RestingBody:
         return Stance(margin, math.atan2(margin, max(float(center[2]) - self.floor, 1e-6)))
 
     def tipping_force(self, joint: JointLine, values: Mapping[str, float]) -> float | None:
-        """Least opening force at the part's farthest point that tips the object [N].
+        """Return the least opening force at the part's farthest point that tips the object [N].
 
         ``None`` where no such pull tips it, or it does not stand on its own.
         """
@@ -132,7 +132,7 @@ class _RestingBody:
         return total
 
     def _support(self, values: Mapping[str, float]) -> FloatArray | None:
-        """The support's edges as lines (nx, ny, d), ``n @ x <= d`` inside, [edge_count, 3]."""
+        """Return the support's edges: lines (nx, ny, d), ``n @ x <= d`` inside, [edge_count, 3]."""
         points = self._placed(values)
         feet = points[points[:, 2] <= self._near, :2]
         # Most joints move nothing that touches the floor.
@@ -141,7 +141,7 @@ class _RestingBody:
         return self._footing[1]
 
     def _pull(self, joint: JointLine) -> tuple[FloatArray, FloatArray] | None:
-        """Where a hand pulls [m], and the unit direction of that point as the joint opens."""
+        """Return where a hand pulls [m], and the unit direction in which that point opens."""
         below = self.tree.below(joint)
         clouds = [self._cloud[rows] for name, rows in self._rows.items() if name in below]
         if not clouds:
@@ -160,7 +160,7 @@ class _RestingBody:
 
 
 def check_standing(description: Description, config: StandingConfig) -> CheckResult:
-    """Judge the object closed, with each joint anywhere in its range, and with all joints at upper.
+    """Check the object closed, with each joint anywhere in its range, and with all joints at upper.
 
     Joints closed means at lower. A moving part that touches the floor carries its share; one that
     goes below it is taken to rest on it.
@@ -170,8 +170,8 @@ def check_standing(description: Description, config: StandingConfig) -> CheckRes
         config: how much margin is wanted.
 
     Returns:
-        ``no_stable_footing``, or ``topples``, or else ``topples_when_pulled``, all soft: a thing
-        that is fastened to a wall or lies in a hand may well not stand. The measurements give
+        ``no_stable_footing``, or ``topples``, or else ``topples_when_pulled``, all warnings: a
+        thing that is fastened to a wall or lies in a hand may well not stand. The measurements give
         margin [mm], the lean that topples it [deg] and the pull that tips it where the joint sticks
         or ends [N], joint by joint; ``None`` where there is nothing to say.
     """
@@ -340,7 +340,7 @@ def _numbers(stance: Stance) -> dict[str, Any]:
 
 
 def _corners(shapes: tuple[DescribedShape, ...]) -> FloatArray:
-    """The corners of shapes' common convex hull [m]: no other point of them can be lowest."""
+    """Return corners of the shapes' convex hull [m]: no other point of them can be lowest."""
     if not shapes:
         return np.zeros((0, 3))
     points: FloatArray = np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes])

@@ -40,14 +40,14 @@ class Visible:
 
     @cached_property
     def surfaces(self) -> tuple[VisibleSurface | None, ...]:
-        """Every part's visible surface in its first link's frame; ``None`` if it shows nothing."""
+        """Return each part's visible surface in its first link's frame; ``None`` without one."""
         tree = self.pairs.solids.tree
         links = {link.name: link for link in self.description.links}
         at_zero = tree.link_poses({})
         return tuple(_surface([links[name] for name in part], at_zero) for part in tree.parts)
 
     def gap(self, contact: Contact) -> float | None:
-        """How two visible surfaces stand around a contact [m]; ``None`` if one shows nothing."""
+        """Measure the gap of two visible surfaces at a contact [m]; ``None`` without one."""
         one, other = (self.surfaces[part] for part in contact.parts)
         if one is None or other is None:
             return None
@@ -56,7 +56,7 @@ class Visible:
         return visible_gap(one, other, poses, meeting)
 
     def strayed(self, contact: Contact, allowed: float) -> bool:
-        """Whether only small pieces at the other part meet it deeper than ``allowed`` [m]."""
+        """Tell whether only small pieces at the other part meet it deeper than ``allowed`` [m]."""
         one, other = (self.surfaces[part] for part in contact.parts)
         if one is None or other is None:
             return False
@@ -73,7 +73,7 @@ class Visible:
         return self.pairs.solids.tree.link_poses(self.rest.lower)
 
     def _met(self, contact: Contact) -> tuple[SurfaceMeeting, FloatArray]:
-        """Where a contact's hulls meet or come nearest, and the frames of the two parts there."""
+        """Return where a contact's hulls meet or come nearest, and the two parts' frames there."""
         solids = self.pairs.solids
         poses = solids.place(contact.pose)
         a, b = (solids.items[index].collider for index in contact.hulls)

@@ -1,1 +1,1 @@
-"""What the judge measures with: hulls, poses, and swept penetration depth along a path."""
+"""What the checks measure with: hulls, poses, and swept penetration depth along a path."""

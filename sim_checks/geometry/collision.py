@@ -49,7 +49,7 @@ class Collider:
 
     @property
     def bounds(self) -> FloatArray:
-        """Lowest and highest corner of the box around the placed hull [m], shape [2, 3]."""
+        """Return lowest and highest corner of the box around the placed hull [m], shape [2, 3]."""
         if self._placed is not None:
             return self._placed.bounds
         vertices = self.local.vertices @ self.pose[:3, :3].T + self.pose[:3, 3]
@@ -113,7 +113,7 @@ class Skin:
         self._object.setTransform(self._fcl.Transform(np.eye(3), by))
 
     def meets(self, other: Skin) -> bool:
-        """Whether triangles of the two cut or touch; one that swallows the other does not."""
+        """Tell whether triangles of the two cut or touch; one that swallows the other does not."""
         request = self._fcl.CollisionRequest(num_max_contacts=1, enable_contact=False)
         return bool(
             self._fcl.collide(self._object, other._object, request, self._fcl.CollisionResult())

@@ -48,7 +48,7 @@ class CoupledPath:
         return CoupledPath(tuple((line, -rate) for line, rate in reversed(self.steps)), self.length)
 
     def unturned(self, vector: FloatArray, at: float) -> FloatArray:
-        """A world direction at ``at``, fixed to the moving body and taken back to 0 with it."""
+        """Turn a world direction at ``at`` back to 0, as if fixed to the moving body."""
         back: FloatArray = self.pose(at)[:3, :3].T @ vector
         return back
 
@@ -57,11 +57,11 @@ class CoupledPath:
         return CoupledOrbit(self, points)
 
     def travel(self, points: FloatArray) -> float:
-        """At least as far as the fastest of the points goes [m]."""
+        """Return at least as far as the fastest of the points goes [m]."""
         return self.length * float(self.limits(points)[0].max(initial=0.0))
 
     def limits(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Bounds of each point's speed [m per unit] and acceleration [m per unit squared]."""
+        """Bound each point's speed [m per unit] and acceleration [m per unit squared]."""
         moved, speed, acceleration = (np.zeros(len(points)) for _ in range(3))
         for line, rate in reversed(self.steps):
             turned = abs(rate)
@@ -91,7 +91,7 @@ class CoupledOrbit:
 
     @cached_property
     def acceleration(self) -> FloatArray:
-        """Of each point, at most [m per unit squared], shape [point_count]."""
+        """Bound each point's acceleration [m per unit squared], shape [point_count]."""
         return self.path.limits(self.start)[1]
 
     def highest(self, direction: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:

@@ -11,7 +11,7 @@ Limits = tuple[float, float]
 
 
 def sound_chains(mimics: Mapping[str, Mimic | None]) -> dict[str, Mimic]:
-    """Follower -> mimic, of those whose chain of leaders ends at a joint that follows nothing.
+    """Return follower -> mimic, where the chain of leaders ends at a joint that follows nothing.
 
     One by a number that is none, or absurdly large, leads nowhere.
 

@@ -53,7 +53,7 @@ class HullOverlap:
 
 
 def overlap_along(a: CollisionHull, b: CollisionHull, directions: FloatArray) -> FloatArray:
-    """How far ``a`` reaches into ``b`` along unit directions [m]; a negative value separates.
+    """Return how far ``a`` reaches into ``b`` along unit directions [m]; negative separates.
 
     Args:
         a: first hull.
@@ -158,7 +158,7 @@ def _grown(a: CollisionHull, b: CollisionHull) -> HullOverlap | None:
 
 
 def _differences(a: CollisionHull, b: CollisionHull, directions: FloatArray) -> FloatArray:
-    """Extreme corners of the Minkowski difference by direction [m], [direction_count, 3]."""
+    """Return extreme corners of the Minkowski difference by direction [m], [direction_count, 3]."""
     far = a.vertices[np.argmax(a.vertices @ directions.T, axis=0)]
     near = b.vertices[np.argmin(b.vertices @ directions.T, axis=0)]
     corners: FloatArray = far - near
@@ -230,7 +230,7 @@ def _verified(
 
 
 def contact_region(a: CollisionHull, b: CollisionHull) -> FloatArray:
-    """Corners of the intersection of two hulls [m], shape [corner_count, 3]; may be none.
+    """Return corners of the intersection of two hulls [m], shape [corner_count, 3]; may be none.
 
     Every corner of the intersection lies on an edge of one hull clipped by the faces of the other.
     """

@@ -114,7 +114,7 @@ def _zones(
 
 
 def _way_out(one: Patch, other: Patch, meeting: SurfaceMeeting) -> float:
-    """The first's shortest pull after which the two no longer meet [m], or the hulls' depth."""
+    """Return the first's shortest pull after which the two do not meet [m], or the hulls' depth."""
     longest = best = max(meeting.depth, meeting.margin)
     for index, direction in enumerate(_directions(one, other, meeting)):
         # Off the hulls' own way out, faces that were not looked at come into play after the margin.
@@ -175,7 +175,7 @@ def _directions(one: Patch, other: Patch, meeting: SurfaceMeeting) -> FloatArray
 
 
 def _from_outside(one: Patch, other: Patch, meeting: SurfaceMeeting) -> float:
-    """How far to pull the first out of what it lies in, or holds, until it touches nothing [m].
+    """Return how far to pull the first out of what it is in, or holds, to touch nothing [m].
 
     Searched from clear back in.
     """
@@ -191,7 +191,7 @@ def _from_outside(one: Patch, other: Patch, meeting: SurfaceMeeting) -> float:
 
 
 def _buried(outer: Patch, inner: Patch, meeting: SurfaceMeeting) -> float:
-    """How deep corners of the inner patch lie inside the outer's surface [m]; 0 if none does.
+    """Measure how deep corners of the inner patch are inside the outer's surface [m]; 0 if none.
 
     A few corners are asked, so it may be deeper.
     """
@@ -217,7 +217,7 @@ def _corners(inner: Patch, meeting: SurfaceMeeting) -> FloatArray:
 def _inside(
     surface: VisibleSurface, pose: FloatArray, corners: FloatArray
 ) -> npt.NDArray[np.bool_]:
-    """Which points of the world lie inside closed pieces of a surface, shape [point_count]."""
+    """Tell which points of the world are inside closed pieces of a surface, shape [point_count]."""
     points = (corners - pose[:3, 3]) @ pose[:3, :3]
     order = np.argsort(surface.pieces, kind="stable")
     starts = np.flatnonzero(np.diff(surface.pieces[order], prepend=-1))

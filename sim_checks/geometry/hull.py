@@ -117,7 +117,7 @@ def _convex_hull(points: FloatArray) -> CollisionHull:
 
 
 def _thinned(points: FloatArray) -> FloatArray:
-    """Of points around the origin, the farthest in each cell of a cube's sides, [fewer, 3]."""
+    """Keep the farthest point in each cell of a cube's sides around the origin, [fewer, 3]."""
     # What is long or flat is looked at as if it were round.
     around = points / np.abs(points).max(axis=0)
     longest = np.argmax(np.abs(around), axis=1)
@@ -171,7 +171,7 @@ def _assemble(hull: ConvexHull, center: FloatArray, corners_before: int) -> Coll
 
 
 def farthest_along(points: FloatArray, directions: FloatArray) -> FloatArray:
-    """Support of points [m], [point_count, 3], along each direction, shape [direction_count]."""
+    """Return the support of points [m], [point_count, 3], along each direction."""
     rows = max(1, BLOCK // len(points))
     blocks = [directions[start : start + rows] for start in range(0, len(directions), rows)]
     return np.concatenate([(points @ block.T).max(axis=0) for block in blocks])

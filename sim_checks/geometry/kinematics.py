@@ -1,4 +1,4 @@
-"""Where every link is for given joint values: the judge's own forward kinematics."""
+"""Where every link is for given joint values: the checks' own forward kinematics."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class Tree:
         return mimic.multiplier * self.value_of(mimic.leader, values) + mimic.offset
 
     def completed(self, values: Mapping[str, float]) -> dict[str, float]:
-        """Values for every moving joint, followers included, by :meth:`value_of`; file order."""
+        """Return values for every moving joint, followers included; file order."""
         return {joint.name: self.value_of(joint.name, values) for joint in self.moving}
 
     def _leaders(self, name: str) -> tuple[str, ...]:
@@ -159,7 +159,7 @@ def build_tree(description: Description) -> Tree:
 
 
 def sound_mimics(description: Description) -> dict[str, Mimic]:
-    """Follower -> mimic, where the chain of leaders ends at a joint that moves and follows none.
+    """Return follower -> mimic, where the chain of leaders ends at a joint that moves by itself.
 
     One by a number that is none, or absurdly large, leads nowhere.
     """
@@ -218,7 +218,7 @@ def rotation_about(axis: FloatArray, angle: float) -> FloatArray:
 
 
 def coupled_range(tree: Tree, joint: JointLine) -> tuple[float, float] | None:
-    """:func:`sweep_range`, shortened to where every joint that follows stays within its own limits.
+    """Return :func:`sweep_range`, shortened to where followers stay within their own limits.
 
     ``None`` where nothing is left.
     """
@@ -233,7 +233,7 @@ def coupled_range(tree: Tree, joint: JointLine) -> tuple[float, float] | None:
 
 
 def free_ranges(tree: Tree) -> dict[str, tuple[float, float]]:
-    """:func:`coupled_range` of every independent joint that has one, by name, in tree order."""
+    """Return :func:`coupled_range` of every independent joint that has one, by name; tree order."""
     return {
         joint.name: limits
         for joint in tree.free
@@ -242,7 +242,7 @@ def free_ranges(tree: Tree) -> dict[str, tuple[float, float]]:
 
 
 def own_limits(joint: JointLine) -> tuple[float, float] | None:
-    """A follower's own limits [rad] or [m]; ``None`` where none, or none sensible, are given."""
+    """Return a follower's own limits [rad] or [m]; ``None`` where none, or none sensible, exist."""
     if joint.kind == "continuous" or joint.lower is None or joint.upper is None:
         return None
     limits = joint.lower, joint.upper
@@ -250,7 +250,7 @@ def own_limits(joint: JointLine) -> tuple[float, float] | None:
 
 
 def sweep_range(joint: JointLine) -> tuple[float, float] | None:
-    """The range over which one joint is swept; a revolute joint without limits makes one turn.
+    """Return the range over which a joint is swept; a hinge without limits makes one turn.
 
     ``None`` where there is nothing to sweep: a slide without limits, or limits that are not finite,
     absurdly far apart or not ordered.

@@ -54,7 +54,7 @@ class Path:
         return replace(self, axis=-self.axis)
 
     def unturned(self, vector: FloatArray, at: float) -> FloatArray:
-        """A world direction at ``at``, fixed to the moving body and taken back to 0 with it."""
+        """Turn a world direction at ``at`` back to 0, as if fixed to the moving body."""
         return self.pose(-at)[:3, :3] @ vector if self.turning else vector
 
     def orbit(self, points: FloatArray) -> Orbit:

@@ -112,7 +112,7 @@ class Solids:
         )
 
     def standings(self, floor: float) -> Iterator[SolidPair]:
-        """Every pair of solids of different parts closer than ``floor`` [m], in a fixed order.
+        """Yield pairs of solids of different parts closer than ``floor`` [m], in a fixed order.
 
         Raises:
             TooManyLooks: the file has taken more than it may.
@@ -178,7 +178,7 @@ class Solids:
         poses: Mapping[str, FloatArray],
         length: float,
     ) -> AnyPath:
-        """How one group moves as seen from another, from the posed values on, as the leader moves.
+        """Return how one group moves as seen from another, from the posed values on.
 
         What is said to stand keeps its place at the start; where it really goes, :meth:`way` says.
         """
@@ -230,7 +230,7 @@ class Solids:
 
 
 def _steps(tree: Tree, part_of: Mapping[str, int]) -> tuple[tuple[int, int, JointLine], ...]:
-    """Every part but the root's, the part that it hangs on and the joint between; parents first."""
+    """Yield every part but the root's, its parent part and the joint between; parents first."""
     moving = {joint.name for joint in tree.moving}
     return tuple(
         (part_of[joint.child], part_of[joint.parent], joint)

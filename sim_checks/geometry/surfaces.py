@@ -56,14 +56,14 @@ class VisibleSurface:
 
     @cached_property
     def areas(self) -> FloatArray:
-        """Of every face [m2], shape [face_count]."""
+        """Return the area of every face [m2], shape [face_count]."""
         a, b, c = (self.vertices[self.faces[:, k]] for k in range(3))
         areas: FloatArray = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
         return areas
 
     @cached_property
     def welded(self) -> IntArray:
-        """The faces by corners that are one where they lie in one place, shape [face_count, 3]."""
+        """Return the faces by corners merged where they are in one place, shape [face_count, 3]."""
         # Three numbers to one by odd factors: sorting rows is slow, and a clash as likely as a
         # lightning strike.
         keys = (np.round(self.vertices / WELD).astype(np.int64) * MIXING).sum(axis=1)
@@ -73,7 +73,7 @@ class VisibleSurface:
 
     @cached_property
     def pieces(self) -> IntArray:
-        """By face, the number of the connected piece that it belongs to, shape [face_count]."""
+        """Return for each face the number of its connected piece, shape [face_count]."""
         faces = self.welded
         count = int(faces.max()) + 1
         start = np.concatenate([faces[:, 0], faces[:, 1]])
@@ -118,7 +118,7 @@ class Patch:
 
     @cached_property
     def skin(self) -> Skin:
-        """Ready to be asked what it meets."""
+        """Return the same, ready to be asked what it meets."""
         return Skin(self.vertices, self.faces)
 
 

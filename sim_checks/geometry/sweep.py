@@ -138,7 +138,7 @@ class Sweep:
         self._standing_orbits: dict[int, Orbit | CoupledOrbit] = {}
 
     def near(self, floor: float) -> npt.NDArray[np.bool_]:
-        """Which moving hulls may come within ``floor`` [m] of standing ones; [moving, standing]."""
+        """Tell which moving hulls may come within ``floor`` [m] of standing ones."""
         still = np.array([collider.bounds for collider in self.standing]).reshape(-1, 2, 3)
         close = _within(self._reached(), still, floor + ROUNDING)
         for index in np.flatnonzero(close.any(axis=1)).tolist():
@@ -148,7 +148,7 @@ class Sweep:
         return close
 
     def _reached(self) -> FloatArray:
-        """Boxes around all that the moving hulls' own swept boxes hold [m], [moving, 2, 3].
+        """Return boxes around all that the moving hulls' own swept boxes hold [m], [moving, 2, 3].
 
         Wider than these, but found for all hulls at once: most are far from everything.
         """
@@ -168,7 +168,7 @@ class Sweep:
         )
 
     def worst(self, candidates: Sequence[Candidate], tolerance: Tolerance) -> Worst | None:
-        """The worst excess over rest of the candidates; ``None`` if all stay beyond the floor.
+        """Find the worst excess over rest of the candidates; ``None`` if all stay beyond the floor.
 
         Raises:
             TooManyLooks: the file has taken more than it may.
@@ -205,7 +205,7 @@ class Sweep:
         return collider
 
     def _goal(self, best: Worst | None, tolerance: Tolerance, spent: int) -> float:
-        """Bounds at or below this need no look."""
+        """Return the bound at or below which an interval needs no look."""
         if best is None:
             return -tolerance.floor
         slack = max(tolerance.absolute, tolerance.relative * abs(best.excess))
@@ -291,7 +291,7 @@ class Sweep:
 
 
 def _within(boxes: FloatArray, others: FloatArray, floor: float) -> npt.NDArray[np.bool_]:
-    """Which boxes come within ``floor`` [m] of others; [box_count, 2, 3] -> [boxes, others]."""
+    """Tell which boxes, [box_count, 2, 3], come within ``floor`` [m] of others."""
     close = np.ones((len(boxes), len(others)), dtype=bool)
     for axis in range(3):
         close &= boxes[:, None, 0, axis] - others[None, :, 1, axis] < floor

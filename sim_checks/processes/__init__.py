@@ -1,1 +1,1 @@
-"""Native code in killable child processes: the one thing that the judge and the factory share."""
+"""Native code in killable child processes: the one thing that checks and factory share."""

@@ -36,7 +36,7 @@ class Answer:
 
 
 def serve(connection: Connection, folder: str) -> None:
-    """The child's main loop: answer ``(function, args, named, limits)`` with an :class:`Answer`.
+    """Answer ``(function, args, named, limits)`` with an :class:`Answer` until the caller is gone.
 
     Args:
         connection: to the caller.
@@ -60,7 +60,7 @@ def serve(connection: Connection, folder: str) -> None:
 
 
 def _answer(connection: Connection) -> None:
-    """Raises EOFError or OSError when the caller is gone."""
+    """Answer one question; raise EOFError or OSError when the caller is gone."""
     question = connection.recv_bytes()
     leave_places()
     try:
@@ -83,7 +83,7 @@ def _answer(connection: Connection) -> None:
 
 
 def _limit(cpu_s: float | None, memory_bytes: int | None) -> None:
-    """Soft limits only: a hard one could not be lifted again for the next call."""
+    """Set soft limits only: a hard one could not be lifted again for the next call."""
     used = math.ceil(time.process_time())
     _soft_limit(resource.RLIMIT_CPU, None if cpu_s is None else used + max(1, int(cpu_s)))
     _soft_limit(resource.RLIMIT_AS, memory_bytes)

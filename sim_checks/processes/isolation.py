@@ -150,7 +150,7 @@ class WarmChild:
     """
 
     def __init__(self, calls: int | None = None, resident_bytes: int | None = None) -> None:
-        """The process starts with the first call.
+        """Keep the settings; the process starts with the first call.
 
         Args:
             calls: a new child is started after so many; ``None`` for never.
@@ -174,7 +174,7 @@ class WarmChild:
 
     @property
     def pid(self) -> int | None:
-        """Of the process that the next call would ask; ``None`` if that would be a new one."""
+        """Return the process that the next call would ask; ``None`` if that would be a new one."""
         return self._process.pid if self._process is not None else None
 
     def close(self) -> None:
@@ -195,7 +195,7 @@ class WarmChild:
     def call(
         self, function: Callable[..., T], /, *args: Any, limits: Limits, **named: Any
     ) -> Outcome[T]:
-        """As :func:`run_isolated`, in this child; the limits are this call's own."""
+        """Call like :func:`run_isolated`, in this child; the limits are this call's own."""
         used = self._process is not None
         question = (function, args, named, limits)
         outcome: Outcome[T] = self._ask(question, limits)
@@ -290,7 +290,7 @@ class _Process:
         self.place = ""
 
     def ask(self, question: bytes | memoryview, wall_s: float) -> Answer | Failure:
-        """Its answer, or how there is none."""
+        """Return its answer, or how there is none."""
         if self.answered:
             os.truncate(self._log, 0)
         try:
@@ -381,7 +381,7 @@ def _exception_sentence(error: Exception, limits: Limits) -> str:
 
 
 def _resident_bytes(pid: int) -> int:
-    """Memory held now [bytes]; 0 where the kernel does not say."""
+    """Return the memory held now [bytes]; 0 where the kernel does not say."""
     try:
         return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * resource.getpagesize()
     except OSError:

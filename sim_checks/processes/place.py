@@ -16,20 +16,20 @@ _descriptors: list[int] = []
 
 
 def keep_place(folder: Path) -> None:
-    """From now on this process writes down where it is, in a folder that outlives it."""
+    """Have this process write down where it is, in a folder that outlives it."""
     _descriptors[:] = [os.open(folder / PLACE_NAME, os.O_WRONLY | os.O_CREAT, 0o600)]
     leave_places()
 
 
 def leave_places() -> None:
-    """This process is nowhere: it has something new to do."""
+    """Forget where this process is: it has something new to do."""
     _names.clear()
     _write("")
 
 
 @contextmanager
 def at(name: str) -> Iterator[None]:
-    """Within this the process is at ``name``; places may lie in one another."""
+    """Note that within this the process is at ``name``; places may be nested."""
     _names.append(name)
     _write(name)
     try:

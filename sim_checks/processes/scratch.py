@@ -21,7 +21,7 @@ SHORT = Path("/tmp")  # noqa: S108 - the folder made there is its owner's alone
 
 
 def held_folder(parent: Path, prefix: str = "") -> tuple[Path, int]:
-    """A fresh folder and its lock: a file descriptor to close when nobody works in it any more."""
+    """Make a folder and its lock: a file descriptor to close when nobody works in it any more."""
     while True:
         folder = Path(tempfile.mkdtemp(dir=parent, prefix=prefix))
         try:
@@ -40,7 +40,7 @@ def held_folder(parent: Path, prefix: str = "") -> tuple[Path, int]:
 
 
 def abandoned(path: Path) -> int | None:
-    """A lock on a folder or file that nobody uses, as a file descriptor to close, or ``None``.
+    """Lock a folder or file that nobody uses; return a file descriptor to close, or ``None``.
 
     Where the file system knows no locks, somebody always does.
     """
@@ -76,7 +76,7 @@ _short: dict[int, Path] = {}
 
 
 def scratch() -> Path:
-    """This process's folder for temporary files, removed when it ends.
+    """Return this process's folder for temporary files, removed when it ends.
 
     If it is killed, the next process to ask for its own folder removes it.
 
@@ -97,7 +97,7 @@ def scratch() -> Path:
 
 
 def sockets() -> Path:
-    """This process's folder for sockets: its scratch folder, or one on a shorter way."""
+    """Return this process's folder for sockets: its scratch folder, or one of a shorter path."""
     folder = scratch()
     if len(os.fsencode(folder)) <= LONGEST_WITH_SOCKETS:
         return folder

@@ -49,7 +49,7 @@ def installed(name: str) -> bool:
 
 
 def installed_version(name: str) -> str | None:
-    """The installed engine's version, without importing it; ``None`` if it is not installed."""
+    """Return the installed engine's version, without importing it; ``None`` if not installed."""
     try:
         return version(simulator(name).distribution)
     except PackageNotFoundError:

@@ -3,31 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray
-from .joints import Ranges, carried_masses, companions, ranges, share
+from .joints import Groups, Ranges, any_carried, companions, ranges, share
+from .law import drive_law
 from .rest import Gain, let_go
 from .simulator import JointMotion, World
 from .touching import pressing
 
-#: Friction is fed forward in full once the joint lags by this share of its range.
-FRICTION_LAG = 0.01
-#: An inertia that is no inertia must not make the hand a giant's; no lever of furniture is longer
-#: [m].
-LONGEST_ARM_M = 1.0
-#: What rides on a driven part, this far from its axis [m], may lag by this share of its range, at
-#: which it would be taken for pushed; a button, which has a spring, by less. It is held no stiffer
-#: than an engine's steps can follow.
-RIDING_ARM_M = 2.0
-RIDING_SHARE = 0.5
-BUTTON_SHARE = 0.2
-BUTTON_M = 0.05
-RIDING_STEP = 0.3
 #: How often the joints that make way are added to, because another link stands behind them.
 WIDENED = 3
 
@@ -35,14 +22,17 @@ Joints = frozenset[int]
 CLOSED: Joints = frozenset()
 
 
-def sweep(world: World, config: MotionConfig) -> tuple[JointMotion, ...]:
+def sweep(world: World, config: MotionConfig, apart: Groups = ()) -> tuple[JointMotion, ...]:
     """Drive every joint, others held lightly at lower; if it fails, again with some opened.
+
+    The joints of a group in ``apart``, by name, cannot reach one another: they are driven at the
+    same time, and those alone of which there is more to say than that they open and close.
 
     Only joints that have opened themselves in this world make way, together with those that they
     needed for it: two joints that bar each other never open. Of joints that are forced to move
     together, one that opens speaks for all: the others may have no way to push it.
     """
-    order = _Order(world, ranges(world), config)
+    order = _Order(world, ranges(world), config, apart)
     order.settle()
     opened = {index for index, motion in order.motions.items() if arrived(motion, config)}
     return tuple(
@@ -55,12 +45,20 @@ def sweep(world: World, config: MotionConfig) -> tuple[JointMotion, ...]:
 class _Order:
     """Which joints open, and which others must be open for it."""
 
-    def __init__(self, world: World, span: Ranges, config: MotionConfig) -> None:
+    def __init__(
+        self,
+        world: World,
+        span: Ranges,
+        config: MotionConfig,
+        apart: Groups,
+    ) -> None:
         self._world = world
         self._span = span
         self._config = config
         driven = np.flatnonzero(span.size > 0.0).tolist()
         self._driven: dict[tuple[int, Joints], JointMotion] = {}
+        for names in apart:
+            self._drive_together([i for i in driven if world.joints[i].name in names])
         self.motions = {index: self._drive(index, CLOSED) for index in driven}
         self.needs = {
             index: CLOSED for index, motion in self.motions.items() if opens(motion, config)
@@ -86,16 +84,26 @@ class _Order:
         self.needs.update(found)
         return bool(found)
 
+    def _drive_together(self, indices: list[int]) -> None:
+        """Drive joints that cannot reach one another; forget those that did more than that."""
+        together = [i for i in indices if len(companions(self._world, i)) == 1]
+        if len(together) < 2:
+            return
+        for i, motion in zip(
+            together, drive(self._world, together, self._span, CLOSED, self._config), strict=True
+        ):
+            if is_plain(motion, self._config):
+                self._driven[i, CLOSED] = motion
+
     def _drive(self, index: int, opened: Joints) -> JointMotion:
         """Drive a joint with others open, once."""
         if (index, opened) not in self._driven:
-            self._driven[index, opened] = drive(
-                self._world, index, self._span, opened, self._config
-            )
+            (motion,) = drive(self._world, [index], self._span, opened, self._config)
+            self._driven[index, opened] = motion
         return self._driven[index, opened]
 
     def _makers(self, index: int) -> Iterator[Joints]:
-        """The joints that move one of two links in contact, or were pushed; more as others join.
+        """Yield the joints that move one of two links in contact, or were pushed.
 
         Each alone before all of them: a lid makes way, and what unfolds the whole box does not.
         """
@@ -145,12 +153,22 @@ def opens(motion: JointMotion, config: MotionConfig) -> bool:
     return arrived(motion, config) and motion.others_moved <= config.others_hard
 
 
-def drive(
-    world: World, index: int, span: Ranges, opened: Joints, config: MotionConfig
-) -> JointMotion:
-    """Drive one joint from lower to upper and back by a bounded force, then let go.
+def is_plain(motion: JointMotion, config: MotionConfig) -> bool:
+    """Return whether it opened and closed, pushed nothing, kept its limits and gained no energy."""
+    return (
+        arrived(motion, config)
+        and motion.others_moved <= config.others_soft
+        and motion.overshoot <= config.overshoot_soft * motion.range
+        and motion.energy <= config.energy_floor_j
+    )
 
-    It follows a smooth ramp. The force is a mass-scaled pull towards the ramp, clipped to a hand's
+
+def drive(
+    world: World, indices: Sequence[int], span: Ranges, opened: Joints, config: MotionConfig
+) -> tuple[JointMotion, ...]:
+    """Drive joints at the same time from lower to upper and back by a bounded force, then let go.
+
+    They follow a smooth ramp. The force is a mass-scaled pull towards the ramp, clipped to a hand's
     strength, on top of what balances gravity and the file's own damping and friction. The other
     joints are held the same way, but softly: those in ``opened`` at upper, the rest at lower. What
     rides on the part that is driven, a button on a door, is held so that the ride hardly moves it.
@@ -159,8 +177,10 @@ def drive(
     together = sorted(CLOSED.union(*(companions(world, other) for other in opened)))
     start[together] = span.upper[together]
     world.place(start)
-    law = _law(world, index, span, config)
-    track = _DriveTrack(world, start, index, span, config)
+    mass = world.mass_matrix()
+    law = drive_law(world, mass, indices, span, config)
+    linked = any_carried(world)
+    tracks = [_DriveTrack(world, start, indices, index, span, config) for index in indices]
     turning_point = config.ramp_s + config.hold_s
     goal = start.copy()
     speed = np.zeros_like(start)
@@ -168,96 +188,38 @@ def drive(
     position = world.positions()
     velocity = world.velocities()
     balance = world.balance()
-    track.weight_closed = track.opening(balance)
+    for track in tracks:
+        track.weight_closed = track.opening(balance)
+    turned = False
     for time in _times(config, world.time_step):
-        goal[index], speed[index], acceleration[index] = _ramp(
-            time, span.lower[index], span.travel[index], config
+        goal[indices], speed[indices], acceleration[indices] = _ramp(
+            time, span.lower[indices], span.travel[indices], config
         )
-        pull = law.pull(goal - position, speed, speed - velocity, acceleration)
+        pull = law.pull(mass, goal - position, speed, speed - velocity, acceleration)
         world.step(pull + balance)
         position = world.positions()
         velocity = world.velocities()
-        if not track.see(position, velocity, pull):
+        finite = [track.see(position, velocity, pull) for track in tracks]
+        if not all(finite):
             break
         balance = world.balance()
-        if time >= turning_point and not track.turned and not track.turn(balance):
-            break
-    blocked_by = None if track.arrived or not track.finite else pressing(world, index)
-    gain = let_go(world, config) if track.finite else Gain()
-    return track.motion(world, opened, float(law.bound[index]), blocked_by, gain)
-
-
-@dataclass(frozen=True)
-class _Law:
-    inertia: FloatArray
-    stiffness: FloatArray
-    drag: FloatArray
-    damping: FloatArray
-    friction: FloatArray
-    lag: FloatArray
-    bound: FloatArray
-
-    def pull(
-        self, error: FloatArray, speed: FloatArray, slip: FloatArray, acceleration: FloatArray
-    ) -> FloatArray:
-        """Return what the hand adds to the balance [N m] or [N], shape [joint_count].
-
-        Args:
-            error: how far each joint lags behind where it should be.
-            speed: how fast it should be.
-            slip: how much slower it is.
-            acceleration: how fast it should gain speed.
-        """
-        pull = self.inertia * (acceleration + self.stiffness * error + self.drag * slip)
-        pull += self.damping * speed + self.friction * np.tanh(error / self.lag)
-        return np.minimum(np.maximum(pull, -self.bound), self.bound)
-
-
-def _law(world: World, index: int, span: Ranges, config: MotionConfig) -> _Law:
-    inertia = world.inertias()
-    acceleration = 0.5 * span.size * (math.pi / config.ramp_s) ** 2
-    frequency = np.full(len(inertia), config.hold_frequency)
-    felt = {
-        other: float(acceleration[index]) * _arm(world, other)
-        for other, carried in enumerate(world.carried)
-        if carried < world.carried[index] and span.size[other] > 0.0
+        if linked:
+            mass = world.mass_matrix()
+        if time >= turning_point and not turned:
+            turned = True
+            opened_up = [track.turn(balance) for track in tracks]
+            if not any(opened_up):
+                break
+    stopped = {
+        i: pressing(world, i)
+        for i, track in zip(indices, tracks, strict=True)
+        if track.finite and not track.arrived
     }
-    for other, most in felt.items():
-        size = float(span.size[other])
-        stiff = math.sqrt(most / ((BUTTON_SHARE if size < BUTTON_M else RIDING_SHARE) * size))
-        frequency[other] = max(frequency[other], min(stiff, RIDING_STEP / world.time_step))
-    frequency[index] = config.drive_frequency
-    damping = np.array([joint.damping or 0.0 for joint in world.joints])
-    friction = np.array([joint.friction or 0.0 for joint in world.joints])
-    swings = np.array([joint.kind != "prismatic" for joint in world.joints])
-    arm = np.where(swings, np.sqrt(inertia / np.maximum(carried_masses(world), 1e-12)), 1.0)
-    arm = np.minimum(arm, LONGEST_ARM_M)
-    speed = 0.5 * math.pi * span.size / config.ramp_s
-    bound = (
-        config.hand_force_n * arm
-        + config.inertia_margin * inertia * acceleration
-        + damping * speed
-        + friction
+    gain = let_go(world, config) if all(track.finite for track in tracks) else Gain()
+    return tuple(
+        track.motion(world, opened, float(law.bound[i]), stopped.get(i), gain)
+        for i, track in zip(indices, tracks, strict=True)
     )
-    for other, most in felt.items():
-        # Enough for the ride, so that what presses it still moves it.
-        bound[other] = config.inertia_margin * inertia[other] * most + friction[other]
-    # What must move along is not held back.
-    bound[sorted(companions(world, index) - {index})] = 0.0
-    return _Law(
-        inertia,
-        frequency**2,
-        2.0 * frequency,
-        damping,
-        friction,
-        FRICTION_LAG * span.size + 1e-6,
-        bound,
-    )
-
-
-def _arm(world: World, other: int) -> float:
-    """What a joint feels of an acceleration that it rides on: a slide the arm to its axis [m]."""
-    return RIDING_ARM_M if world.joints[other].kind == "prismatic" else 1.0
 
 
 def _times(config: MotionConfig, time_step: float) -> list[float]:
@@ -266,8 +228,8 @@ def _times(config: MotionConfig, time_step: float) -> list[float]:
 
 
 def _ramp(
-    time: float, lower: float, travel: float, config: MotionConfig
-) -> tuple[float, float, float]:
+    time: float, lower: FloatArray, travel: FloatArray, config: MotionConfig
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     back = time - config.ramp_s - config.hold_s
     phase = min(time / config.ramp_s, 1.0) if back < 0.0 else 1.0 + min(back / config.ramp_s, 1.0)
     rate = math.pi / config.ramp_s if phase % 1.0 > 0.0 else 0.0
@@ -281,7 +243,13 @@ class _DriveTrack:
     """What was seen of one drive so far."""
 
     def __init__(
-        self, world: World, start: FloatArray, index: int, span: Ranges, config: MotionConfig
+        self,
+        world: World,
+        start: FloatArray,
+        indices: Sequence[int],
+        index: int,
+        span: Ranges,
+        config: MotionConfig,
     ) -> None:
         self._start = start
         self._index = index
@@ -289,7 +257,7 @@ class _DriveTrack:
         self._lower = float(span.lower[index])
         self._travel = float(span.travel[index])
         self._sizes = span.size
-        self._together = sorted(companions(world, index))
+        self._together = sorted(companions(world, index).union(indices))
         # Shares of the way, counted from where the drive begins.
         self._highest = self._lowest = self._last = 0.0
         self._at = self._lower

@@ -9,7 +9,7 @@ import numpy as np
 from ..config import MotionConfig
 from ..description import FloatArray
 from .drive import arrived
-from .joints import Ranges, companions, ranges
+from .joints import Groups, Ranges, companions, ranges
 from .rest import left_alone
 from .simulator import HoldMotion, JointMotion, World
 from .touching import pressing
@@ -19,7 +19,10 @@ SHARES = (0.25, 0.5, 0.75)
 
 
 def hold(
-    world: World, motions: tuple[JointMotion, ...], config: MotionConfig
+    world: World,
+    motions: tuple[JointMotion, ...],
+    config: MotionConfig,
+    apart: Groups = (),
 ) -> tuple[HoldMotion, ...]:
     """Leave every joint that opened alone at three values of its range, the others balanced.
 
@@ -28,6 +31,8 @@ def hold(
         motions: of its joints, from :func:`~.drive.sweep`; those that others must be open for
             are left alone with these at upper, the rest at lower.
         config: how long, and how strong friction must be beside the load.
+        apart: names of joints that cannot reach one another, by group; they are left alone at the
+            same time.
 
     Returns:
         One for each value at which the engine has friction that should hold the joint. Joints that
@@ -36,50 +41,69 @@ def hold(
     """
     span = ranges(world)
     numbers = {joint.name: i for i, joint in enumerate(world.joints)}
-    return tuple(
-        held
+    asked = {
+        numbers[motion.joint]: motion
         for motion in motions
-        if arrived(motion, config) and len(companions(world, numbers[motion.joint])) == 1
-        for held in _held(world, numbers[motion.joint], _start(world, motion, span), span, config)
-    )
+        if arrived(motion, config)
+        and len(companions(world, numbers[motion.joint])) == 1
+        and world.joints[numbers[motion.joint]].friction
+    }
+    together = [
+        [i for i, motion in asked.items() if motion.joint in names and not motion.needs_open]
+        for names in apart
+    ]
+    alone = [[i] for i in asked.keys() - {i for group in together for i in group}]
+    found = {
+        (numbers[held.joint], share): held
+        for group in (*together, *alone)
+        if group
+        for share, held in _held(world, group, _start(world, group, asked, span), span, config)
+    }
+    return tuple(found[i, share] for i in asked for share in SHARES if (i, share) in found)
 
 
-def _start(world: World, motion: JointMotion, span: Ranges) -> FloatArray:
+def _start(
+    world: World, group: list[int], asked: dict[int, JointMotion], span: Ranges
+) -> FloatArray:
     """Return where the other joints stand [rad] or [m], shape [joint_count]."""
     start = span.lower.copy()
+    opened = {name for index in group for name in asked[index].needs_open}
     for i, joint in enumerate(world.joints):
-        if joint.name in motion.needs_open:
+        if joint.name in opened:
             together = sorted(companions(world, i))
             start[together] = span.upper[together]
     return start
 
 
 def _held(
-    world: World, index: int, start: FloatArray, span: Ranges, config: MotionConfig
-) -> Iterator[HoldMotion]:
-    friction = world.joints[index].friction
-    if not friction:
-        return
+    world: World, group: list[int], start: FloatArray, span: Ranges, config: MotionConfig
+) -> Iterator[tuple[float, HoldMotion]]:
+    friction = np.array([world.joints[i].friction for i in group], np.float64)
     for share in SHARES:
-        start[index] = span.lower[index] + share * span.travel[index]
+        start[group] = span.lower[group] + share * span.travel[group]
         world.place(start)
-        if abs(float(world.balance()[index])) <= config.hold_share * friction:
-            yield _left_at(world, index, start, config)
+        light = np.abs(world.balance()[group]) <= config.hold_share * friction
+        held = [index for index, is_light in zip(group, light, strict=True) if is_light]
+        if held:
+            yield from ((share, motion) for motion in _left_at(world, held, start, config))
 
 
-def _left_at(world: World, index: int, start: FloatArray, config: MotionConfig) -> HoldMotion:
+def _left_at(
+    world: World, held: list[int], start: FloatArray, config: MotionConfig
+) -> Iterator[HoldMotion]:
     def balance() -> FloatArray:
         forces = world.balance()
-        forces[index] = 0.0
+        forces[held] = 0.0
         return forces
 
-    moved = 0.0
+    moved = np.zeros(len(start))
     finite = True
     for position, _ in left_alone(world, config.held_s, config, balance):
         finite = bool(np.isfinite(position).all())
         if not finite:
             break
-        moved = max(moved, abs(float(position[index] - start[index])))
+        moved = np.maximum(moved, np.abs(position - start))
     values = {joint.name: float(value) for joint, value in zip(world.joints, start, strict=True)}
-    pressed = pressing(world, index) if finite else None
-    return HoldMotion(world.joints[index].name, values, moved, finite, pressed)
+    for index in held:
+        pressed = pressing(world, index) if finite else None
+        yield HoldMotion(world.joints[index].name, values, float(moved[index]), finite, pressed)

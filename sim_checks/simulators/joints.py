@@ -15,6 +15,9 @@ from .simulator import LoadedJoint, World
 FULL_TURN = 2.0 * math.pi
 GRAVITY = 9.81
 
+#: Names of joints that cannot reach one another, by group.
+Groups = tuple[tuple[str, ...], ...]
+
 
 @dataclass(frozen=True)
 class Ranges:
@@ -87,8 +90,14 @@ def companions(world: World, index: int) -> frozenset[int]:
     return frozenset(i for i, joint in enumerate(world.joints) if joint.name in found)
 
 
+def any_carried(world: World) -> bool:
+    """Return whether a joint moves another one, so that the mass matrix changes as it does."""
+    each = sum(len(links) for links in world.carried)
+    return each > len(frozenset[str]().union(*world.carried))
+
+
 def uncoupled(world: World) -> list[int]:
-    """Joints that no other is forced to move with; the rest may be moved without contact."""
+    """Return joints that no other is forced to move with; the rest may move without contact."""
     return [i for i in range(len(world.joints)) if len(companions(world, i)) == 1]
 
 
@@ -103,7 +112,7 @@ def moving_mass(world: World) -> float:
 
 
 def share(moved: float, size: float) -> float:
-    """Of the range; 0 for a joint without one."""
+    """Return a share of the range; 0 for a joint without one."""
     return float(moved / size) if size > 0.0 else 0.0
 
 

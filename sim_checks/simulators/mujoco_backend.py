@@ -1,4 +1,4 @@
-"""MuJoCo: the only module that says ``mujoco`` to judge."""
+"""MuJoCo: the only module of the checks that imports it, but for Newton."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ class MujocoWorld:
         self._complaints = np.zeros(int(mujoco.mjtWarning.mjNWARNING), np.int64)
 
     def weigh(self, on: bool) -> None:
-        """Gravity and springs on or off."""
+        """Turn gravity and springs on or off."""
         flags = self._mujoco.mjtDisableBit
         both = int(flags.mjDSBL_GRAVITY) | int(flags.mjDSBL_SPRING)
         self._model.opt.disableflags = (self._model.opt.disableflags & ~both) | (
@@ -126,21 +126,21 @@ class MujocoWorld:
         self._mujoco.mj_step1(self._model, self._data)
 
     def positions(self) -> FloatArray:
-        """[rad] or [m], shape [joint_count]."""
+        """Return joint values [rad] or [m], shape [joint_count]."""
         return np.array(self._data.qpos[self._positions], np.float64)
 
     def velocities(self) -> FloatArray:
-        """[rad/s] or [m/s], shape [joint_count]."""
+        """Return joint speeds [rad/s] or [m/s], shape [joint_count]."""
         return np.array(self._data.qvel[self._dofs], np.float64)
 
-    def inertias(self) -> FloatArray:
-        """Return the diagonal of the mass matrix, shape [joint_count]."""
+    def mass_matrix(self) -> FloatArray:
+        """Return the joints' mass matrix [kg m2], [kg m] or [kg], [joint_count, joint_count]."""
         full = np.zeros((self._model.nv, self._model.nv))
         self._mujoco.mj_fullM(self._model, self._data, full)
-        return np.array(np.diag(full)[self._dofs], np.float64)
+        return full[np.ix_(self._dofs, self._dofs)]
 
     def energy(self) -> float:
-        """Kinetic energy, and potential energy of the gravity and springs that are on [J]."""
+        """Return kinetic energy and potential energy of the gravity and springs that are on [J]."""
         self._mujoco.mj_energyPos(self._model, self._data)
         self._mujoco.mj_energyVel(self._model, self._data)
         return float(self._data.energy.sum())
@@ -153,7 +153,7 @@ class MujocoWorld:
         )
 
     def step(self, forces: FloatArray) -> None:
-        """One time step with these joint forces; also updates contacts and biases."""
+        """Make one time step with these joint forces; also updates contacts and biases."""
         self._data.qfrc_applied[self._dofs] = forces
         self._mujoco.mj_step2(self._model, self._data)
         self._mujoco.mj_step1(self._model, self._data)
@@ -183,7 +183,7 @@ class MujocoWorld:
         return poses
 
     def warnings(self) -> tuple[str, ...]:
-        """MuJoCo's own warning counters."""
+        """Return MuJoCo's own warning counters."""
         kinds = self._mujoco.mjtWarning
         names = {
             int(value): name for name, value in kinds.__members__.items() if name != "mjNWARNING"
@@ -196,7 +196,7 @@ class MujocoWorld:
         )
 
     def close(self) -> None:
-        """MuJoCo keeps nothing beyond the model and its state."""
+        """Drop the model and its state; MuJoCo keeps nothing else."""
         del self._model, self._data
 
     def _counted(self) -> Any:

@@ -1,4 +1,4 @@
-"""Newton, its importers and its MuJoCo solver: the only module that says ``newton`` to judge."""
+"""Newton, its importers and its MuJoCo solver: the only module that imports it."""
 
 from __future__ import annotations
 

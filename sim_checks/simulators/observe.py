@@ -17,6 +17,7 @@ from ..config import MotionConfig
 from .catalog import simulator
 from .drive import sweep
 from .hold import hold
+from .joints import Groups
 from .rest import fall, rest
 from .simulator import JointValues, Observation, PoseSample, World
 
@@ -30,15 +31,20 @@ CHATTER = ("build time", "UserWarning: Failed to find system libvulkan", "warn("
 
 
 def observe(
-    name: str, path: Path, config: MotionConfig, samples: tuple[JointValues, ...]
+    name: str,
+    path: Path,
+    config: MotionConfig,
+    samples: tuple[JointValues, ...],
+    apart: Groups = (),
 ) -> Observation:
-    """Everything the two simulator checks need, from a single load.
+    """Take all that the simulator checks need from a single load.
 
     Args:
         name: the engine.
         path: a description in one of its formats.
         config: how to drive.
         samples: joint values at which to report link poses.
+        apart: names of joints that may be driven at the same time, by group.
 
     Raises:
         ValueError: if it does not load; with the loader's own words.
@@ -55,8 +61,8 @@ def observe(
         poses = tuple(_pose(world, values) for values in samples)
         alone = rest(world, config)
         falling = fall(world, config)
-        motions = sweep(world, config)
-        holds = hold(world, motions, config)
+        motions = sweep(world, config, apart)
+        holds = hold(world, motions, config, apart)
         model = replace(world.model, warnings=said)
         return Observation(model, poses, alone, falling, motions, world.warnings(), holds)
     finally:

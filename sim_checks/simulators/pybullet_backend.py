@@ -1,4 +1,4 @@
-"""PyBullet: the only module that says ``pybullet`` to judge."""
+"""PyBullet: the only module of the checks that imports it."""
 
 from __future__ import annotations
 
@@ -137,7 +137,7 @@ class PybulletWorld:
             )
 
     def weigh(self, on: bool) -> None:
-        """Gravity on or off; Bullet has no springs in joints."""
+        """Turn gravity on or off; Bullet has no springs in joints."""
         self._falls = on
         self._bullet.setGravity(0.0, 0.0, GRAVITY if on else 0.0, **self._client)
 
@@ -148,16 +148,16 @@ class PybulletWorld:
             self._bullet.resetJointState(self._body, i, float(value), 0.0, **self._client)
 
     def positions(self) -> FloatArray:
-        """[rad] or [m], shape [joint_count]."""
+        """Return joint values [rad] or [m], shape [joint_count]."""
         return np.array(self._states()[0], np.float64)
 
     def velocities(self) -> FloatArray:
-        """[rad/s] or [m/s], shape [joint_count]."""
+        """Return joint speeds [rad/s] or [m/s], shape [joint_count]."""
         return np.array(self._states()[1], np.float64)
 
-    def inertias(self) -> FloatArray:
-        """Return the diagonal of the mass matrix, shape [joint_count]."""
-        return self._dynamics.inertias(self._states()[0]) if self._ids else np.zeros(0)
+    def mass_matrix(self) -> FloatArray:
+        """Return the joints' mass matrix [kg m2], [kg m] or [kg], [joint_count, joint_count]."""
+        return self._dynamics.mass_matrix(self._states()[0]) if self._ids else np.zeros((0, 0))
 
     def energy(self) -> float:
         """Return the kinetic energy, and potential energy of gravity if it is on [J]."""
@@ -186,7 +186,7 @@ class PybulletWorld:
         return self._dynamics.balance(position, velocity, GRAVITY if self._falls else 0.0)
 
     def step(self, forces: FloatArray) -> None:
-        """One time step with these joint forces."""
+        """Make one time step with these joint forces."""
         if self._ids:
             self._bullet.setJointMotorControlArray(
                 self._body,
@@ -223,7 +223,7 @@ class PybulletWorld:
         return poses
 
     def warnings(self) -> tuple[str, ...]:
-        """Bullet counts none."""
+        """Return none: Bullet counts no warnings."""
         return ()
 
     def close(self) -> None:
@@ -263,7 +263,7 @@ class PybulletWorld:
         return self._bullet.getJointInfo(self._body, i, **self._client)
 
     def _states(self) -> FloatArray:
-        """Positions and velocities, shape [2, joint_count]; read once a step, as reads are slow."""
+        """Return positions and velocities, shape [2, joint_count]; read once a step."""
         if self._state is None:
             states = (
                 self._bullet.getJointStates(self._body, self._ids, **self._client)

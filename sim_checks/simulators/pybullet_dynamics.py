@@ -47,13 +47,13 @@ class Dynamics:
         self._mass = {link: float(info[0]) for link, info in infos.items()}
         self._moments = {link: np.array(info[2], np.float64) for link, info in infos.items()}
 
-    def inertias(self, position: FloatArray) -> FloatArray:
-        """Return the diagonal of the mass matrix [kg m2] or [kg], shape [joint_count]."""
+    def mass_matrix(self, position: FloatArray) -> FloatArray:
+        """Return the mass matrix [kg m2], [kg m] or [kg], shape [joint_count, joint_count]."""
         matrix = self._matrix(position)
-        return np.diag(matrix).copy() if matrix is not None else self._inertias()
+        return matrix if matrix is not None else self._composed()
 
     def balance(self, position: FloatArray, velocity: FloatArray, gravity: float) -> FloatArray:
-        """Forces against gravity (along z, [m/s2]) and velocity effects, shape [joint_count].
+        """Return forces against gravity along z [m/s2] and velocity effects, [joint_count].
 
         The stand-in knows no velocity effects: at furniture's speeds the drive's own pull makes up
         for them.
@@ -103,25 +103,25 @@ class Dynamics:
         self._refuses = matrix.shape != (len(self._joints),) * 2
         return None if self._refuses else matrix
 
-    def _inertias(self) -> FloatArray:
+    def _composed(self) -> FloatArray:
+        """Return the mass matrix, link by link from what each joint does to it."""
         axes, points, centers, turns = self._geometry()
-        found = np.zeros(len(self._joints))
-        for i, group in enumerate(self._beyond):
-            for link in group:
-                if self._slides[i]:
-                    found[i] += self._mass[link]
-                    continue
-                arm = np.cross(axes[i], centers[link] - points[i])
-                found[i] += (
-                    self._mass[link] * arm @ arm
-                    + self._moments[link] @ (turns[link].T @ axes[i]) ** 2
-                )
-        return found
+        matrix = np.zeros((len(self._joints),) * 2)
+        for link, mass in self._mass.items():
+            speed = np.zeros((len(self._joints), 3))
+            spin = np.zeros((len(self._joints), 3))
+            for i, group in enumerate(self._beyond):
+                if link in group:
+                    arm = centers[link] - points[i]
+                    speed[i] = axes[i] if self._slides[i] else np.cross(axes[i], arm)
+                    spin[i] = 0.0 if self._slides[i] else axes[i] @ turns[link]
+            matrix += mass * speed @ speed.T + spin * self._moments[link] @ spin.T
+        return matrix
 
     def _geometry(
         self,
     ) -> tuple[list[FloatArray], list[FloatArray], dict[int, FloatArray], dict[int, FloatArray]]:
-        """World axes and points of joints; world centres of mass and principal axes of links."""
+        """Return joints' world axes and points; links' world centres of mass and principal axes."""
         links = list(self._mass)
         states = self._bullet.getLinkStates(
             self._body, links, computeForwardKinematics=1, **self._client

@@ -133,7 +133,7 @@ class _Kinetic:
 
     def __init__(self, world: World, config: MotionConfig) -> None:
         self._world = world
-        self._inertia = world.inertias()
+        self._inertia = np.diag(world.mass_matrix())
         self._slow = _slow(world, config)
         self._own = self._inertia * world.velocities() ** 2 / 2.0
         self._all = world.energy()

@@ -1,4 +1,4 @@
-"""SAPIEN (PhysX articulations): the only module that says ``sapien`` to judge."""
+"""SAPIEN (PhysX articulations): the only module of the checks that imports it."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ class SapienWorld:
                 joint.set_friction(0.0)
 
     def weigh(self, on: bool) -> None:
-        """Gravity on or off; a URDF has no springs."""
+        """Turn gravity on or off; a URDF has no springs."""
         self._falls = on
         for link in self._articulation.links if self._articulation is not None else ():
             link.disable_gravity = not on
@@ -118,30 +118,29 @@ class SapienWorld:
             self._wound[:] = 0.0
 
     def positions(self) -> FloatArray:
-        """[rad] or [m], shape [joint_count]; what has no limits goes on after a turn."""
+        """Return joint values [rad] or [m], [joint_count]; endless ones go on after a turn."""
         return self._read() + self._wound
 
     def _read(self) -> FloatArray:
         return _vector(self._articulation.qpos) if self._articulation is not None else np.zeros(0)
 
     def velocities(self) -> FloatArray:
-        """[rad/s] or [m/s], shape [joint_count]."""
+        """Return joint speeds [rad/s] or [m/s], shape [joint_count]."""
         return _vector(self._articulation.qvel) if self._articulation is not None else np.zeros(0)
 
-    def inertias(self) -> FloatArray:
-        """Return the diagonal of the mass matrix, shape [joint_count]."""
-        matrix = self._dynamics.compute_generalized_mass_matrix(self._articulation.qpos)  # type: ignore[union-attr]
-        return np.diag(np.asarray(matrix, np.float64)).copy()
+    def mass_matrix(self) -> FloatArray:
+        """Return the joints' mass matrix [kg m2], [kg m] or [kg], [joint_count, joint_count]."""
+        if self._articulation is None:
+            return np.zeros((0, 0))
+        matrix = self._dynamics.compute_generalized_mass_matrix(self._articulation.qpos)
+        return np.asarray(matrix, np.float64)
 
     def energy(self) -> float:
         """Return the kinetic energy, and potential energy of gravity if it is on [J]."""
         if self._articulation is None:
             return 0.0
         velocity = self.velocities()
-        matrix = np.asarray(
-            self._dynamics.compute_generalized_mass_matrix(self._articulation.qpos), np.float64
-        )
-        kinetic = 0.5 * float(velocity @ matrix @ velocity)
+        kinetic = 0.5 * float(velocity @ self.mass_matrix() @ velocity)
         if not self._falls:
             return kinetic
         heights = (
@@ -157,7 +156,7 @@ class SapienWorld:
         return _vector(self._articulation.compute_passive_force(True, True))
 
     def step(self, forces: FloatArray) -> None:
-        """One time step with these joint forces."""
+        """Make one time step with these joint forces."""
         before = self._read() if self._endless.any() else None
         if self._articulation is not None:
             self._articulation.set_qf(np.asarray(forces, np.float32))
@@ -191,7 +190,7 @@ class SapienWorld:
         return {link.name: _matrix(link.entity_pose) for link in self._articulation.links}
 
     def warnings(self) -> tuple[str, ...]:
-        """PhysX has none that can be asked for."""
+        """Return none: PhysX has no warnings that can be asked for."""
         return ()
 
     def close(self) -> None:
@@ -286,7 +285,7 @@ def _excluded(articulation: Any) -> tuple[tuple[str, str], ...]:
 
 
 def _groups_touch(one: Any, two: Any) -> bool:
-    """SAPIEN's rule for the four words that a shape carries."""
+    """Apply SAPIEN's rule for the four words that a shape carries."""
     if (one[3] & 0xFFFF) == (two[3] & 0xFFFF) and one[2] & two[2]:
         return False
     return bool(one[0] & two[1] or one[1] & two[0])

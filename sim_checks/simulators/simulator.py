@@ -106,7 +106,7 @@ class PairRules:
     excluded: tuple[tuple[str, str], ...] = ()
 
     def words(self) -> dict[str, Any]:
-        """For the report."""
+        """Return the rules in words, for the report."""
         yes_no = {True: "touch", False: "pass through each other"}
         return {
             "link_and_moving_parent": yes_no[self.moving_parent],
@@ -327,19 +327,19 @@ class World(Protocol):
         """Return the names of the links that each joint moves."""
 
     def weigh(self, on: bool) -> None:
-        """Gravity and springs on, as after loading, or off."""
+        """Turn gravity and springs on, as after loading, or off."""
 
     def place(self, positions: FloatArray) -> None:
         """Put the joints there, at rest."""
 
     def positions(self) -> FloatArray:
-        """[rad] or [m], shape [joint_count]."""
+        """Return joint values [rad] or [m], shape [joint_count]."""
 
     def velocities(self) -> FloatArray:
-        """[rad/s] or [m/s], shape [joint_count]."""
+        """Return joint speeds [rad/s] or [m/s], shape [joint_count]."""
 
-    def inertias(self) -> FloatArray:
-        """Inertia of each joint here, others at rest [kg m2] or [kg], shape [joint_count]."""
+    def mass_matrix(self) -> FloatArray:
+        """Return the mass matrix [kg m2], [kg m] or [kg], shape [joint_count, joint_count]."""
 
     def energy(self) -> float:
         """Return the kinetic energy plus potential energy of gravity and springs that are on [J].
@@ -354,10 +354,10 @@ class World(Protocol):
         """
 
     def step(self, forces: FloatArray) -> None:
-        """One time step with these joint forces [N m] or [N], shape [joint_count]."""
+        """Make one time step with these joint forces [N m] or [N], shape [joint_count]."""
 
     def contacts(self) -> dict[tuple[str, str], Touch]:
-        """Which links touched in the last step, by pair in the order of the model's links."""
+        """Return which links touched in the last step, by pair in the model's order."""
 
     def link_poses(self) -> dict[str, FloatArray]:
         """Link frames in world here, shape [4, 4] each."""
@@ -386,11 +386,11 @@ class Simulator(Protocol):
 
     @property
     def soft_friction(self) -> tuple[str, ...]:
-        """Formats in which no file can tell it how stiffly joint friction holds."""
+        """Return formats in which no file can tell it how stiffly joint friction holds."""
 
     @property
     def blind_spots(self) -> tuple[str, ...]:
-        """Sentences: what this engine, as it is used here, cannot see."""
+        """Return sentences: what this engine, as it is used here, cannot see."""
 
     def open(self, path: Path, config: MotionConfig) -> World:
         """Load a file with the base fixed.

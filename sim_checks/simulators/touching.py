@@ -6,7 +6,7 @@ from .simulator import World
 
 
 def pressing(world: World, index: int) -> tuple[str, str] | None:
-    """Of the links that press on each other now, the hardest pressed pair across this joint.
+    """Return the hardest pressed pair of links across a joint.
 
     Args:
         world: after a step in which what presses pressed.

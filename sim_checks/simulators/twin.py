@@ -48,7 +48,7 @@ def write_twin(urdf: Path, folder: Path, *, for_mujoco: bool = False) -> Path:
 
 
 def resolve(reference: str, folder: Path) -> Path:
-    """The mesh that a URDF in ``folder`` means, or the plain path, for the engine to refuse."""
+    """Return the mesh that a URDF in ``folder`` means, or the plain path, for engines to refuse."""
     try:
         return find_file(reference, folder)
     except DescriptionError:

@@ -55,8 +55,8 @@ class Sliders:
     def velocities(self) -> FloatArray:
         return self._v.copy()
 
-    def inertias(self) -> FloatArray:
-        return self._mass
+    def mass_matrix(self) -> FloatArray:
+        return np.diag(self._mass)
 
     def weigh(self, on: bool) -> None:
         self._heavy = on

@@ -99,6 +99,18 @@ def test_other_joints_are_balanced_and_those_in_the_way_open() -> None:
     assert {item.values["j0"] for item in holds if item.joint == "j1"} == {0.0}
 
 
+def test_blocks_that_cannot_meet_are_left_alone_at_the_same_time() -> None:
+    together, one_by_one = (Sliders([2.0, 3.0], weight=19.62, friction=25.0) for _ in range(2))
+    motions = sweep(one_by_one, CONFIG)
+    before = one_by_one.steps
+    held = hold(one_by_one, motions, CONFIG)
+    at_once = hold(together, motions, CONFIG, (("j0", "j1"),))
+    assert [(item.joint, item.moved) for item in at_once] == [
+        (item.joint, item.moved) for item in held
+    ]
+    assert 2 * together.steps == one_by_one.steps - before
+
+
 @pytest.mark.parametrize(
     ("moved", "codes"), [(0.0009, []), (0.0011, ["creeps"]), (0.1, ["creeps"])]
 )

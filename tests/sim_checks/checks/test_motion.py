@@ -367,3 +367,18 @@ def test_a_fall_to_infinity_is_hard() -> None:
 
 def nothing() -> Description:
     return Description(Path("nothing.urdf"), "urdf", (), ())
+
+
+def test_joints_that_cannot_meet_are_driven_at_the_same_time_and_to_the_same_end() -> None:
+    together, one_by_one = Sliders([1.0, 2.0, 40.0]), Sliders([1.0, 2.0, 40.0])
+    names = tuple(joint.name for joint in together.joints)
+    motions = sweep(together, CONFIG, (names,))
+    assert motions == sweep(one_by_one, CONFIG)
+    assert together.steps < 0.5 * one_by_one.steps
+
+
+def test_of_joints_driven_together_one_that_jams_is_driven_again_alone() -> None:
+    world, alone = Sliders([1.0, 2.0]), Sliders([1.0, 2.0])
+    world.wall = alone.wall = 0.12
+    names = tuple(joint.name for joint in world.joints)
+    assert sweep(world, CONFIG, (names,)) == sweep(alone, CONFIG)
