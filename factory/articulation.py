@@ -9,7 +9,20 @@ import numpy as np
 import numpy.typing as npt
 
 from .errors import InvalidArticulation
-from .mesh import FloatArray, IntArray, Mesh, read_only
+from .mesh import FloatArray, Mesh, read_only
+from .part import Part
+
+__all__ = [
+    "NAME_CHARACTERS",
+    "RESERVED_PART_NAME",
+    "UNIT_TOLERANCE",
+    "Articulation",
+    "Joint",
+    "JointKind",
+    "Part",
+    "Weights",
+    "rotation_about",
+]
 
 
 class JointKind(StrEnum):
@@ -19,32 +32,6 @@ class JointKind(StrEnum):
     REVOLUTE = "revolute"
     CONTINUOUS = "continuous"
     PRISMATIC = "prismatic"
-
-
-@dataclass(frozen=True)
-class Part:
-    """A rigid piece of the mesh.
-
-    Attributes:
-        name: unique within the articulation; letters, digits, ``_``, ``-`` and ``.``; not
-            ``world``.
-        faces: indices into the articulation's mesh faces, shape [face_count], sorted. Empty for a
-            carrier: the geometry-less link between the two joints of a part that turns *and*
-                slides.
-        confidence: that these faces are one part, 0 to 1, as the articulator rates itself; ``None``
-            if it does not.
-        guesses: what was assumed of it, each the end of a sentence that starts with its name.
-    """
-
-    name: str
-    faces: IntArray
-    confidence: float | None = None
-    guesses: tuple[str, ...] = ()
-
-    def __post_init__(self) -> None:
-        object.__setattr__(
-            self, "faces", read_only(np.unique(np.asarray(self.faces, dtype=np.int64)), np.int64)
-        )
 
 
 @dataclass(frozen=True)
@@ -99,16 +86,16 @@ class Joint:
 
     @property
     def unit(self) -> str:
-        """``rad`` or ``m``."""
+        """Return ``rad`` or ``m``."""
         return "rad" if self.turns else "m"
 
     @property
     def range(self) -> float:
-        """``upper - lower`` [rad] or [m]."""
+        """Return ``upper - lower`` [rad] or [m]."""
         return self.upper - self.lower
 
     def motion(self, value: float) -> FloatArray:
-        """Motion of the child for a joint value [rad] or [m], object frame at rest, as [4, 4]."""
+        """Return the child's motion for a value [rad] or [m], object frame at rest, [4, 4]."""
         matrix = np.eye(4)
         if self.turns:
             rotation = rotation_about(self.axis, value)
@@ -120,7 +107,7 @@ class Joint:
 
 
 def rotation_about(axis: npt.ArrayLike, angle: float) -> FloatArray:
-    """Rotation matrix for ``angle`` [rad] about a unit ``axis``, [3, 3] (Rodrigues' formula)."""
+    """Return the rotation for ``angle`` [rad] about a unit ``axis``, [3, 3] (Rodrigues)."""
     x, y, z = np.asarray(axis, dtype=np.float64)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.asarray(np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross))
@@ -192,7 +179,7 @@ class Articulation:
         return None if part == 0 else self.joints[part - 1]
 
     def carried(self, part: int) -> tuple[int, ...]:
-        """``part`` and all its descendants, in tree order."""
+        """Return ``part`` and all its descendants, in tree order."""
         found = {part}
         for joint in self.joints[part:]:
             if joint.parent in found:
@@ -200,7 +187,7 @@ class Articulation:
         return tuple(sorted(found))
 
     def link_frame(self, part: int) -> FloatArray:
-        """Origin of a part's link frame at rest [m], shape [3]; its axes are the object frame's."""
+        """Return a part's link origin at rest [m], shape [3]; its axes are the object frame's."""
         joint = self.parent_joint(part)
         return np.zeros(3) if joint is None else joint.origin
 
@@ -209,7 +196,7 @@ class Articulation:
         return self.mesh.submesh(self.parts[part].faces)
 
     def poses(self, values: dict[str, float] | None = None) -> FloatArray:
-        """Where every part is: motions relative to rest, object frame, shape [part_count, 4, 4].
+        """Return each part's motion relative to rest, object frame, shape [part_count, 4, 4].
 
         Args:
             values: joint values [rad] or [m] by joint name; a joint not named is at 0, the input

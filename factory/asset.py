@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy as np
 from .articulation import Articulation
 from .errors import InvalidAsset
 from .mesh import FloatArray, IntArray, read_only
+from .part import Handle
 
 
 @dataclass(frozen=True)
@@ -44,7 +45,7 @@ class Hull:
 
     @cached_property
     def planes(self) -> FloatArray:
-        """Outward unit normals and offsets, ``n . x <= d`` inside, [plane_count, 4], no slivers."""
+        """Return outward unit normals and offsets, ``n . x <= d`` inside, [plane_count, 4]."""
         a, b, c = (self.vertices[self.faces[:, i]] for i in range(3))
         normals = np.cross(b - a, c - a)
         length = np.linalg.norm(normals, axis=1)
@@ -92,31 +93,6 @@ class Inertial:
                 f"inertial: principal moments {moments.tolist()} kg m2 break the "
                 "triangle inequality"
             )
-
-
-@dataclass(frozen=True)
-class Handle:
-    """Where a robot takes hold of a moving part, object frame at rest.
-
-    Attributes:
-        point: [m], shape [3], on the part's surface.
-        normal: unit outward direction of the surface there, shape [3].
-        pull: unit direction in which pulling there opens the joint, shape [3].
-        faces: mesh faces of a protruding handle, or of the flat patch around an edge, shape
-            [face_count].
-        source: how it was found, e.g. ``protrusion`` or ``far_edge``.
-    """
-
-    point: FloatArray
-    normal: FloatArray
-    pull: FloatArray
-    faces: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
-    source: str = "far_edge"
-
-    def __post_init__(self) -> None:
-        for name in ("point", "normal", "pull"):
-            object.__setattr__(self, name, read_only(getattr(self, name)))
-        object.__setattr__(self, "faces", read_only(self.faces, np.int64))
 
 
 @dataclass(frozen=True)
@@ -239,5 +215,5 @@ class Asset:
 
     @property
     def hull_count(self) -> int:
-        """Number of convex pieces over all parts."""
+        """Return the number of convex pieces over all parts."""
         return sum(len(body.hulls) for body in self.bodies)

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from asset_factory.sim_checks.judge import Judge
 
-from .articulate.standing import standing_readings
-from .articulation import Articulation
+from .articulate.proposal import Hypothesis
+from .articulate.standing import standing_hypotheses
 from .config import BuildConfig
 from .errors import InputRejected, Unjudged
 from .export.bundle import with_manifest_of
@@ -56,7 +56,7 @@ def make_asset(
     try:
         with stages.clock.stage("load"):
             intake = origin.load()
-        intake, likeliest_first = standing_readings(intake, origin, stages)
+        intake, likeliest_first = standing_hypotheses(intake, origin, stages)
         drafts = _drafts(likeliest_first, intake, staging, judge, stages)
         draft, others = best_of(drafts)
         rounds = Rounds(draft.articulation, intake, staging, judge, stages)
@@ -77,21 +77,21 @@ def make_asset(
 
 
 def _drafts(
-    likeliest_first: tuple[Articulation, ...],
+    likeliest_first: tuple[Hypothesis, ...],
     intake: Intake,
     staging: Path,
     judge: Judge,
     stages: Stages,
 ) -> Iterator[HypothesisDraft]:
-    """Yield each hypothesis as an asset, repaired, validated without simulators, within limits."""
+    """Yield each hypothesis as an asset, repaired and validated, up to so much work."""
     limits = stages.config.readings
     refused_first: InputRejected | None = None
     done = 0
-    for number, articulation in enumerate(likeliest_first[: limits.most]):
+    for number, hypothesis in enumerate(likeliest_first[: limits.most]):
         if done > limits.most_work:
             break
         try:
-            rounds = Rounds(articulation, intake, staging / str(number), judge, stages)
+            rounds = Rounds(hypothesis.articulation, intake, staging / str(number), judge, stages)
             draft = rounds.drafted()
         except InputRejected as rejection:
             refused_first = refused_first or rejection

@@ -15,7 +15,9 @@ from ..intake.annotation import AnnotatedJoint, Annotation
 from ..intake.importers.prediction import read_prediction
 from ..intake.intake import Intake
 from ..mesh import FloatArray, IntArray, Mesh, read_only
+from ..part import Proposer
 from .draft import Draft, ordered
+from .locate import sourced
 from .ranges import closed_at_lower, sound_limits, with_zero_inside, without_still_joints
 from .welding import unlabelled_to_root, welded, without_empty_leaves
 
@@ -49,7 +51,7 @@ def annotated_articulator(intake: Intake, annotation: Annotation) -> AnnotatedAr
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> AnnotatedArticulator:
-    """Of the annotation that came with an input. Raises InputRejected ``no_annotation``."""
+    """Return who believes the annotation of an input. Raises InputRejected ``no_annotation``."""
     annotation = annotation_of(intake)
     if annotation is None:
         raise InputRejected(
@@ -87,16 +89,16 @@ class AnnotatedArticulator:
 
     @property
     def name(self) -> str:
-        """``annotated``."""
+        """Return ``annotated``."""
         return "annotated"
 
     @property
     def scale(self) -> float:
-        """Object units per input unit of length."""
+        """Return object units per input unit of length."""
         return float(np.cbrt(np.linalg.det(self.transform[:3, :3])))
 
     def articulate(self, mesh: Mesh) -> Articulation:
-        """The annotated tree over ``mesh``: object frame [m], input pose at zero, lower = closed.
+        """Return the annotated tree: object frame [m], input pose at zero, lower = closed.
 
         Args:
             mesh: object frame [m]; its faces are those that ``source_faces`` speaks of.
@@ -124,7 +126,7 @@ class AnnotatedArticulator:
         draft = closed_at_lower(draft)
         if not draft.joints:
             draft = draft.noting("nothing in this object moves")
-        return _finished(draft, self.name)
+        return sourced(_finished(draft, self.name), Proposer.ANNOTATION)
 
     def _drafted(self, mesh: Mesh) -> Draft:
         if len(self.source_faces) != len(mesh.faces):
@@ -225,7 +227,7 @@ class AnnotatedArticulator:
 
 
 def _turn_then_slide(joint: AnnotatedJoint, carrier: int) -> tuple[AnnotatedJoint, AnnotatedJoint]:
-    """``both`` as two joints: the part slides in a carrier that turns, so the slide turns along."""
+    """Return ``both`` as two joints: the part slides in a carrier that turns, so that turns too."""
     if joint.slide_axis is None:
         raise InputRejected(
             "bad_axis", f"joint {joint.name!r}: turns and slides but has no direction to slide in"
@@ -256,7 +258,7 @@ def _usable(value: float | None) -> float | None:
 
 
 def _unique(names: list[str], fallback: str) -> list[str]:
-    """Names of allowed characters, told apart by numbers where they are equal, or reserved."""
+    """Return names of allowed characters, with numbers where they are equal or reserved."""
     taken = {RESERVED_PART_NAME}
     reached: dict[str, int] = {}
     result = []
@@ -304,7 +306,7 @@ def _finished(draft: Draft, articulator: str) -> Articulation:
 
 
 def _origin(draft: Draft, joint: Joint) -> FloatArray:
-    """The centre of what the joint carries first; for a hinge, the nearest point of its axis."""
+    """Return the centre of what the joint carries first; of a hinge, its axis' nearest point."""
     own = draft.face_part == joint.child
     faces = own if own.any() else np.isin(draft.face_part, list(draft.subtree(joint.child)))
     points = draft.mesh.vertices[np.unique(draft.mesh.faces[faces])]

@@ -6,6 +6,7 @@ from typing import Protocol, runtime_checkable
 
 from ..articulation import Articulation
 from ..mesh import Mesh
+from .proposal import Hypothesis
 
 
 class Articulator(Protocol):
@@ -30,11 +31,11 @@ class Articulator(Protocol):
 
 
 @runtime_checkable
-class Reader(Protocol):
-    """An articulator that can read a mesh in several ways."""
+class HypothesisMaker(Protocol):
+    """An articulator that knows several ways in which a mesh may be articulated."""
 
-    def readings(self, mesh: Mesh) -> tuple[Articulation, ...]:
-        """Whole kinematic trees, the likeliest first, which is what ``articulate`` says.
+    def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
+        """Return them, the likeliest first, which is what ``articulate`` says.
 
         Args:
             mesh: the whole object, metres, z up.

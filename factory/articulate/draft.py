@@ -43,7 +43,7 @@ class Draft:
         return next(part for part in range(len(self.names)) if part not in held)
 
     def poses(self, values: dict[str, float]) -> FloatArray:
-        """Motions of all parts relative to rest, by part id, [part_count, 4, 4]; ordered joints.
+        """Return motions of all parts relative to rest, by part id, [part_count, 4, 4].
 
         Args:
             values: joint values [rad] or [m] by joint name; a joint not named is at 0.

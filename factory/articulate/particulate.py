@@ -9,6 +9,7 @@ import numpy as np
 
 from ..articulation import Articulation, Joint, Part, Weights
 from ..config import BuildConfig, ParticulateConfig
+from ..geometry.posing import UP
 from ..intake.annotation import AnnotatedJoint, Annotation
 from ..intake.intake import Intake
 from ..mesh import FloatArray, Mesh
@@ -21,8 +22,10 @@ from ..models.particulate.prediction import MotionClass
 from ..models.service import identity_of, network_for
 from ..models.weights.checkpoint import describe
 from ..models.weights.sources import fetch
+from ..part import Proposer
 from ..runtime.store import digest_file
 from .annotated import AnnotatedArticulator
+from .locate import sourced
 from .settings import decode_rules, require_usable
 
 #: Probabilities and agreements below this are told [-].
@@ -35,7 +38,6 @@ KINDS = {
     MotionClass.PRISMATIC: "prismatic",
     MotionClass.BOTH: "both",
 }
-UP = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)
@@ -54,11 +56,11 @@ class ParticulateArticulator:
 
     @property
     def name(self) -> str:
-        """``particulate``."""
+        """Return ``particulate``."""
         return "particulate"
 
     def articulate(self, mesh: Mesh) -> Articulation:
-        """The predicted tree over ``mesh`` (metres, z up), with a confidence per part and joint.
+        """Return the predicted tree over ``mesh`` [m], z up, with a confidence per part and joint.
 
         Raises:
             InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``:
@@ -97,7 +99,7 @@ class ParticulateArticulator:
         def rated_joint(joint: Joint) -> Joint:
             return replace(joint, confidence=moved.get(joint.name) if joint.movable else None)
 
-        return replace(
+        rated = replace(
             plain,
             parts=tuple(rated_part(part) for part in plain.parts),
             joints=tuple(rated_joint(joint) for joint in plain.joints),
@@ -105,6 +107,7 @@ class ParticulateArticulator:
             notes=(*_notes(found), *plain.notes),
             weights=self.weights,
         )
+        return sourced(rated, Proposer.NETWORK)
 
 
 def _annotation(reading: Decoded) -> Annotation:

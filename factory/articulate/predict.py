@@ -14,7 +14,7 @@ from ..intake.source import Source
 from ..mesh import Mesh
 from ..runtime.numbers import rounded
 from ..runtime.stages import Stages
-from .standing import standing_readings
+from .standing import standing_hypotheses
 
 
 def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
@@ -30,7 +30,7 @@ def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
     """
     origin = Source(source, config)
     try:
-        intake, (likeliest, *_) = standing_readings(origin.load(), origin, Stages(config))
+        intake, (likeliest, *_) = standing_hypotheses(origin.load(), origin, Stages(config))
     except InputRejected as rejection:
         reason = {
             "code": rejection.code,
@@ -40,7 +40,7 @@ def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
             "limit": rejection.limit,
         }
         return {"input": source.name, "rejected": reason}
-    told = outline(likeliest)
+    told = outline(likeliest.articulation)
     return {"input": source.name, **told, "notes": [*intake.provenance.notes, *told["notes"]]}
 
 

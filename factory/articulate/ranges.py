@@ -29,7 +29,7 @@ OPEN_DIFFERENCE = 0.2
 def sound_limits(
     name: str, kind: str, lower: float | None, upper: float | None
 ) -> tuple[JointKind, float, float, list[str]]:
-    """Kind and limits [rad] or [m] of a joint as annotated, made finite and ordered; and notes.
+    """Return an annotated joint's kind and limits [rad] or [m], finite and ordered; and notes.
 
     The limits may still leave out 0, and may be equal.
 
@@ -84,7 +84,7 @@ def sound_limits(
 
 
 def with_zero_inside(draft: Draft) -> Draft:
-    """Joints whose limits leave out the input pose move to their nearest limit, the new zero.
+    """Move joints whose limits leave out the input pose to their nearest limit, the new zero.
 
     The mesh, and axes and origins of joints further out, move along. Needs ordered joints.
     """
@@ -205,7 +205,7 @@ def _opens_downwards(draft: Draft, joint: Joint) -> tuple[bool | None, str]:
 
 
 def _box_volume(draft: Draft, joint: Joint, value: float) -> float:
-    """Volume [m3] of the object's box with one joint moved, flat boxes given a little depth."""
+    """Return the volume [m3] of the object's box with one joint moved; no box is flat."""
     inside = np.isin(draft.face_part, list(draft.subtree(joint.child)))
     corners = draft.mesh.vertices[draft.mesh.faces]
     motion = joint.motion(value)

@@ -26,7 +26,7 @@ def articulator_for(intake: Intake, config: BuildConfig) -> RigidArticulator:
 
 
 def rigid_articulation(mesh: Mesh, articulator: str, notes: tuple[str, ...] = ()) -> Articulation:
-    """All faces of ``mesh`` as the part ``base``, without joints, with ``notes`` that say why."""
+    """Return all faces of ``mesh`` as the part ``base``, without joints, and why in ``notes``."""
     return Articulation(
         mesh=mesh,
         parts=(Part("base", np.arange(len(mesh.faces))),),

@@ -15,13 +15,15 @@ from ..models.weights.sources import fetch
 from ..runtime.keys import Stage
 from ..runtime.stages import Stages
 from ..runtime.store import digest_file
-from .articulator import Reader
+from .articulator import HypothesisMaker
 from .catalog import choose, entry_of
+from .locate import located
+from .proposal import Hypothesis
 
 
 @lru_cache(maxsize=4)
 def _weight_digests(config: BuildConfig) -> list[str]:
-    """Of every checkpoint that may be asked; empty where no network can run."""
+    """Return the digests of checkpoints that may be asked; none where no network can run."""
     if not entry_of(config.articulator).asks_network or find_spec("torch") is None:
         return []
     named = [name for name in (config.particulate.checkpoint, config.particulate.features) if name]
@@ -34,7 +36,7 @@ def _weight_digests(config: BuildConfig) -> list[str]:
 
 ARTICULATE = Stage(
     "articulate",
-    version=11,
+    version=12,
     settings=("articulator", "particulate", "auto"),
     libraries=("numpy", "scipy", "trimesh", "torch"),
     data=("auto.toml", "evidence.toml", "seams.toml"),
@@ -43,14 +45,14 @@ ARTICULATE = Stage(
 
 
 def articulate(intake: Intake, config: BuildConfig) -> Articulation:
-    """Return the kinematic tree of a loaded input, asked anew.
+    """Return the likeliest kinematic tree of a loaded input, asked anew.
 
-    Arguments and errors as for :func:`readings_of`.
+    Arguments and errors as for :func:`hypotheses_of`.
     """
-    return readings_of(intake, config)[0]
+    return hypotheses_of(intake, config)[0].articulation
 
 
-def readings_of(intake: Intake, config: BuildConfig) -> tuple[Articulation, ...]:
+def hypotheses_of(intake: Intake, config: BuildConfig) -> tuple[Hypothesis, ...]:
     """Return the kinematic trees that a loaded input may have, the likeliest first; asked anew.
 
     Arguments and errors as for :func:`~.catalog.choose`; besides:
@@ -60,11 +62,11 @@ def readings_of(intake: Intake, config: BuildConfig) -> tuple[Articulation, ...]
             open, so nothing to decompose, simulate or register.
     """
     articulator = choose(intake, config)
-    if isinstance(articulator, Reader):
-        found = articulator.readings(intake.mesh)
+    if isinstance(articulator, HypothesisMaker):
+        found = articulator.hypotheses(intake.mesh)
     else:
-        found = (articulator.articulate(intake.mesh),)
-    likeliest = found[0]
+        found = (Hypothesis.of(articulator.articulate(intake.mesh)),)
+    likeliest = found[0].articulation
     if not likeliest.movable_joints and likeliest.articulator != "rigid":
         why = f": {likeliest.notes[0]}" if likeliest.notes else ""
         message = (
@@ -72,7 +74,7 @@ def readings_of(intake: Intake, config: BuildConfig) -> tuple[Articulation, ...]
             "want a joint to open"
         )
         raise InputRejected("no_movable_joint", message, value=0.0, unit="joints", limit=1.0)
-    return found
+    return tuple(replace(each, articulation=located(each.articulation)) for each in found)
 
 
 @dataclass(frozen=True)
@@ -105,6 +107,7 @@ class _Tree:
     Attributes:
         own: the mesh's surface, where a joint's range leaves out the input's pose, so that the
             articulator moved it, or where the articulator cut triangles along its parts.
+        probability: of the hypothesis.
     """
 
     parts: tuple[Part, ...]
@@ -112,18 +115,19 @@ class _Tree:
     articulator: str
     notes: tuple[str, ...]
     weights: tuple[Weights, ...]
-    own: _Surface | None = None
+    own: _Surface | None
+    probability: float
 
 
 @dataclass(frozen=True)
 class _Trees:
-    """All readings of one input."""
+    """All hypotheses of one input."""
 
     trees: tuple[_Tree, ...]
 
 
-def readings(intake: Intake, loaded: str, stages: Stages) -> tuple[Articulation, ...]:
-    """As :func:`readings_of`, with the settings of ``stages``, and kept.
+def hypotheses(intake: Intake, loaded: str, stages: Stages) -> tuple[Hypothesis, ...]:
+    """Return what :func:`hypotheses_of` does, with the settings of ``stages``, and remember it.
 
     Args:
         intake: the loaded input.
@@ -136,17 +140,23 @@ def readings(intake: Intake, loaded: str, stages: Stages) -> tuple[Articulation,
     config = stages.config
 
     def trees() -> _Trees:
-        return _Trees(tuple(_tree(made, intake) for made in readings_of(intake, config)))
+        return _Trees(tuple(_tree(made, intake) for made in hypotheses_of(intake, config)))
 
     kept = stages.recall("articulate", _Trees, ARTICULATE.key(config, loaded), trees)
     return tuple(_grown(tree, intake) for tree in kept.trees)
 
 
-def _tree(made: Articulation, intake: Intake) -> _Tree:
-    own = None if made.mesh is intake.mesh else _Surface.of(made.mesh)
-    return _Tree(made.parts, made.joints, made.articulator, made.notes, made.weights, own)
+def _tree(made: Hypothesis, intake: Intake) -> _Tree:
+    tree = made.articulation
+    own = None if tree.mesh is intake.mesh else _Surface.of(tree.mesh)
+    return _Tree(
+        tree.parts, tree.joints, tree.articulator, tree.notes, tree.weights, own, made.probability
+    )
 
 
-def _grown(tree: _Tree, intake: Intake) -> Articulation:
+def _grown(tree: _Tree, intake: Intake) -> Hypothesis:
     mesh = intake.mesh if tree.own is None else tree.own.on(intake.mesh)
-    return Articulation(mesh, tree.parts, tree.joints, tree.articulator, tree.notes, tree.weights)
+    return Hypothesis(
+        Articulation(mesh, tree.parts, tree.joints, tree.articulator, tree.notes, tree.weights),
+        tree.probability,
+    )

@@ -4,26 +4,27 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..articulation import Articulation
+from ..articulation import Articulation, Part
 from ..errors import InputRejected
 from ..intake.intake import Intake
 from ..intake.source import Source
+from ..part import Proposer
 from ..runtime.stages import Stages
-from .stage import readings
+from .proposal import Hypothesis
+from .stage import hypotheses
 
 #: The axis that files have up instead, by the one assumed and who assumed it.
 OTHER_UP = {("y", "format"): "z", ("z", "default"): "y"}
-#: What is called so is seen from a side; so many, the surest of them this sure, are no chance:
-#: a toilet turned over shows one drawer.
-PANELS = ("door_", "drawer_", "flap_")
+#: So many panels of its sides, the surest of them this sure, are no chance: a toilet turned over
+#: shows one drawer.
 FEWEST = 2
 SURE = 0.6
 
 
-def standing_readings(
+def standing_hypotheses(
     intake: Intake, origin: Source, stages: Stages
-) -> tuple[Intake, tuple[Articulation, ...]]:
-    """Return an input and its readings; stood up, if it opens only so.
+) -> tuple[Intake, tuple[Hypothesis, ...]]:
+    """Return an input and its hypotheses; stood up, if it opens only so.
 
     Where nothing moves and nobody gave an up axis for this very input, it is read with the one
     that other files have up. If that shows several doors or drawers, it lay.
@@ -34,10 +35,10 @@ def standing_readings(
         stages: with the settings, and what is remembered.
 
     Raises:
-        InputRejected: as :func:`~.stage.readings` does of the input as it was loaded.
+        InputRejected: as :func:`~.stage.hypotheses` does of the input as it was loaded.
     """
     try:
-        return intake, readings(intake, origin.loaded_key, stages)
+        return intake, hypotheses(intake, origin.loaded_key, stages)
     except InputRejected as rejection:
         other = OTHER_UP.get((intake.provenance.up, intake.provenance.up_source))
         if rejection.code != "no_movable_joint" or other is None:
@@ -50,15 +51,15 @@ def standing_readings(
 
 def _stood_up(
     lying: Intake, origin: Source, stages: Stages
-) -> tuple[Intake, tuple[Articulation, ...]] | None:
-    """Loaded with another axis up, if its sides then show enough that opens."""
+) -> tuple[Intake, tuple[Hypothesis, ...]] | None:
+    """Load an input with another axis up, if its sides then show enough that opens."""
     try:
         with stages.clock.stage("load"):
             intake = origin.load()
-        found = readings(intake, origin.loaded_key, stages)
+        found = hypotheses(intake, origin.loaded_key, stages)
     except InputRejected:
         return None
-    panels = _panels(found[0])
+    panels = _panels(found[0].articulation)
     if len(panels) < FEWEST or max(panels) < SURE:
         return None
     was = lying.provenance.up
@@ -74,9 +75,14 @@ def _stood_up(
 
 
 def _panels(articulation: Articulation) -> list[float]:
-    """Return how sure each door or drawer is."""
+    """Return how sure each door or drawer is that more than a network sees."""
     return [
         joint.confidence or 0.0
         for joint in articulation.movable_joints
-        if articulation.parts[joint.child].name.startswith(PANELS)
+        if _is_shown(articulation.parts[joint.child])
     ]
+
+
+def _is_shown(part: Part) -> bool:
+    seen = part.source is not None and part.source.proposer is not Proposer.NETWORK
+    return seen and part.kind.closes_side

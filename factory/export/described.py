@@ -6,7 +6,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
 
-from ..articulation import Joint
+from ..articulation import Joint, Part
 from ..asset import Hull, InnerSurface, Target
 from ..intake.intake import Provenance
 from ..manufacture.targets.standing import standing_place
@@ -21,6 +21,7 @@ from .manifest import (
     ManifestJoint,
     ManifestLink,
     ManifestPlacement,
+    ManifestProposal,
     ManifestProvenance,
     ManifestSurface,
     ManifestTarget,
@@ -168,7 +169,8 @@ def _placement(layout: Layout, joint: Joint) -> ManifestPlacement | None:
 def _link(layout: Layout, part: int) -> ManifestLink:
     body = layout.asset.bodies[part]
     files = layout.links[part]
-    confidence = layout.asset.articulation.parts[part].confidence
+    made = layout.asset.articulation.parts[part]
+    confidence = made.confidence
     return ManifestLink(
         name=files.name,
         confidence=None if confidence is None else rounded(confidence, 4),
@@ -179,6 +181,21 @@ def _link(layout: Layout, part: int) -> ManifestLink:
         visuals=len(files.visuals),
         decomposition=body.decomposition,
         degraded=body.degraded,
+        proposal=_proposal(made),
+    )
+
+
+def _proposal(part: Part) -> ManifestProposal | None:
+    """Return why a part moves; ``None`` if nobody proposed it."""
+    source = part.source
+    if source is None:
+        return None
+    return ManifestProposal(
+        id=source.id,
+        proposer=source.proposer,
+        kind=part.kind,
+        probability=None if source.probability is None else rounded(source.probability, 4),
+        signs={name: rounded(value, 4) for name, value in sorted(source.signs.items())},
     )
 
 

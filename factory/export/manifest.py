@@ -96,8 +96,30 @@ class ManifestTarget:
 
 
 @dataclass(frozen=True)
+class ManifestProposal:
+    """Why a part moves, so that what becomes of it can be traced back.
+
+    Attributes:
+        id: of the proposal; the same on every machine.
+        proposer: who made it.
+        kind: what the part is.
+        probability: of the proposal; ``None`` where it was stated, or not rated.
+        signs: what spoke for it, by name.
+    """
+
+    id: str
+    proposer: str
+    kind: str
+    probability: float | None
+    signs: dict[str, float]
+
+
+@dataclass(frozen=True)
 class ManifestLink:
-    """A link: its mass [kg], hulls and visual meshes, and what was given up in making them."""
+    """A link: its mass [kg], hulls and visual meshes, and what was given up in making them.
+
+    ``proposal`` is ``None`` for what nobody proposed, as the body.
+    """
 
     name: str
     confidence: float | None
@@ -108,6 +130,7 @@ class ManifestLink:
     visuals: int
     decomposition: str
     degraded: tuple[str, ...]
+    proposal: ManifestProposal | None = None
 
 
 @dataclass(frozen=True)

@@ -60,7 +60,12 @@ def turned(articulation: Articulation, yaw: float) -> Articulation:
         replace(joint, axis=motion[:3, :3] @ joint.axis, origin=motion[:3, :3] @ joint.origin)
         for joint in articulation.joints
     )
-    return replace(articulation, mesh=articulation.mesh.transformed(motion), joints=joints)
+    return replace(
+        articulation,
+        mesh=articulation.mesh.transformed(motion),
+        parts=tuple(part.turned(motion[:3, :3]) for part in articulation.parts),
+        joints=joints,
+    )
 
 
 def face_parts(articulation: Articulation) -> IntArray:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..articulation import Articulation, Part
+from ..articulation import Articulation
 
 
 def welded(
@@ -32,16 +32,15 @@ def welded(
     kept = [index for index, top in enumerate(group) if top == index]
     new = {old: index for index, old in enumerate(kept)}
     parts = tuple(
-        Part(
-            articulation.parts[top].name,
-            np.concatenate(
+        replace(
+            articulation.parts[top],
+            faces=np.concatenate(
                 [
                     articulation.parts[index].faces
                     for index in range(len(group))
                     if group[index] == top
                 ]
             ),
-            articulation.parts[top].confidence,
         )
         for top in kept
     )

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from asset_factory.factory.articulate.seams.learned import LearnedJudge
-from asset_factory.factory.articulate.seams.ways import OpensBy
+from asset_factory.factory.part import OpensBy
 
 from .learning import Examples, averaged, fitted
 from .rows import Rows

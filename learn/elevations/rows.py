@@ -13,10 +13,10 @@ from asset_factory.factory.articulate.seams.fronts import AROUND, OPPOSITE, Fron
 from asset_factory.factory.articulate.seams.handles import cleared
 from asset_factory.factory.articulate.seams.layouts import described
 from asset_factory.factory.articulate.seams.rectangles import Rectangle
-from asset_factory.factory.articulate.seams.ways import OpensBy
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.mesh import FloatArray
+from asset_factory.factory.part import OpensBy
 
 from .pictures import Picture, pictures_of
 from .truths import TruePanel, truth_of

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from asset_factory.factory.articulate.seams.sight import CUES, GRID, SQUARE, cues_of
-from asset_factory.factory.articulate.seams.ways import OpensBy
 from asset_factory.factory.articulation import Articulation, JointKind
 from asset_factory.factory.geometry.crossings import BoolArray, Side
 from asset_factory.factory.mesh import FloatArray, IntArray
+from asset_factory.factory.part import OpensBy
 
 from .pictures import Picture, pictures_of
 from .truths import OVER, TruePanel, truth_of

@@ -15,9 +15,9 @@ import numpy as np
 
 from asset_factory.factory.articulate.auto.articulator import AutoArticulator, load_auto
 from asset_factory.factory.articulate.auto.parts import shared
-from asset_factory.factory.articulate.auto.proposal import Proposal
 from asset_factory.factory.articulate.auto.sides import sightings
-from asset_factory.factory.articulate.auto.trust import SIGNS, Trust
+from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, signs_of
+from asset_factory.factory.articulate.proposal import Proposal
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.config import AutoConfig, BuildConfig, IntakeConfig, ParticulateConfig
 from asset_factory.factory.errors import InputRejected
@@ -153,7 +153,7 @@ def fitted(trials: Sequence[TrustTrial]) -> FloatArray:
     """Weights of the signs, by logistic regression with a quadratic penalty, shape [len(SIGNS)]."""
     from scipy.optimize import minimize
 
-    signs = np.array([each.signs for trial in trials for each in trial.proposals])
+    signs = np.array([signs_of(each.signs) for trial in trials for each in trial.proposals])
     right = np.concatenate([trial.right for trial in trials])
 
     def loss(weights: FloatArray) -> tuple[float, FloatArray]:

@@ -11,8 +11,9 @@ from openable_samples import FRONT, assemble, box
 from asset_factory.envs.demos.episodes import Episode, Settings, Taken
 from asset_factory.envs.demos.files import keep_episode
 from asset_factory.factory.articulation import Joint, JointKind
-from asset_factory.factory.asset import Asset, Handle
+from asset_factory.factory.asset import Asset
 from asset_factory.factory.manufacture.targets.find import find_targets
+from asset_factory.factory.part import Handle
 from asset_factory.sim_checks.processes.isolation import Failure, Outcome
 
 

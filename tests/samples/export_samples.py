@@ -10,9 +10,10 @@ import trimesh
 from PIL import Image
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
-from asset_factory.factory.asset import Asset, Handle, Hull, Inertial, PartBody
+from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
 from asset_factory.factory.intake.intake import Provenance
 from asset_factory.factory.mesh import Material, Mesh, Texture, concatenate
+from asset_factory.factory.part import Handle
 
 PROVENANCE = Provenance(input="cabinet.glb", digest="0" * 64, category="cabinet", license="CC0-1.0")
 

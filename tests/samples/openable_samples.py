@@ -8,10 +8,11 @@ import numpy as np
 import trimesh
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
-from asset_factory.factory.asset import Asset, Handle, Hull, Inertial, PartBody
+from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.intake.intake import Provenance
 from asset_factory.factory.mesh import Material, Mesh, concatenate
+from asset_factory.factory.part import Handle
 
 FRONT = np.array([0.0, -1.0, 0.0])
 RED = Material("red", (0.8, 0.02, 0.02, 1.0))

@@ -7,8 +7,9 @@ from dataclasses import replace
 from openable_samples import FRONT, assemble, box
 
 from asset_factory.factory.articulation import Joint, JointKind
-from asset_factory.factory.asset import Asset, Handle
+from asset_factory.factory.asset import Asset
 from asset_factory.factory.manufacture.targets.find import find_targets
+from asset_factory.factory.part import Handle
 
 
 def fin(name: str, height: float = 0.6, friction: float = 20.0) -> Asset:

@@ -8,7 +8,7 @@ from importlib.util import find_spec
 
 import numpy as np
 
-from ...articulation import Articulation, Joint, JointKind, Part, Weights
+from ...articulation import Articulation, Weights
 from ...config import AutoConfig, BuildConfig, ParticulateConfig
 from ...errors import ConfigError
 from ...geometry.components import connected_components
@@ -17,19 +17,20 @@ from ...intake.intake import Intake
 from ...mesh import FloatArray, IntArray, Mesh
 from ...models.particulate.inference import Network
 from ...models.weights.sources import SHIPPED
+from ...part import Proposer
 from ..annotated import annotated_articulator, annotation_of
 from ..articulator import Articulator
+from ..assembly import assembled
 from ..geometric import GeometricArticulator
-from ..naming import JOINT_SUFFIX, numbered
+from ..proposal import Hypothesis, Proposal
 from ..rigid import rigid_articulation
 from .contacts import contacts_of, settled
 from .hidden import without_hidden
+from .one_piece import MeshOrigin, different, least_of, seam_hypotheses
 from .partition import Sharing, share_out, shells
 from .parts import agreed_parts
-from .proposal import Proposal, Proposer
 from .proposals import propose
 from .sides import SURE_SIGHT, sightings
-from .skins import Make, different, least_of, seam_readings
 from .trust import Trust, load_trust
 from .views import MOST_VIEWS, look_around
 
@@ -37,6 +38,9 @@ from .views import MOST_VIEWS, look_around
 #: static meshes six opened below it: a bookshelf, a table, a box, a picture, tablets; of 110
 #: objects that do open, four fall below it, with one joint right of five.
 ALONE = 0.45
+
+#: Where two proposals cannot both be, the one of the earlier proposer is believed.
+BELIEVED = (Proposer.RULES, Proposer.SIDES, Proposer.NETWORK)
 
 
 @dataclass(frozen=True)
@@ -59,75 +63,79 @@ class AutoArticulator:
 
     @property
     def name(self) -> str:
-        """``auto``."""
+        """Return ``auto``."""
         return "auto"
 
     def articulate(self, mesh: Mesh) -> Articulation:
-        """What of ``mesh`` (metres, z up) moves with some certainty; the rest is one rigid part.
+        """Return what of ``mesh`` [m], z up, moves with some certainty; the rest is one rigid part.
 
         Raises:
             InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``:
                 broken weights.
         """
-        return self.readings(mesh)[0]
+        return self.hypotheses(mesh)[0].articulation
 
-    def readings(self, mesh: Mesh) -> tuple[Articulation, ...]:
-        """As :meth:`articulate`, and what else it may be; the likeliest first.
+    def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
+        """Return what :meth:`articulate` does, and what else it may be; the likeliest first.
 
         Where rules of shape are sure of something, the sides add only what is beside it: who
         models how a thing works, models all of it. The whole of what they show comes last then.
         """
         least = least_of(self.trust, self.config.least_confidence)
-        make = Make.of(mesh)
-        if make.is_skin:
-            return seam_readings(mesh, least, self.name)
+        origin = MeshOrigin.of(mesh)
+        if origin.is_generated:
+            return seam_hypotheses(mesh, least, self.name)
         proposals = self.proposals(mesh, face_areas(mesh))
         own = self.decide(mesh, proposals)
-        sure = [each for each in self._rated(proposals) if each.confidence >= least]
+        sure = [each for each in self._rated(proposals) if each.rated >= least]
         ruled = [each.faces for each in sure if each.proposer is Proposer.RULES]
         fuller = []
         full = []
         for shown in sightings(mesh, connected_components(mesh)):
             carried = shown.carried(proposals)
             panels = shown.beyond(
-                [each for each in self._rated(shown.found) if each.confidence >= SURE_SIGHT], ruled
+                [each for each in self._rated(shown.found) if each.rated >= SURE_SIGHT], ruled
             )
             beside = shown.beside(panels, ruled) if ruled else panels
             if beside:
                 fuller.append(self.decide(shown.mesh, (*carried, *beside)))
             if len(panels) > len(beside):
                 full.append(self.decide(shown.mesh, (*carried, *panels)))
-        seams = seam_readings(mesh, least, self.name) if make.one_piece else ()
-        made = [each for each in (*fuller, own, *full, *seams) if each.movable_joints] or [own]
-        return tuple(replace(each, weights=self.weights) for each in different(made))
+        seams = seam_hypotheses(mesh, least, self.name) if origin.one_piece else ()
+        every = (*fuller, own, *full, *[each.articulation for each in seams])
+        made = [each for each in every if each.movable_joints] or [own]
+        weighed = [replace(each, weights=self.weights) for each in different(made)]
+        return tuple(Hypothesis.of(each) for each in weighed)
 
     def _least(self, rated: Sequence[Proposal]) -> float:
         """Return how sure a part must be; one must be surer where only the network sees any."""
         least = least_of(self.trust, self.config.least_confidence)
-        likely = [each for each in rated if each.confidence >= least]
+        likely = [each for each in rated if each.rated >= least]
         if not likely or self.config.least_confidence is not None:
             return least
-        guessed = all(
-            each.proposer is Proposer.NETWORK and each.confidence < ALONE for each in likely
-        )
+        guessed = all(each.proposer is Proposer.NETWORK and each.rated < ALONE for each in likely)
         return ALONE if guessed else least
 
     def _rated(self, proposals: Sequence[Proposal]) -> list[Proposal]:
-        return [replace(each, confidence=self.trust.confidence(each.signs)) for each in proposals]
+        chances = [self.trust.confidence(each.signs) for each in proposals]
+        return [
+            replace(each, existence=chance, probability=chance)
+            for each, chance in zip(proposals, chances, strict=True)
+        ]
 
     def decide(self, mesh: Mesh, proposals: Sequence[Proposal]) -> Articulation:
-        """The articulation of those proposals that can be trusted and can be there together."""
+        """Return the articulation of the proposals that can be trusted and be there together."""
         rated = self._rated(proposals)
-        rated.sort(key=lambda proposal: -proposal.confidence)
+        rated.sort(key=lambda proposal: -proposal.rated)
         if any(proposal.proposer is Proposer.SIDES for proposal in rated):
-            rated.sort(key=lambda proposal: proposal.proposer)
+            rated.sort(key=lambda proposal: BELIEVED.index(proposal.proposer))
         rated = without_hidden(mesh, rated)
         least = self._least(rated)
-        sure = [proposal for proposal in rated if proposal.confidence >= least]
-        left = [proposal for proposal in rated if proposal.confidence < least]
+        sure = [proposal for proposal in rated if proposal.rated >= least]
+        left = [proposal for proposal in rated if proposal.rated < least]
         notes: tuple[str, ...] = ()
         if left:
-            best = max(proposal.confidence for proposal in left)
+            best = max(proposal.rated for proposal in left)
             what = (
                 "1 part that may move was left"
                 if len(left) == 1
@@ -144,12 +152,17 @@ class AutoArticulator:
             return rigid_articulation(
                 mesh, self.name, notes or ("nothing in this mesh looks as if it moved",)
             )
-        held = replace(sharing, face_part=_with_loose(mesh, sharing.face_part))
-        made = _assembled(mesh, held, tuple(sure[index] for index in sharing.chosen), self.name)
+        made = assembled(
+            mesh,
+            _with_loose(mesh, sharing.face_part),
+            [sure[index] for index in sharing.chosen],
+            self.name,
+            sharing.hosts,
+        )
         return replace(made, notes=(*made.notes, *notes))
 
     def proposals(self, mesh: Mesh, areas: FloatArray) -> tuple[Proposal, ...]:
-        """Everything that may move, by whoever says so.
+        """Return everything that may move, by whoever says so.
 
         Args:
             mesh: metres, z up.
@@ -160,8 +173,8 @@ class AutoArticulator:
             replace(view, face_part=settled(contacts, view.face_part, areas))
             for view in look_around(mesh, self.network, self.particulate, self.config.views)
         )
-        geometric = GeometricArticulator().articulate(mesh)
-        return propose(mesh, areas, geometric, agreed_parts(views, areas))
+        ruled = GeometricArticulator().proposals(mesh)
+        return propose(mesh, areas, ruled, agreed_parts(views, areas))
 
 
 @dataclass(frozen=True)
@@ -177,14 +190,14 @@ class WithoutNetwork:
 
     def articulate(self, mesh: Mesh) -> Articulation:
         """Return what of ``mesh`` (metres, z up) moves; else one rigid part and a note."""
-        return self.readings(mesh)[0]
+        return self.hypotheses(mesh)[0].articulation
 
-    def readings(self, mesh: Mesh) -> tuple[Articulation, ...]:
-        """As :meth:`articulate`, and of a skin what else it may be; the likeliest first."""
+    def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
+        """Return what :meth:`articulate` does, and of a one-piece mesh what else it may be."""
         least = least_of(load_trust(), self.config.least_confidence)
-        if Make.of(mesh).one_piece:
-            return seam_readings(mesh, least, self.name)
-        return (GeometricArticulator().articulate(mesh),)
+        if MeshOrigin.of(mesh).one_piece:
+            return seam_hypotheses(mesh, least, self.name)
+        return (Hypothesis.of(GeometricArticulator().articulate(mesh)),)
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
@@ -212,7 +225,7 @@ def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
 def load_auto(
     particulate: ParticulateConfig, config: AutoConfig, trust: Trust | None = None
 ) -> AutoArticulator:
-    """The articulator with the shipped network, and the shipped trust unless another is given.
+    """Return the articulator with the shipped network, and trust, unless another is given.
 
     Raises:
         ConfigError: its weights cannot be read, or a setting cannot be.
@@ -242,75 +255,7 @@ def _shared_out(mesh: Mesh, sure: list[Proposal]) -> tuple[list[Proposal], Shari
 
 
 def _with_loose(mesh: Mesh, face_part: IntArray) -> IntArray:
-    """Labels in which handles and mouldings that touch nothing but a mover go with it."""
+    """Return labels in which handles and mouldings that touch only a mover go with it."""
     areas = face_areas(mesh)
     contacts = contacts_of(mesh, connected_components(mesh), areas)
     return settled(contacts, face_part, areas)
-
-
-def _assembled(
-    mesh: Mesh, sharing: Sharing, chosen: tuple[Proposal, ...], articulator: str
-) -> Articulation:
-    place = {0: 0}
-    parts = [Part("base", np.flatnonzero(sharing.face_part == 0))]
-    joints: list[Joint] = []
-    notes: list[str] = []
-    order = _parents_first(sharing)
-    names = numbered(chosen[number - 1].name for number in order)
-    for number, name in zip(order, names, strict=True):
-        proposal = chosen[number - 1]
-        holder = place[sharing.hosts[number - 1]]
-        if proposal.slide is not None:
-            parts.append(Part(f"{name}_carrier", np.zeros(0, dtype=np.int64), proposal.confidence))
-        place[number] = len(parts)
-        parts.append(Part(name, np.flatnonzero(sharing.face_part == number), proposal.confidence))
-        joints += _joints(name, proposal, holder, place[number])
-        notes += [f"{name} {note}" for note in proposal.notes]
-    return Articulation(mesh, tuple(parts), tuple(joints), articulator, tuple(notes))
-
-
-def _joints(name: str, proposal: Proposal, holder: int, part: int) -> list[Joint]:
-    """Return one joint; two for a part that turns and slides: it slides in a carrier that turns."""
-    motion = proposal.motion
-    slide = proposal.slide
-    sure = proposal.confidence
-    turning = Joint(
-        name=f"{name}_{JOINT_SUFFIX[motion.kind]}",
-        kind=motion.kind,
-        parent=holder,
-        child=part if slide is None else part - 1,
-        axis=motion.axis,
-        origin=motion.origin,
-        lower=motion.lower,
-        upper=motion.upper,
-        confidence=sure,
-    )
-    if slide is None:
-        return [turning]
-    sliding = Joint(
-        name=f"{name}_{JOINT_SUFFIX[JointKind.PRISMATIC]}",
-        kind=JointKind.PRISMATIC,
-        parent=part - 1,
-        child=part,
-        axis=slide.direction,
-        origin=motion.origin,
-        lower=slide.lower,
-        upper=slide.upper,
-        confidence=sure,
-    )
-    return [turning, sliding]
-
-
-def _parents_first(sharing: Sharing) -> list[int]:
-    """Return the numbers of the parts, each after what it hangs on."""
-    order: list[int] = []
-    waiting = list(range(1, len(sharing.chosen) + 1))
-    while waiting:
-        ready = [
-            number
-            for number in waiting
-            if sharing.hosts[number - 1] == 0 or sharing.hosts[number - 1] in order
-        ]
-        order += ready
-        waiting = [number for number in waiting if number not in ready]
-    return order

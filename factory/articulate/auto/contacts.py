@@ -54,7 +54,7 @@ def contacts_of(mesh: Mesh, components: IntArray, face_areas: FloatArray) -> Con
 
 
 def _touching(points: FloatArray, owners: IntArray, reach: float) -> tuple[IntArray, IntArray]:
-    """Owners of points within reach of each other, the lower first; how many such points there are.
+    """Return owners of points within reach of each other, the lower first, and how many.
 
     Two components that lie in one another have a pair of points for everything that is near
     everything: those are counted by whole nodes of trees, never listed.
@@ -76,7 +76,7 @@ def _touching(points: FloatArray, owners: IntArray, reach: float) -> tuple[IntAr
 
 
 def settled(contacts: Contacts, face_part: IntArray, face_areas: FloatArray) -> IntArray:
-    """Labels in which small clusters that touch nothing of their part join what they touch most.
+    """Return labels in which small clusters apart from their part join what they touch most.
 
     Args:
         contacts: of the mesh.

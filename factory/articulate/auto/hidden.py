@@ -8,7 +8,8 @@ from ...geometry.crossings import Side
 from ...geometry.elevations import elevation
 from ...geometry.triangles import face_areas
 from ...mesh import IntArray, Mesh
-from .proposal import Proposal, Proposer
+from ...part import Proposer
+from ..proposal import Proposal
 
 #: What has at most this share of a mesh's area, and shows at most this share of its own, through
 #: gaps, is no mover.
@@ -22,7 +23,7 @@ MIDDLE = 0.2
 
 
 def without_hidden(mesh: Mesh, rated: list[Proposal]) -> list[Proposal]:
-    """Without what only the network says of little pieces that no side shows: runners, shelf pins.
+    """Drop the network's little pieces that no side shows: runners, shelf pins.
 
     Nothing can take hold of those, and they bar what really moves. The racks of an oven stay.
     """

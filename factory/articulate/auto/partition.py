@@ -39,7 +39,7 @@ class Sharing:
 
     @property
     def parents(self) -> IntArray:
-        """Part that each part hangs on, what stays first with -1, shape [part_count]."""
+        """Return the part that each part hangs on, what stays first with -1, shape [part_count]."""
         return np.array([-1, *self.hosts], dtype=np.int64)
 
 
@@ -79,7 +79,7 @@ def share_out(parts: Sequence[BoolArray], areas: FloatArray) -> Sharing:
 def shells(
     sharing: Sharing, boxes: Sequence[FloatArray], doubted: Sequence[bool], areas: FloatArray
 ) -> set[int]:
-    """Parts that surround a large other one which does not hang on them: bodies, not movers.
+    """Return parts that surround a large other one which does not hang on them: bodies.
 
     Args:
         sharing: of the parts.

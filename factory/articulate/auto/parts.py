@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ...mesh import FloatArray, read_only
 from ...models.particulate.surface import BoolArray
 from ..evidence import Guess
-from .views import SeenPart, Slide, View
+from ..proposal import Motion
+from .views import SeenPart, View
 
 #: Parts of two views are the same if they share so much of the area that both cover.
 SAME = 0.6
@@ -40,7 +41,7 @@ class LearnedPart:
     guess: Guess
     lower: float
     upper: float
-    slide: Slide | None = None
+    slide: Motion | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "faces", read_only(self.faces, np.bool_))
@@ -54,7 +55,7 @@ class _Seen:
 
 
 def agreed_parts(views: tuple[View, ...], areas: FloatArray) -> tuple[LearnedPart, ...]:
-    """Parts that move in at least one view, surest first; a view's part is in one of them at most.
+    """Return parts that move in some view, surest first; a view's part is in one at most.
 
     Args:
         views: of one mesh.
@@ -122,17 +123,18 @@ def _one(group: list[_Seen], views: int) -> LearnedPart:
     )
 
 
-def _mean_slide(parts: list[SeenPart]) -> Slide | None:
+def _mean_slide(parts: list[SeenPart]) -> Motion | None:
     slides = [part.slide for part in parts if part.slide is not None]
-    direction = _mean_direction([slide.direction for slide in slides])
+    direction = _mean_direction([slide.axis for slide in slides])
     if direction is None:
         return None
     ends = [np.median([getattr(slide, end) for slide in slides]) for end in ("lower", "upper")]
-    return Slide(direction / float(np.linalg.norm(direction)), float(ends[0]), float(ends[1]))
+    axis = direction / float(np.linalg.norm(direction))
+    return replace(slides[0], axis=axis, lower=float(ends[0]), upper=float(ends[1]))
 
 
 def _mean_direction(directions: list[FloatArray]) -> FloatArray | None:
-    """Mean of directions turned to the first one's side; ``None`` if none or they cancel."""
+    """Return the mean of directions turned to one side; ``None`` if none or they cancel."""
     if not directions:
         return None
     aligned = [d if float(d @ directions[0]) >= 0.0 else -d for d in directions]

@@ -6,14 +6,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...articulation import Articulation, Joint
 from ...mesh import FloatArray, Mesh
-from ..evidence import NOTHING, MotionEvidence, Partition, SeenMotion, best_motion
+from ...part import PartKind, Proposer
+from ..evidence import NOTHING, MotionEvidence, Partition, best_motion
+from ..proposal import Motion, Proposal
 from .partition import share_out
 from .parts import LearnedPart, shared
-from .proposal import Proposal
-from .trust import log_odds, signs_of
-from .views import Slide
+from .trust import log_odds
 
 #: Two proposals are for the same part if they share so much of the area that both cover.
 SAME_PART = 0.5
@@ -34,50 +33,54 @@ class _Judged:
     unguided: MotionEvidence
 
     @property
-    def motion(self) -> SeenMotion | None:
+    def motion(self) -> Motion | None:
         return self.guided.motion if self.guided.motion is not None else self.unguided.motion
 
 
 def propose(
-    mesh: Mesh, areas: FloatArray, geometric: Articulation, learned: tuple[LearnedPart, ...]
+    mesh: Mesh,
+    areas: FloatArray,
+    ruled: tuple[Proposal, ...],
+    learned: tuple[LearnedPart, ...],
 ) -> tuple[Proposal, ...]:
-    """Every part that either side says moves; one proposal where both speak of the same part.
+    """Return every part that either says moves; one proposal where both mean the same part.
 
     Args:
         mesh: metres, z up.
         areas: of its faces, shape [face_count].
-        geometric: what the rules of shape make of it.
+        ruled: what the rules of shape make of it.
         learned: what the network sees, best first.
     """
     judged = _judged(mesh, areas, learned)
     left = list(judged)
     found = []
-    for joint in geometric.movable_joints:
-        faces = np.zeros(len(areas), dtype=np.bool_)
-        faces[geometric.parts[joint.child].faces] = True
-        name = geometric.parts[joint.child].name
-        notes = geometric.parts[joint.child].guesses
-        overlaps = [shared(faces, each.part.faces, areas) for each in left]
+    for said in ruled:
+        overlaps = [shared(said.faces, each.part.faces, areas) for each in left]
         mate = (
             left.pop(int(np.argmax(overlaps))) if max(overlaps, default=0.0) > SAME_PART else None
         )
-        signs = _signs(faces, areas, mate, len(judged))
+        seen = mate.motion if mate is not None and _alike(said.motion, mate.motion) else None
+        signs = _signs(said.faces, areas, mate, len(judged))
         signs |= {
             "geometric": float(mate is None),
-            "learned": 0.0,
             "shared": float(mate is not None),
+            "alike": float(seen is not None),
         }
-        signs["alike"] = float(mate is not None and _alike(joint, mate.motion))
-        motion = _as_open(
-            _motion(joint), mate.motion if mate is not None and signs["alike"] else None
-        )
-        found.append(Proposal(name.rsplit("_", 1)[0], faces, motion, signs_of(signs), notes))
+        found.append(replace(said, motion=_as_open(said.motion, seen), signs=signs))
     for each in left:
         if each.motion is not None:
             signs = _signs(each.part.faces, areas, each, len(judged)) | {"learned": 1.0}
             motion = _reopened(each.motion, each.part)
-            slide = _slide_with(motion, each.part)
-            found.append(Proposal("part", each.part.faces, motion, signs_of(signs), slide=slide))
+            found.append(
+                Proposal(
+                    PartKind.PART,
+                    each.part.faces,
+                    motion,
+                    signs,
+                    slide=_slide_with(motion, each.part),
+                    proposer=Proposer.NETWORK,
+                )
+            )
     return tuple(found)
 
 
@@ -111,11 +114,7 @@ def _signs(
     return signs
 
 
-def _motion(joint: Joint) -> SeenMotion:
-    return SeenMotion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper)
-
-
-def _as_open(motion: SeenMotion, seen: SeenMotion | None) -> SeenMotion:
+def _as_open(motion: Motion, seen: Motion | None) -> Motion:
     """Return the rules' motion, with the evidence's limits where it sees the part stand open.
 
     The rules never see that.
@@ -127,26 +126,25 @@ def _as_open(motion: SeenMotion, seen: SeenMotion | None) -> SeenMotion:
     return replace(motion, lower=lower, upper=upper)
 
 
-def _alike(joint: Joint, motion: SeenMotion | None) -> bool:
-    if motion is None or (motion.kind == "prismatic") != (joint.kind == "prismatic"):
+def _alike(one: Motion, other: Motion | None) -> bool:
+    """Tell whether two motions are of one kind and direction."""
+    if other is None or (other.kind == "prismatic") != (one.kind == "prismatic"):
         return False
-    return abs(float(motion.axis @ joint.axis)) > SAME_AXIS
+    return abs(float(other.axis @ one.axis)) > SAME_AXIS
 
 
-def _slide_with(motion: SeenMotion, part: LearnedPart) -> Slide | None:
-    """The slide of a part that also turns: along its turn axis unless the network is sure not."""
+def _slide_with(motion: Motion, part: LearnedPart) -> Motion | None:
+    """Return the slide of a part that also turns: along that axis unless surely not."""
     if part.slide is None or motion.kind == "prismatic" or not part.slide.upper > part.slide.lower:
         return None
-    along = float(part.slide.direction @ motion.axis)
+    along = float(part.slide.axis @ motion.axis)
     return (
-        part.slide
-        if abs(along) < ALONG
-        else replace(part.slide, direction=np.sign(along) * motion.axis)
+        part.slide if abs(along) < ALONG else replace(part.slide, axis=np.sign(along) * motion.axis)
     )
 
 
-def _reopened(motion: SeenMotion, part: LearnedPart) -> SeenMotion:
-    """The slide of a part that may stand open: it can also go back as far as the network says.
+def _reopened(motion: Motion, part: LearnedPart) -> Motion:
+    """Return the slide of a part that may stand open: back as far as the network says.
 
     Not so for turns: a network that cannot tell a left door from a right one says of either that it
         is half open.

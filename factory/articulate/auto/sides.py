@@ -7,18 +7,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...articulation import JointKind
 from ...geometry.crossings import BoolArray, Crossings, Raster, Side, crossings
 from ...geometry.elevations import PIXELS, Elevation, nearest
 from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, IntArray, Mesh
-from ..evidence import SeenMotion
+from ...part import OpensBy, Panel
+from ..proposal import Proposal
 from ..seams.cutting import CutMesh, cut_around, inside, uncut
+from ..seams.hypotheses import hypotheses_of_mesh
 from ..seams.placing import OpeningPart
-from ..seams.reading import read
 from .partition import INSIDE
-from .proposal import Proposal
-from .trust import log_odds, signs_of
+from .trust import log_odds
 
 #: A piece belongs to a panel if so much of its outline lies there, give or take [pixels].
 WHOLE = 0.9
@@ -39,15 +38,13 @@ DEEPEST = {True: 0.97, False: 0.5}
 SURE_SIGHT = 0.45
 #: Panels line up if their edges differ by no more than this share of the mesh's size.
 IN_LINE = 0.03
-#: Planes around a panel: left, right, above, below and behind.
-PANEL_PLANES = 5
 #: A panel takes at most this share of a mesh's area.
 MOST = 0.7
 
 
 @dataclass(frozen=True, eq=False)
 class Sightings:
-    """What one reading of the sides shows.
+    """What the sides show, by one hypothesis.
 
     Attributes:
         cut: the mesh; triangles are divided only where a panel is a part of a piece.
@@ -61,7 +58,7 @@ class Sightings:
 
     @property
     def mesh(self) -> Mesh:
-        """That the proposals are about."""
+        """Return the mesh that the proposals are about."""
         return self.cut.mesh
 
     def carried(self, proposals: Sequence[Proposal]) -> tuple[Proposal, ...]:
@@ -69,7 +66,7 @@ class Sightings:
         return tuple(replace(each, faces=each.faces[self.cut.source]) for each in proposals)
 
     def beyond(self, proposals: Sequence[Proposal], known: Sequence[BoolArray]) -> list[Proposal]:
-        """Those proposals that do not lie in something known to move, as a drawer's front does.
+        """Return the proposals that lie in nothing known to move, as a drawer's front does.
 
         Args:
             proposals: over the cut mesh.
@@ -87,7 +84,7 @@ class Sightings:
         ]
 
     def beside(self, proposals: Sequence[Proposal], known: Sequence[BoolArray]) -> list[Proposal]:
-        """Those proposals of whole pieces that are in a row or column with what is known to move.
+        """Return proposals of whole pieces that are in a row or column with what is known to move.
 
         Who models one front as a piece models each so. Of 16 parts of pieces seen on objects of
         the develop half where rules of shape are sure of something, none was right; of 43 whole
@@ -127,62 +124,68 @@ def _in_line(one: FloatArray, other: FloatArray, reach: FloatArray) -> bool:
 
 
 def sightings(mesh: Mesh, pieces: IntArray) -> tuple[Sightings, ...]:
-    """Return what the sides of a mesh of several pieces show, the likeliest reading first.
+    """Return what the sides of a mesh of several pieces show, the likeliest hypothesis first.
 
     Args:
         mesh: metres, z up.
         pieces: of every face, shape [face_count].
     """
-    readings = read(mesh, pieces)
-    panels = [[each for each in reading.movers if _is_panel(each)] for reading in readings]
-    sides = {_side_of(mover) for movers in panels for mover in movers}
+    panels = [
+        [seen for mover in movers if (seen := _SidePanel.of(mover)) is not None]
+        for movers in hypotheses_of_mesh(mesh, pieces)
+    ]
+    sides = {each.side for some in panels for each in some}
     outlines = {side: _Outlines.of(mesh, pieces, side) for side in sides}
-    return tuple(_sighted(mesh, pieces, outlines, movers) for movers in panels)
+    return tuple(_sighted(mesh, pieces, outlines, some) for some in panels)
 
 
-def _is_panel(mover: OpeningPart) -> bool:
-    """Return whether a part is a panel of a side; a lid has one plane, a mesh askew other sides."""
-    planes = mover.region.normals
-    if mover.kind is JointKind.CONTINUOUS or len(planes) != PANEL_PLANES:
-        return False
-    return any(np.allclose(side.frame[2], planes[-1]) for side in Side)
+@dataclass(frozen=True, eq=False)
+class _SidePanel:
+    """A part that is a panel of a side."""
+
+    mover: OpeningPart
+    panel: Panel
+    side: Side
+
+    @classmethod
+    def of(cls, mover: OpeningPart) -> _SidePanel | None:
+        """Return a part with its panel and side; ``None`` of others, or on a mesh askew."""
+        panel = mover.panel
+        if panel is None:
+            return None
+        sides = [side for side in Side if np.allclose(side.frame[2], panel.frame[2])]
+        return cls(mover, panel, sides[0]) if sides else None
 
 
 def _sighted(
     mesh: Mesh,
     pieces: IntArray,
     outlines: Mapping[Side, _Outlines],
-    panels: Sequence[OpeningPart],
+    panels: Sequence[_SidePanel],
 ) -> Sightings:
-    owners = [_panel_pieces(outlines[_side_of(mover)], mover) for mover in panels]
+    owners = [_panel_pieces(outlines[each.side], each.panel) for each in panels]
     cut = uncut(mesh)
-    for mover, (own, whole) in zip(panels, owners, strict=True):
+    for each, (own, whole) in zip(panels, owners, strict=True):
         if len(own) and not whole:
-            cut = cut_around(cut, mover.region)
+            cut = cut_around(cut, each.mover.region)
     areas = face_areas(cut.mesh)
     found = []
-    for mover, (own, whole) in zip(panels, owners, strict=True):
+    for each, (own, whole) in zip(panels, owners, strict=True):
         faces = np.isin(pieces[cut.source], own)
         if not whole:
-            faces &= inside(cut.mesh, mover.region)
+            faces &= inside(cut.mesh, each.mover.region)
         if faces.any() and areas[faces].sum() <= MOST * areas.sum():
-            found.append(_proposal(mover, faces))
+            found.append(_proposal(each.mover, faces))
     return Sightings(cut, pieces[cut.source], tuple(found))
 
 
 def _proposal(mover: OpeningPart, faces: BoolArray) -> Proposal:
-    motion = SeenMotion(mover.kind, mover.axis, mover.origin, 0.0, mover.upper)
     signs = {
         "sides": 1.0,
-        "shown": log_odds(mover.confidence),
+        "shown": log_odds(mover.existence),
         "way": log_odds(mover.sure),
     }
-    return Proposal(mover.name, faces, motion, signs_of(signs))
-
-
-def _side_of(mover: OpeningPart) -> Side:
-    """Return the side that a panel's region was read from."""
-    return next(side for side in Side if np.allclose(side.frame[2], mover.region.normals[-1]))
+    return replace(mover.proposal(faces), signs=signs)
 
 
 @dataclass(frozen=True, eq=False)
@@ -219,19 +222,19 @@ class _Outlines:
         return cls(picture, seen, *_through(crossed), low, high)
 
     def within(self, low: FloatArray, high: FloatArray) -> FloatArray:
-        """Share of each piece's outline that lies in a rectangle [m], shape [piece_count]."""
+        """Return the share of each piece's outline within a rectangle [m], shape [piece_count]."""
         size = np.maximum(self.high[:, :2] - self.low[:, :2], 1e-9)
         common = np.minimum(self.high[:, :2], high) - np.maximum(self.low[:, :2], low)
         return np.asarray((np.clip(common, 0.0, None) / size).clip(0.0, 1.0).prod(axis=1))
 
     def shown(self, low: FloatArray, high: FloatArray) -> FloatArray:
-        """Share of a rectangle's pixels [m] that show each piece, shape [piece_count]."""
+        """Return the share of a rectangle [m] that shows each piece, shape [piece_count]."""
         seen = self.seen[self._window(low, high)]
         counts = np.bincount(seen[seen >= 0], minlength=len(self.low))
         return np.asarray(counts / max(seen.size, 1))
 
     def behind(self, low: FloatArray, high: FloatArray) -> tuple[float, float]:
-        """How deep the mesh is behind a rectangle [m], and how much of that is inside of it."""
+        """Measure how deep the mesh is behind a rectangle [m], and how much of that is inside."""
         window = self._window(low, high)
         seen = self.seen[window] >= 0
         if not seen.any():
@@ -252,7 +255,7 @@ class _Outlines:
 
 
 def _through(crossed: Crossings) -> tuple[FloatArray, FloatArray]:
-    """Of each ray from first to last crossing the length [m], and the share that is inside.
+    """Return each ray's length from first to last crossing [m], and the share inside.
 
     Sheets of two faces, one each way, have no inside; the widest gap between two of them is one.
     """
@@ -276,17 +279,14 @@ def _through(crossed: Crossings) -> tuple[FloatArray, FloatArray]:
     return np.asarray(whole.reshape(shape)), np.asarray(share.reshape(shape))
 
 
-def _panel_pieces(outlines: _Outlines, mover: OpeningPart) -> tuple[IntArray, bool]:
+def _panel_pieces(outlines: _Outlines, panel: Panel) -> tuple[IntArray, bool]:
     """Return the pieces that a panel is made of, and whether it is all of them.
 
     Where the pieces that lie within its rectangle are not what is seen of it, the panel is a part
     of those that are seen. Then the mesh must be solid there: who models an inside models doors.
     """
-    right, _, up, _, back = mover.region.offsets
-    left = -mover.region.offsets[1]
-    bottom = -mover.region.offsets[3]
-    low = np.array([left, bottom])
-    high = np.array([right, up])
+    low = panel.low
+    high = panel.high
     shown = outlines.shown(low, high)
     depth = float(outlines.high[:, 2].max() - outlines.low[:, 2].min())
     nothing = np.zeros(0, dtype=np.int64)
@@ -295,8 +295,8 @@ def _panel_pieces(outlines: _Outlines, mover: OpeningPart) -> tuple[IntArray, bo
         return nothing, True
     margin = MARGIN * outlines.picture.raster.pixel
     inside_it = outlines.within(low - margin, high + margin) >= WHOLE
-    begins = outlines.low[:, 2] <= back
-    slides = mover.kind is JointKind.PRISMATIC
+    begins = outlines.low[:, 2] <= panel.front + (panel.thickness or 0.0)
+    slides = panel.opens is OpensBy.OUT
     shallow = outlines.high[:, 2] - outlines.low[:, 2] <= DEEPEST[slides] * depth
     own = inside_it & begins & shallow
     if shown[own].sum() >= OWN:

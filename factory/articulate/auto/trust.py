@@ -45,9 +45,9 @@ class Trust:
     weights: FloatArray
     least: float
 
-    def confidence(self, signs: FloatArray) -> float:
-        """Return the probability that a proposal is right, 0 to 1."""
-        return float(1.0 / (1.0 + np.exp(-float(signs @ self.weights))))
+    def confidence(self, signs: Mapping[str, float]) -> float:
+        """Return the probability that a proposal for which these signs speak is right, 0 to 1."""
+        return float(1.0 / (1.0 + np.exp(-float(signs_of(signs) @ self.weights))))
 
 
 def signs_of(values: Mapping[str, float]) -> FloatArray:

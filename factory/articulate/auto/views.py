@@ -6,30 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...articulation import rotation_about
+from ...articulation import JointKind, rotation_about
 from ...config import ParticulateConfig
+from ...geometry.posing import UP
 from ...mesh import FloatArray, IntArray, Mesh
 from ...models.particulate.decoding import Decoded, DecodeRules
 from ...models.particulate.inference import Network, infer
 from ..geometric.scene import level_yaw
+from ..proposal import Motion
 
-UP = np.array([0.0, 0.0, 1.0])
 MOST_VIEWS = 4
 """Quarter turns in a whole one."""
-
-
-@dataclass(frozen=True)
-class Slide:
-    """A slide, in the object's own frame.
-
-    Attributes:
-        direction: unit, shape [3].
-        lower, upper: limits from the pose seen [m].
-    """
-
-    direction: FloatArray
-    lower: float
-    upper: float
 
 
 @dataclass(frozen=True)
@@ -57,12 +44,12 @@ class SeenPart:
     point: FloatArray | None
     lower: float
     upper: float
-    slide: Slide | None = None
+    slide: Motion | None = None
 
 
 @dataclass(frozen=True)
 class View:
-    """One reading of the object.
+    """What the network sees of the object from one side.
 
     Attributes:
         face_part: index into ``parts`` of every face, shape [face_count].
@@ -78,7 +65,7 @@ class View:
 def look_around(
     mesh: Mesh, network: Network, config: ParticulateConfig, views: int
 ) -> tuple[View, ...]:
-    """The mesh as the network reads it: levelled, then a quarter turn from one view to the next.
+    """Return the mesh as the network sees it: levelled, then turned by quarters between views.
 
     A network that knows what it sees says the same from every side; where it does not, it guesses.
 
@@ -133,13 +120,14 @@ def _part(found: Decoded, index: int, back: FloatArray) -> SeenPart:
     limits = (0.0, 0.0)
     if motion.slide_direction is not None:
         ends = (motion.slide[0] * found.box.size, motion.slide[1] * found.box.size)
-        slide = Slide(back @ motion.slide_direction, *ends)
+        axis = back @ motion.slide_direction
+        slide = Motion(JointKind.PRISMATIC, axis, np.zeros(3), *ends)
     if motion.axis is not None:
         direction = back @ motion.axis.direction
         point = back @ (outwards[:3, :3] @ motion.axis.point + outwards[:3, 3])
         limits = motion.turn
     elif slide is not None:
-        direction = slide.direction
+        direction = slide.axis
         limits = (slide.lower, slide.upper)
     return SeenPart(
         confidence=part.confidence,

@@ -2,6 +2,6 @@
 
 from .body import Partition
 from .guess import NOTHING, Guess
-from .motion import MotionEvidence, SeenMotion, best_motion
+from .motion import MotionEvidence, best_motion
 
-__all__ = ["NOTHING", "Guess", "MotionEvidence", "Partition", "SeenMotion", "best_motion"]
+__all__ = ["NOTHING", "Guess", "MotionEvidence", "Partition", "best_motion"]

@@ -60,7 +60,7 @@ class Partition:
 
     @cached_property
     def few_vertices(self) -> FloatArray:
-        """Enough of the mesh's vertices to tell its extents from [m], shape [n, 3]."""
+        """Return enough of the mesh's vertices to tell its extents from [m], shape [n, 3]."""
         return np.asarray(self.mesh.vertices[:: max(1, len(self.mesh.vertices) // 4000)])
 
     @cached_property
@@ -70,7 +70,7 @@ class Partition:
 
     @cached_property
     def part_diagonals(self) -> FloatArray:
-        """Of every part's level box [m], shape [part_count]."""
+        """Return the diagonal of every part's level box [m], shape [part_count]."""
         low = np.full((len(self.parents), 3), np.inf)
         high = -low
         np.minimum.at(low, self.face_part, self.ends[0])
@@ -142,7 +142,7 @@ class Body:
 
     @cached_property
     def faces(self) -> IntArray:
-        """Of the part alone."""
+        """Return the faces of the part alone."""
         return np.flatnonzero(self.partition.face_part == self.part)
 
     @cached_property
@@ -152,13 +152,13 @@ class Body:
 
     @cached_property
     def tree(self) -> cKDTree | None:
-        """Of what stays; ``None`` if nothing is near."""
+        """Return a tree of the points that stay; ``None`` if nothing is near."""
         points = self.grid.surfels.points
         return cKDTree(points[:: max(1, len(points) // 6000)]) if len(points) else None
 
     @cached_property
     def gaps(self) -> FloatArray:
-        """Distance from each of the part's own surfels to what stays [m], inf for none, [n]."""
+        """Measure from each of the part's surfels to what stays [m], inf for none, [n]."""
         if self.tree is None:
             return np.full(len(self.own), np.inf)
         return np.asarray(self.tree.query(self.own.points)[0])
@@ -174,7 +174,7 @@ class Body:
 
     @cached_property
     def holder(self) -> Grid:
-        """As ``grid``, of what the part hangs on alone: neighbours that move can make way."""
+        """Return the grid of what the part hangs on alone: neighbours that move can make way."""
         if not len(self.held) or len(self.held) == len(self.grid.surfels):
             return self.grid
         return grid_around(
@@ -188,12 +188,12 @@ class Body:
 
     @property
     def crowded(self) -> bool:
-        """Whether anything besides its holder is near, so that ``holder`` differs from ``grid``."""
+        """Tell whether anything besides its holder is near: ``holder`` differs from ``grid``."""
         return self.holder is not self.grid
 
     @cached_property
     def probes(self) -> Surfels:
-        """Few surfels of all that moves."""
+        """Return few surfels of all that moves."""
         return self.moving.some(PROBES)
 
 

@@ -48,7 +48,7 @@ class Candidates:
         return len(self.axis)
 
     def kind(self, index: int) -> JointKind:
-        """Revolute or prismatic."""
+        """Return revolute or prismatic."""
         return JointKind.PRISMATIC if self.slides[index] else JointKind.REVOLUTE
 
 
@@ -56,7 +56,7 @@ Line = tuple[FloatArray, FloatArray, int, float]
 
 
 def find_candidates(body: Body, guess: Guess) -> Candidates:
-    """Every line and direction to weigh, both ways round; deterministic in the body and guess."""
+    """Return every line and direction to weigh, both ways round; the same every time."""
     lines: list[Line] = []
     for frame in body.frames:
         lines += _box_lines(body, frame)
@@ -83,7 +83,7 @@ def find_candidates(body: Body, guess: Guess) -> Candidates:
 
 
 def _places(body: Body, direction: FloatArray) -> list[float]:
-    """Ends and middle of the part along a direction, and of its slab, which ignores handles."""
+    """Return ends and middle of the part along a direction, and of its slab without handles."""
     along = body.corners @ direction
     low = float(along.min())
     high = float(along.max())
@@ -119,7 +119,7 @@ def _box_lines(body: Body, frame: FloatArray) -> list[Line]:
 
 
 def _contact_lines(body: Body) -> list[Line]:
-    """Through the middle of what touches, along the frames' axes and along the contact itself."""
+    """Return lines through the middle of what touches, along the frames and the contact."""
     points = body.contact.points
     if len(points) < 3:
         return []
@@ -163,7 +163,7 @@ def _round_lines(body: Body) -> list[Line]:
 
 
 def _circle(points: FloatArray, u: FloatArray, v: FloatArray) -> tuple[FloatArray, float] | None:
-    """Centre (in the plane of ``u`` and ``v``) and radius [m] of an outline that is a circle."""
+    """Fit centre (in the plane of ``u`` and ``v``) and radius [m] of a circular outline."""
     plane = np.stack([points @ u, points @ v], axis=1)
     low = plane.min(axis=0)
     high = plane.max(axis=0)
@@ -192,7 +192,7 @@ def _guessed_lines(
 
 
 def _without_twins(lines: list[Line], tolerance: float) -> list[Line]:
-    """One line of several that agree within the tolerance [m]; what was found round stays round."""
+    """Keep one line of several within the tolerance [m]; what was found round stays round."""
     order = sorted(range(len(lines)), key=lambda i: (lines[i][2] != ROUND, i))
     axis = np.array([lines[i][0] for i in order]).reshape(-1, 3)
     origin = np.array([lines[i][1] for i in order]).reshape(-1, 3)

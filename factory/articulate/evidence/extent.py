@@ -71,7 +71,7 @@ def extent_of(body: Body, chosen: Candidates, evidence: FloatArray, guess: Guess
 
 
 def _half_open(body: Body, setting: Setting, out: float) -> Extent:
-    """Limits of a slide that stands open, with the usual range: a guess sees only what is left."""
+    """Return limits of a slide that stands open: a guess sees only what is left of its range."""
     whole = load_usual(True).range(setting, None) * setting.unit
     left = max(whole - out, 0.0)
     free = min(setting.stop * setting.unit, left)

@@ -15,7 +15,7 @@ DOMINANT = 0.4
 
 
 def level_frame(triangles: FloatArray) -> FloatArray:
-    """Rows are the horizontal axes along the object's upright faces, and z, shape [3, 3]."""
+    """Return as rows the level axes along the object's upright faces, and z, shape [3, 3]."""
     yaw = level_yaw(triangles)
     c = np.cos(yaw)
     s = np.sin(yaw)
@@ -23,7 +23,7 @@ def level_frame(triangles: FloatArray) -> FloatArray:
 
 
 def own_frame(surfels: Surfels) -> FloatArray | None:
-    """Rows: the direction most of the surface faces, and the straightest two across it, [3, 3].
+    """Return the direction most of the surface faces, and the straightest two across, [3, 3].
 
     On a round bar the first is its length, which none of the surface looks at. ``None`` if no
     direction stands out.
@@ -51,7 +51,7 @@ def _completed(surfels: Surfels, first: FloatArray) -> FloatArray:
 
 
 def _across(surfels: Surfels, first: FloatArray) -> FloatArray:
-    """The heading of the faces beside ``first``, modulo right angles; else the widest extent."""
+    """Return the heading of faces beside ``first``, modulo right angles; else the widest extent."""
     helper = np.eye(3)[int(np.argmin(np.abs(first)))]
     u = np.cross(first, helper)
     u /= np.linalg.norm(u)
@@ -69,7 +69,7 @@ def _across(surfels: Surfels, first: FloatArray) -> FloatArray:
 
 
 def distinct(frames: list[FloatArray]) -> list[FloatArray]:
-    """The frames without those whose axes an earlier one has, whatever their order and signs."""
+    """Drop frames whose axes an earlier one has, whatever their order and signs."""
     kept: list[FloatArray] = []
     for frame in frames:
         if all((np.abs(frame @ other.T).max(axis=1) < SAME).any() for other in kept):

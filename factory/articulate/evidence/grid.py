@@ -37,7 +37,7 @@ class Grid:
     surfels: Surfels
 
     def hits(self, points: FloatArray, headings: FloatArray, travelled: FloatArray) -> BoolArray:
-        """Whether each moved point has just gone through the surroundings, shape of ``travelled``.
+        """Tell whether each moved point went through the surroundings, shape of ``travelled``.
 
         Args:
             points: where they are now [m], shape [..., 3].

@@ -79,7 +79,7 @@ def look_at(body: Body) -> Look:
 
 
 def free_share(body: Body, directions: FloatArray) -> FloatArray:
-    """Share of the part's points that nothing hides, per direction, shape [direction_count].
+    """Return the share of the part's points that nothing hides, per direction, [direction_count].
 
     What only neighbours stand in front of, which may move out of the way as a door does, counts
     half.
@@ -96,7 +96,7 @@ def free_share(body: Body, directions: FloatArray) -> FloatArray:
 
 
 def stands_out(body: Body, directions: FloatArray) -> FloatArray:
-    """1 where something small protrudes along a direction, shape [direction_count]."""
+    """Return 1 where something small protrudes along a direction, shape [direction_count]."""
     found = np.zeros(len(directions))
     for k, direction in enumerate(directions):
         share = float(
@@ -109,7 +109,7 @@ def stands_out(body: Body, directions: FloatArray) -> FloatArray:
 
 
 def _slab(body: Body, direction: FloatArray) -> tuple[float, float]:
-    """First and last heavy plane of the part along a direction [m]; its ends if it has none."""
+    """Return first and last heavy plane along a direction [m]; the part's ends if it has none."""
     flat = np.abs(body.own.normals @ direction) > 0.9
     along = body.own.points @ direction
     low = float(along.min())

@@ -8,8 +8,8 @@ from types import MappingProxyType
 
 import numpy as np
 
-from ...articulation import JointKind
 from ...mesh import FloatArray, read_only
+from ..proposal import Motion
 from .body import Body, Partition, body_of
 from .candidates import Candidates, find_candidates
 from .extent import LEAST, Extent, extent_of, nearest_to, single
@@ -30,29 +30,6 @@ FREE = 0.9
 
 
 @dataclass(frozen=True)
-class SeenMotion:
-    """How a part moves, in the words of :class:`~asset_factory.factory.articulation.Joint`.
-
-    Attributes:
-        kind: revolute, continuous or prismatic.
-        axis: unit direction, object frame, shape [3]; positive opens.
-        origin: the point of the axis nearest to the part's middle [m], shape [3].
-        lower, upper: limits [rad] or [m]; 0 is the pose seen, the closed one unless a slide was
-            seen to stand open.
-    """
-
-    kind: JointKind
-    axis: FloatArray
-    origin: FloatArray
-    lower: float
-    upper: float
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "axis", read_only(self.axis))
-        object.__setattr__(self, "origin", read_only(self.origin))
-
-
-@dataclass(frozen=True)
 class MotionEvidence:
     """What the evidence says about one part.
 
@@ -65,7 +42,7 @@ class MotionEvidence:
             there was none.
     """
 
-    motion: SeenMotion | None
+    motion: Motion | None
     confidence: float
     turns: float = 0.5
     numbers: FloatArray = field(default_factory=lambda: np.zeros(len(NAMES)), repr=False)
@@ -122,14 +99,14 @@ def beliefs(scores: FloatArray) -> FloatArray:
 
 def _motion(
     body: Body, candidates: Candidates, chosen: int, numbers: FloatArray, guess: Guess
-) -> SeenMotion:
+) -> Motion:
     chosen, extent = _right_way(body, candidates, chosen, numbers, guess)
     middle = (body.corners.min(axis=0) + body.corners.max(axis=0)) / 2.0
     axis = candidates.axis[chosen]
     origin = (
         middle if candidates.slides[chosen] else nearest_to(axis, candidates.origin[chosen], middle)
     )
-    return SeenMotion(extent.kind, axis, origin, extent.lower, extent.upper)
+    return Motion(extent.kind, axis, origin, extent.lower, extent.upper)
 
 
 def _right_way(
@@ -149,7 +126,7 @@ def _right_way(
 
 
 def _alike(body: Body, candidates: Candidates, chosen: int) -> BoolArray:
-    """Which candidates have the chosen motion's kind and axis, whichever way round, shape [n]."""
+    """Tell which candidates have the chosen kind and axis, whichever way round, shape [n]."""
     aligned = np.abs(candidates.axis @ candidates.axis[chosen]) > LIKE_ANGLE
     alike = (candidates.slides == candidates.slides[chosen]) & aligned
     if candidates.slides[chosen]:

@@ -97,7 +97,7 @@ def _shared(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str,
 
 
 def some_headings(some: Candidates, points: FloatArray) -> FloatArray:
-    """Unit directions in which points [m] of the part start to move, shape [n, point_count, 3]."""
+    """Return unit directions in which points [m] start to move, shape [n, point_count, 3]."""
     if len(some) and some.slides[0]:
         return np.broadcast_to(some.axis[:, None], (len(some), len(points), 3))
     speed = np.cross(some.axis[:, None], points[None] - some.origin[:, None])
@@ -105,7 +105,7 @@ def some_headings(some: Candidates, points: FloatArray) -> FloatArray:
 
 
 def some_heading(some: Candidates, point: FloatArray) -> FloatArray:
-    """As :func:`some_headings` for one point, shape [n, 3]."""
+    """Return the same as :func:`some_headings` for one point, shape [n, 3]."""
     return some_headings(some, point[None])[:, 0]
 
 
@@ -219,7 +219,7 @@ def _sliding(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str
 
 
 def _ends(body: Body, some: Candidates) -> dict[str, FloatArray]:
-    """The leading end against the trailing one: a drawer leads with plate, grip and free way.
+    """Compare leading end and trailing end: a drawer leads with plate, grip and free way.
 
     Candidates come in pairs, one for each way round.
     """
@@ -243,7 +243,7 @@ def _ends(body: Body, some: Candidates) -> dict[str, FloatArray]:
 
 
 def _breadth(body: Body, axis: FloatArray, chosen: BoolArray) -> float:
-    """Half the girth of some of the part's points, seen along an axis, over that of all."""
+    """Return half the girth of some of the points, seen along an axis, over that of all."""
     points = body.moving.points - (body.moving.points @ axis)[:, None] * axis
     everything = float(np.ptp(points @ body.partition.level.T, axis=0).sum())
     return float(np.ptp(points[chosen] @ body.partition.level.T, axis=0).sum()) / max(

@@ -39,13 +39,13 @@ class Rating:
     sure: tuple[float, float]
 
     def scores(self, numbers: FloatArray) -> FloatArray:
-        """One per candidate, higher is likelier; [n] for numbers of shape [n, len(NAMES)]."""
+        """Score each candidate, higher is likelier; [n] for numbers of shape [n, len(NAMES)]."""
         return np.asarray(
             np.tanh(numbers @ self.inner + self.offset) @ self.outer + numbers @ self.direct
         )
 
     def confidence(self, belief: float) -> float:
-        """Probability that the chosen motion is right, given its share of belief (0 to 1).
+        """Return the probability that the chosen motion is right, given its share of belief.
 
         The share counts the motion and its like.
         """
@@ -56,7 +56,7 @@ class Rating:
 
 @cache
 def load_rating(guided: bool) -> Rating:
-    """The shipped ratings: for parts whose motion was guessed by another source, and for others."""
+    """Load the shipped ratings: for parts with a guessed motion, and for others."""
     return rating_of(_shipped()["guided" if guided else "blind"], FILE)
 
 
@@ -72,7 +72,7 @@ def _shipped() -> dict[str, Any]:
 
 
 def rating_of(table: dict[str, Any], file: str) -> Rating:
-    """As a table of the configuration has it.
+    """Read ratings from a table of the configuration.
 
     Raises:
         ValueError: its numbers are not those that are measured.

@@ -73,7 +73,7 @@ def setting_of(body: Body, chosen: Candidates, evidence: FloatArray) -> Setting:
 
 
 def _way(body: Body, axis: FloatArray, evidence: FloatArray) -> float:
-    """The part's length along its way; for fronts of drawers without a box, the object's [m]."""
+    """Return the part's length along its way; of drawer fronts without a box, the object's [m]."""
     length = max(float(evidence[NAMES.index("slide_extent")]) * body.diagonal, 1e-9)
     front = evidence[NAMES.index("slide_inside")] < FRONT and not is_small(evidence)
     return _span(body, axis) if front else length
@@ -84,7 +84,7 @@ def _span(body: Body, axis: FloatArray) -> float:
 
 
 def _height(body: Body, z: float) -> float:
-    """-1 at the object's foot, 1 at its top."""
+    """Return -1 at the object's foot, 1 at its top."""
     low, high = body.partition.mesh.bounds[:, 2]
     return float(np.clip(2.0 * (z - low) / max(high - low, 1e-9) - 1.0, -1.5, 1.5))
 
@@ -95,7 +95,7 @@ def _log(one: float, other: float) -> float:
 
 
 def _about(body: Body) -> list[float]:
-    """Everything of ``ABOUT`` that is the same for each of a part's candidates."""
+    """Return everything of ``ABOUT`` that is the same for each of a part's candidates."""
     partition = body.partition
     corners = body.corners
     level = np.ptp(corners @ partition.level.T, axis=0)
@@ -122,7 +122,7 @@ def _about(body: Body) -> list[float]:
 
 
 def _free_share(body: Body, chosen: Candidates, farthest: float) -> float:
-    """Share of the way to ``farthest`` before more than a few points meet the part's holder."""
+    """Return the share of the way before more than a few points meet the part's holder."""
     values = np.arange(1, STEPS + 1) / STEPS * farthest
     again = np.zeros(STEPS, dtype=np.int64)
     tried = Candidates(

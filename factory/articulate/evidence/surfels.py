@@ -26,7 +26,7 @@ class Surfels:
         return len(self.points)
 
     def some(self, count: int) -> Surfels:
-        """At most ``count`` of them, evenly picked."""
+        """Pick at most ``count`` of them, evenly."""
         if len(self) <= count:
             return self
         index = np.linspace(0, len(self) - 1, count).astype(np.int64)
@@ -39,7 +39,7 @@ SPREAD = np.array([0.7548776662466927, 0.5698402909980532])
 
 
 def spread(triangles: FloatArray, count: int) -> Surfels:
-    """About evenly spread points, always the same for the same triangles.
+    """Spread points about evenly, always the same for the same triangles.
 
     Args:
         triangles: corners [m], shape [face_count, 3, 3].
@@ -49,7 +49,7 @@ def spread(triangles: FloatArray, count: int) -> Surfels:
 
 
 def spread_owned(triangles: FloatArray, count: int) -> tuple[Surfels, IntArray]:
-    """As :func:`spread`, and the triangle of each point, shape [n]."""
+    """Spread points as :func:`spread` does, with the triangle of each, shape [n]."""
     sides = triangles[:, 1:] - triangles[:, :1]
     normals = np.cross(sides[:, 0], sides[:, 1])
     double_area = np.sqrt(np.einsum("ij,ij->i", normals, normals))

@@ -50,7 +50,7 @@ class Usual:
         return np.asarray(weights / weights.sum(axis=-1, keepdims=True))
 
     def range(self, setting: Setting, said: float | None) -> float:
-        """The range that is right most nearly, in the setting's unit; infinite if it has no end.
+        """Return the range that is right most nearly, in the setting's unit; or infinity.
 
         Args:
             setting: of the part.
@@ -77,7 +77,7 @@ def worth(values: FloatArray) -> FloatArray:
 
 
 def usual_of(table: dict[str, Any], slides: bool, file: str) -> Usual:
-    """As a table of the configuration has it.
+    """Read them from a table of the configuration.
 
     Raises:
         ValueError: its numbers are not those that are measured.

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...mesh import FloatArray, IntArray
-from .panel import Panel, overlap_area
 from .panels import is_open_box
 from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
+from .slab import FrontSlab, overlap_area
 
 DEEP = 0.25
 """A drawer's box reaches at least this share of the object's depth behind its panel."""
@@ -36,8 +36,16 @@ class Behind:
     roomy: bool = True
 
 
-def look_behind(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> Behind:
-    """Everything :class:`Behind` says, for one panel among all."""
+@dataclass(frozen=True)
+class FrontFace:
+    """A panel that is believed to move, and why."""
+
+    panel: FrontSlab
+    behind: Behind
+
+
+def look_behind(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -> Behind:
+    """Find everything that :class:`Behind` says, for one panel among all."""
     if panel.is_box:
         body = np.array(panel.slabs, dtype=np.int64)
         return Behind(
@@ -53,7 +61,9 @@ def look_behind(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> Behind
     return Behind(box, _attached(scene, panel, panels), depth, walls, solid, roomy)
 
 
-def _behind(scene: Scene, panel: Panel, panels: tuple[Panel, ...], slack: float) -> IntArray:
+def _behind(
+    scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...], slack: float
+) -> IntArray:
     """Return the pieces behind the panel, inside its rectangle, and no other panel's."""
     margin = slack * np.array([panel.width, panel.height])
     inside = (scene.low[:, RECT] >= panel.low[RECT] - margin).all(axis=1)
@@ -70,7 +80,7 @@ def _behind(scene: Scene, panel: Panel, panels: tuple[Panel, ...], slack: float)
     return np.flatnonzero(inside)
 
 
-def _drawer_box(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArray:
+def _drawer_box(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -> IntArray:
     """Return two sides and a bottom, or one body, behind the panel; else nothing."""
     index = _behind(scene, panel, panels, 0.02)
     edge = 0.004 * scene.size
@@ -98,7 +108,7 @@ def _drawer_box(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArr
 
 
 def _connected_to(scene: Scene, index: IntArray, start: IntArray) -> IntArray:
-    """Mask of the pieces that touch a started one, directly or through others."""
+    """Mark the pieces that touch a started one, directly or through others."""
     reached = start.copy()
     low = scene.low[index] - scene.touch
     high = scene.high[index] + scene.touch
@@ -114,7 +124,7 @@ def _connected_to(scene: Scene, index: IntArray, start: IntArray) -> IntArray:
     return reached
 
 
-def _cavity(scene: Scene, panel: Panel, box: IntArray) -> tuple[float, int, bool, bool]:
+def _cavity(scene: Scene, panel: FrontSlab, box: IntArray) -> tuple[float, int, bool, bool]:
     """Return the depth, walls, solid and roomy of :class:`Behind`."""
     ignored = np.union1d(panel.pieces, box)
     start = panel.center.copy()
@@ -150,20 +160,20 @@ INSIDE = ((0.5, 0.5), (0.45, 0.36), (0.55, 0.66))
 """Uneven, so that evenly spaced shelves do not meet all rays."""
 
 
-def _walls_around(scene: Scene, panel: Panel) -> int:
-    """Sides (left, right, below, above, back) where something stands around a one-piece drawer."""
+def _walls_around(scene: Scene, panel: FrontSlab) -> int:
+    """Count the sides where something stands around a one-piece drawer."""
     middle = (scene.low[panel.slabs[0]] + scene.high[panel.slabs[0]]) / 2.0
     back, _ = scene.first_hit(middle, FRONT, 1, panel.pieces)
     return int(np.isfinite(_around(scene, middle, panel.pieces)).sum()) + bool(np.isfinite(back))
 
 
 def _around(scene: Scene, start: FloatArray, ignored: IntArray) -> FloatArray:
-    """Distances to the left, right, below and above [m], shape [4]; infinite where nothing is."""
+    """Measure to the left, right, below and above [m], shape [4]; infinite where nothing is."""
     rays = ((SIDEWAYS, -1), (SIDEWAYS, 1), (UP, -1), (UP, 1))
     return np.array([scene.first_hit(start, axis, sign, ignored)[0] for axis, sign in rays])
 
 
-def _attached(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArray:
+def _attached(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -> IntArray:
     """Return the shallow pieces behind the panel that touch it and nothing that stays."""
     index = _behind(scene, panel, panels, 0.0)
     shallow = scene.high[index, FRONT] - panel.high[FRONT] <= 0.3 * scene.size[FRONT]
@@ -184,12 +194,12 @@ def _attached(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArray
 
 
 def overlap_bulk(scene: Scene, pieces: IntArray) -> bool:
-    """Whether any of the pieces is more than trim: over 2 % of the front in any two directions."""
+    """Tell whether a piece is more than trim: over 2 % of the front in any two directions."""
     sides = np.sort(scene.extents[pieces], axis=1)[:, 1:]
     return bool((np.prod(sides, axis=1) > 0.02 * scene.size[SIDEWAYS] * scene.size[UP]).any())
 
 
-def covers(low: Panel, high: Panel) -> float:
+def covers(low: FrontSlab, high: FrontSlab) -> float:
     """Return the share of the smaller panel's rectangle that the two have in common."""
     return overlap_area(low.low, low.high, high.low, high.high) / max(
         min(low.area, high.area), 1e-12

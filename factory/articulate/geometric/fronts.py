@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ...articulation import JointKind
 from ...mesh import FloatArray, IntArray
-from .behind import Behind, covers, look_behind
+from ...part import OpensBy, PartKind
+from ..proposal import Motion
+from .behind import FrontFace, covers, look_behind
+from .hinge_sides import WIDE, handle_side, hinge_side
 from .knobs import find_knobs
 from .mounted import is_crowded
 from .movers import Mover
-from .panel import Panel
 from .panels import find_panels
 from .scene import FRONT, SIDEWAYS, UP, Scene
+from .slab import FrontSlab
 from .sweep import free_turn, surface_points
 
 DOOR_LIMIT = np.radians(90.0)
@@ -26,24 +27,12 @@ DRAWER_SHARE = 0.92
 """A drawer slides this share of its depth."""
 ALL_WALLS = 5
 MANY_BUTTONS = 6
-WIDE = 1.3
-"""Width over height from which a front looks like a drawer's."""
 KNUCKLES = 0.08
 """Radius of what belongs to a hinge, over the panel's shorter side."""
-OFF_CENTER = 0.15
-"""A handle further than this share of the panel from its middle is at one side."""
-
-
-@dataclass(frozen=True)
-class FrontFace:
-    """A panel that is believed to move, and why."""
-
-    panel: Panel
-    behind: Behind
 
 
 def find_fronts(scene: Scene) -> tuple[Mover, ...]:
-    """Every door and drawer seen from the front of ``scene``, top to bottom, left to right."""
+    """Find the doors and drawers seen from the front, top to bottom, left to right."""
     panels = find_panels(scene)
     candidates = [FrontFace(panel, look_behind(scene, panel, panels)) for panel in panels]
     sure = [c for c in candidates if _is_sure(scene, c)]
@@ -61,7 +50,7 @@ def find_fronts(scene: Scene) -> tuple[Mover, ...]:
     points, owner = surface_points(scene)
     movers = [_mover(scene, front, fronts, points, owner) for front in fronts]
     found = tuple(m for m in movers if m is not None)
-    if not any(m.label == "door" for m in found):
+    if not any(m.kind is PartKind.DOOR for m in found):
         return found
     return found + find_knobs(scene, np.concatenate([m.pieces for m in found]))
 
@@ -87,13 +76,13 @@ def _is_sure(scene: Scene, front: FrontFace) -> bool:
     return bool(deep and closes) or _in_frame(scene, front.panel)
 
 
-def _covers_front_with_side_handle(scene: Scene, panel: Panel) -> bool:
+def _covers_front_with_side_handle(scene: Scene, panel: FrontSlab) -> bool:
     """Return a lone door: one wall behind it may be missing, as below a sink or before a wall."""
     return bool(panel.has_side_handle and panel.area >= 0.6 * scene.size[SIDEWAYS] * scene.size[UP])
 
 
 def _has_handled_peer(scene: Scene, front: FrontFace, candidates: list[FrontFace]) -> bool:
-    """One wall may be missing (an open back) behind two panels with handles, side by side."""
+    """Tell whether another panel with a handle is beside one whose back may be open."""
     open_backed = [
         c for c in candidates if c.panel.handle is not None and c.behind.walls >= ALL_WALLS - 1
     ]
@@ -105,8 +94,8 @@ def _has_handled_peer(scene: Scene, front: FrontFace, candidates: list[FrontFace
     )
 
 
-def _is_control_panel(scene: Scene, panel: Panel) -> bool:
-    """Many small things on the panel, and what protrudes is no bar: knobs and buttons."""
+def _is_control_panel(scene: Scene, panel: FrontSlab) -> bool:
+    """Tell whether many small things, and no bar, are on the panel: knobs and buttons."""
     if panel.handle is None:
         return False
     mounted = np.array(panel.mounted, dtype=np.int64)
@@ -116,7 +105,7 @@ def _is_control_panel(scene: Scene, panel: Panel) -> bool:
     return buttons >= MANY_BUTTONS and bar < 0.4 * max(panel.width, panel.height)
 
 
-def _has_carrying_grip(scene: Scene, panel: Panel) -> bool:
+def _has_carrying_grip(scene: Scene, panel: FrontSlab) -> bool:
     """Return a grip in the middle of a panel that is no drawer: a crate's side.
 
     The panel is all of the front, or too narrow for a drawer.
@@ -129,20 +118,20 @@ def _has_carrying_grip(scene: Scene, panel: Panel) -> bool:
     return central and (all_front or panel.width < WIDE * panel.height)
 
 
-def _in_frame(scene: Scene, panel: Panel) -> bool:
+def _in_frame(scene: Scene, panel: FrontSlab) -> bool:
     """Return a house door: a flat object, mostly one tall panel with a side handle, in a frame."""
     flat = scene.size[FRONT] <= 0.25 * min(scene.size[SIDEWAYS], scene.size[UP])
     tall = panel.height >= 0.7 * scene.size[UP] and panel.height >= 1.2 * panel.width
     frame = (
         panel.width <= 0.97 * scene.size[SIDEWAYS] and panel.width >= 0.35 * scene.size[SIDEWAYS]
     )
-    return bool(flat and tall and frame and panel.handle is not None and _handle_side(panel) != 0)
+    return bool(flat and tall and frame and panel.handle is not None and handle_side(panel) != 0)
 
 
 def _is_plausible(
     scene: Scene, front: FrontFace, sure: list[FrontFace], candidates: list[FrontFace]
 ) -> bool:
-    """No handle: the panel must close a real space, beside others or alone in front."""
+    """Tell whether a panel without handle closes a real space, beside others or alone."""
     panel = front.panel
     behind = front.behind
     deep = behind.depth >= max(2.0 * panel.depth, 0.3 * float(scene.size[FRONT]))
@@ -168,8 +157,8 @@ def _is_plausible(
     return bool(peers) or _stands_alone(scene, panel)
 
 
-def _stands_alone(scene: Scene, panel: Panel) -> bool:
-    """One panel over most of the front, foremost, without a twin at the back: a fridge's door."""
+def _stands_alone(scene: Scene, panel: FrontSlab) -> bool:
+    """Tell whether one panel is most of the front, foremost, without a twin at the back."""
     if (
         panel.area < 0.6 * scene.size[SIDEWAYS] * scene.size[UP]
         or panel.depth < 0.02 * scene.size[FRONT]
@@ -195,7 +184,7 @@ def _stands_alone(scene: Scene, panel: Panel) -> bool:
     return bool((width * height)[thin & far].sum() < 0.7 * panel.area)
 
 
-def _beside(a: Panel, b: Panel, scene: Scene) -> bool:
+def _beside(a: FrontSlab, b: FrontSlab, scene: Scene) -> bool:
     """Return two panels of one plane that line up in a row or a column, a hair apart."""
     if min(abs(a.low[FRONT] - b.low[FRONT]), abs(a.high[FRONT] - b.high[FRONT])) > scene.touch:
         return False
@@ -211,7 +200,7 @@ def _beside(a: Panel, b: Panel, scene: Scene) -> bool:
 
 
 def _drop_overlapping(fronts: list[FrontFace]) -> list[FrontFace]:
-    """Of two panels over each other keep the first, then the larger."""
+    """Keep the first of panels over each other, then the larger."""
     kept: list[FrontFace] = []
     for front in fronts:
         if all(covers(front.panel, other.panel) < 0.3 for other in kept):
@@ -226,24 +215,17 @@ def _mover(
     behind = front.behind
     pieces = np.union1d(panel.pieces, np.union1d(behind.box_pieces, behind.attached))
     weight = panel.area * (3.0 if panel.handle is not None else 1.0)
-    side, guesses = _hinge_side(scene, front, fronts)
-    if side == "slide":
+    side, guesses = hinge_side(scene, front, fronts)
+    if side is OpensBy.OUT:
         reach = behind.depth if not behind.solid else 0.5 * float(scene.size[FRONT])
         travel = DRAWER_SHARE * min(reach, float(scene.box[1, FRONT] - panel.low[FRONT]))
         origin = np.array([panel.center[SIDEWAYS], panel.low[FRONT], panel.center[UP]])
         if travel < scene.touch:
             return None
-        return Mover(
-            "drawer",
-            JointKind.PRISMATIC,
-            np.array([0.0, -1.0, 0.0]),
-            origin,
-            0.0,
-            travel,
-            pieces,
-            guesses,
-            weight,
-        )
+        motion = Motion(JointKind.PRISMATIC, np.array([0.0, -1.0, 0.0]), origin, 0.0, travel)
+        outline = panel.outline(side)
+        grip = panel.grip(motion)
+        return Mover(PartKind.DRAWER, motion, pieces, guesses, weight, outline, grip)
     surroundings = points[~np.isin(owner, pieces)]
     axis, origin, turn = _hinge(scene, panel, side, surroundings)
     if turn < LEAST_TURN:
@@ -253,28 +235,30 @@ def _mover(
             *guesses,
             f"opens only {np.degrees(turn):.0f} degrees before it meets its surroundings",
         )
-    return Mover("door", JointKind.REVOLUTE, axis, origin, 0.0, turn, pieces, guesses, weight)
+    motion = Motion(JointKind.REVOLUTE, axis, origin, 0.0, turn)
+    outline = panel.outline(side)
+    return Mover(PartKind.DOOR, motion, pieces, guesses, weight, outline, panel.grip(motion))
 
 
 def _hinge(
-    scene: Scene, panel: Panel, side: str, surroundings: FloatArray
+    scene: Scene, panel: FrontSlab, side: OpensBy, surroundings: FloatArray
 ) -> tuple[FloatArray, FloatArray, float]:
     """Return the axis, origin and free turn [rad] of a hinge at one edge.
 
     The back corner, or the front one if it opens wider.
     """
     across, at_low = {
-        "left": (SIDEWAYS, True),
-        "right": (SIDEWAYS, False),
-        "bottom": (UP, True),
-        "top": (UP, False),
+        OpensBy.LEFT: (SIDEWAYS, True),
+        OpensBy.RIGHT: (SIDEWAYS, False),
+        OpensBy.BOTTOM: (UP, True),
+        OpensBy.TOP: (UP, False),
     }[side]
     axis = np.zeros(3)
     axis[UP if across == SIDEWAYS else SIDEWAYS] = {
-        "left": -1.0,
-        "right": 1.0,
-        "bottom": 1.0,
-        "top": -1.0,
+        OpensBy.LEFT: -1.0,
+        OpensBy.RIGHT: 1.0,
+        OpensBy.BOTTOM: 1.0,
+        OpensBy.TOP: -1.0,
     }[side]
     margin = np.minimum(np.array([1.0, 0.5, 1.0]) * scene.touch, 0.2 * (panel.high - panel.low))
     box = np.stack([panel.low + margin, panel.high - margin])
@@ -295,103 +279,18 @@ def _hinge(
 
 
 def _without_knuckles(
-    points: FloatArray, origin: FloatArray, axis: FloatArray, panel: Panel
+    points: FloatArray, origin: FloatArray, axis: FloatArray, panel: FrontSlab
 ) -> FloatArray:
-    """Surroundings without what is about the axis: hinges turn within their own barrels."""
+    """Drop surroundings about the axis: hinges turn within their own barrels."""
     offset = points - origin
     radial = np.linalg.norm(offset - np.outer(offset @ axis, axis), axis=1)
     return np.asarray(points[radial > KNUCKLES * min(panel.width, panel.height)])
 
 
-def _is_thick_door(scene: Scene, panel: Panel) -> bool:
+def _is_thick_door(scene: Scene, panel: FrontSlab) -> bool:
     """Return a door as thick as a fridge's, on a body as tall and deep as one."""
     upright = (
         scene.size[UP] >= 1.2 * scene.size[SIDEWAYS]
         and scene.size[FRONT] >= 0.6 * scene.size[SIDEWAYS]
     )
     return bool(upright and panel.depth >= max(0.045 * scene.size[FRONT], 0.065 * panel.width))
-
-
-def _handle_side(panel: Panel) -> int:
-    """-1: the handle is at the left, 1: at the right, 0: in the middle or there is none."""
-    if panel.handle is None:
-        return 0
-    offset = (panel.handle[:, SIDEWAYS].mean() - panel.center[SIDEWAYS]) / panel.width
-    return int(np.sign(offset)) if abs(offset) > OFF_CENTER else 0
-
-
-def _hinge_side(
-    scene: Scene, front: FrontFace, fronts: list[FrontFace]
-) -> tuple[str, tuple[str, ...]]:
-    """``slide``, ``left``, ``right``, ``bottom`` or ``top``, and what was assumed."""
-    panel = front.panel
-    if len(front.behind.box_pieces):
-        return "slide", ()
-    side = _handle_side(panel)
-    if side:
-        return ("left" if side > 0 else "right"), ()
-    if panel.handle is None:
-        low = panel.width >= 1.6 * panel.height and panel.height <= 0.35 * scene.size[UP]
-        if low:
-            return "slide", ("has no handle; assumed to be a drawer, since it is wide and low",)
-        return _side_by_neighbours(front, fronts)
-    return _by_centred_handle(scene, front, fronts, panel.handle)
-
-
-def _by_centred_handle(
-    scene: Scene, front: FrontFace, fronts: list[FrontFace], handle: FloatArray
-) -> tuple[str, tuple[str, ...]]:
-    """Return a handle in the middle of the width: an oven's door, a flap, a drawer, or no clue."""
-    panel = front.panel
-    aspect = panel.width / panel.height
-    rise = (handle[:, UP].mean() - panel.center[UP]) / panel.height
-    spans = panel.width >= 0.6 * scene.size[SIDEWAYS] and panel.height >= 0.3 * scene.size[UP]
-    width, _, height = handle[1] - handle[0]
-    narrowest = 0.55 if width >= max(3.0 * height, 0.4 * panel.width) else 0.65
-    if _in_stack(panel, fronts):
-        return "slide", ("has no box behind its front; assumed to be a drawer, as one of a stack",)
-    if spans and narrowest <= aspect <= 1.9 and rise > 0.2:
-        return "bottom", ()
-    if aspect >= 1.2 and rise < -0.3:
-        return "top", ()
-    if aspect >= WIDE:
-        return "slide", (
-            (
-                "has no box behind its front; assumed to be a drawer, "
-                "since it is wide with a centred handle"
-            ),
-        )
-    return _side_by_neighbours(front, fronts)
-
-
-def _in_stack(panel: Panel, fronts: list[FrontFace]) -> bool:
-    """Three or more panels of one width, stacked, all with centred handles: a chest of drawers."""
-    tolerance = 0.05 * panel.width
-    stack = [
-        f
-        for f in fronts
-        if f.panel.handle is not None
-        and _handle_side(f.panel) == 0
-        and abs(f.panel.low[SIDEWAYS] - panel.low[SIDEWAYS]) <= tolerance
-        and abs(f.panel.high[SIDEWAYS] - panel.high[SIDEWAYS]) <= tolerance
-    ]
-    return len(stack) >= 3 and panel.height <= 1.2 * panel.width
-
-
-def _side_by_neighbours(front: FrontFace, fronts: list[FrontFace]) -> tuple[str, tuple[str, ...]]:
-    """Doors in a row open in pairs, away from each other; a lone one hinges at the left."""
-    panel = front.panel
-    row = [
-        f
-        for f in fronts
-        if abs(f.panel.low[UP] - panel.low[UP]) + abs(f.panel.high[UP] - panel.high[UP])
-        <= 0.1 * panel.height
-        and not len(f.behind.box_pieces)
-    ]
-    row.sort(key=lambda f: float(f.panel.low[SIDEWAYS]))
-    place = row.index(front)
-    what = "has no handle" if panel.handle is None else "has its handle in the middle"
-    if len(row) == 1:
-        return "left", (f"{what}; hinge side assumed left",)
-    side = "left" if place % 2 == 0 else "right"
-    return side, (f"{what}; hinge side assumed {side}, away from its neighbour",)

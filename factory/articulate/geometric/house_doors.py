@@ -6,6 +6,8 @@ import numpy as np
 
 from ...articulation import JointKind
 from ...mesh import IntArray
+from ...part import PartKind
+from ..proposal import Motion
 from .movers import Mover
 from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
 
@@ -19,7 +21,7 @@ LIMIT = np.radians(90.0)
 
 
 def find_house_doors(scene: Scene) -> tuple[Mover, ...]:
-    """One leaf or a pair in a frame, if the object is only that and opens towards the viewer."""
+    """Find one leaf or a pair in a frame, if the object is only that."""
     width, _, height = scene.extents.T
     front = float(scene.size[SIDEWAYS] * scene.size[UP])
     if scene.size[FRONT] > FLAT * float(scene.size[RECT].min()):
@@ -82,7 +84,7 @@ def _with_fittings(scene: Scene, leaf: int, leaves: IntArray) -> IntArray:
 
 
 def _is_framed(scene: Scene, leaves: IntArray, frame: IntArray) -> bool:
-    """Whether the frame stands at two opposite sides of the leaves, and little in front of them."""
+    """Tell whether the frame stands at two opposite sides, with little in front of the leaves."""
     low = scene.low[leaves].min(axis=0)
     high = scene.high[leaves].max(axis=0)
     hair = scene.touch / 2.0
@@ -131,11 +133,12 @@ def _leaf(scene: Scene, leaf: int, leaves: IntArray, group: IntArray) -> Mover:
     axis = np.array([0.0, 0.0, -1.0 if at_left else 1.0])
     guesses = (*guesses, "hangs in a frame; which way and how far it opens is assumed")
     weight = float(np.prod((high - low)[RECT]))
-    return Mover("door", JointKind.REVOLUTE, axis, origin, 0.0, LIMIT, group, guesses, weight)
+    motion = Motion(JointKind.REVOLUTE, axis, origin, 0.0, LIMIT)
+    return Mover(PartKind.DOOR, motion, group, guesses, weight)
 
 
 def _handle_offset(scene: Scene, leaf: int, group: IntArray) -> float:
-    """Where the most protruding fittings are, from -0.5 (left) to 0.5 (right); 0 without any."""
+    """Return where the foremost fittings are, from -0.5 (left) to 0.5 (right); 0 for none."""
     fittings = np.setdiff1d(group, [leaf])
     out = np.maximum(
         scene.low[leaf] - scene.low[fittings], scene.high[fittings] - scene.high[leaf]

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from ...articulation import JointKind
 from ...mesh import FloatArray, IntArray
+from ...part import PartKind
+from ..proposal import Motion
 from .movers import Mover
 from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
 
@@ -21,18 +22,18 @@ STRIP = 0.25
 
 
 def find_top_knobs(above: Scene, taken: IntArray) -> tuple[Mover, ...]:
-    """Knobs of a cooktop in a scene seen from above: three or more squat equal ones in a row."""
+    """Find knobs of a cooktop, seen from above: three or more squat equal ones in a row."""
     knobs = [m for m in find_knobs(above, taken) if len(m.pieces)]
     if len(knobs) < ROW:
         return ()
-    places = np.array([m.origin[RECT] for m in knobs])
+    places = np.array([m.motion.origin[RECT] for m in knobs])
     places = places - places.mean(axis=0)
     spread = np.linalg.svd(places, compute_uv=False)
     return tuple(knobs) if spread[1] <= 0.1 * spread[0] else ()
 
 
 def find_knobs(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
-    """Knobs among the pieces not ``taken``: equal ones on one plate, or one among many buttons.
+    """Find knobs among the pieces not ``taken``: equal ones on a plate, or one among buttons.
 
     Positive turns clockwise as seen from the front. Knobs turn without end: their stops cannot be
         seen.
@@ -67,7 +68,7 @@ def find_knobs(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
 
 
 def is_round(scene: Scene, piece: int) -> bool:
-    """Whether a piece's front outline is a circle: corners near the rim in all directions."""
+    """Tell whether a piece's outline is a circle: corners near the rim in all directions."""
     corners = scene.triangles[scene.labels == piece].reshape(-1, 3)[:, RECT]
     center = (scene.low[piece] + scene.high[piece])[RECT] / 2.0
     radius = float(scene.extents[piece, SIDEWAYS]) / 2.0
@@ -82,7 +83,7 @@ def is_round(scene: Scene, piece: int) -> bool:
 
 
 def _plate(scene: Scene, piece: int, stack: IntArray) -> int:
-    """The piece that a knob sits on with its stack; -1 if hidden from the front or on nothing."""
+    """Return the piece that a knob sits on with its stack; -1 if hidden or on nothing."""
     start = (scene.low[piece] + scene.high[piece]) / 2.0
     start[RECT] += 0.2 * scene.extents[piece][RECT]
     start[FRONT] = scene.box[0, FRONT] - scene.touch
@@ -126,4 +127,4 @@ def _knob(scene: Scene, knob: int, pieces: IntArray) -> Mover:
     origin: FloatArray = (scene.low[knob] + scene.high[knob]) / 2.0
     axis = np.array([0.0, 1.0, 0.0])
     guess = ("is round and turns without end; its stops are unknown",)
-    return Mover("knob", JointKind.CONTINUOUS, axis, origin, -np.pi, np.pi, pieces, guess, 0.0)
+    return Mover(PartKind.KNOB, Motion.endless(axis, origin), pieces, guess)

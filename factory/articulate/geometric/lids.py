@@ -8,14 +8,15 @@ import numpy as np
 
 from ...articulation import JointKind
 from ...mesh import FloatArray, IntArray
+from ...part import PartKind
+from ..proposal import Motion
 from .movers import Mover
-from .scene import FRONT, SIDEWAYS, UP, Scene
+from .scene import FRONT, PLAN, SIDEWAYS, UP, Scene
 from .sweep import free_turn, surface_points
 
-PLAN = [SIDEWAYS, FRONT]
 COVERING = 0.65
 """Share of the object, seen from above, that a lid covers at least."""
-LIMITS = {"lid": np.radians(100.0), "screen": np.radians(120.0)}
+LIMITS = {PartKind.LID: np.radians(100.0), PartKind.SCREEN: np.radians(120.0)}
 LEAST_TURN = np.radians(45.0)
 LEAST_KEYS = 20
 SIDES = ((FRONT, 1), (FRONT, -1), (SIDEWAYS, 1), (SIDEWAYS, -1))
@@ -36,7 +37,7 @@ class Cover:
 
     @property
     def center(self) -> FloatArray:
-        """Of the box [m], shape [3]."""
+        """Return the middle of the box [m], shape [3]."""
         return np.asarray((self.low + self.high) / 2.0)
 
 
@@ -55,7 +56,7 @@ def find_lid(scene: Scene) -> tuple[Mover, ...]:
         if tab is None and scene.size[UP] > 0.8 * max(scene.size[PLAN]):
             continue
         side, guess = _hinge_side(scene, cover, tab)
-        return _hinged(scene, cover, side, "lid", guess)
+        return _hinged(scene, cover, side, PartKind.LID, guess)
     return ()
 
 
@@ -80,7 +81,7 @@ def _top_slab(scene: Scene) -> int | None:
 
 
 def _hanging_on(scene: Scene, slab: int) -> IntArray:
-    """The slab, its rim and what sits on it: shallow pieces that touch it, even through others."""
+    """Return the slab, its rim and what sits on it: shallow pieces that touch it."""
     shallow = scene.low[:, UP] >= scene.low[slab, UP] - 0.15 * scene.size[UP]
     reached = np.zeros(len(scene.low), dtype=bool)
     reached[slab] = True
@@ -95,7 +96,7 @@ def _hanging_on(scene: Scene, slab: int) -> IntArray:
 
 
 def _above_a_cut(scene: Scene) -> tuple[Cover, ...]:
-    """A lid of several pieces: all above a height in the upper half that no piece crosses."""
+    """Return a lid of several pieces: all above a height that no piece crosses."""
     hair = scene.touch / 8.0
     floor = scene.box[0, UP] + 0.5 * scene.size[UP]
     for height in np.unique(scene.low[scene.low[:, UP] >= floor, UP]):
@@ -112,7 +113,7 @@ def _above_a_cut(scene: Scene) -> tuple[Cover, ...]:
 
 
 def _closes_empty_body(scene: Scene, cover: Cover) -> bool:
-    """Whether walls stand all around below the cover, with a bottom and nothing in between."""
+    """Tell whether walls stand all around below the cover, over a bottom and nothing else."""
     sides = cover.high - cover.low
     top = cover.low[UP] - scene.touch / 4
     depths = []
@@ -133,7 +134,7 @@ def _closes_empty_body(scene: Scene, cover: Cover) -> bool:
 
 
 def _tab(scene: Scene, cover: Cover) -> FloatArray | None:
-    """Middle of a latch or grip at an edge of the lid [m]; ``None`` if none or if central."""
+    """Return the middle of a latch or grip at the lid's edge [m]; ``None`` if none or central."""
     sides = (cover.high - cover.low)[PLAN]
     small = (scene.extents[cover.pieces][:, PLAN] <= 0.5 * sides).all(axis=1)
     middle = (scene.low[cover.pieces] + scene.high[cover.pieces])[:, PLAN] / 2.0
@@ -150,7 +151,7 @@ def _tab(scene: Scene, cover: Cover) -> FloatArray | None:
 def _hinge_side(
     scene: Scene, cover: Cover, tab: FloatArray | None
 ) -> tuple[tuple[int, int], tuple[str, ...]]:
-    """Axis and sign of the hinge's side: opposite the tab, else where the lid sticks out least."""
+    """Return axis and sign of the hinge's side: opposite the tab, else where it overhangs least."""
     if tab is not None:
         offset = (tab - cover.center)[PLAN] / (cover.high - cover.low)[PLAN]
         axis = int(np.argmax(np.abs(offset)))
@@ -169,7 +170,7 @@ def _hinge_side(
 
 
 def _hinged(
-    scene: Scene, cover: Cover, side: tuple[int, int], label: str, guess: tuple[str, ...]
+    scene: Scene, cover: Cover, side: tuple[int, int], kind: PartKind, guess: tuple[str, ...]
 ) -> tuple[Mover, ...]:
     across, sign = side
     origin = cover.center
@@ -181,16 +182,17 @@ def _hinged(
     margin = np.minimum(scene.touch, 0.2 * (cover.high - cover.low))
     rest = points[~np.isin(owner, cover.pieces)]
     turn = free_turn(
-        rest, np.stack([cover.low + margin, cover.high - margin]), axis, origin, LIMITS[label]
+        rest, np.stack([cover.low + margin, cover.high - margin]), axis, origin, LIMITS[kind]
     )
     if turn < LEAST_TURN:
         return ()
     weight = float(np.prod((cover.high - cover.low)[PLAN]))
-    return (Mover(label, JointKind.REVOLUTE, axis, origin, 0.0, turn, cover.pieces, guess, weight),)
+    motion = Motion(JointKind.REVOLUTE, axis, origin, 0.0, turn)
+    return (Mover(kind, motion, cover.pieces, guess, weight),)
 
 
 def _screen(scene: Scene, slab: int) -> tuple[Mover, ...]:
-    """A closed laptop: a flat object of two slabs with many small keys between, near the hinge."""
+    """Find a closed laptop: two flat slabs with many small keys between, near the hinge."""
     width, depth, _ = scene.extents.T
     plan = width * depth
     twins = np.flatnonzero(plan >= 0.75 * plan[slab])
@@ -214,8 +216,8 @@ def _screen(scene: Scene, slab: int) -> tuple[Mover, ...]:
     group = np.union1d(group, np.array(moving, dtype=np.int64))
     cover = Cover(scene.low[slab], scene.high[slab], np.union1d(group, barrels))
     return tuple(
-        replace(mover, pieces=group, origin=_at_barrels(mover.origin, middle[barrels], across))
-        for mover in _hinged(scene, cover, (across, sign), "screen", ())
+        replace(mover, pieces=group, motion=_at_barrels(mover.motion, middle[barrels], across))
+        for mover in _hinged(scene, cover, (across, sign), PartKind.SCREEN, ())
     )
 
 
@@ -224,8 +226,9 @@ def _touch(scene: Scene, a: int, b: int) -> bool:
     return bool((gap <= scene.touch).all())
 
 
-def _at_barrels(origin: FloatArray, barrels: FloatArray, across: int) -> FloatArray:
-    moved = origin.copy()
+def _at_barrels(motion: Motion, barrels: FloatArray, across: int) -> Motion:
+    """Return the hinge in the middle of its barrels, if there are some."""
+    moved = motion.origin.copy()
     if len(barrels):
         moved[[across, UP]] = barrels[:, [across, UP]].mean(axis=0)
-    return moved
+    return replace(motion, origin=moved)

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from ...mesh import FloatArray, IntArray
-from .panel import HAIR, Panel, rect_area
 from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
+from .slab import HAIR, FrontSlab, rect_area
 
 LONGEST_HANDLE = 0.92
 """Of the panel's side: what runs along all of it is trim."""
@@ -16,7 +16,7 @@ HANDLE_AREA = 0.3
 """A handle's rectangle is at most this share of its panel's."""
 
 
-def with_mounted(scene: Scene, seed: Panel, seeds: list[Panel]) -> Panel:
+def with_mounted(scene: Scene, seed: FrontSlab, seeds: list[FrontSlab]) -> FrontSlab:
     """Add small pieces in front of the slab: handle, knobs, trim; what protrudes is the handle."""
     shared = (
         np.minimum(scene.high, seed.high)[:, RECT] - np.maximum(scene.low, seed.low)[:, RECT] + HAIR
@@ -51,15 +51,15 @@ def _stands_on(scene: Scene, piece: int, posts: list[int]) -> bool:
     return int(((scene.low[posts] <= high) & (scene.high[posts] >= low)).all(axis=1).sum()) >= 2
 
 
-def _own_grip(scene: Scene, seed: Panel) -> FloatArray | None:
+def _own_grip(scene: Scene, seed: FrontSlab) -> FloatArray | None:
     """Return the box of what a one-piece drawer reaches out with before its front."""
     corners = scene.triangles[scene.labels == seed.slabs[0]].reshape(-1, 3)
     out = corners[corners[:, FRONT] < seed.low[FRONT] - 0.75 * scene.touch]
     return np.stack([out.min(axis=0), out.max(axis=0)]) if len(out) else None
 
 
-def handle_box(scene: Scene, seed: Panel, mounted: IntArray) -> FloatArray | None:
-    """Box of what can be held of what is mounted on a panel, shape [2, 3]; ``None`` if nothing."""
+def handle_box(scene: Scene, seed: FrontSlab, mounted: IntArray) -> FloatArray | None:
+    """Return the box of what can be held on a panel, shape [2, 3]; ``None`` if nothing."""
     if seed.is_box and (grip := _own_grip(scene, seed)) is not None:
         return grip
     outer = protruding(scene, seed, mounted)
@@ -72,14 +72,14 @@ def handle_box(scene: Scene, seed: Panel, mounted: IntArray) -> FloatArray | Non
     return None if sides.max() > LONGEST_HANDLE and not _is_inset_bar(seed, box) else box
 
 
-def protruding(scene: Scene, seed: Panel, mounted: IntArray) -> IntArray:
+def protruding(scene: Scene, seed: FrontSlab, mounted: IntArray) -> IntArray:
     """Return those of the mounted pieces that stand out furthest; none if nothing stands out."""
     protrusion = seed.low[FRONT] - scene.low[mounted, FRONT]
     longest = float(protrusion.max(initial=0.0))
     return np.asarray(mounted[(protrusion >= 0.6 * longest) & (longest >= 0.75 * scene.touch)])
 
 
-def is_crowded(scene: Scene, panel: Panel) -> bool:
+def is_crowded(scene: Scene, panel: FrontSlab) -> bool:
     """Return whether several grips say that the panel is several fronts in one piece.
 
     More than two; two that are not level; or two side by side in the middle, as of a pair of doors.
@@ -87,7 +87,7 @@ def is_crowded(scene: Scene, panel: Panel) -> bool:
     return _crowded(scene, panel, protruding(scene, panel, np.array(panel.mounted, dtype=np.int64)))
 
 
-def _crowded(scene: Scene, panel: Panel, outer: IntArray) -> bool:
+def _crowded(scene: Scene, panel: FrontSlab, outer: IntArray) -> bool:
     boxes: list[tuple[FloatArray, FloatArray]] = []
     for piece in outer:
         low = scene.low[piece] - scene.touch
@@ -109,8 +109,8 @@ def _crowded(scene: Scene, panel: Panel, outer: IntArray) -> bool:
     return bool(apart[UP] > apart[SIDEWAYS] or apart[SIDEWAYS] < 0.3 * panel.width)
 
 
-def _is_inset_bar(seed: Panel, box: FloatArray) -> bool:
-    """A thin bar along a whole side, off the panel's edge: a long handle, not an edge strip."""
+def _is_inset_bar(seed: FrontSlab, box: FloatArray) -> bool:
+    """Tell whether it is a thin bar along a whole side, off the edge: a long handle."""
     sides = np.array([seed.width, seed.height])
     across = int(np.argmin((box[1] - box[0])[RECT] / sides))
     low = box[0][RECT][across] - seed.low[RECT][across]

@@ -2,34 +2,43 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from ...articulation import JointKind
+import numpy as np
+
 from ...mesh import FloatArray, IntArray
+from ...part import Handle, Panel, PartKind
+from ..proposal import Motion
 
 
 @dataclass(frozen=True)
 class Mover:
-    """A part that moves.
+    """A part that moves, in the view frame.
 
     Attributes:
-        label: what it is, e.g. ``door``, ``drawer``, ``lid``, ``knob`` or ``wheel``; names the
-            part.
-        kind: of its joint.
-        axis: unit direction, view frame, shape [3]; positive opens.
-        origin: a point on the axis, view frame [m], shape [3].
-        lower, upper: limits [rad] or [m].
+        kind: what it is; names the part.
+        motion: how it moves.
         pieces: the pieces that move, shape [piece_count].
         guesses: what was assumed, each the end of a sentence that starts with the part's name.
         weight: how much it speaks for the view it was found in.
+        panel, handle: as in :class:`~asset_factory.factory.part.Part`, where they were seen.
     """
 
-    label: str
-    kind: JointKind
-    axis: FloatArray
-    origin: FloatArray
-    lower: float
-    upper: float
+    kind: PartKind
+    motion: Motion
     pieces: IntArray
     guesses: tuple[str, ...] = ()
-    weight: float = 1.0
+    weight: float = 0.0
+    panel: Panel | None = None
+    handle: Handle | None = None
+
+    def seen_from(self, rotation: FloatArray) -> Mover:
+        """Return the mover in the frame that ``rotation``, shape [3, 3], turned into this one."""
+        back = rotation.T
+        motion = self.motion.turned(back)
+        return replace(
+            self,
+            motion=replace(motion, axis=motion.axis / np.linalg.norm(motion.axis)),
+            panel=None if self.panel is None else self.panel.turned(back),
+            handle=None if self.handle is None else self.handle.turned(back),
+        )

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 
 from .mounted import handle_box
-from .panel import STANDS_OFF, Panel, overlap_area, rect_area
 from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
+from .slab import STANDS_OFF, FrontSlab, overlap_area, rect_area
 
 
-def resolve_nesting(scene: Scene, seeds: list[Panel]) -> list[Panel]:
-    """Slabs within a slab: fillings and trims join it; panels with own handles make it a frame."""
+def resolve_nesting(scene: Scene, seeds: list[FrontSlab]) -> list[FrontSlab]:
+    """Join fillings and trims to the slab around them; panels with handles make it a frame."""
     absorbed: set[int] = set()
     frames: set[int] = set()
     extra: dict[int, list[int]] = {}
@@ -42,22 +42,22 @@ def resolve_nesting(scene: Scene, seeds: list[Panel]) -> list[Panel]:
     return unshare(scene, kept)
 
 
-def _own_handle(host: Panel, inner: Panel) -> bool:
+def _own_handle(host: FrontSlab, inner: FrontSlab) -> bool:
     if host.handle is None or inner.handle is None:
         return host.handle is not None
     rect = overlap_area(host.handle[0], host.handle[1], inner.low, inner.high)
     return rect < 0.5 * float(np.prod((host.handle[1] - host.handle[0])[RECT]))
 
 
-def _within(scene: Scene, inner: Panel, host: Panel) -> bool:
+def _within(scene: Scene, inner: FrontSlab, host: FrontSlab) -> bool:
     ahead = host.low[FRONT] - inner.high[FRONT] <= scene.touch
     behind = inner.low[FRONT] - host.high[FRONT] <= scene.touch / 4.0
     covered = overlap_area(inner.low, inner.high, host.low, host.high) >= 0.9 * inner.area
     return bool(covered and ahead and behind and not inner.is_box and not host.is_box)
 
 
-def unshare(scene: Scene, panels: list[Panel]) -> list[Panel]:
-    """A piece mounted on two panels stays with the one it overlaps most, else the smaller one."""
+def unshare(scene: Scene, panels: list[FrontSlab]) -> list[FrontSlab]:
+    """Leave a piece on two panels to the one it overlaps most, else to the smaller one."""
     best: dict[int, tuple[float, float, int]] = {}
     for k, panel in enumerate(panels):
         for piece in panel.mounted:
@@ -79,8 +79,8 @@ def unshare(scene: Scene, panels: list[Panel]) -> list[Panel]:
     return result
 
 
-def is_visible(scene: Scene, panel: Panel) -> bool:
-    """Whether most rays from the front meet the panel first; what stands off it is ignored."""
+def is_visible(scene: Scene, panel: FrontSlab) -> bool:
+    """Tell whether most rays from the front meet the panel first, whatever stands off it."""
     hits = 0
     small = np.flatnonzero(rect_area(scene.extents) < STANDS_OFF * panel.area)
     through = np.setdiff1d(small, panel.pieces)

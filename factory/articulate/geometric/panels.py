@@ -7,8 +7,8 @@ import numpy as np
 from ...mesh import IntArray
 from .mounted import with_mounted
 from .nesting import is_visible, resolve_nesting
-from .panel import Panel, overlap_area
 from .scene import FRONT, SIDEWAYS, UP, Scene
+from .slab import FrontSlab, overlap_area
 
 MAX_SEEDS = 64
 SMALLEST_AREA = 0.012
@@ -22,8 +22,8 @@ LONGEST_GRIP = 0.3
 """Of the depth of a one-piece drawer: how far its grip reaches out."""
 
 
-def find_panels(scene: Scene) -> tuple[Panel, ...]:
-    """All slabs that could be seen from the front, largest first; no piece is in two of them."""
+def find_panels(scene: Scene) -> tuple[FrontSlab, ...]:
+    """Find all slabs that could be seen from the front, largest first; no piece is in two."""
     seeds = [_panel(scene, (int(i),)) for i in _seed_pieces(scene)]
     seeds = _join_layers(scene, seeds)
     seeds += [_box_panel(scene, int(i)) for i in _box_pieces(scene)]
@@ -33,9 +33,9 @@ def find_panels(scene: Scene) -> tuple[Panel, ...]:
     return tuple(panel for panel in resolve_nesting(scene, seeds) if is_visible(scene, panel))
 
 
-def _panel(scene: Scene, slabs: tuple[int, ...]) -> Panel:
+def _panel(scene: Scene, slabs: tuple[int, ...]) -> FrontSlab:
     index = list(slabs)
-    return Panel(slabs, scene.low[index].min(axis=0), scene.high[index].max(axis=0))
+    return FrontSlab(slabs, scene.low[index].min(axis=0), scene.high[index].max(axis=0))
 
 
 def _seed_pieces(scene: Scene) -> IntArray:
@@ -77,7 +77,7 @@ def _box_pieces(scene: Scene) -> IntArray:
 
 
 def _flat_front(scene: Scene, piece: int) -> float | None:
-    """Where a one-piece drawer has its front [m]: less deep than a handle that is one with it."""
+    """Return where a one-piece drawer has its front [m]: behind a handle that is one with it."""
     triangles = scene.triangles[scene.labels == piece]
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     width, depth, height = scene.extents[piece]
@@ -93,7 +93,7 @@ def _flat_front(scene: Scene, piece: int) -> float | None:
 
 
 def is_open_box(scene: Scene, piece: int) -> bool:
-    """Whether a ray from the middle leaves the piece upwards and meets its bottom downwards."""
+    """Tell whether a ray from the middle leaves the piece upwards and meets its bottom."""
     others = np.flatnonzero(np.arange(len(scene.low)) != piece)
     middle = (scene.low[piece] + scene.high[piece]) / 2.0
     middle[[SIDEWAYS, FRONT]] += 0.03 * scene.extents[piece, [SIDEWAYS, FRONT]]
@@ -104,18 +104,18 @@ def is_open_box(scene: Scene, piece: int) -> bool:
     return bool(np.isinf(above) and np.isfinite(below) and np.isfinite(left) and np.isfinite(back))
 
 
-def _box_panel(scene: Scene, piece: int) -> Panel:
+def _box_panel(scene: Scene, piece: int) -> FrontSlab:
     low = scene.low[piece].copy()
     high = scene.high[piece].copy()
     front = _flat_front(scene, piece)
     low[FRONT] = low[FRONT] if front is None else front
     high[FRONT] = low[FRONT] + 0.05 * scene.extents[piece, FRONT]
-    return Panel((piece,), low, high, is_box=True)
+    return FrontSlab((piece,), low, high, is_box=True)
 
 
-def _join_layers(scene: Scene, seeds: list[Panel]) -> list[Panel]:
+def _join_layers(scene: Scene, seeds: list[FrontSlab]) -> list[FrontSlab]:
     """Join sheets over the same rectangle, one behind the other, to one slab."""
-    joined: list[Panel] = []
+    joined: list[FrontSlab] = []
     for seed in seeds:
         for k, other in enumerate(joined):
             same = overlap_area(seed.low, seed.high, other.low, other.high) > 0.85 * max(
@@ -134,7 +134,7 @@ def _join_layers(scene: Scene, seeds: list[Panel]) -> list[Panel]:
     return joined
 
 
-def _with_frame(scene: Scene, seed: Panel, seeds: list[Panel]) -> Panel:
+def _with_frame(scene: Scene, seed: FrontSlab, seeds: list[FrontSlab]) -> FrontSlab:
     """Add strips that run along a side of the slab and touch it: a door of stiles and a filling."""
     if seed.is_box:
         return seed
@@ -172,9 +172,9 @@ def _with_frame(scene: Scene, seed: Panel, seeds: list[Panel]) -> Panel:
     return grown
 
 
-def _without_frame_strips(seeds: list[Panel]) -> list[Panel]:
+def _without_frame_strips(seeds: list[FrontSlab]) -> list[FrontSlab]:
     """Drop the seeds that have become part of a larger one."""
-    kept: list[Panel] = []
+    kept: list[FrontSlab] = []
     for seed in seeds:
         if not any(
             set(seed.slabs) < set(other.slabs) or set(seed.slabs) == set(other.slabs)

@@ -8,6 +8,8 @@ from scipy.sparse.csgraph import connected_components
 
 from ...articulation import JointKind
 from ...mesh import IntArray
+from ...part import PartKind
+from ..proposal import Motion
 from .movers import Mover
 from .scene import FRONT, SIDEWAYS, UP, Scene
 
@@ -23,7 +25,7 @@ TRAVEL = 0.92
 
 
 def find_racks(scene: Scene, doors: tuple[Mover, ...], taken: IntArray) -> tuple[Mover, ...]:
-    """Baskets inside the object behind a door in the front of the scene, top to bottom."""
+    """Find baskets inside the object behind a door in its front, top to bottom."""
     free = np.ones(len(scene.low), dtype=bool)
     free[taken] = False
     thin = np.sort(scene.extents, axis=1)[:, 1] <= THIN * float(np.linalg.norm(scene.size))
@@ -46,10 +48,9 @@ def find_racks(scene: Scene, doors: tuple[Mover, ...], taken: IntArray) -> tuple
         travel = TRAVEL * float(high[FRONT] - low[FRONT])
         guess = ("is a basket of wire behind a door; how far it slides is assumed",)
         outwards = np.array([0.0, -1.0, 0.0])
-        found.append(
-            Mover("rack", JointKind.PRISMATIC, outwards, middle, 0.0, travel, group, guess, 0.0)
-        )
-    return tuple(sorted(found, key=lambda m: -float(m.origin[UP])))
+        motion = Motion(JointKind.PRISMATIC, outwards, middle, 0.0, travel)
+        found.append(Mover(PartKind.RACK, motion, group, guess))
+    return tuple(sorted(found, key=lambda m: -float(m.motion.origin[UP])))
 
 
 def _behind(scene: Scene, door: Mover, point: np.ndarray) -> bool:

@@ -6,13 +6,14 @@ import numpy as np
 
 from ...articulation import JointKind
 from ...mesh import FloatArray, IntArray
+from ...part import PartKind
+from ..proposal import Motion
 from .knobs import is_round
 from .movers import Mover
-from .scene import FRONT, SIDEWAYS, UP, Scene, quarter_turn
+from .scene import FRONT, PLAN, SIDEWAYS, UP, Scene, quarter_turn
 
 FROM_ABOVE = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """The view whose front is the top of the scene: its y points down, its z to the back."""
-PLAN = [SIDEWAYS, FRONT]
 HIGHEST_CAP = 0.5
 """Of the object's height."""
 SLIM = 1.8
@@ -29,7 +30,7 @@ LARGEST_WHEEL = 0.5
 
 
 def find_cap(scene: Scene) -> tuple[Mover, ...]:
-    """What tops a round body about the same upright axis: a cap that turns, or a lid that lifts."""
+    """Find what tops a round body about its upright axis: a cap that turns, a lid that lifts."""
     above = scene.turned(FROM_ABOVE)
     tallest = HIGHEST_CAP * scene.size[UP]
     reach = scene.high[:, UP] >= scene.box[1, UP] - 0.25 * scene.size[UP]
@@ -53,7 +54,7 @@ def _square(scene: Scene) -> FloatArray:
 
 
 def _tops_a_body(scene: Scene, cap: int, group: IntArray) -> bool:
-    """Whether only one body, as wide as the cap and coaxial with it, is below and touches it."""
+    """Tell whether only one body, as wide and coaxial, is below the cap and touches it."""
     rest = np.setdiff1d(np.arange(len(scene.low)), group)
     if not len(rest):
         return False
@@ -93,14 +94,16 @@ def _cap(scene: Scene, cap: int, group: IntArray) -> Mover:
         > 1.5 * width
     ):
         guess = ("sticks out from the round top of a round body; assumed to turn by half a turn",)
-        return Mover("lever", JointKind.REVOLUTE, up, origin, 0.0, HALF_TURN, group, guess)
+        motion = Motion(JointKind.REVOLUTE, up, origin, 0.0, HALF_TURN)
+        return Mover(PartKind.LEVER, motion, group, guess)
     slim = float(scene.size[UP]) >= SLIM * width
     if not slim and _has_knob(scene, cap, group):
         lift = LIFT * float(scene.high[group, UP].max() - scene.low[cap, UP])
         guess = ("lies on a round body and is lifted off; how far is assumed",)
-        return Mover("lid", JointKind.PRISMATIC, up, origin, 0.0, lift, group, guess)
+        motion = Motion(JointKind.PRISMATIC, up, origin, 0.0, lift)
+        return Mover(PartKind.LID, motion, group, guess)
     guess = ("tops a round body; assumed to turn without end",)
-    return Mover("cap", JointKind.CONTINUOUS, up, origin, -np.pi, np.pi, group, guess)
+    return Mover(PartKind.CAP, Motion.endless(up, origin), group, guess)
 
 
 def _has_knob(scene: Scene, cap: int, group: IntArray) -> bool:
@@ -142,13 +145,11 @@ def find_turntables(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
     origin: FloatArray = (scene.low[plate] + scene.high[plate]) / 2.0
     guess = ("is a round plate inside a closed space; assumed to turn without end",)
     up = np.array([0.0, 0.0, 1.0])
-    return (
-        Mover("turntable", JointKind.CONTINUOUS, up, origin, -np.pi, np.pi, pieces, guess, 0.0),
-    )
+    return (Mover(PartKind.TURNTABLE, Motion.endless(up, origin), pieces, guess),)
 
 
 def _is_enclosed(scene: Scene, plate: int, pieces: IntArray) -> bool:
-    """Whether something stands on all six sides of a plate without touching, with room above."""
+    """Tell whether something stands on all six sides of a plate, with room above."""
     start = (scene.low[plate] + scene.high[plate]) / 2.0
     start[UP] = scene.high[pieces, UP].max() + scene.touch
     half = 0.5 * float(scene.extents[plate, SIDEWAYS])
@@ -162,26 +163,12 @@ def _is_enclosed(scene: Scene, plate: int, pieces: IntArray) -> bool:
 
 
 def find_wheels(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
-    """Two or more equal round pieces on the ground, upright, and clear of the ground otherwise."""
+    """Find two or more equal round pieces that stand upright on the ground."""
     found: list[Mover] = []
     for turns in (0, 1):
         view = scene.turned(quarter_turn(turns)) if turns else scene
-        found += [_in_scene(m, quarter_turn(turns)) for m in _wheels(view, taken)]
+        found += [m.seen_from(quarter_turn(turns)) for m in _wheels(view, taken)]
     return tuple(found)
-
-
-def _in_scene(mover: Mover, rotation: FloatArray) -> Mover:
-    return Mover(
-        mover.label,
-        mover.kind,
-        mover.axis @ rotation,
-        mover.origin @ rotation,
-        mover.lower,
-        mover.upper,
-        mover.pieces,
-        mover.guesses,
-        mover.weight,
-    )
 
 
 def _wheels(scene: Scene, taken: IntArray) -> list[Mover]:
@@ -220,9 +207,7 @@ def _wheels(scene: Scene, taken: IntArray) -> list[Mover]:
         origin: FloatArray = (scene.low[k] + scene.high[k]) / 2.0
         guess = ("is round and stands on the ground with its like; assumed to roll",)
         axis = np.array([0.0, 1.0, 0.0])
-        movers.append(
-            Mover("wheel", JointKind.CONTINUOUS, axis, origin, -np.pi, np.pi, pieces, guess, 0.0)
-        )
+        movers.append(Mover(PartKind.WHEEL, Motion.endless(axis, origin), pieces, guess))
     return movers
 
 

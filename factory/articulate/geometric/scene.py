@@ -14,6 +14,7 @@ FRONT = 1
 SIDEWAYS = 0
 UP = 2
 """Axes of the view frame: x right, y away from the viewer (the front looks along -y), z up."""
+PLAN = [SIDEWAYS, FRONT]
 RECT = [SIDEWAYS, UP]
 """Axes of the front plane."""
 
@@ -64,7 +65,7 @@ class Scene:
 
     @cached_property
     def facing(self) -> FloatArray:
-        """Area of the pieces projected on the front plane [m2], per face, shape [piece_count]."""
+        """Return the area of the pieces projected on the front plane [m2], shape [piece_count]."""
         sides = self.triangles[:, 1:, RECT] - self.triangles[:, :1, RECT]
         doubled = np.abs(_cross(sides[:, 0], sides[:, 1]))
         return np.asarray(np.bincount(self.labels, doubled / 2.0))
@@ -81,7 +82,7 @@ class Scene:
 
     @cached_property
     def touch(self) -> float:
-        """Gap below which pieces touch [m]: 0.4 % of the diagonal, millimetres on furniture."""
+        """Return the gap below which pieces touch [m]: 0.4 % of the diagonal."""
         return 0.004 * float(np.linalg.norm(self.size))
 
     def turned(self, rotation: FloatArray) -> Scene:
@@ -91,7 +92,7 @@ class Scene:
     def first_hit(
         self, origin: FloatArray, axis: int, sign: int, ignored: IntArray | None = None
     ) -> tuple[float, int]:
-        """Distance [m] and piece of the first triangle along ``sign * axis`` from ``origin``.
+        """Return distance [m] and piece of the first triangle along ``sign * axis``.
 
         Args:
             origin: view frame [m], shape [3].
@@ -144,7 +145,7 @@ def quarter_turn(turns: int) -> FloatArray:
 
 
 def level_yaw(triangles: FloatArray) -> float:
-    """Angle [rad] in (-pi/4, pi/4] by which the object's upright faces are turned off the axes.
+    """Return the angle [rad] in (-pi/4, pi/4] of the object's upright faces to the axes.
 
     The area-weighted circular mean of four times the heading of upright faces: four, since walls
     meet at right angles. Zero when no heading dominates.

@@ -38,7 +38,7 @@ def surface_points(scene: Scene, most: int = 20000) -> tuple[FloatArray, IntArra
 def free_turn(
     points: FloatArray, box: FloatArray, axis: FloatArray, origin: FloatArray, limit: float
 ) -> float:
-    """Largest angle [rad] up to ``limit`` that a box can turn without swallowing a point.
+    """Return the largest angle [rad] up to ``limit`` that a box turns without swallowing a point.
 
     Args:
         points: surroundings [m], shape [n, 3].

@@ -6,19 +6,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...part import OpensBy
+from .candidates import usable
 from .fronts import Front
-from .groups import FrontPanel
+from .groups import OUTLINED, FrontPanel
 from .handles import Protrusion
 from .motions import Opening
-from .panels import usable
-from .rectangles import Rectangle
-from .ways import OpensBy
+from .panels import STRICT
+from .rectangles import CLOSED, Rectangle
 
-#: The door takes at least so much of what is seen of the side, and is so closed by seams.
+#: The door takes at least so much of what is seen of the side.
 LEAST = 0.3
-CLOSED = 0.8
-#: How sure that is, as log-odds, and of the way it opens.
-SURE = 0.8
+#: How likely it opens in the way that its place beside the knobs says.
 LIKELY = 0.85
 
 
@@ -36,7 +35,7 @@ def appliance_door(front: Front, found: Sequence[Rectangle]) -> Opening | None:
     seen = float(front.relief.seen.sum())
     fit = [
         each
-        for each in usable(front.scene, found)
+        for each in usable(front.scene, found, STRICT)
         if each.closed >= CLOSED
         and each.area >= LEAST * seen
         and not any(each.holds(handle.center) for handle in controls)
@@ -48,7 +47,7 @@ def appliance_door(front: Front, found: Sequence[Rectangle]) -> Opening | None:
     handles = front.scene.handles_in(rectangle)
     others = [each for each in OpensBy if each is not way]
     ways = ((way, LIKELY), *((each, (1.0 - LIKELY) / len(others)) for each in others))
-    return Opening(FrontPanel(rectangle, handles, SURE), ways)
+    return Opening(FrontPanel(rectangle, handles, OUTLINED), ways)
 
 
 def _way(rectangle: Rectangle, controls: Sequence[Protrusion]) -> OpensBy:

@@ -6,14 +6,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...articulation import Articulation, Joint, Part
+from ...articulation import Articulation
 from ...config import BuildConfig
 from ...intake.intake import Intake
 from ...mesh import Mesh
-from ..naming import JOINT_SUFFIX, numbered
+from ..assembly import assembled
+from ..proposal import Hypothesis
 from ..rigid import rigid_articulation
 from .cutting import CutMesh, Region, cut_around, inside, uncut
-from .reading import MeshReading, read
+from .hypotheses import Movers, hypotheses_of_mesh
 
 NAME = "seams"
 
@@ -24,22 +25,23 @@ class SeamsArticulator:
     name = NAME
 
     def articulate(self, mesh: Mesh) -> Articulation:
-        """Return the likeliest reading of ``mesh`` (metres, z up); one rigid part if nothing opens.
+        """Return the likeliest hypothesis of ``mesh`` [m], z up; one rigid part if nothing opens.
 
         The mesh of the answer is cut along the outlines of its parts.
         """
-        return self.readings(mesh)[0]
+        return self.hypotheses(mesh)[0].articulation
 
-    def readings(self, mesh: Mesh) -> tuple[Articulation, ...]:
+    def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
         """Return what ``mesh`` may be, the likeliest first, at most four.
 
         All share one mesh: the given one, cut along the outlines of all their parts.
         """
-        found = read(mesh)
+        found = hypotheses_of_mesh(mesh)
         if not found:
             note = "nothing on its sides looks like a door, drawer or lid"
-            return (rigid_articulation(mesh, self.name, (note,)),)
-        return _articulations(mesh, found)
+            return (Hypothesis.of(rigid_articulation(mesh, self.name, (note,))),)
+        cut = _cut(mesh, found)
+        return tuple(Hypothesis.of(_articulation(cut.mesh, movers)) for movers in found)
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> SeamsArticulator:
@@ -47,36 +49,19 @@ def articulator_for(intake: Intake, config: BuildConfig) -> SeamsArticulator:
     return SeamsArticulator()
 
 
-def _articulations(mesh: Mesh, found: Sequence[MeshReading]) -> tuple[Articulation, ...]:
+def _cut(mesh: Mesh, found: Sequence[Movers]) -> CutMesh:
     cut = uncut(mesh)
     done: list[Region] = []
-    for region in (mover.region for reading in found for mover in reading.movers):
+    for region in (mover.region for movers in found for mover in movers):
         if not any(region.same(other) for other in done):
             cut = cut_around(cut, region)
             done.append(region)
-    return tuple(_articulation(cut, reading) for reading in found)
+    return cut
 
 
-def _articulation(cut: CutMesh, reading: MeshReading) -> Articulation:
-    owner = np.zeros(len(cut.mesh.faces), dtype=np.int64)
-    for number, mover in enumerate(reading.movers, start=1):
-        owner[inside(cut.mesh, mover.region) & (owner == 0)] = number
-    parts = [Part("base", np.flatnonzero(owner == 0))]
-    joints: list[Joint] = []
-    names = numbered(mover.name for mover in reading.movers)
-    for number, (name, mover) in enumerate(zip(names, reading.movers, strict=True), start=1):
-        parts.append(Part(name, np.flatnonzero(owner == number), mover.confidence))
-        joints.append(
-            Joint(
-                name=f"{name}_{JOINT_SUFFIX[mover.kind]}",
-                kind=mover.kind,
-                parent=0,
-                child=number,
-                axis=mover.axis,
-                origin=mover.origin,
-                lower=mover.lower,
-                upper=mover.upper,
-                confidence=mover.confidence * mover.sure,
-            )
-        )
-    return Articulation(cut.mesh, tuple(parts), tuple(joints), NAME, reading.notes)
+def _articulation(mesh: Mesh, movers: Movers) -> Articulation:
+    owner = np.zeros(len(mesh.faces), dtype=np.int64)
+    for number, mover in enumerate(movers, start=1):
+        owner[inside(mesh, mover.region) & (owner == 0)] = number
+    found = [mover.proposal(owner == number) for number, mover in enumerate(movers, start=1)]
+    return assembled(mesh, owner, found, NAME)

@@ -13,7 +13,7 @@ from ...mesh import FloatArray, IntArray
 from .dividing import divided
 from .handles import Face, Protrusion
 from .rectangles import SHORTEST, Lines, Rectangle
-from .relief import Relief
+from .relief import BEHIND, Relief
 
 #: Rectangles with so much in common (intersection over union) are one.
 SAME = 0.8
@@ -28,17 +28,12 @@ ROW = 0.05
 FLAT = 0.12
 #: Handles of one make are alike up to this ratio of their sizes.
 ONE_KIND = 2.0
-#: Of a rectangle so much must be seen and face the viewer.
-SOLID = 0.8
-#: And so much of the picture's area it covers.
-LEAST_AREA = 0.012
 #: A strip along a side, so wide as a share of the rectangle and at least [pixels], that lies so far
 #: behind its middle [pixels] belongs to something else: the wall behind a stove's top. Edges that
 #: are round to so far in [pixels] do not count.
 ROUNDED = 5
 STRIP = 0.08
 LEAST_STRIP = 4
-BEHIND = 24.0
 #: What opens is a container: so thick as a share of the panel's shorter and longer side.
 THICK_SHORT = 0.15
 THICK_LONG = 0.08
@@ -101,21 +96,14 @@ def candidates_of(scene: FrontScene, found: Sequence[Rectangle]) -> list[PanelCa
     first_row, last_row, _, _ = scene.relief.box
     if last_row - first_row < FLAT * PIXELS:
         return []
-    usable = _usable(scene, (whole_side(scene), *found[:MOST_FOUND]))
-    back = steps_back(scene, usable)
-    kept: list[Rectangle] = []
-    level: list[Rectangle] = []
+    fit = usable(scene, (whole_side(scene), *found[:MOST_FOUND]))
+    back = steps_back(scene, fit)
     # What steps back may be cut into panels, but is none, and all but the whole side comes last.
-    for index in sorted(range(len(usable)), key=lambda index: index > 0 and back[index]):
-        each = usable[index]
-        if not is_among(each, kept) and deep(scene, each):
-            kept.append(each)
-            if not back[index]:
-                level.append(each)
-        if len(kept) >= MOST:
-            break
-    cuts = [cut for each in kept for cut in _divided(scene, each)]
-    return [*(PanelCandidate(each, (each,)) for each in level), *cuts]
+    order = sorted(range(len(fit)), key=lambda index: index > 0 and bool(back[index]))
+    kept = distinct(scene, fit, order)
+    cuts = [cut for index in kept for cut in _divided(scene, fit[index])]
+    whole = [PanelCandidate(fit[index], (fit[index],)) for index in kept if not back[index]]
+    return [*whole, *cuts]
 
 
 def whole_side(scene: FrontScene) -> Rectangle:
@@ -134,19 +122,26 @@ def _divided(scene: FrontScene, rectangle: Rectangle) -> list[PanelCandidate]:
     pulls = main_pulls(scene.handles_in(rectangle), rectangle)
     if len(pulls) < 2 or not of_one_kind(pulls):
         return []
-    short = min(scene.relief.shape)
-    found = []
-    for apart in (pulls, _paired(pulls, rectangle)):
-        if not 2 <= len(apart) <= MOST_PIECES:
-            continue
-        pieces = [piece for piece, _ in divided(rectangle, apart, scene.level, scene.upright)]
-        if pieces and min(float(piece.size.min()) for piece in pieces) >= SHORTEST * short:
-            found.append(PanelCandidate(rectangle, tuple(pieces)))
-    return found
+    pulls_of = (pulls, _paired(pulls, rectangle))
+    cuts = (cut_between(scene, rectangle, some, MOST_PIECES) for some in pulls_of)
+    return [
+        PanelCandidate(rectangle, tuple(piece for piece, _ in pieces)) for pieces in cuts if pieces
+    ]
+
+
+def cut_between(
+    scene: FrontScene, rectangle: Rectangle, pulls: Sequence[Protrusion], most: int
+) -> list[tuple[Rectangle, Protrusion]]:
+    """Cut a rectangle between two to ``most`` pulls; return nothing where a piece is too small."""
+    if not 2 <= len(pulls) <= most:
+        return []
+    pieces = divided(rectangle, pulls, scene.level, scene.upright)
+    shortest = min((float(piece.size.min()) for piece, _ in pieces), default=0.0)
+    return pieces if shortest >= SHORTEST * min(scene.relief.shape) else []
 
 
 def _paired(pulls: Sequence[Protrusion], rectangle: Rectangle) -> list[Protrusion]:
-    """Two neighbours in every row as one: a wide drawer has two knobs. None if rows are odd."""
+    """Return two neighbours in every row as one; nothing if rows are odd."""
     rows: list[list[Protrusion]] = []
     for pull in sorted(pulls, key=lambda each: float(each.center[0])):
         if rows and pull.center[0] - rows[-1][-1].center[0] <= ROW * rectangle.size[0]:
@@ -173,16 +168,58 @@ def of_one_kind(pulls: Sequence[Protrusion]) -> bool:
     )
 
 
-def _usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
-    """Return those that are solid and face the viewer."""
+@dataclass(frozen=True)
+class PanelLimits:
+    """What a rectangle must have to be looked at as a panel.
+
+    Attributes:
+        solid: share of it that is seen and faces the viewer.
+        area: share of the picture's area that it covers.
+        slimmest: its width over its height.
+        span: how wide the object is there, as a share of its whole width: no tank on a bowl.
+    """
+
+    solid: float = 0.8
+    area: float = 0.012
+    slimmest: float = 0.0
+    span: float = 0.0
+
+
+def usable(
+    scene: FrontScene, found: Sequence[Rectangle], limits: PanelLimits | None = None
+) -> list[Rectangle]:
+    """Return the rectangles that keep some limits, the lenient ones unless others are given."""
+    if not found:
+        return []
+    least = limits or PanelLimits()
     relief = scene.relief
     box = relief.box
     whole = max((box[1] - box[0]) * (box[3] - box[2]), 1)
     low = np.array([each.low for each in found]) + 2
     high = np.maximum(np.array([each.high for each in found]) - 1, low + 1)
+    size = high - low
     facing = relief.seen & ((relief.facing > 0.7) | scene.face.covered)
-    good = ((high - low).prod(axis=1) >= LEAST_AREA * whole) & (mean_in(facing, low, high) >= SOLID)
+    rows = mean_in(relief.seen, low * [1, 0], high * [1, 0] + [0, relief.shape[1]])
+    good = (
+        (size.prod(axis=1) >= least.area * whole)
+        & (mean_in(facing, low, high) >= least.solid)
+        & (size[:, 1] >= least.slimmest * size[:, 0])
+        & (rows * relief.shape[1] >= least.span * (box[3] - box[2]))
+    )
     return [each for each, fits in zip(found, good, strict=True) if fits]
+
+
+def distinct(scene: FrontScene, rectangles: Sequence[Rectangle], order: Sequence[int]) -> list[int]:
+    """Return which rectangles, in some order, are deep and unlike those before, at most 60."""
+    kept: list[int] = []
+    for index in order:
+        each = rectangles[index]
+        known = is_among(each, (rectangles[other] for other in kept))
+        if not known and deep(scene, each):
+            kept.append(index)
+        if len(kept) >= MOST:
+            break
+    return kept
 
 
 def steps_back(scene: FrontScene, rectangles: Sequence[Rectangle]) -> BoolArray:
@@ -224,7 +261,7 @@ def deep(scene: FrontScene, rectangle: Rectangle) -> bool:
 
 
 def mean_in(values: FloatArray | BoolArray, low: IntArray, high: IntArray) -> FloatArray:
-    """Mean of a picture in boxes from ``low`` up to, without, ``high``; shape [n, 2] each."""
+    """Average a picture in boxes from ``low`` up to, without, ``high``; shape [n, 2] each."""
     sums = np.pad(values.astype(np.float64), ((1, 0), (1, 0))).cumsum(axis=0).cumsum(axis=1)
     total = sums[high[:, 0], high[:, 1]] - sums[low[:, 0], high[:, 1]]
     total += sums[low[:, 0], low[:, 1]] - sums[high[:, 0], low[:, 1]]
@@ -232,7 +269,7 @@ def mean_in(values: FloatArray | BoolArray, low: IntArray, high: IntArray) -> Fl
 
 
 def main_pulls(handles: Sequence[Protrusion], rectangle: Rectangle) -> list[Protrusion]:
-    """One handle for each panel they speak for: two alike side by side open one wide drawer."""
+    """Return one handle for each panel: two alike side by side open one wide drawer."""
     if not handles:
         return []
     main = handles[0]

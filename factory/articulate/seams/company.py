@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ...part import OpensBy
 from .features import ALIGNED
 from .groups import FrontPanel
 from .handles import GripShape
-from .ways import OpensBy
 
 #: Three drawers make a chest; on two, an oven's door may be above a drawer.
 CHEST = 3
@@ -27,7 +27,7 @@ LIKELIER = 1.5
 
 
 def without_control_panels(panels: Sequence[FrontPanel]) -> list[FrontPanel]:
-    """The panels but for what is beside a microwave's door: no two doors differ so in handles."""
+    """Drop what is beside a microwave's door: no two doors differ so in handles."""
     doors = [each for each in panels if _grip(each) is GripShape.UPRIGHT]
     return [
         panel
@@ -40,7 +40,7 @@ def without_control_panels(panels: Sequence[FrontPanel]) -> list[FrontPanel]:
 def said_by_company(
     panels: Sequence[FrontPanel], *, has_controls: bool
 ) -> list[dict[OpensBy, float]]:
-    """By how much the company of each panel changes the log-weights of the ways it may open.
+    """Return what each panel's company adds to the log-weights of its ways to open.
 
     A bar at the top pulls a dishwasher's door down. But of two tall panels beside each other it
     opens doors, and of three above each other drawers; an appliance, which has knobs, may have
@@ -70,7 +70,7 @@ def _said(panel: FrontPanel, panels: Sequence[FrontPanel]) -> dict[OpensBy, floa
 
 
 def _pair(one: FrontPanel, other: FrontPanel) -> bool:
-    """Whether two are tall, alike, beside each other, and each has a level bar at its top."""
+    """Tell whether two are tall, alike, side by side, each with a level bar at its top."""
     if not (_has_bar_on_top(one) and _has_bar_on_top(other)):
         return False
     both = (one.rectangle, other.rectangle)

@@ -19,7 +19,7 @@ SEAM = 0.55
 
 
 def with_strips(face: Face, level: Lines, upright: Lines) -> Face:
-    """A face with those knobs marked as controls that share a strip without a seam between them.
+    """Return a face whose knobs on one strip without a seam between them are controls.
 
     Args:
         face: a side without handles.

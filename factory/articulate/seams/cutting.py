@@ -87,7 +87,7 @@ def inside(mesh: Mesh, region: Region) -> BoolArray:
 
 
 def _near(mesh: Mesh, region: Region, tolerance: float) -> IntArray:
-    """Triangles that may reach into a region: none of its planes has all corners outside."""
+    """Return triangles that may reach into a region: none of its planes has all corners outside."""
     near = np.ones(len(mesh.faces), dtype=np.bool_)
     for normal, offset in zip(region.normals, region.offsets, strict=True):
         outside = mesh.vertices @ normal - offset > -tolerance

@@ -49,7 +49,7 @@ def seen_thickness(
 
 
 def is_slab(fronts: Mapping[Side, Front], side: Side, panel: FrontPanel, rim: float) -> bool:
-    """Whether both sides beside a panel show its back edge at one depth; arguments as above."""
+    """Tell whether both sides beside a panel show its back edge at one depth."""
     found = [_seams(fronts[side], panel, rim, other) for other in _beside(fronts, side, panel)]
     return _agreeing(found, fronts[side]) is not None
 
@@ -88,7 +88,7 @@ def _beside(fronts: Mapping[Side, Front], side: Side, panel: FrontPanel) -> list
 
 
 def _seams(front: Front, panel: FrontPanel, rim: float, beside: Front) -> FloatArray:
-    """The upright seams behind a panel: how far behind its rim [m], how far covered; [n, 2]."""
+    """Return upright seams behind a panel: how far behind its rim [m], how far covered; [n, 2]."""
     own = front.relief.raster
     raster = beside.relief.raster
     lines = beside.scene.upright

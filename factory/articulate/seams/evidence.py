@@ -67,7 +67,7 @@ class Seams:
         )
 
     def only(self, where: BoolArray) -> Seams:
-        """Without what is not there."""
+        """Return the seams where they are, and nothing elsewhere."""
         return Seams(
             self.groove * where,
             self.step * where,
@@ -137,7 +137,7 @@ def _dip(values: FloatArray) -> FloatArray:
 
 
 def _ramp(value: FloatArray, seen: BoolArray, nothing: float, certain: float) -> FloatArray:
-    """0 for what says nothing, 1 for what is certain; a seam stands out of its surroundings.
+    """Return 0 for what says nothing, 1 for what is certain; a seam stands out of the rest.
 
     Seams are few, so that what most pixels show is the texture or the noise of the surface.
     """

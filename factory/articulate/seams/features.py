@@ -117,8 +117,8 @@ def _grips(scene: FrontScene, rectangle: Rectangle, handles: Sequence[Protrusion
 
 def _inside(scene: FrontScene, rectangle: Rectangle) -> list[float]:
     """Return the lines that run through it, and how many of its sides are the outline's."""
-    level = _crossing(scene.level, rectangle, 1, 0)
-    upright = _crossing(scene.upright, rectangle, 0, 1)
+    level = crossing(scene.level, rectangle, 1, 0)
+    upright = crossing(scene.upright, rectangle, 0, 1)
     return [
         float(level.max(initial=0.0)),
         float(upright.max(initial=0.0)),
@@ -128,8 +128,8 @@ def _inside(scene: FrontScene, rectangle: Rectangle) -> list[float]:
     ]
 
 
-def _crossing(lines: Lines, rectangle: Rectangle, along: int, across: int) -> FloatArray:
-    """Cover of every line that runs through a rectangle from side to side."""
+def crossing(lines: Lines, rectangle: Rectangle, along: int, across: int) -> FloatArray:
+    """Return the cover of every line that runs through a rectangle from side to side."""
     margin = max(BEVEL * float(rectangle.size[across]), 6.0)
     between = np.flatnonzero(
         (lines.at > rectangle.low[across] + margin) & (lines.at < rectangle.high[across] - margin)
@@ -294,7 +294,7 @@ def _grip(rectangle: Rectangle, handles: Sequence[Protrusion]) -> list[float]:
 def _neighbours(
     scene: FrontScene, rectangle: Rectangle, panels: Sequence[Rectangle]
 ) -> list[float]:
-    """Panels like it, beside it, and on which side those beside it have their handles."""
+    """Describe panels like it, beside it, and where those beside it have their handles."""
     others = [other for other in panels if other is not rectangle]
     if not others:
         return [0.0] * 6

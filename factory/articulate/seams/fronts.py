@@ -63,7 +63,7 @@ class Front:
         return FrontScene(self.relief, face, thickness(self.relief, self.behind), rows, columns)
 
     def _own_seams(self) -> tuple[Seams, Seams]:
-        """Evidence for seams, horizontal and vertical, without what the network knows is none."""
+        """Return level and upright evidence, without what the network knows is no seam."""
         kept = ~self.sight.runs_on(self.relief.shape)
         upright = upright_seams(self.relief, self.face)
         return self.level.only(kept[0]), upright.only(kept[1])

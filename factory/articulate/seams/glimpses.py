@@ -9,7 +9,7 @@ from ...mesh import FloatArray, IntArray
 from .candidates import main_pulls
 from .fronts import Front
 from .groups import FrontPanel
-from .panels import SOLID
+from .panels import STRICT
 from .rectangles import Rectangle
 from .sight import SQUARE, Block, Sight
 
@@ -86,7 +86,7 @@ def _panel(front: Front, block: Block) -> FrontPanel | None:
     sure = front.sight.shows(rectangle)
     if (high - low).min() < SQUARE * LEAST or sure < SURE or sides.mean() < ENDS:
         return None
-    if front.relief.seen[low[0] : high[0], low[1] : high[1]].mean() < SOLID:
+    if front.relief.seen[low[0] : high[0], low[1] : high[1]].mean() < STRICT.solid:
         return None
     handles = front.scene.handles_in(rectangle)
     if len(main_pulls(handles, rectangle)) > MOST_PULLS:

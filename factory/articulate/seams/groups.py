@@ -9,6 +9,8 @@ from typing import TypeVar
 from .handles import Protrusion
 from .rectangles import Rectangle
 
+#: How sure a panel is of which nothing but the outline is seen, as log-odds.
+OUTLINED = 0.8
 #: Two panels may share this much of the smaller one.
 OVERLAP = 0.08
 
@@ -54,7 +56,7 @@ class Group:
 
     @property
     def value(self) -> float:
-        """Of all of them, as if each were independent."""
+        """Add the panels' values, as if each were independent."""
         return sum(panel.value for panel in self.panels)
 
 

@@ -44,6 +44,8 @@ FEWEST = 3
 FEWEST_LONG = 4
 SPACING_LONG = 2.5
 LONGEST = 0.08
+#: What is wider than so many times its height is a bar, not two knobs that have grown together.
+LONGEST_KNOB = 3.0
 #: Twins on opposite sides differ by less than that share of the picture.
 TWIN = 0.03
 #: What stands off less than that share of the highest handle of a side is none.
@@ -82,7 +84,7 @@ class Protrusion:
 
     @property
     def center(self) -> FloatArray:
-        """Row and column."""
+        """Return row and column."""
         return np.asarray((self.low + self.high) / 2.0)
 
     @property
@@ -90,13 +92,18 @@ class Protrusion:
         """Return the rows and columns."""
         return np.asarray(self.high - self.low + 1.0)
 
+    def split(self, column: int) -> tuple[Protrusion, Protrusion]:
+        """Return what is left and right of a column."""
+        left = replace(self, high=np.array([self.high[0], column - 1]))
+        return left, replace(self, low=np.array([self.low[0], column + 1]))
+
     def holds(self, other: Protrusion) -> bool:
         """Return whether another stands on it: then it is a panel in front of its frame."""
         return bool((other.low > self.low).all() and (other.high < self.high).all())
 
     @property
     def grip(self) -> GripShape:
-        """Its shape."""
+        """Return its shape."""
         rows, columns = self.size
         if rows >= 1.8 * columns:
             return GripShape.UPRIGHT
@@ -177,7 +184,7 @@ def cleared(relief: Relief) -> Face:
 
 
 def _roughness(relief: Relief) -> float:
-    """By how much the surface goes up and down from pixel to pixel [pixels]."""
+    """Measure how far the surface goes up and down from pixel to pixel [pixels]."""
     some = relief.height[::3, ::3]
     rough = np.abs(some - ndimage.median_filter(some, size=3))[relief.seen[::3, ::3]]
     return float(np.percentile(rough, 80)) if rough.size else 0.0
@@ -190,7 +197,7 @@ def _handle(
     where: tuple[slice, ...],
     mask: BoolArray,
 ) -> Protrusion | None:
-    """A blob as a handle, if it is of a handle's size and a face carries it on all sides but one.
+    """Return a blob as a handle, if it has a handle's size and a face carries it.
 
     A rim or a plinth reaches from outline to outline; a foot hangs on by one end.
     """
@@ -224,7 +231,7 @@ def _handle(
 
 
 def _reaches_across(relief: Relief, low: IntArray, high: IntArray) -> bool:
-    """Whether a blob is a thin bar from outline to outline, as doors of fridges and ovens have."""
+    """Tell whether a blob is a thin bar from outline to outline, as on fridges and ovens."""
     _, _, first, last = relief.box
     thin = high[0] - low[0] + 1 <= THIN * max(relief.shape)
     return bool(thin and low[1] - first <= BORDER and last - high[1] <= BORDER)
@@ -245,7 +252,7 @@ def _border(low: IntArray, high: IntArray, shape: tuple[int, int]) -> list[tuple
 
 
 def _with_controls(found: list[Protrusion], relief: Relief) -> tuple[Protrusion, ...]:
-    """Handles with those marked that are controls, without those far lower than the others."""
+    """Mark the handles that are controls, and drop those far lower than the others."""
     highest = max((handle.height for handle in found), default=0.0)
     found = [handle for handle in found if handle.height >= OF_HIGHEST * highest]
     controls: set[int] = set()
@@ -280,7 +287,7 @@ def _beside(one: Protrusion, other: Protrusion, along: int) -> bool:
 
 
 def _close(found: list[Protrusion], row: list[int], axis: int, spacing: float) -> bool:
-    """Controls lie side by side; drawers' knobs are a drawer apart."""
+    """Tell whether handles lie side by side, as controls do; drawers' are a drawer apart."""
     places = np.sort([found[j].center[axis] for j in row])
     size = max(float(found[j].size.max()) for j in row)
     return bool(np.median(np.diff(places)) < spacing * size)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...articulation import JointKind
+from ...part import PartKind
+from ..proposal import Motion
 from .handles import FEWEST, Face, Protrusion
 from .placing import OpeningPart, box_before
 from .relief import Relief
@@ -19,7 +20,7 @@ MOST = 10
 FOOT = 1.0
 AROUND = 1.0
 #: That small things in a row are knobs, and that those turn.
-CONFIDENCE = 0.7
+EXISTENCE = 0.7
 SURE = 0.9
 
 
@@ -51,13 +52,9 @@ def _mover(relief: Relief, face: Face, knob: Protrusion) -> OpeningPart:
     high = raster.low[::-1] + (knob.high + AROUND) * raster.pixel
     height, across = (low + high) / 2.0
     return OpeningPart(
-        name="knob",
+        kind=PartKind.KNOB,
         region=box_before(raster.side, low, high, back),
-        kind=JointKind.CONTINUOUS,
-        axis=away,
-        origin=across * right + height * up + back * away,
-        lower=-np.pi,
-        upper=np.pi,
-        confidence=CONFIDENCE,
+        motion=Motion.endless(away, across * right + height * up + back * away),
+        existence=EXISTENCE,
         sure=SURE,
     )

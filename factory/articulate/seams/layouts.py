@@ -79,7 +79,7 @@ def rated(scene: FrontScene, candidates: Sequence[PanelCandidate]) -> list[Group
 def described(
     scene: FrontScene, candidates: Sequence[PanelCandidate]
 ) -> tuple[list[tuple[Rectangle, bool]], FloatArray]:
-    """Every piece of the candidates, whether it was cut, and its features [piece_count, ...]."""
+    """Return every piece, whether it was cut, and its features [piece_count, ...]."""
     around = Context(scene, [each.rectangle for each in candidates if not each.cut])
     pieces = [(piece, each.cut) for each in candidates for piece in each.pieces]
     return pieces, np.stack([features(around, piece, cut=cut) for piece, cut in pieces])

@@ -32,7 +32,7 @@ class LearnedJudge:
     out: FloatArray
 
     def logits(self, features: FloatArray) -> FloatArray:
-        """Log-odds of each answer, shape [n, answer_count], for features [n, feature_count]."""
+        """Return log-odds of each answer, [n, answer_count], for features [n, feature_count]."""
         # Beyond what was learned from, nothing more is concluded.
         scaled = np.clip((features - self.mean) / self.scale, -4.0, 4.0)
         inner = np.tanh(scaled @ self.hidden[:-1] + self.hidden[-1])

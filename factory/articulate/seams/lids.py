@@ -218,7 +218,7 @@ def _latched(fronts: Mapping[Side, Front], row: int, height: int) -> bool:
 
 
 def _at_seam(front: Front, row: int, height: int, widest: float) -> list[tuple[float, float]]:
-    """Of each handle at a seam or above it, how central it is, 0 to 1, and on which half, -1 or 1.
+    """Return how central each handle at a seam is, 0 to 1, and on which half, -1 or 1.
 
     Args:
         front: the side.

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...mesh import FloatArray
+from ...part import OpensBy
 from .candidates import FrontScene
 from .company import said_by_company
 from .features import ALIGNED, MOTION_NAMES, motion_features
@@ -16,7 +17,6 @@ from .handles import GripShape, Protrusion
 from .learned import load_judge
 from .relief import Relief
 from .sight import Sight
-from .ways import OpensBy
 
 #: What is less deep than this share of a panel's shorter side holds no drawer.
 SHALLOW = 0.3
@@ -43,9 +43,9 @@ class Opening:
 def openings_of(
     scene: FrontScene, panels: Sequence[FrontPanel], sight: Sight
 ) -> tuple[Opening, ...]:
-    """The ways in which each panel of a side may open, as three judges see it, each counting alike.
+    """Weigh the ways in which each panel may open by three opinions that count alike.
 
-    Rules, a judge of rectangles that learned, and the picture network; then its company.
+    Rules, a model of rectangles, and the picture network; then its company.
     """
     if not panels:
         return ()
@@ -141,7 +141,7 @@ def _place(panel: FrontPanel, handle: Protrusion) -> tuple[float, float]:
 def _without_handle(
     relief: Relief, panel: FrontPanel, panels: Sequence[FrontPanel]
 ) -> dict[OpensBy, float]:
-    """By the shape, and by what the panels beside it do."""
+    """Weigh the ways by the shape, and by what the panels beside it do."""
     box = relief.box
     middle = (panel.rectangle.low[1] + panel.rectangle.high[1]) / 2.0
     to_left = float(np.clip((middle - box[2]) / max(box[3] - box[2], 1), 0.0, 1.0))

@@ -9,35 +9,28 @@ import numpy as np
 from ...geometry.elevations import PIXELS
 from .candidates import (
     FLAT,
-    MOST,
     MOST_FOUND,
     FrontScene,
-    deep,
-    is_among,
+    PanelLimits,
+    cut_between,
+    distinct,
     main_pulls,
-    mean_in,
     of_one_kind,
     steps_back,
+    usable,
     whole_side,
 )
-from .dividing import divided
-from .features import ALIGNED, BEVEL, outline_sides
+from .features import ALIGNED, crossing, outline_sides
 from .groups import FrontPanel, Group, clear_of, together
 from .handles import GripShape, Protrusion
-from .rectangles import SHORTEST, Rectangle
+from .rectangles import Rectangle
 from .relief import Relief
 
 #: A rectangle is cut between at most so many handles, and what each piece is then worth.
 MOST_PIECES = 9
 CUT_VALUE = 1.2
-#: Of a rectangle so much must be seen and face the viewer.
-SOLID = 0.9
-#: And so much of the picture's area it covers.
-LEAST_AREA = 0.015
-#: No door or drawer is slimmer, as its width over its height.
-SLIMMEST = 0.15
-#: The object is there so wide as a share of its whole width: no tank on a bowl.
-LEAST_SPAN = 0.5
+#: What a rectangle must have that the hand score is asked about.
+STRICT = PanelLimits(solid=0.9, area=0.015, slimmest=0.15, span=0.5)
 #: A seam that crosses a rectangle is covered so far, by the shape alone.
 CROSSED = 0.85
 #: A handle that stands off so far is certainly one [pixels].
@@ -82,66 +75,33 @@ def rated(scene: FrontScene, found: Sequence[Rectangle]) -> list[Group]:
 
 
 def _groups(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[list[Group], list[Group]]:
-    """Rectangles that may be panels, and those that step back, which may only be cut into some."""
+    """Return what may be panels, and what steps back and may only be cut into some."""
     first_row, last_row, _, _ = scene.relief.box
     if last_row - first_row < FLAT * PIXELS:
         return [], []
-    solid = usable(scene, (*found[:MOST_FOUND], whole_side(scene)))
+    solid = usable(scene, (*found[:MOST_FOUND], whole_side(scene)), STRICT)
     groups = [
         Group(each, (FrontPanel(each, scene.handles_in(each), _value(scene, each)),))
         for each in solid
     ]
     back = steps_back(scene, solid)
     order = sorted(range(len(groups)), key=lambda index: (back[index], -groups[index].value))
-    level: list[Group] = []
-    others: list[Group] = []
-    for index in order:
-        rectangle = groups[index].rectangle
-        known = is_among(rectangle, (other.rectangle for other in (*level, *others)))
-        if not known and deep(scene, rectangle):
-            (others if back[index] else level).append(groups[index])
-        if len(level) + len(others) >= MOST:
-            break
-    return level, others
+    kept = distinct(scene, solid, order)
+    level = [groups[index] for index in kept if not back[index]]
+    return level, [groups[index] for index in kept if back[index]]
 
 
 def _divided(scene: FrontScene, rectangle: Rectangle) -> Group | None:
     """Return a rectangle with several pulls, cut between them."""
     pulls = main_pulls(scene.handles_in(rectangle), rectangle)
-    if not 2 <= len(pulls) <= MOST_PIECES or _crossings(scene, rectangle) > len(pulls):
+    if not pulls or not of_one_kind(pulls) or _crossings(scene, rectangle) > len(pulls):
         return None
-    if not of_one_kind(pulls):
-        return None
-    pieces = divided(rectangle, pulls, scene.level, scene.upright)
-    short = min(scene.relief.shape)
-    if not pieces or min(float(piece.size.min()) for piece, _ in pieces) < SHORTEST * short:
+    pieces = cut_between(scene, rectangle, pulls, MOST_PIECES)
+    if not pieces:
         return None
     value = CUT_VALUE + 2.0 * (rectangle.closed - 0.75)
     panels = tuple(FrontPanel(piece, (handle,), value, cut=True) for piece, handle in pieces)
     return Group(rectangle, panels)
-
-
-def usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
-    """Return those that are solid, no slivers, and face the viewer, where the object is wide."""
-    if not found:
-        return []
-    relief = scene.relief
-    box = relief.box
-    whole = max((box[1] - box[0]) * (box[3] - box[2]), 1)
-    low = np.array([each.low for each in found]) + 2
-    high = np.maximum(np.array([each.high for each in found]) - 1, low + 1)
-    size = high - low
-    facing = relief.seen & ((relief.facing > 0.7) | scene.face.covered)
-    solid = mean_in(facing, low, high)
-    whole_rows = np.array([0, 0]), np.array([0, relief.shape[1]])
-    span = mean_in(relief.seen, low * [1, 0] + whole_rows[0], high * [1, 0] + whole_rows[1])
-    good = (
-        (size.prod(axis=1) >= LEAST_AREA * whole)
-        & (solid >= SOLID)
-        & (size[:, 1] >= SLIMMEST * size[:, 0])
-        & (span * relief.shape[1] >= LEAST_SPAN * (box[3] - box[2]))
-    )
-    return [each for each, fits in zip(found, good, strict=True) if fits]
 
 
 def _value(scene: FrontScene, rectangle: Rectangle) -> float:
@@ -177,16 +137,9 @@ def _certainty(handle: Protrusion) -> float:
 
 def _crossings(scene: FrontScene, rectangle: Rectangle) -> int:
     """Return how many seams run through a rectangle from side to side: then it is not one panel."""
-    count = 0
-    for lines, along, across in ((scene.level, 1, 0), (scene.upright, 0, 1)):
-        margin = max(BEVEL * float(rectangle.size[across]), 6.0)
-        between = np.flatnonzero(
-            (lines.at > rectangle.low[across] + margin)
-            & (lines.at < rectangle.high[across] - margin)
-        )
-        cover = lines.in_relief(between, rectangle.low[along], rectangle.high[along])
-        count += int((cover >= CROSSED).sum())
-    return count
+    level = crossing(scene.level, rectangle, 1, 0)
+    upright = crossing(scene.upright, rectangle, 0, 1)
+    return int((level >= CROSSED).sum() + (upright >= CROSSED).sum())
 
 
 def _without_handles(

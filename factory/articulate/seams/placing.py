@@ -8,19 +8,28 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...articulation import JointKind
-from ...geometry.crossings import Side
+from ...geometry.crossings import BoolArray, Side
 from ...mesh import FloatArray
+from ...part import Handle, OpensBy, Panel, PartKind, Proposer
+from ..proposal import Motion, Proposal
 from .cutting import Region
 from .edges import seen_thickness
 from .fronts import Front
 from .groups import FrontPanel
 from .lids import Lid
-from .ways import OpensBy
 
 #: A panel whose back edge nobody sees reaches so far behind its rim: share of the object's depth,
 #: and of the picture [pixels].
 THICKNESS = 0.04
 LEAST_THICKNESS = 3.0
+#: What a panel is that opens so.
+KINDS = {
+    OpensBy.LEFT: PartKind.DOOR,
+    OpensBy.RIGHT: PartKind.DOOR,
+    OpensBy.BOTTOM: PartKind.FLAP,
+    OpensBy.TOP: PartKind.FLAP,
+    OpensBy.OUT: PartKind.DRAWER,
+}
 #: How far a door, a flap or a lid turns [rad], and a drawer slides as a share of the depth behind.
 TURN = 1.57
 SLIDE = 0.8
@@ -28,37 +37,53 @@ SLIDE = 0.8
 
 @dataclass(frozen=True, eq=False)
 class OpeningPart:
-    """A part and its joint, object frame [m].
+    """A proposal whose faces are not cut out yet, object frame [m].
 
     Attributes:
-        name: what to call it: ``door``, ``drawer``, ``flap``, ``lid`` or ``knob``.
+        kind: what it is; names the part.
         region: what it fills.
-        kind: of its joint.
-        axis: unit, shape [3]; positive opens.
-        origin: on it, shape [3].
-        upper: limit [rad] or [m].
-        confidence: that there is such a part, 0 to 1.
+        motion: how it opens.
+        existence: probability that there is such a part, 0 to 1.
         sure: that it moves so, if there is one, 0 to 1.
-        lower: limit [rad] or [m], closed.
+        panel, handle: as in :class:`~asset_factory.factory.part.Part`; ``None`` of what is no
+            panel of a side, or has no handle.
     """
 
-    name: str
+    kind: PartKind
     region: Region
-    kind: JointKind
-    axis: FloatArray
-    origin: FloatArray
-    upper: float
-    confidence: float
+    motion: Motion
+    existence: float
     sure: float
-    lower: float = 0.0
+    panel: Panel | None = None
+    handle: Handle | None = None
+
+    @property
+    def probability(self) -> float:
+        """Return the probability that there is such a part and that it moves so, 0 to 1."""
+        return self.existence * self.sure
 
     def turned(self, rotation: FloatArray) -> OpeningPart:
-        """The same of an object that is turned about the origin; ``rotation`` has shape [3, 3]."""
+        """Return the same of an object turned about the origin by ``rotation``, shape [3, 3]."""
         return replace(
             self,
             region=self.region.turned(rotation),
-            axis=rotation @ self.axis,
-            origin=rotation @ self.origin,
+            motion=self.motion.turned(rotation),
+            panel=None if self.panel is None else self.panel.turned(rotation),
+            handle=None if self.handle is None else self.handle.turned(rotation),
+        )
+
+    def proposal(self, faces: BoolArray) -> Proposal:
+        """Return the proposal that these faces, shape [face_count], open so."""
+        return Proposal(
+            self.kind,
+            faces,
+            self.motion,
+            {"shown": self.existence, "way": self.sure},
+            proposer=Proposer.SIDES,
+            panel=self.panel,
+            handle=self.handle,
+            existence=self.existence,
+            probability=self.probability,
         )
 
 
@@ -105,7 +130,7 @@ def panel_mover(
     side: Side,
     panel: FrontPanel,
     way: OpensBy,
-    confidence: float,
+    existence: float,
     sure: float,
 ) -> OpeningPart:
     """Return a panel of a front that opens in one way.
@@ -115,7 +140,7 @@ def panel_mover(
         side: the panel's.
         panel: one of its panels.
         way: how it opens.
-        confidence: as in :class:`OpeningPart`.
+        existence: as in :class:`OpeningPart`.
         sure: likewise.
     """
     front = fronts[side]
@@ -145,20 +170,41 @@ def panel_mover(
         OpensBy.OUT: -away,
     }[way]
     slides = way is OpensBy.OUT
-    return OpeningPart(
-        name="drawer" if slides else "door" if way in (OpensBy.LEFT, OpensBy.RIGHT) else "flap",
-        region=region,
+    motion = Motion(
         kind=JointKind.PRISMATIC if slides else JointKind.REVOLUTE,
         axis=axis,
         origin=across * right + height * up + rim * away,
+        lower=0.0,
         upper=SLIDE * behind if slides else TURN,
-        confidence=confidence,
+    )
+    return OpeningPart(
+        kind=KINDS[way],
+        region=region,
+        motion=motion,
+        existence=existence,
         sure=sure,
+        panel=Panel(raster.side.frame, low[::-1], high[::-1], rim, thickness, way),
+        handle=_handle(front, panel, motion),
     )
 
 
+def _handle(front: Front, panel: FrontPanel, motion: Motion) -> Handle | None:
+    """Return where a panel is held: on the outermost of its handle, in the handle's middle."""
+    found = panel.handle
+    if found is None:
+        return None
+    raster = front.relief.raster
+    right, up, away = raster.side.frame
+    height, across = raster.low[::-1] + found.center * raster.pixel
+    row, column = np.minimum(found.center.astype(np.int64), np.array(front.relief.shape) - 1)
+    depth = raster.near - (front.face.height[row, column] + found.height) * raster.pixel
+    point = across * right + height * up + depth * away
+    pull = motion.velocity(point)
+    return Handle(point, -away, pull / np.linalg.norm(pull), source="protrusion")
+
+
 def lid_mover(
-    fronts: Mapping[Side, Front], lid: Lid, hinge: Side, confidence: float, sure: float
+    fronts: Mapping[Side, Front], lid: Lid, hinge: Side, existence: float, sure: float
 ) -> OpeningPart:
     """Return a lid hinged on one side."""
     front = fronts[hinge]
@@ -168,14 +214,12 @@ def lid_mover(
     near = _nearest_above(front, lid.row)
     _, _, left, last = front.relief.box
     across = raster.low[0] + (left + last) / 2.0 * raster.pixel
+    origin = across * right + height * up + (raster.near + near) * away
     return OpeningPart(
-        name="lid",
+        kind=PartKind.LID,
         region=Region(-up[None, :], np.array([-height])),
-        kind=JointKind.REVOLUTE,
-        axis=right,
-        origin=across * right + height * up + (raster.near + near) * away,
-        upper=TURN,
-        confidence=confidence,
+        motion=Motion(JointKind.REVOLUTE, right, origin, 0.0, TURN),
+        existence=existence,
         sure=sure,
     )
 

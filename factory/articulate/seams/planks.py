@@ -18,7 +18,7 @@ NARROW = 14
 
 
 def beyond_planks(front: Front, panels: Sequence[FrontPanel]) -> list[FrontPanel]:
-    """Panels whose sides lie where something surely ends; none without a handle lies in others.
+    """Move sides of panels to where something surely ends; drop bare ones within others.
 
     Args:
         front: the side.
@@ -40,7 +40,7 @@ def _grown(front: Front, panel: FrontPanel, others: Sequence[FrontPanel]) -> Fro
 
 
 def _moved(front: Front, panel: FrontPanel, others: Sequence[FrontPanel], side: int) -> FrontPanel:
-    """With one side where the next sure end is; the same if something else comes first."""
+    """Move one side to the next sure end, unless something else comes first."""
     axis, upper = divmod(side, 2)
     whole = panel.rectangle
     lines = (front.scene.level, front.scene.upright)[axis].at

@@ -20,6 +20,8 @@ SHORTEST = 0.07
 COVERED = 0.55
 #: At the rounded corners of a rectangle nothing is asked: share of its side.
 CORNER = 0.06
+#: What is closed by seams so far may be a panel though nothing is seen on it.
+CLOSED = 0.8
 #: A side is covered to at least this, all four together to at least that.
 LEAST_SIDE = 0.55
 LEAST_MEAN = 0.72
@@ -46,7 +48,7 @@ class Lines:
         return self._share(self.sums, line, start, stop)
 
     def in_relief(self, line: IntArray, start: IntArray, stop: IntArray) -> FloatArray:
-        """Likewise, by the shape alone."""
+        """Return the same share, by the shape alone."""
         return self._share(self.relief, line, start, stop)
 
     def _share(
@@ -63,7 +65,7 @@ class Lines:
 
 
 def lines_of(seams: Seams, first: int, last: int) -> Lines:
-    """Horizontal lines that may be sides of panels; hand in turned evidence for vertical ones.
+    """Return level lines that may be sides of panels; for upright ones, turn the evidence.
 
     Args:
         seams: in that direction.
@@ -131,7 +133,7 @@ class Rectangle:
 
     @property
     def area(self) -> float:
-        """In pixels."""
+        """Return the area [pixels]."""
         return float(self.size[0] * self.size[1])
 
     @property

@@ -42,7 +42,7 @@ class Relief:
 
     @property
     def side(self) -> Side:
-        """From where it is looked at."""
+        """Return the side that is looked at."""
         return self.raster.side
 
     @property
@@ -52,7 +52,7 @@ class Relief:
 
     @property
     def box(self) -> tuple[int, int, int, int]:
-        """First row, last row, first column, last column of what is seen.
+        """Return first and last row, first and last column of what is seen.
 
         Without slivers that stick out: the ground that an object stands on, a handle, an antenna.
         """
@@ -62,7 +62,7 @@ class Relief:
 
 
 def _extent(counts: IntArray) -> tuple[int, int]:
-    """First and last row that is more than a sliver."""
+    """Return first and last row that is more than a sliver."""
     large = np.flatnonzero(counts > SLIVER * counts.max())
     return int(large[0]), int(large[-1])
 
@@ -114,7 +114,7 @@ def relief_of(
 
 
 def lab_of(color: FloatArray) -> FloatArray:
-    """CIE L*a*b* (D65) of sRGB colours in [0, 1], shape [..., 3] (CIE 15:2004)."""
+    """Convert sRGB colours in [0, 1], shape [..., 3], to CIE L*a*b* (D65; CIE 15:2004)."""
     to_xyz = np.array(
         [
             [0.4124564, 0.3575761, 0.1804375],

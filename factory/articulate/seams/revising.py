@@ -11,16 +11,16 @@ from .candidates import in_common
 from .fronts import Front
 from .glimpses import glimpsed
 from .groups import FrontPanel, clear_of
+from .handles import LONGEST_KNOB
 from .panels import rated
 from .planks import beyond_planks
-from .rectangles import LEFT, RIGHT, Rectangle
+from .rectangles import CLOSED, LEFT, RIGHT, Rectangle
 from .sight import SQUARE
 
 #: Of a panel of which the network sees less, another rectangle with the same handle may be better:
-#: one of which it sees so much, so closed by seams, with less in common (intersection over union).
+#: one of which it sees so much, with less in common (intersection over union).
 DOUBTED = 0.6
 SURE = 0.7
-CLOSED = 0.8
 OTHER = 0.7
 #: Where nobody saw a seam between panels, the network must see so many there, and so much of them.
 FEWEST = 2
@@ -28,10 +28,9 @@ MOST_OF = 0.75
 #: What the network sees may lie over another panel so far, as a share of its own size: its ends
 #: are a few pixels off.
 STRIP = 0.15
-#: Two knobs that have grown together are at most so wide, as a share of both doors, and so many
-#: times as wide as high; between these shares of the width, so sure an end parts the doors.
+#: Two knobs that have grown together are at most so wide, as a share of both doors; between these
+#: shares of the width, so sure an end parts the doors.
 GROWN = 0.25
-WIDEST = 3.0
 MIDDLE = (0.4, 0.6)
 PARTED = 0.45
 
@@ -39,7 +38,7 @@ PARTED = 0.45
 def revised(
     front: Front, panels: Sequence[FrontPanel], found: Sequence[Rectangle]
 ) -> list[FrontPanel]:
-    """Panels as the network sees them where it is sure, and those that it alone sees beside them.
+    """Return panels as the network sees them where it is sure, and others that it sees.
 
     Args:
         front: the side.
@@ -57,13 +56,13 @@ def revised(
 
 
 def _parted(front: Front, panel: FrontPanel) -> tuple[FrontPanel, ...]:
-    """Two doors, if the network sees an end behind the only knob, which is then both of theirs."""
+    """Return two doors, if the network sees an end behind the only knob, then shared."""
     whole = panel.rectangle
     if len(panel.handles) != 1:
         return (panel,)
     knob = panel.handles[0]
     rows, columns = knob.size
-    if columns > min(WIDEST * rows, GROWN * whole.size[1]):
+    if columns > min(LONGEST_KNOB * rows, GROWN * whole.size[1]):
         return (panel,)
     inside = slice(whole.low[0] // SQUARE + 1, whole.high[0] // SQUARE)
     ends = front.sight.upright[inside]
@@ -75,8 +74,7 @@ def _parted(front: Front, panel: FrontPanel) -> tuple[FrontPanel, ...]:
     if sure.max() < PARTED:
         return (panel,)
     seam = int(at[sure.argmax()])
-    on_left = replace(knob, high=np.array([knob.high[0], seam - 1]))
-    on_right = replace(knob, low=np.array([knob.low[0], seam + 1]))
+    on_left, on_right = knob.split(seam)
     return (
         replace(panel, rectangle=whole.with_side(RIGHT, seam), handles=(on_left,)),
         replace(panel, rectangle=whole.with_side(LEFT, seam), handles=(on_right,)),
@@ -96,7 +94,7 @@ def _recut(panels: Sequence[FrontPanel], glimpses: Sequence[FrontPanel]) -> list
 def _exchanged(
     front: Front, panels: Sequence[FrontPanel], others: Sequence[FrontPanel]
 ) -> list[FrontPanel]:
-    """With rectangles around the same handle for those that the network doubts."""
+    """Exchange panels that the network doubts for rectangles around the same handle."""
     kept = list(panels)
     for index, panel in enumerate(panels):
         if front.sight.shows(panel.rectangle) >= DOUBTED:
@@ -115,7 +113,7 @@ def _exchanged(
 
 
 def _cut_back(panel: FrontPanel, others: Sequence[FrontPanel]) -> FrontPanel:
-    """Without a narrow strip along one side that it shares with another panel."""
+    """Cut off a narrow strip along one side that it shares with another panel."""
     whole = panel.rectangle
     found = whole
     for other in (each.rectangle for each in others):

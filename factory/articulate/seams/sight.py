@@ -67,12 +67,12 @@ class Sight:
     ways: FloatArray
 
     def shows(self, rectangle: Rectangle) -> float:
-        """Share of a rectangle that belongs to a door, drawer or flap, 0 to 1; 0 of a tiny one."""
+        """Return the share of a rectangle that belongs to a panel, 0 to 1; 0 of a tiny one."""
         inside = self.panel[_squares_in(rectangle)]
         return float(inside.mean()) if inside.size else 0.0
 
     def runs_on(self, shape: tuple[int, ...]) -> BoolArray:
-        """Where a panel surely does not end, below or above, left or right; [2, rows, columns].
+        """Tell where a panel surely does not end, level or upright, shape [2, rows, columns].
 
         Args:
             shape: of the side [pixels].
@@ -84,13 +84,13 @@ class Sight:
         return np.asarray(pixels[:, : shape[0], : shape[1]])
 
     def ends(self, rectangle: Rectangle) -> FloatArray:
-        """How surely what opens ends at a rectangle's bottom, top, left and right, shape [4]."""
+        """Return how surely a panel ends at a rectangle's bottom, top, left and right, [4]."""
         bottom, left = rectangle.low // SQUARE
         top, right = np.maximum(rectangle.high // SQUARE, rectangle.low // SQUARE + 1)
         return self.ends_of((int(bottom), int(top), int(left), int(right)))
 
     def ends_of(self, block: Block) -> FloatArray:
-        """Likewise, of squares."""
+        """Return the same as :meth:`ends` for squares."""
         bottom, top, left, right = block
         level = np.pad(self.level[:, left:right], ((2, 2), (0, 0)))
         upright = np.pad(self.upright[bottom:top], ((0, 0), (2, 2)))
@@ -110,7 +110,7 @@ class Sight:
         return bool(self.lid[squares].sum() > self.panel[squares].sum())
 
     def ways_of(self, rectangle: Rectangle) -> FloatArray:
-        """How likely what is in a rectangle opens in each way; even chances in a tiny one."""
+        """Return how likely a rectangle opens in each way; even chances in a tiny one."""
         squares = _squares_in(rectangle)
         weights = self.panel[squares]
         chances = LEAST_CHANCE + (self.ways[:, *squares] * weights).sum(axis=(1, 2))
@@ -135,7 +135,7 @@ def sight_of(relief: Relief) -> Sight:
 
 
 def cues_of(relief: Relief) -> FloatArray:
-    """What the network is given of a side, shape [cue_count, rows, columns], padded to its grid."""
+    """Return what the network is given of a side, padded, shape [cue_count, rows, columns]."""
     seen = relief.seen
     height = relief.height
     rows = np.flatnonzero(seen.any(axis=1))
@@ -170,7 +170,7 @@ def cues_of(relief: Relief) -> FloatArray:
 
 
 def network_answer(weights: Weights, cues: FloatArray) -> FloatArray:
-    """Log-odds of every answer for every square, shape [answer_count, rows / 2, columns / 2].
+    """Return log-odds of every answer for every square, [answer_count, rows / 2, columns / 2].
 
     A U-Net (Ronneberger et al., MICCAI 2015) of one coarse first layer, pairs of layers at each
     of four halved sizes, and likewise up again.

@@ -8,16 +8,13 @@ from dataclasses import replace
 from ...geometry.crossings import Side
 from .edges import is_slab
 from .fronts import Front
-from .groups import FrontPanel, Group, together
+from .groups import OUTLINED, FrontPanel, Group, together
 from .panels import rated
 from .placing import rim_depth
-from .rectangles import Rectangle
+from .rectangles import CLOSED, Rectangle
 
-#: A slab takes so much of the height of what is seen, and is so closed by seams.
+#: A slab takes so much of the height of what is seen.
 LEAST = 0.25
-CLOSED = 0.8
-#: How sure it is, as log-odds.
-SURE = 0.8
 
 
 def slabs_on(
@@ -39,7 +36,7 @@ def slabs_on(
         and group.rectangle.size[0] >= LEAST * (last - first)
         and is_slab(fronts, side, group.panels[0], _rim(front, group))
     ]
-    return tuple(replace(group.panels[0], value=SURE) for group in together(fit))
+    return tuple(replace(group.panels[0], value=OUTLINED) for group in together(fit))
 
 
 def _rim(front: Front, group: Group) -> float:

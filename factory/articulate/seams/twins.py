@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .handles import Face, Protrusion
+from .handles import LONGEST_KNOB, Face, Protrusion
 from .rectangles import Lines
 
 #: The seam passes between these shares of the width, and is covered so far above or below.
@@ -15,8 +15,6 @@ COVERED = 0.9
 #: It is looked at over so many times the handle's height, and so many pixels at least.
 REACH = 6.0
 LEAST_REACH = 24
-#: What is wider than so many times its height is a bar.
-WIDEST = 3.0
 
 
 def parted(face: Face, upright: Lines) -> Face:
@@ -32,7 +30,7 @@ def parted(face: Face, upright: Lines) -> Face:
 
 def _halves(handle: Protrusion, upright: Lines) -> tuple[Protrusion, ...]:
     rows, columns = handle.size
-    if columns > WIDEST * rows:
+    if columns > LONGEST_KNOB * rows:
         return (handle,)
     share = (upright.at - handle.low[1]) / columns
     reach = int(max(REACH * rows, LEAST_REACH))
@@ -49,7 +47,4 @@ def _halves(handle: Protrusion, upright: Lines) -> tuple[Protrusion, ...]:
     covers = upright.in_relief(lines[:, None], start[inside], stop[inside]).max(axis=1)
     if covers.max() < COVERED:
         return (handle,)
-    seam = int(upright.at[lines[int(covers.argmax())]])
-    left = replace(handle, high=np.array([handle.high[0], seam - 1]))
-    right = replace(handle, low=np.array([handle.low[0], seam + 1]))
-    return left, right
+    return handle.split(int(upright.at[lines[int(covers.argmax())]]))

@@ -172,7 +172,12 @@ def _turned(articulation: Articulation, turn: FloatArray) -> Articulation:
         replace(joint, axis=turn @ joint.axis, origin=turn @ joint.origin)
         for joint in articulation.joints
     )
-    return replace(articulation, mesh=articulation.mesh.transformed(matrix), joints=joints)
+    return replace(
+        articulation,
+        mesh=articulation.mesh.transformed(matrix),
+        parts=tuple(part.turned(turn) for part in articulation.parts),
+        joints=joints,
+    )
 
 
 def _piece(hulls: tuple[Hull, ...], faces: int) -> PartHulls | None:

@@ -6,8 +6,8 @@ import numpy as np
 from trimesh.triangles import closest_point
 
 from ...articulation import Articulation, Joint
-from ...asset import Handle
 from ...mesh import FloatArray, IntArray
+from ...part import Handle
 from .protrusions import (
     LOOKS_OUT,
     ProtrudingFront,

@@ -12,7 +12,8 @@ from asset_factory.envs.solving import make_episodes
 from asset_factory.envs.solving.grips import PRESS_ON, _hand_points, drags
 from asset_factory.envs.solving.world import RobotWorld, read_world
 from asset_factory.factory.articulation import Joint, JointKind
-from asset_factory.factory.asset import Asset, Handle
+from asset_factory.factory.asset import Asset
+from asset_factory.factory.part import Handle
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
 pytestmark = [

@@ -6,7 +6,7 @@ import trimesh
 from one_piece import fridge, microwave
 
 from asset_factory.factory.articulate.predict import predict
-from asset_factory.factory.articulate.standing import standing_readings
+from asset_factory.factory.articulate.standing import standing_hypotheses
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.orientation import rotation_to_z_up
@@ -20,14 +20,14 @@ def read(path, mesh, up="z"):
     trimesh.Trimesh(vertices, mesh.faces, process=False).export(path)
     config = BuildConfig()
     origin = Source(path, config)
-    return standing_readings(origin.load(), origin, Stages(config))
+    return standing_hypotheses(origin.load(), origin, Stages(config))
 
 
 @pytest.mark.parametrize(("suffix", "up"), [("glb", "z"), ("obj", "y")])
 def test_two_doors_that_show_only_with_the_other_axis_up_stand_it_up(tmp_path, suffix, up):
     mesh = fridge()
-    intake, readings = read(tmp_path / f"fridge.{suffix}", mesh, up)
-    assert len(readings[0].movable_joints) == 2
+    intake, hypotheses = read(tmp_path / f"fridge.{suffix}", mesh, up)
+    assert len(hypotheses[0].articulation.movable_joints) == 2
     assert intake.provenance.up == up
     assert intake.provenance.up_source == "sides"
     assert any("opens" in note and "2 doors" in note for note in intake.provenance.notes)
@@ -52,5 +52,5 @@ def test_who_said_which_axis_is_up_is_believed(tmp_path):
 def test_one_panel_is_no_reason_to_turn_a_mesh_over(tmp_path):
     with pytest.raises(InputRejected, match="nothing moves"):
         read(tmp_path / "microwave.glb", microwave())
-    _, readings = read(tmp_path / "upright.glb", microwave(), "y")
-    assert len(readings[0].movable_joints) == 1
+    _, hypotheses = read(tmp_path / "upright.glb", microwave(), "y")
+    assert len(hypotheses[0].articulation.movable_joints) == 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -15,6 +16,7 @@ from asset_factory.factory.asset import Asset
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.export.manifest import Manifest
 from asset_factory.factory.mesh import Material
+from asset_factory.factory.part import PartKind, PartSource, Proposer
 
 
 def content(folder: Path) -> dict[str, bytes]:
@@ -127,6 +129,29 @@ def test_the_manifest_is_what_was_written_and_measures_the_object(tmp_path) -> N
     hinge = manifest["joints"][0]
     assert (hinge["lower"], hinge["upper"], hinge["unit"]) == (0.0, 1.6, "rad")
     assert hinge["handle"]["point"] == [0.5, -0.04, 0.0]
+
+
+def test_the_manifest_says_which_proposal_a_part_comes_from(tmp_path) -> None:
+    asset = cabinet()
+    body, door, drawer = asset.articulation.parts
+    source = PartSource("sides-0123456789ab", Proposer.SIDES, 0.70004, {"shown": 1.5, "way": 0.25})
+    parts = (body, replace(door, kind=PartKind.DOOR, source=source), drawer)
+    made = replace(asset, articulation=replace(asset.articulation, parts=parts))
+    bundle = export_bundle(made, PROVENANCE, tmp_path)
+    links = json.loads((tmp_path / "asset.json").read_text())["links"]
+    assert links[1]["proposal"] == {
+        "id": "sides-0123456789ab",
+        "proposer": "sides",
+        "kind": "door",
+        "probability": 0.7,
+        "signs": {"shown": 1.5, "way": 0.25},
+    }
+    assert [link["proposal"] for link in links[::2]] == [None, None]
+    assert Manifest.from_json(bundle.manifest.to_json()) == bundle.manifest
+    for link in links:
+        del link["proposal"]
+    older = {**json.loads(bundle.manifest.to_json()), "links": links}
+    assert Manifest.from_json(json.dumps(older)).links[1].proposal is None
 
 
 def test_the_ground_offset_lifts_an_object_that_closes_below_its_input_pose(tmp_path) -> None:

@@ -11,6 +11,7 @@ import pytest
 from export_samples import cabinet
 
 from asset_factory.factory.articulate import standing
+from asset_factory.factory.articulate.proposal import Hypothesis
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.build import build_asset
 from asset_factory.factory.config import BuildConfig, ReadingsConfig
@@ -75,13 +76,13 @@ def _blocked(right: Articulation) -> Articulation:
 
 
 def _reading_as(monkeypatch: pytest.MonkeyPatch, *changes: object) -> None:
-    likeliest = standing.readings
+    likeliest = standing.hypotheses
 
-    def readings(*asked: object) -> tuple[Articulation, ...]:
+    def hypotheses(*asked: object) -> tuple[Hypothesis, ...]:
         (right,) = likeliest(*asked)
-        return tuple(change(right) for change in changes)
+        return tuple(Hypothesis.of(change(right.articulation)) for change in changes)
 
-    monkeypatch.setattr(standing, "readings", readings)
+    monkeypatch.setattr(standing, "hypotheses", hypotheses)
 
 
 CONFIG = BuildConfig(simulators=())

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from asset_factory.factory.articulate import standing
-from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.articulate.proposal import Hypothesis
 from asset_factory.factory.build import build_asset
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.registry import Registry
@@ -26,18 +26,19 @@ CONFIG = BuildConfig(simulators=())
 def guessed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The joints of the example, as guesses, the surest first."""
     names: list[str] = []
-    likeliest = standing.readings
+    likeliest = standing.hypotheses
 
-    def readings(*asked: object) -> tuple[Articulation, ...]:
-        (right,) = likeliest(*asked)
+    def hypotheses(*asked: object) -> tuple[Hypothesis, ...]:
+        (hypothesis,) = likeliest(*asked)
+        right = hypothesis.articulation
         joints = tuple(
             replace(joint, confidence=0.9 - 0.1 * number)
             for number, joint in enumerate(right.joints)
         )
         names[:] = [joint.name for joint in joints]
-        return (replace(right, joints=joints),)
+        return (Hypothesis.of(replace(right, joints=joints)),)
 
-    monkeypatch.setattr(standing, "readings", readings)
+    monkeypatch.setattr(standing, "hypotheses", hypotheses)
     return names
 
 

@@ -9,8 +9,8 @@ import pytest
 
 from asset_factory.factory.articulate.seams.features import MOTION_NAMES, NAMES
 from asset_factory.factory.articulate.seams.learned import LearnedJudge, load_judge
-from asset_factory.factory.articulate.seams.ways import OpensBy
 from asset_factory.factory.geometry.crossings import Side
+from asset_factory.factory.part import OpensBy
 from asset_factory.learn.elevations.learning import Examples, averaged, fitted
 from asset_factory.learn.elevations.pictures import pictures_of
 from asset_factory.learn.elevations.rows import rows_of

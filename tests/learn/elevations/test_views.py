@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from asset_factory.factory.articulate.seams.sight import CUES
-from asset_factory.factory.articulate.seams.ways import OpensBy
+from asset_factory.factory.part import OpensBy
 from asset_factory.learn.elevations.views import (
     UNKNOWN,
     SideView,

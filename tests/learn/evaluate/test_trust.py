@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asset_factory.factory.articulate.auto.proposal import Proposal
-from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, signs_of
-from asset_factory.factory.articulate.evidence import SeenMotion
+from asset_factory.factory.articulate.auto.trust import SIGNS, Trust
+from asset_factory.factory.articulate.proposal import Motion, Proposal
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.learn.evaluate.trust import (
@@ -29,8 +28,8 @@ def proposal(**changes):
     """The fridge's door as it is, but for what is changed of its motion."""
     faces = np.zeros(len(AREAS), dtype=bool)
     faces[FRIDGE.parts[DOOR.child].faces] = True
-    motion = SeenMotion(DOOR.kind, DOOR.axis, DOOR.origin, DOOR.lower, DOOR.upper)
-    return Proposal("door", faces, replace(motion, **changes), signs_of({}))
+    motion = Motion(DOOR.kind, DOOR.axis, DOOR.origin, DOOR.lower, DOOR.upper)
+    return Proposal("door", faces, replace(motion, **changes))
 
 
 def test_the_door_itself_is_right_whichever_way_its_axis_points_and_however_far_it_goes():

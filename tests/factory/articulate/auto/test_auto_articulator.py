@@ -8,16 +8,17 @@ import pytest
 from asset_factory.factory.articulate.auto import proposals
 from asset_factory.factory.articulate.auto.articulator import AutoArticulator
 from asset_factory.factory.articulate.auto.parts import LearnedPart
-from asset_factory.factory.articulate.auto.proposal import Proposal
-from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, signs_of
-from asset_factory.factory.articulate.auto.views import Slide, look_around
-from asset_factory.factory.articulate.evidence import Guess, MotionEvidence, SeenMotion
+from asset_factory.factory.articulate.auto.trust import SIGNS, Trust
+from asset_factory.factory.articulate.auto.views import look_around
+from asset_factory.factory.articulate.evidence import Guess, MotionEvidence
+from asset_factory.factory.articulate.proposal import Motion, Proposal
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import AutoConfig, ParticulateConfig
 from asset_factory.factory.geometry.posing import face_parts, turned
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.models.particulate.prediction import MotionClass, Prediction
+from asset_factory.factory.part import Proposer
 from asset_factory.learn.evaluate.bodies import bodies_of
 from asset_factory.learn.objects import make_object
 
@@ -103,11 +104,11 @@ def test_parts_that_the_network_knows_get_the_axes_that_their_shapes_speak_for(c
 def test_what_turns_and_slides_gets_two_joints_with_a_carrier_between():
     truth = make_object("trash_can", 3)
     faces = face_parts(truth) == truth.joints[0].child
-    turn = SeenMotion(JointKind.CONTINUOUS, UP, np.zeros(3), -np.pi, np.pi)
-    signs = signs_of({"geometric": 1.0})
+    turn = Motion.endless(UP, np.zeros(3))
+    slide = Motion(JointKind.PRISMATIC, -UP, np.zeros(3), 0.0, 0.1)
     articulator = AutoArticulator(Labeller(truth), (), BELIEVING, SHOWN, AutoConfig())
     found = articulator.decide(
-        truth.mesh, (Proposal("cap", faces, turn, signs, slide=Slide(-UP, 0.0, 0.1)),)
+        truth.mesh, (Proposal("cap", faces, turn, {"geometric": 1.0}, slide=slide),)
     )
     assert [part.name for part in found.parts] == ["base", "cap_0_carrier", "cap_0"]
     assert [len(part.faces) for part in found.parts] == [(~faces).sum(), 0, faces.sum()]
@@ -122,7 +123,7 @@ def test_a_drawer_that_rules_find_is_as_open_as_the_evidence_says(sign, limits):
     truth = make_object("cabinet", 5)
     joint = next(joint for joint in truth.joints if not joint.turns)
     part = LearnedPart(face_parts(truth) == joint.child, 1.0, 0.9, 0.9, 0.9, Guess(), 0.0, 0.0)
-    seen = SeenMotion(JointKind.PRISMATIC, sign * joint.axis, joint.origin, -0.1, 0.3)
+    seen = Motion(JointKind.PRISMATIC, sign * joint.axis, joint.origin, -0.1, 0.3)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(
             proposals,
@@ -131,7 +132,15 @@ def test_a_drawer_that_rules_find_is_as_open_as_the_evidence_says(sign, limits):
                 proposals._Judged(part, MotionEvidence(seen, 0.9), MotionEvidence(None, 0.0))
             ],
         )
-        made = proposals.propose(truth.mesh, face_areas(truth.mesh), truth, (part,))
+        ruled = tuple(
+            Proposal(
+                "drawer",
+                face_parts(truth) == each.child,
+                Motion(each.kind, each.axis, each.origin, each.lower, each.upper),
+            )
+            for each in truth.joints
+        )
+        made = proposals.propose(truth.mesh, face_areas(truth.mesh), ruled, (part,))
     found = next(each for each in made if np.array_equal(each.faces, part.faces))
     assert (found.motion.lower, found.motion.upper) == limits
     assert found.motion.axis @ joint.axis == pytest.approx(1.0)
@@ -155,10 +164,10 @@ def test_what_is_left_fixed_is_said_with_its_probability():
 @pytest.mark.parametrize(
     ("sures", "sign", "config", "moving"),
     [
-        ((0.40, 0.35), "learned", {}, 0),
-        ((0.50, 0.35), "learned", {}, 2),
-        ((0.40, 0.35), "geometric", {}, 2),
-        ((0.40, 0.35), "learned", {"least_confidence": 0.3}, 2),
+        ((0.40, 0.35), Proposer.NETWORK, {}, 0),
+        ((0.50, 0.35), Proposer.NETWORK, {}, 2),
+        ((0.40, 0.35), Proposer.RULES, {}, 2),
+        ((0.40, 0.35), Proposer.NETWORK, {"least_confidence": 0.3}, 2),
     ],
 )
 def test_where_only_the_network_sees_what_moves_one_part_must_be_surer(
@@ -166,16 +175,16 @@ def test_where_only_the_network_sees_what_moves_one_part_must_be_surer(
 ):
     truth = make_object("cabinet", 3)
     owner = face_parts(truth)
-    turn = SeenMotion(JointKind.REVOLUTE, UP, np.zeros(3), 0.0, 1.5)
+    turn = Motion(JointKind.REVOLUTE, UP, np.zeros(3), 0.0, 1.5)
     asked_for = [
-        Proposal("part", owner == joint.child, turn, signs_of({"learned" if number else sign: 1.0}))
+        Proposal("part", owner == joint.child, turn, proposer=Proposer.NETWORK if number else sign)
         for number, joint in enumerate(truth.movable_joints[:2])
     ]
     monkeypatch.setattr(
         AutoArticulator,
         "_rated",
         lambda _, found: [
-            replace(each, confidence=sure) for each, sure in zip(found, sures, strict=True)
+            replace(each, probability=sure) for each, sure in zip(found, sures, strict=True)
         ],
     )
     articulator = AutoArticulator(

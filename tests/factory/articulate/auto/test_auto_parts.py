@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 from asset_factory.factory.articulate.auto.partition import share_out, shells
 from asset_factory.factory.articulate.auto.parts import agreed_parts, shared
 from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, load_trust, log_odds, signs_of
-from asset_factory.factory.articulate.auto.views import SeenPart, Slide, View
+from asset_factory.factory.articulate.auto.views import SeenPart, View
+from asset_factory.factory.articulate.proposal import Motion
 
 AREAS = np.ones(10)
 UP = np.array([0.0, 0.0, 1.0])
@@ -45,10 +46,13 @@ def test_different_parts_stay_different_and_still_ones_are_left_out():
 
 def test_what_turns_and_slides_must_be_more_probable_than_either_alone():
     here = [1, 1] + [0] * 8
-    slides = [Slide(sign * UP, 0.0, far) for sign, far in ((1.0, 0.1), (1.0, 0.2), (-1.0, 0.4))]
+    slides = [
+        Motion("prismatic", sign * UP, np.zeros(3), 0.0, far)
+        for sign, far in ((1.0, 0.1), (1.0, 0.2), (-1.0, 0.4))
+    ]
     sure = tuple(view(here, both=0.9, slide=slide) for slide in slides)
     (part,) = agreed_parts(sure, AREAS)
-    np.testing.assert_allclose(part.slide.direction, UP)
+    np.testing.assert_allclose(part.slide.axis, UP)
     assert (part.slide.lower, part.slide.upper) == (0.0, 0.2)
     assert part.guess.turns == 1.0
     (part,) = agreed_parts(
@@ -85,8 +89,8 @@ def test_every_chosen_part_keeps_faces_and_hangs_on_an_earlier_one(parts):
 
 def test_trust_is_a_logistic_of_the_signs():
     trust = Trust(np.eye(len(SIGNS))[SIGNS.index("evidence")], 0.5)
-    assert trust.confidence(signs_of({"evidence": log_odds(0.8)})) == pytest.approx(0.8)
-    assert trust.confidence(signs_of({})) == 0.5
+    assert trust.confidence({"evidence": log_odds(0.8)}) == pytest.approx(0.8)
+    assert trust.confidence({}) == 0.5
     with pytest.raises(KeyError, match="no sign"):
         signs_of({"feeling": 1.0})
 
@@ -102,11 +106,9 @@ def test_the_shipped_trust_believes_more_where_more_speaks_for_it():
     }
     seen |= {"hangs": log_odds(0.95), "evidence": log_odds(0.9), "unguided": log_odds(0.9)}
     doubtful = seen | {"agreement": 0.25, "confidence": log_odds(0.4), "evidence": log_odds(0.3)}
-    both = trust.confidence(signs_of(seen | {"shared": 1.0, "alike": 1.0}))
-    assert both > trust.confidence(signs_of(doubtful | {"learned": 1.0}))
-    assert trust.confidence(signs_of(seen | {"learned": 1.0})) > trust.confidence(
-        signs_of(doubtful | {"learned": 1.0})
-    )
+    both = trust.confidence(seen | {"shared": 1.0, "alike": 1.0})
+    assert both > trust.confidence(doubtful | {"learned": 1.0})
+    assert trust.confidence(seen | {"learned": 1.0}) > trust.confidence(doubtful | {"learned": 1.0})
     assert 0.05 < trust.least < 0.9
 
 

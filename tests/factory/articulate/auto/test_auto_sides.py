@@ -10,14 +10,14 @@ from modelled_furniture import board, bookcase, creased_cupboard, drawer_chest, 
 
 from asset_factory.factory.articulate.auto.articulator import AutoArticulator
 from asset_factory.factory.articulate.auto.hidden import without_hidden
-from asset_factory.factory.articulate.auto.proposal import Proposal
 from asset_factory.factory.articulate.auto.sides import Sightings, sightings
-from asset_factory.factory.articulate.auto.trust import load_trust, signs_of
-from asset_factory.factory.articulate.evidence import SeenMotion
+from asset_factory.factory.articulate.auto.trust import load_trust
+from asset_factory.factory.articulate.proposal import Motion, Proposal
 from asset_factory.factory.articulation import Articulation, JointKind
 from asset_factory.factory.config import AutoConfig, BuildConfig
 from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.mesh import FloatArray, Mesh, concatenate
+from asset_factory.factory.part import PartKind, Proposer
 
 UP = (0.0, 0.0, 1.0)
 
@@ -36,7 +36,7 @@ def shown(mesh: Mesh) -> Sightings:
 def by_sides_alone(mesh: Mesh) -> tuple[Articulation, ...]:
     config = BuildConfig()
     nobody = SeesNothing(None, (), load_trust(), config.particulate, AutoConfig())  # type: ignore[arg-type]
-    return nobody.readings(mesh)
+    return tuple(each.articulation for each in nobody.hypotheses(mesh))
 
 
 def test_a_drawer_is_its_plate_and_knob_whole() -> None:
@@ -96,7 +96,7 @@ def test_proposals_are_carried_to_the_cut_mesh() -> None:
     mesh = creased_cupboard()
     seen = shown(mesh)
     first = Proposal(
-        "x", connected_components(mesh) == 2, seen.found[0].motion, seen.found[0].signs
+        "door", connected_components(mesh) == 2, seen.found[0].motion, seen.found[0].signs
     )
     (carried,) = seen.carried((first,))
     knob = seen.mesh.vertices[seen.mesh.faces[carried.faces]]
@@ -142,12 +142,15 @@ def test_a_little_piece_that_no_side_shows_is_no_mover_by_the_networks_word_alon
     runner = board((0.1, 0.1, 0.3), (0.12, 0.4, 0.32))
     mesh = concatenate([chest, runner])
     seen = shown(chest).found[0]
-    word = signs_of({"learned": 1.0, "confidence": 4.0, "moves": 4.0, "agreement": 1.0})
+    word = {"learned": 1.0, "confidence": 4.0, "moves": 4.0, "agreement": 1.0}
     hidden = np.arange(len(mesh.faces)) >= len(chest.faces)
     knob = connected_components(mesh) == 3
     config = BuildConfig()
     nobody = SeesNothing(None, (), load_trust(), config.particulate, AutoConfig(least_confidence=0))  # type: ignore[arg-type]
-    made = [replace(seen, faces=faces, signs=word) for faces in (hidden, knob)]
+    made = [
+        replace(seen, faces=faces, signs=word, proposer=Proposer.NETWORK)
+        for faces in (hidden, knob)
+    ]
     found = nobody.decide(mesh, made)
     (joint,) = found.movable_joints
     assert knob[found.parts[joint.child].faces].all()
@@ -159,7 +162,6 @@ def test_a_rack_behind_a_door_may_move_and_a_pair_of_runners_may_not() -> None:
     for pieces, kept in ((bars, True), (bars[::8], False)):
         mesh = concatenate([oven, *pieces])
         faces = np.arange(len(mesh.faces)) >= len(oven.faces)
-        word = signs_of({"learned": 1.0})
-        motion = SeenMotion(JointKind.PRISMATIC, np.array([0.0, -1.0, 0.0]), np.zeros(3), 0.0, 0.3)
-        said = Proposal("part", faces, motion, word)
+        motion = Motion(JointKind.PRISMATIC, np.array([0.0, -1.0, 0.0]), np.zeros(3), 0.0, 0.3)
+        said = Proposal(PartKind.PART, faces, motion, proposer=Proposer.NETWORK)
         assert (without_hidden(mesh, [said]) == [said]) is kept

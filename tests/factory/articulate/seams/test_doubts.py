@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from tests.samples import one_piece
 
-from asset_factory.factory.articulate.seams import reading
+from asset_factory.factory.articulate.seams import hypotheses
 from asset_factory.factory.articulate.seams.candidates import (
     PanelCandidate,
     steps_back,
+    usable,
     whole_side,
 )
 from asset_factory.factory.articulate.seams.company import without_control_panels
@@ -21,7 +22,7 @@ from asset_factory.factory.articulate.seams.groups import FrontPanel, Group, tog
 from asset_factory.factory.articulate.seams.handles import Face, Protrusion
 from asset_factory.factory.articulate.seams.layouts import rated
 from asset_factory.factory.articulate.seams.lids import Lid
-from asset_factory.factory.articulate.seams.panels import usable
+from asset_factory.factory.articulate.seams.panels import STRICT
 from asset_factory.factory.articulate.seams.rectangles import BOTTOM, TOP, Lines, Rectangle
 from asset_factory.factory.articulate.seams.relief import reliefs_of
 from asset_factory.factory.geometry.crossings import Side
@@ -40,7 +41,7 @@ def test_slivers_are_no_doors() -> None:
         )
         for share in (0.2, 0.1)
     )
-    assert usable(scene, [door, sliver]) == [door]
+    assert usable(scene, [door, sliver], STRICT) == [door]
 
 
 def test_a_front_may_show_nothing_but_pieces_between_handles() -> None:
@@ -57,14 +58,14 @@ def test_a_front_may_show_nothing_but_pieces_between_handles() -> None:
     [
         (0.95, np.inf, ["door", "door"]),
         (0.5, np.inf, ["lid"]),
-        (0.5, reading.SHUT, ["door", "door"]),
+        (0.5, hypotheses.SHUT, ["door", "door"]),
     ],
 )
 def test_doubtful_panels_yield_to_a_lid_unless_the_network_sees_them_or_they_are_evident(
     monkeypatch: pytest.MonkeyPatch, shown: float, shut: float, wanted: list[str]
 ) -> None:
-    monkeypatch.setattr(reading, "SHUT", shut)
-    seen = reading._Sides.of(reliefs_of(one_piece.doors(), None))
+    monkeypatch.setattr(hypotheses, "SHUT", shut)
+    seen = hypotheses._Sides.of(reliefs_of(one_piece.doors(), None))
     assert len(seen.panels) == 2
     lid = Lid(seen.front.relief.box[1] // 2, seen.value - 2.0, 1.0, ((Side.BACK, 0.0),))
     sight = seen.front.sight
@@ -72,9 +73,9 @@ def test_doubtful_panels_yield_to_a_lid_unless_the_network_sees_them_or_they_are
     seen.front.__dict__["sight"] = replace(
         sight, panel=np.full_like(sight.panel, shown), level=no_end, upright=no_end
     )
-    monkeypatch.setattr(reading, "value_of", lambda *_: -1.0)
-    movers = reading._openings(replace(seen, lids=[lid]), has_knobs=False)[0].movers
-    assert [mover.name.split("_")[0] for mover in movers] == wanted
+    monkeypatch.setattr(hypotheses, "value_of", lambda *_: -1.0)
+    movers = hypotheses._openings(replace(seen, lids=[lid]), has_knobs=False)[0]
+    assert [mover.kind for mover in movers] == wanted
 
 
 @pytest.mark.parametrize(("seen", "beside_panels", "wanted"), [
@@ -153,4 +154,4 @@ def test_a_groove_all_around_a_handle_needs_no_network(
     sides = np.array([closed, 1.0, 1.0, 1.0])
     rectangle = Rectangle(np.array([10, 10]), np.array([100, 80]), sides, sides)
     handles = (_handle(40, 15, 30, 5),) if pulled else ()
-    assert reading._is_seen(front, FrontPanel(rectangle, handles, 3.0)) is wanted
+    assert hypotheses._is_seen(front, FrontPanel(rectangle, handles, 3.0)) is wanted

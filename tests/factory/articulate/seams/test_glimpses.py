@@ -12,13 +12,13 @@ from asset_factory.factory.articulate.seams import fronts as fronts_module
 from asset_factory.factory.articulate.seams.fronts import Front, fronts_of
 from asset_factory.factory.articulate.seams.glimpses import glimpsed
 from asset_factory.factory.articulate.seams.groups import FrontPanel
+from asset_factory.factory.articulate.seams.hypotheses import hypotheses_of_reliefs
 from asset_factory.factory.articulate.seams.motions import openings_of
-from asset_factory.factory.articulate.seams.reading import read_reliefs
 from asset_factory.factory.articulate.seams.rectangles import Rectangle
 from asset_factory.factory.articulate.seams.relief import Relief, reliefs_of
 from asset_factory.factory.articulate.seams.sight import SQUARE, Sight
-from asset_factory.factory.articulate.seams.ways import OpensBy
 from asset_factory.factory.geometry.crossings import Side
+from asset_factory.factory.part import OpensBy
 
 #: First row and column of the two doors, and those after the last, in squares.
 DOORS = (((10, 12), (90, 42)), ((10, 43), (90, 73)))
@@ -92,11 +92,11 @@ def test_nothing_opens_where_nothing_is_there(box: Front) -> None:
 
 def test_where_nothing_else_is_found_it_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
     reliefs = reliefs_of(one_piece.plain_box(), None)
-    assert read_reliefs(reliefs) == ()
+    assert hypotheses_of_reliefs(reliefs) == ()
     monkeypatch.setattr(fronts_module, "sight_of", seen_as)
-    movers = read_reliefs(reliefs)[0].movers
+    movers = hypotheses_of_reliefs(reliefs)[0]
     assert len(movers) == 2
-    assert all(mover.confidence > 0.8 for mover in movers)
+    assert all(mover.existence > 0.8 for mover in movers)
 
 
 def test_it_counts_for_one_of_three_in_how_a_panel_opens(box: Front) -> None:

@@ -113,9 +113,9 @@ def test_few_triangles_are_enough(name: str) -> None:
 def test_what_does_not_open_stays_rigid(name: str, quarters: int) -> None:
     turn = np.eye(4)
     turn[:3, :3] = np.rint(rotation_about(UP, quarters * np.pi / 2.0))
-    (found,) = SeamsArticulator().readings(sample(name).transformed(turn))
-    assert not found.joints
-    assert found.notes
+    (found,) = SeamsArticulator().hypotheses(sample(name).transformed(turn))
+    assert not found.articulation.joints
+    assert found.articulation.notes
 
 
 def test_a_door_is_as_thick_as_the_seam_beside_it_shows() -> None:
@@ -168,8 +168,11 @@ def test_a_panel_ends_at_its_seam_and_takes_its_handle_along() -> None:
         assert found.joints[part - 1].upper == pytest.approx(0.8 * 0.53, rel=0.01)
 
 
-def test_readings_are_ranked_and_share_one_mesh() -> None:
-    found = SeamsArticulator().readings(sample("fridge"))
+def test_hypotheses_are_ranked_and_share_one_mesh() -> None:
+    likeliest_first = SeamsArticulator().hypotheses(sample("fridge"))
+    chances = [each.probability for each in likeliest_first]
+    assert chances == sorted(chances, reverse=True)
+    found = [each.articulation for each in likeliest_first]
     assert 1 <= len(found) <= 4
     first = found[0]
     require(first, "fridge", np.eye(3))

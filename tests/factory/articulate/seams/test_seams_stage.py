@@ -9,7 +9,7 @@ import trimesh
 from one_piece import fridge
 
 from asset_factory.factory.articulate import stage
-from asset_factory.factory.articulate.stage import readings
+from asset_factory.factory.articulate.stage import hypotheses
 from asset_factory.factory.config import BuildConfig, IntakeConfig
 from asset_factory.factory.intake.load import load
 from asset_factory.factory.runtime.stages import Stages
@@ -27,10 +27,10 @@ def test_a_cut_mesh_comes_back_from_the_cache(tmp_path: Path, monkeypatch) -> No
     file.write_text(text)
     intake = load(file, IntakeConfig(up="z"))
     stages = Stages(CONFIG, Store(tmp_path / "cache"))
-    first = readings(intake, "key", stages)[0]
+    first = hypotheses(intake, "key", stages)[0].articulation
     assert len(first.mesh.faces) > len(intake.mesh.faces)
-    monkeypatch.setattr(stage, "readings_of", None)
-    again = readings(intake, "key", Stages(CONFIG, Store(tmp_path / "cache")))[0]
+    monkeypatch.setattr(stage, "hypotheses_of", None)
+    again = hypotheses(intake, "key", Stages(CONFIG, Store(tmp_path / "cache")))[0].articulation
     assert np.array_equal(again.mesh.vertices, first.mesh.vertices)
     assert np.array_equal(again.mesh.faces, first.mesh.faces)
     assert np.array_equal(again.mesh.face_material, first.mesh.face_material)

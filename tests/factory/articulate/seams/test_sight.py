@@ -9,9 +9,9 @@ import pytest
 from scipy import signal
 from tests.samples import one_piece
 
-from asset_factory.factory.articulate.seams import reading, sight
+from asset_factory.factory.articulate.seams import hypotheses, sight
 from asset_factory.factory.articulate.seams.fronts import fronts_of
-from asset_factory.factory.articulate.seams.reading import read_reliefs
+from asset_factory.factory.articulate.seams.hypotheses import hypotheses_of_reliefs
 from asset_factory.factory.articulate.seams.rectangles import Rectangle
 from asset_factory.factory.articulate.seams.relief import Relief, relief_of, reliefs_of
 from asset_factory.factory.articulate.seams.sight import (
@@ -141,7 +141,7 @@ def test_lines_on_a_panel_that_runs_on_part_nothing() -> None:
 @pytest.mark.parametrize(("end", "count"), [(0.9, 2), (0.1, 1)])
 def test_a_panel_without_a_handle_ends_on_all_sides(end: float, count: int) -> None:
     reliefs = reliefs_of(one_piece.doors(), None)
-    sides = reading._Sides.of(reliefs)
+    sides = hypotheses._Sides.of(reliefs)
     pulled, bare = (replace(panel, value=1.0) for panel in sides.panels)
     bare = replace(bare, handles=())
     seen = sides.front.sight
@@ -154,8 +154,8 @@ def test_a_panel_without_a_handle_ends_on_all_sides(end: float, count: int) -> N
         upright=np.full((rows, columns), end),
     )
     fronts = {**sides.fronts, sides.side: told}
-    best, *_ = replace(sides, fronts=fronts).readings_of(sides.side, [pulled, bare])
-    assert len(best.movers) == count
+    best, *_ = replace(sides, fronts=fronts).hypotheses_of(sides.side, [pulled, bare])
+    assert len(best) == count
 
 
 def _rectangle(low: tuple[int, int], high: tuple[int, int]) -> Rectangle:
@@ -164,12 +164,12 @@ def _rectangle(low: tuple[int, int], high: tuple[int, int]) -> Rectangle:
 
 def test_what_the_network_does_not_see_is_no_panel(monkeypatch: pytest.MonkeyPatch) -> None:
     reliefs = reliefs_of(one_piece.fridge(), None)
-    found = read_reliefs(reliefs)[0].movers
+    found = hypotheses_of_reliefs(reliefs)[0]
     monkeypatch.setattr(Sight, "shows", lambda self, rectangle: 0.0)
     # A handle within a groove all around is a door's, whoever sees it.
-    assert len(read_reliefs(reliefs)[0].movers) == len(found) > 0
-    monkeypatch.setattr(reading, "EVIDENT", np.inf)
-    assert read_reliefs(reliefs) == ()
+    assert len(hypotheses_of_reliefs(reliefs)[0]) == len(found) > 0
+    monkeypatch.setattr(hypotheses, "EVIDENT", np.inf)
+    assert hypotheses_of_reliefs(reliefs) == ()
 
 
 @pytest.mark.parametrize("kind", ["fridge", "filing_cabinet", "base_cabinet"])

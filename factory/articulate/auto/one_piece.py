@@ -7,10 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...articulation import Articulation, Part
+from ...articulation import Articulation
 from ...geometry.components import connected_components
 from ...mesh import Mesh
 from ...models.particulate.surface import Surface
+from ..proposal import Hypothesis
 from ..seams import SeamsArticulator
 from .trust import Trust
 
@@ -20,7 +21,7 @@ CRUMB = 0.05
 
 
 @dataclass(frozen=True)
-class Make:
+class MeshOrigin:
     """How a mesh was made.
 
     Attributes:
@@ -32,8 +33,8 @@ class Make:
     reconstructed: bool
 
     @classmethod
-    def of(cls, mesh: Mesh) -> Make:
-        """Of any mesh."""
+    def of(cls, mesh: Mesh) -> MeshOrigin:
+        """Tell how any mesh was made."""
         surface = Surface.of(mesh.vertices, mesh.faces)
         areas = np.bincount(connected_components(mesh), weights=surface.areas)
         whole = float(areas.sum())
@@ -44,44 +45,45 @@ class Make:
         return cls(bool(alone), surface.reconstructed)
 
     @property
-    def is_skin(self) -> bool:
+    def is_generated(self) -> bool:
         """Return whether it is what image-to-3D tools give: network and rules see rubbish in it."""
         return self.one_piece and self.reconstructed
 
 
-def seam_readings(mesh: Mesh, least: float, articulator: str) -> tuple[Articulation, ...]:
-    """Return what may open of a mesh of one piece, the likeliest reading of its sides first.
+def seam_hypotheses(mesh: Mesh, least: float, articulator: str) -> tuple[Hypothesis, ...]:
+    """Return what may open of a mesh of one piece, the likeliest hypothesis first.
 
     Args:
         mesh: metres, z up.
         least: probability below which a part is left fixed, 0 to 1.
         articulator: who is asked.
     """
-    sure = [_sure(reading, least) for reading in SeamsArticulator().readings(mesh)]
-    return tuple(replace(reading, articulator=articulator) for reading in different(sure))
+    sure = [_sure(each.articulation, least) for each in SeamsArticulator().hypotheses(mesh)]
+    return tuple(Hypothesis.of(replace(each, articulator=articulator)) for each in different(sure))
 
 
-def different(readings: Sequence[Articulation]) -> tuple[Articulation, ...]:
-    """Return those readings that do not move as an earlier one does."""
-    first = {_motions(reading): reading for reading in reversed(readings)}
-    return tuple(reading for reading in readings if first[_motions(reading)] is reading)
+def different(articulations: Sequence[Articulation]) -> tuple[Articulation, ...]:
+    """Return those that do not move as an earlier one does."""
+    first = {_motions(each): each for each in reversed(articulations)}
+    return tuple(each for each in articulations if first[_motions(each)] is each)
 
 
-def _motions(reading: Articulation) -> str:
-    return repr([(joint.name, joint.axis.tolist(), joint.upper) for joint in reading.joints])
+def _motions(articulation: Articulation) -> str:
+    joints = articulation.joints
+    return repr([(joint.name, joint.axis.tolist(), joint.upper) for joint in joints])
 
 
-def _sure(reading: Articulation, least: float) -> Articulation:
+def _sure(articulation: Articulation, least: float) -> Articulation:
     """Return the same with what is not sure one with the rest."""
-    parts = reading.parts
+    parts = articulation.parts
     chosen = [k for k in range(1, len(parts)) if (parts[k].confidence or 0.0) >= least]
     left = np.setdiff1d(np.arange(len(parts)), chosen)
-    base = Part(parts[0].name, np.concatenate([parts[index].faces for index in left]))
+    base = replace(parts[0], faces=np.concatenate([parts[index].faces for index in left]))
     joints = tuple(
-        replace(reading.joints[index - 1], child=number)
+        replace(articulation.joints[index - 1], child=number)
         for number, index in enumerate(chosen, start=1)
     )
-    return replace(reading, parts=(base, *(parts[index] for index in chosen)), joints=joints)
+    return replace(articulation, parts=(base, *(parts[index] for index in chosen)), joints=joints)
 
 
 def least_of(trust: Trust, asked: float | None) -> float:

@@ -1,4 +1,4 @@
-"""What a mesh may be: its front panels or its lid, and other ways to read them."""
+"""What a mesh may be: its front panels or its lid, and other ways in which they may open."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from .revising import revised
 from .slabs import slabs_on
 from .straight import straightening
 
-MOST_READINGS = 4
+MOST = 4
 #: What a front or a lid must be worth, and by how much a lid must beat a front.
 LEAST_FRONT = 2.0
 LEAST_LID = 1.2
@@ -36,7 +36,7 @@ LEAST_LID = 1.2
 USUAL_FRONT = {Side.FRONT: 0.3, Side.RIGHT: 0.2, Side.BACK: 0.0, Side.LEFT: 0.0}
 #: What is flatter than this share of its longest extent holds nothing.
 SHEET = 0.02
-#: Another way to open is worth a reading of its own from this probability.
+#: Another way to open is worth a hypothesis of its own from this probability.
 LEAST_OTHER = 0.1
 #: By how much what was learned must prefer its own panels to those of the rules, in log-odds.
 MARGIN = 2.0
@@ -59,23 +59,12 @@ EVEN = 1.5
 SLOPE = 0.8
 
 
-@dataclass(frozen=True)
-class MeshReading:
-    """One way to read a mesh.
-
-    Attributes:
-        movers: what opens, and how.
-        notes: what was assumed, one sentence each.
-        probability: of this reading among all, 0 to 1.
-    """
-
-    movers: tuple[OpeningPart, ...]
-    notes: tuple[str, ...]
-    probability: float
+#: What opens, if one hypothesis is right.
+Movers = tuple[OpeningPart, ...]
 
 
-def read(mesh: Mesh, pieces: IntArray | None = None) -> tuple[MeshReading, ...]:
-    """Return the readings of a mesh (metres, z up), the likeliest first, at most four.
+def hypotheses_of_mesh(mesh: Mesh, pieces: IntArray | None = None) -> tuple[Movers, ...]:
+    """Return what may open of a mesh (metres, z up), the likeliest first, at most four.
 
     Args:
         mesh: metres, z up.
@@ -85,18 +74,15 @@ def read(mesh: Mesh, pieces: IntArray | None = None) -> tuple[MeshReading, ...]:
         return ()
     straight = straightening(mesh)
     if straight is None:
-        return read_reliefs(reliefs_of(mesh, pieces))
+        return hypotheses_of_reliefs(reliefs_of(mesh, pieces))
     turn = np.eye(4)
     turn[:3, :3] = straight
-    found = read_reliefs(reliefs_of(mesh.transformed(turn), pieces))
-    return tuple(
-        replace(each, movers=tuple(mover.turned(straight.T) for mover in each.movers))
-        for each in found
-    )
+    found = hypotheses_of_reliefs(reliefs_of(mesh.transformed(turn), pieces))
+    return tuple(tuple(mover.turned(straight.T) for mover in movers) for movers in found)
 
 
-def read_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[MeshReading, ...]:
-    """Return the readings of an object that is seen from its sides and from above."""
+def hypotheses_of_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[Movers, ...]:
+    """Return what may open of an object that is seen from its sides and from above."""
     seen = _Sides.of(reliefs)
     top = reliefs[Side.TOP]
     knobs = {side: knobs_on(each.relief, each.scene.face) for side, each in seen.fronts.items()}
@@ -104,44 +90,49 @@ def read_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[MeshReading, ...]:
     side = max(knobs, key=lambda each: len(knobs[each]))
     if not knobs[side]:
         return _openings(seen, has_knobs=False)
-    found = _openings(seen, has_knobs=True) or _appliance_readings(seen, side)
-    return tuple(_with(reading, knobs[side]) for reading in found)
+    found = _openings(seen, has_knobs=True) or _appliance_hypotheses(seen, side)
+    return tuple(_with(movers, knobs[side]) for movers in found)
 
 
-def _appliance_readings(seen: _Sides, side: Side) -> tuple[MeshReading, ...]:
-    """Of what has knobs on one side and nothing else that opens: its door, if there is one."""
+def _appliance_hypotheses(seen: _Sides, side: Side) -> tuple[Movers, ...]:
+    """Return what has knobs on one side and nothing else that opens: its door, if any."""
     door = appliance_door(seen.fronts[side], seen.found[side]) if side in AROUND else None
     if door is not None and not _is_seen(seen.fronts[side], door.panel):
         door = None
     openings = () if door is None else (door,)
-    return (_reading(seen.fronts, side, openings),)
+    return (_movers(seen.fronts, side, openings),)
 
 
-def _with(reading: MeshReading, knobs: Sequence[OpeningPart]) -> MeshReading:
-    """Return a reading with those knobs that sit on nothing that opens."""
-    fixed = tuple(
+def _with(movers: Movers, knobs: Sequence[OpeningPart]) -> Movers:
+    """Return what opens, with those knobs that sit on nothing of it."""
+    fixed = [
         knob
         for knob in knobs
-        if not any(mover.region.holds(knob.origin) for mover in reading.movers)
-    )
-    return replace(reading, movers=(*reading.movers, *fixed))
+        if not any(mover.region.holds(knob.motion.origin) for mover in movers)
+    ]
+    return (*movers, *fixed)
 
 
-def _openings(seen: _Sides, *, has_knobs: bool) -> tuple[MeshReading, ...]:
+def _probability(movers: Movers) -> float:
+    """Return the probability that all of it is right, as if each were independent."""
+    return float(np.prod([mover.probability for mover in movers]))
+
+
+def _openings(seen: _Sides, *, has_knobs: bool) -> tuple[Movers, ...]:
     """Return what opens, without knobs; what has some is an appliance, whose top is no lid."""
     odds = value_of(seen.front.scene, seen.panels, seen.found[seen.side])
     if not has_knobs and seen.has_lid(odds < 0.0 and not seen.is_clear):
-        return _lid_readings(seen.fronts, seen.lids)
-    by_rules = seen.front_readings()
+        return _lid_hypotheses(seen.fronts, seen.lids)
+    by_rules = seen.front_hypotheses()
     layouts = {side: layout_of(seen.fronts[side].scene, seen.found[side]) for side in AROUND}
     side = max(AROUND, key=lambda each: layouts[each].value + USUAL_FRONT[each])
     learned = layouts[side]
     if by_rules and side is seen.side and seen.has_all_of(learned.panels):
         return by_rules
     if learned.value <= max((odds if by_rules else 0.0) + MARGIN, 0.0):
-        return by_rules or _glimpsed_readings(seen) or _slab_readings(seen)
-    readings = seen.readings_of(side, learned.panels)
-    return (*readings[: MOST_READINGS - 1], *by_rules)[:MOST_READINGS]
+        return by_rules or _glimpsed_hypotheses(seen) or _slab_hypotheses(seen)
+    others = seen.hypotheses_of(side, learned.panels)
+    return (*others[: MOST - 1], *by_rules)[:MOST]
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,7 +186,7 @@ class _Sides:
         )
 
     def has_lid(self, doubtful: bool) -> bool:
-        """Whether it is a lid that opens, and no panels; ``doubtful`` ones count for nothing."""
+        """Tell whether it is a lid that opens, and no panels; ``doubtful`` ones do not count."""
         if not self.lids or self.lids[0].value < LEAST_LID:
             return False
         if self.is_evident or not self.lids[0].is_seen(beside_panels=len(self.panels) > 1):
@@ -204,7 +195,7 @@ class _Sides:
         return doubtful or of_lid or self.lids[0].value > self.value - 1.0
 
     def has_all_of(self, few: Sequence[FrontPanel]) -> bool:
-        """Whether ``few`` are among the panels, and the others have handles and seams around."""
+        """Tell whether ``few`` are among the panels, and the others have handles and seams."""
         own = [panel.rectangle for panel in self.panels]
         those = [panel.rectangle for panel in few]
         if not those or not all(is_among(each, own) for each in those):
@@ -216,15 +207,15 @@ class _Sides:
             for panel in others
         )
 
-    def front_readings(self) -> tuple[MeshReading, ...]:
-        """Of the panels, if there is enough to them."""
+    def front_hypotheses(self) -> tuple[Movers, ...]:
+        """Return the panels, if there is enough to them."""
         if self.value < LEAST_FRONT:
             return ()
         sure = [replace(each, value=_log_odds(each.value)) for each in self.panels]
-        return self.readings_of(self.side, sure)
+        return self.hypotheses_of(self.side, sure)
 
-    def readings_of(self, side: Side, panels: Sequence[FrontPanel]) -> tuple[MeshReading, ...]:
-        """Of panels of one side whose values are log-odds; with others that fit them better."""
+    def hypotheses_of(self, side: Side, panels: Sequence[FrontPanel]) -> tuple[Movers, ...]:
+        """Return panels of one side whose values are log-odds; with others that fit better."""
         front = self.fronts[side]
         seen = [panel for panel in panels if _is_seen(front, panel)]
         seen = _without_planks(front, seen)
@@ -233,7 +224,7 @@ class _Sides:
         seen = without_control_panels(revised(front, seen, self.found[side]))
         seen = _without_planks(front, seen) or seen
         openings = openings_of(front.scene, seen, front.sight)
-        best = _reading(self.fronts, side, openings)
+        best = _movers(self.fronts, side, openings)
         found = [best]
         for index, opening in enumerate(openings):
             for rank, (_, share) in enumerate(opening.ways[1:], start=1):
@@ -241,23 +232,23 @@ class _Sides:
                     continue
                 ways = (opening.ways[rank], *opening.ways[:rank], *opening.ways[rank + 1 :])
                 other = (*openings[:index], replace(opening, ways=ways), *openings[index + 1 :])
-                found.append(_reading(self.fronts, side, other))
-        found[1:] = sorted(found[1:], key=lambda reading: -reading.probability)
-        return tuple(found[:MOST_READINGS])
+                found.append(_movers(self.fronts, side, other))
+        found[1:] = sorted(found[1:], key=lambda movers: -_probability(movers))
+        return tuple(found[:MOST])
 
 
-def _glimpsed_readings(seen: _Sides) -> tuple[MeshReading, ...]:
-    """Of the side on which the picture network alone is surest of most."""
+def _glimpsed_hypotheses(seen: _Sides) -> tuple[Movers, ...]:
+    """Return the side on which the picture network alone is surest of most."""
     panels = {side: glimpsed(seen.fronts[side]) for side in AROUND}
     side = max(AROUND, key=lambda each: _front_value(panels[each], each))
-    return seen.readings_of(side, panels[side])
+    return seen.hypotheses_of(side, panels[side])
 
 
-def _slab_readings(seen: _Sides) -> tuple[MeshReading, ...]:
-    """Of the side with the largest slabs."""
+def _slab_hypotheses(seen: _Sides) -> tuple[Movers, ...]:
+    """Return the side with the largest slabs."""
     panels = {side: slabs_on(seen.fronts, side, seen.found[side]) for side in AROUND}
     side = max(AROUND, key=lambda each: _front_value(panels[each], each))
-    return seen.readings_of(side, panels[side])
+    return seen.hypotheses_of(side, panels[side])
 
 
 def _front_value(panels: Sequence[FrontPanel], side: Side) -> float:
@@ -265,7 +256,7 @@ def _front_value(panels: Sequence[FrontPanel], side: Side) -> float:
 
 
 def _log_odds(value: float) -> float:
-    """Of a part being one, by what rules find to speak for it."""
+    """Return the log-odds of a part, by what rules find to speak for it."""
     return SLOPE * (value - EVEN)
 
 
@@ -273,28 +264,28 @@ def _chance(log_odds: float) -> float:
     return float(1.0 / (1.0 + np.exp(-log_odds)))
 
 
-def _lid_readings(fronts: Mapping[Side, Front], lids: list[Lid]) -> tuple[MeshReading, ...]:
+def _lid_hypotheses(fronts: Mapping[Side, Front], lids: list[Lid]) -> tuple[Movers, ...]:
     lid = lids[0]
     values = np.array([value for _, value in lid.hinges])
     shares = np.exp(2.0 * (values - values.max()))
     shares /= shares.sum()
     sure = _chance(_log_odds(lid.value))
     return tuple(
-        MeshReading((lid_mover(fronts, lid, hinge, sure, float(share)),), (), sure * float(share))
+        (lid_mover(fronts, lid, hinge, sure, float(share)),)
         for (hinge, _), share in zip(lid.hinges, shares, strict=True)
         if share >= LEAST_OTHER
-    )[:MOST_READINGS]
+    )[:MOST]
 
 
 def _is_seen(front: Front, panel: FrontPanel) -> bool:
-    """Whether the picture network sees a panel, or nobody needs to: a handle within a groove."""
+    """Tell whether the network sees a panel, or nobody needs to: a handle within a groove."""
     pulled = panel.handle is not None and panel.handle.height >= STANDS_OFF
     evident = pulled and float(panel.rectangle.relief.min()) >= EVIDENT
     return evident or front.sight.shows(panel.rectangle) >= LEAST_SEEN
 
 
 def _without_planks(front: Front, panels: list[FrontPanel]) -> list[FrontPanel]:
-    """Of several panels, those with handles and those that end on all sides."""
+    """Keep, of several panels, those with handles and those that end on all sides."""
     if len(panels) < 2:
         return panels
     return [panel for panel in panels if panel.handles or _has_ends(front, panel)]
@@ -306,12 +297,12 @@ def _has_ends(front: Front, panel: FrontPanel) -> bool:
     return bool(ends.min() >= max(LEAST_ENDS, EVEN_ENDS * ends.max()))
 
 
-def _reading(
+def _movers(
     fronts: Mapping[Side, Front],
     side: Side,
     openings: tuple[Opening, ...],
-) -> MeshReading:
-    movers = tuple(
+) -> Movers:
+    return tuple(
         panel_mover(
             fronts,
             side,
@@ -322,5 +313,3 @@ def _reading(
         )
         for opening in openings
     )
-    probability = float(np.prod([mover.confidence * mover.sure for mover in movers]))
-    return MeshReading(movers, (), probability)

@@ -10,8 +10,8 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any, TypeVar
 
-from .config import BuildConfig
-from .errors import ConfigError
+from ..config import BuildConfig
+from ..errors import ConfigError
 
 C = TypeVar("C")
 

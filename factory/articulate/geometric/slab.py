@@ -7,16 +7,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...mesh import FloatArray, IntArray
+from ...part import Handle, OpensBy, Panel
+from ..proposal import Motion
 from .scene import FRONT, RECT, SIDEWAYS, UP
 
 #: Against rounding [m].
 HAIR = 1e-9
+#: Rows: to the right, up and away from the viewer, in the view frame.
+VIEW = np.eye(3)[[SIDEWAYS, UP, FRONT]]
 STANDS_OFF = 0.08
 """Pieces below this share of a panel do not hide it."""
 
 
 @dataclass(frozen=True)
-class Panel:
+class FrontSlab:
     """A slab in the front and what is mounted on it, view frame [m].
 
     Attributes:
@@ -52,17 +56,17 @@ class Panel:
 
     @property
     def area(self) -> float:
-        """Of the front rectangle [m2]."""
+        """Return the area of the front rectangle [m2]."""
         return self.width * self.height
 
     @property
     def center(self) -> FloatArray:
-        """Of the slab's box [m], shape [3]."""
+        """Return the middle of the slab's box [m], shape [3]."""
         return np.asarray((self.low + self.high) / 2.0)
 
     @property
     def has_side_handle(self) -> bool:
-        """Whether an upright handle is near the left or right edge: it turns and does not slide."""
+        """Tell whether an upright handle is near the left or right edge: it turns."""
         if self.handle is None:
             return False
         width, _, height = self.handle[1] - self.handle[0]
@@ -74,11 +78,25 @@ class Panel:
         """Return the slabs and what is mounted on them, sorted."""
         return np.array(sorted({*self.slabs, *self.mounted}), dtype=np.int64)
 
+    def outline(self, opens: OpensBy) -> Panel:
+        """Return it as a panel, in the view frame, that opens so."""
+        across = [SIDEWAYS, UP]
+        return Panel(VIEW, self.low[across], self.high[across], self.low[FRONT], self.depth, opens)
+
+    def grip(self, motion: Motion) -> Handle | None:
+        """Return the handle of a panel that moves so, in the view frame; ``None`` without one."""
+        if self.handle is None:
+            return None
+        point = self.handle.mean(axis=0)
+        point[FRONT] = self.handle[0, FRONT]
+        pull = motion.velocity(point)
+        return Handle(point, -VIEW[2], pull / np.linalg.norm(pull), source="protrusion")
+
 
 def overlap_area(
     low: FloatArray, high: FloatArray, other_low: FloatArray, other_high: FloatArray
 ) -> float:
-    """Area that two boxes share, seen from the front [m2]; a line's width counts as a hair."""
+    """Return the area that two boxes share, seen from the front [m2]; a line is a hair wide."""
     sides = np.minimum(high, other_high)[RECT] - np.maximum(low, other_low)[RECT] + HAIR
     return float(np.prod(np.maximum(sides, 0.0)))
 

@@ -8,7 +8,7 @@ import numpy as np
 from one_piece import bin_with_lid, drawers, plain_box
 
 from asset_factory.factory.articulate.auto.articulator import WithoutNetwork
-from asset_factory.factory.articulate.auto.skins import Make, seam_readings
+from asset_factory.factory.articulate.auto.one_piece import MeshOrigin, seam_hypotheses
 from asset_factory.factory.config import AutoConfig
 from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.learn.objects import make_object
@@ -29,16 +29,16 @@ def bumpy(mesh: Mesh) -> Mesh:
 
 def test_one_surface_with_crumbs_is_one_piece_and_an_assembly_is_not() -> None:
     whole = plain_box()
-    assert Make.of(whole).one_piece
-    assert Make.of(crumb(whole, 0.05)).one_piece
-    assert not Make.of(crumb(whole, 0.8)).one_piece
-    assert not Make.of(make_object("cabinet", 0).mesh).one_piece
+    assert MeshOrigin.of(whole).one_piece
+    assert MeshOrigin.of(crumb(whole, 0.05)).one_piece
+    assert not MeshOrigin.of(crumb(whole, 0.8)).one_piece
+    assert not MeshOrigin.of(make_object("cabinet", 0).mesh).one_piece
 
 
 def test_only_what_bends_a_little_everywhere_is_a_skin() -> None:
-    assert not Make.of(drawers()).is_skin
-    assert Make.of(bumpy(drawers())).is_skin
-    assert not Make.of(bumpy(make_object("cabinet", 0).mesh)).is_skin
+    assert not MeshOrigin.of(drawers()).is_generated
+    assert MeshOrigin.of(bumpy(drawers())).is_generated
+    assert not MeshOrigin.of(bumpy(make_object("cabinet", 0).mesh)).is_generated
 
 
 def test_auto_reads_a_skin_by_its_seams() -> None:
@@ -49,17 +49,19 @@ def test_auto_reads_a_skin_by_its_seams() -> None:
 
 def test_what_is_unsure_stays_with_the_base() -> None:
     mesh = drawers()
-    every = seam_readings(mesh, 0.0, "auto")[0]
+    every = seam_hypotheses(mesh, 0.0, "auto")[0].articulation
     confidences = sorted(part.confidence or 0.0 for part in every.parts[1:])
-    some = seam_readings(mesh, confidences[1] - 1e-12, "auto")[0]
+    some = seam_hypotheses(mesh, confidences[1] - 1e-12, "auto")[0].articulation
     assert 1 < len(some.parts) <= len(every.parts)
     assert sum(len(part.faces) for part in some.parts) == len(some.mesh.faces)
-    (none,) = seam_readings(mesh, 0.999, "auto")
-    assert not none.movable_joints
+    (none,) = seam_hypotheses(mesh, 0.999, "auto")
+    assert not none.articulation.movable_joints
 
 
-def test_other_readings_differ_from_the_likeliest() -> None:
-    found = WithoutNetwork(AutoConfig(least_confidence=0.0)).readings(bin_with_lid())
-    told = [[(joint.kind, joint.axis.tolist()) for joint in each.joints] for each in found]
+def test_other_hypotheses_differ_from_the_likeliest() -> None:
+    found = WithoutNetwork(AutoConfig(least_confidence=0.0)).hypotheses(bin_with_lid())
+    told = [
+        [(joint.kind, joint.axis.tolist()) for joint in each.articulation.joints] for each in found
+    ]
     assert len(told) > 1
     assert all(told.count(each) == 1 for each in told)

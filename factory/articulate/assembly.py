@@ -1,0 +1,123 @@
+"""Proposals -> Articulation."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from types import MappingProxyType
+
+import numpy as np
+
+from ..articulation import Articulation, Joint, JointKind, Part
+from ..mesh import IntArray, Mesh
+from ..part import PartKind
+from .proposal import Proposal
+
+#: What follows a part's name in its joint's.
+JOINT_SUFFIX: Mapping[JointKind, str] = MappingProxyType(
+    {
+        JointKind.PRISMATIC: "slide",
+        JointKind.REVOLUTE: "hinge",
+        JointKind.CONTINUOUS: "turn",
+    }
+)
+
+
+def assembled(
+    mesh: Mesh,
+    face_part: IntArray,
+    proposals: Sequence[Proposal],
+    articulator: str,
+    hosts: Sequence[int] = (),
+) -> Articulation:
+    """Return the articulation in which all of some proposals come true.
+
+    Args:
+        mesh: metres, z up.
+        face_part: of every face: 0 for the body, else 1 + index of the proposal that it belongs
+            to, shape [face_count].
+        proposals: what moves.
+        articulator: who says so.
+        hosts: for each proposal what it hangs on: 0 for the body, else 1 + index of another one;
+            all hang on the body by default.
+    """
+    held = tuple(hosts) or (0,) * len(proposals)
+    place = {0: 0}
+    parts = [Part("base", np.flatnonzero(face_part == 0), kind=PartKind.BODY)]
+    joints: list[Joint] = []
+    notes: list[str] = []
+    order = _parents_first(held)
+    names = numbered(proposals[number - 1].kind for number in order)
+    for number, name in zip(order, names, strict=True):
+        proposal = proposals[number - 1]
+        if proposal.slide is not None:
+            parts.append(Part(f"{name}_carrier", np.zeros(0, np.int64), proposal.existence))
+        place[number] = len(parts)
+        parts.append(_part(name, np.flatnonzero(face_part == number), proposal))
+        joints += _joints(name, proposal, place[held[number - 1]], place[number])
+        notes += [f"{name} {note}" for note in proposal.notes]
+    return Articulation(mesh, tuple(parts), tuple(joints), articulator, tuple(notes))
+
+
+def _part(name: str, faces: IntArray, proposal: Proposal) -> Part:
+    return Part(
+        name,
+        faces,
+        proposal.existence,
+        kind=proposal.kind,
+        panel=proposal.panel,
+        handle=proposal.handle,
+        source=proposal.source,
+    )
+
+
+def _joints(name: str, proposal: Proposal, holder: int, part: int) -> Iterator[Joint]:
+    """Yield one joint; two for a part that turns and slides: it slides in a carrier that turns."""
+    motion = proposal.motion
+    slide = proposal.slide
+    yield Joint(
+        name=f"{name}_{JOINT_SUFFIX[motion.kind]}",
+        kind=motion.kind,
+        parent=holder,
+        child=part if slide is None else part - 1,
+        axis=motion.axis,
+        origin=motion.origin,
+        lower=motion.lower,
+        upper=motion.upper,
+        confidence=proposal.probability,
+    )
+    if slide is not None:
+        yield Joint(
+            name=f"{name}_{JOINT_SUFFIX[JointKind.PRISMATIC]}",
+            kind=JointKind.PRISMATIC,
+            parent=part - 1,
+            child=part,
+            axis=slide.axis,
+            origin=motion.origin,
+            lower=slide.lower,
+            upper=slide.upper,
+            confidence=proposal.probability,
+        )
+
+
+def _parents_first(hosts: Sequence[int]) -> list[int]:
+    """Return the numbers of the parts, from 1, each after what it hangs on."""
+    order: list[int] = []
+    waiting = list(range(1, len(hosts) + 1))
+    while waiting:
+        ready = [
+            number for number in waiting if hosts[number - 1] == 0 or hosts[number - 1] in order
+        ]
+        order += ready
+        waiting = [number for number in waiting if number not in ready]
+    return order
+
+
+def numbered(labels: Iterable[str]) -> list[str]:
+    """Return each label with its number among those alike: ``door_0``, ``door_1``, ``lid_0``."""
+    count: Counter[str] = Counter()
+    names = []
+    for label in labels:
+        names.append(f"{label}_{count[label]}")
+        count[label] += 1
+    return names

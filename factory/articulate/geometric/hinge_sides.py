@@ -1,0 +1,105 @@
+"""How a front opens, judged by its handle, its shape and its neighbours."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...mesh import FloatArray
+from ...part import OpensBy
+from .behind import FrontFace
+from .scene import SIDEWAYS, UP, Scene
+from .slab import FrontSlab
+
+WIDE = 1.3
+"""Width over height from which a front looks like a drawer's."""
+OFF_CENTER = 0.15
+"""A handle further than this share of the panel from its middle is at one side."""
+
+
+def handle_side(panel: FrontSlab) -> int:
+    """Return -1 for a handle at the left, 1 at the right, 0 in the middle or for none."""
+    if panel.handle is None:
+        return 0
+    offset = (panel.handle[:, SIDEWAYS].mean() - panel.center[SIDEWAYS]) / panel.width
+    return int(np.sign(offset)) if abs(offset) > OFF_CENTER else 0
+
+
+def hinge_side(
+    scene: Scene, front: FrontFace, fronts: list[FrontFace]
+) -> tuple[OpensBy, tuple[str, ...]]:
+    """Return how a front opens, and what was assumed."""
+    panel = front.panel
+    if len(front.behind.box_pieces):
+        return OpensBy.OUT, ()
+    side = handle_side(panel)
+    if side:
+        return (OpensBy.LEFT if side > 0 else OpensBy.RIGHT), ()
+    if panel.handle is None:
+        low = panel.width >= 1.6 * panel.height and panel.height <= 0.35 * scene.size[UP]
+        if low:
+            return OpensBy.OUT, ("has no handle; assumed to be a drawer, since it is wide and low",)
+        return _side_by_neighbours(front, fronts)
+    return _by_centred_handle(scene, front, fronts, panel.handle)
+
+
+def _by_centred_handle(
+    scene: Scene, front: FrontFace, fronts: list[FrontFace], handle: FloatArray
+) -> tuple[OpensBy, tuple[str, ...]]:
+    """Return a handle in the middle of the width: an oven's door, a flap, a drawer, or no clue."""
+    panel = front.panel
+    aspect = panel.width / panel.height
+    rise = (handle[:, UP].mean() - panel.center[UP]) / panel.height
+    spans = panel.width >= 0.6 * scene.size[SIDEWAYS] and panel.height >= 0.3 * scene.size[UP]
+    width, _, height = handle[1] - handle[0]
+    narrowest = 0.55 if width >= max(3.0 * height, 0.4 * panel.width) else 0.65
+    if _in_stack(panel, fronts):
+        return OpensBy.OUT, (
+            "has no box behind its front; assumed to be a drawer, as one of a stack",
+        )
+    if spans and narrowest <= aspect <= 1.9 and rise > 0.2:
+        return OpensBy.BOTTOM, ()
+    if aspect >= 1.2 and rise < -0.3:
+        return OpensBy.TOP, ()
+    if aspect >= WIDE:
+        return OpensBy.OUT, (
+            (
+                "has no box behind its front; assumed to be a drawer, "
+                "since it is wide with a centred handle"
+            ),
+        )
+    return _side_by_neighbours(front, fronts)
+
+
+def _in_stack(panel: FrontSlab, fronts: list[FrontFace]) -> bool:
+    """Tell whether three or more panels of one width are stacked: a chest of drawers."""
+    tolerance = 0.05 * panel.width
+    stack = [
+        f
+        for f in fronts
+        if f.panel.handle is not None
+        and handle_side(f.panel) == 0
+        and abs(f.panel.low[SIDEWAYS] - panel.low[SIDEWAYS]) <= tolerance
+        and abs(f.panel.high[SIDEWAYS] - panel.high[SIDEWAYS]) <= tolerance
+    ]
+    return len(stack) >= 3 and panel.height <= 1.2 * panel.width
+
+
+def _side_by_neighbours(
+    front: FrontFace, fronts: list[FrontFace]
+) -> tuple[OpensBy, tuple[str, ...]]:
+    """Open doors of a row in pairs, away from each other; hinge a lone one at the left."""
+    panel = front.panel
+    row = [
+        f
+        for f in fronts
+        if abs(f.panel.low[UP] - panel.low[UP]) + abs(f.panel.high[UP] - panel.high[UP])
+        <= 0.1 * panel.height
+        and not len(f.behind.box_pieces)
+    ]
+    row.sort(key=lambda f: float(f.panel.low[SIDEWAYS]))
+    place = row.index(front)
+    what = "has no handle" if panel.handle is None else "has its handle in the middle"
+    if len(row) == 1:
+        return OpensBy.LEFT, (f"{what}; hinge side assumed left",)
+    side = OpensBy.LEFT if place % 2 == 0 else OpensBy.RIGHT
+    return side, (f"{what}; hinge side assumed {side}, away from its neighbour",)

@@ -1,0 +1,49 @@
+"""A panel, a handle and the part that they belong to turn with the object."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from asset_factory.factory.articulation import rotation_about
+from asset_factory.factory.part import Handle, OpensBy, Panel, Part, PartKind, PartSource, Proposer
+from asset_factory.factory.runtime.packing import pack, unpack
+
+FRAME = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]])
+DOOR = Part(
+    "door_0",
+    np.arange(3),
+    0.7,
+    kind=PartKind.DOOR,
+    panel=Panel(FRAME, [0.1, 0.2], [0.5, 0.8], -0.3, 0.02, OpensBy.LEFT),
+    handle=Handle([0.45, -0.33, 0.5], [0.0, -1.0, 0.0], [0.0, -1.0, 0.0], source="protrusion"),
+    source=PartSource("0123456789ab", Proposer.SIDES, 0.7, {"shown": 1.5}),
+)
+
+
+def test_a_panel_knows_where_it_is() -> None:
+    panel = DOOR.panel
+    np.testing.assert_allclose(panel.center, [0.3, -0.3, 0.5])
+    np.testing.assert_allclose(panel.outward, [0.0, -1.0, 0.0])
+    np.testing.assert_allclose(panel.size, [0.4, 0.6])
+
+
+def test_panel_and_handle_turn_with_their_part() -> None:
+    turn = rotation_about([0.0, 0.0, 1.0], 0.3)
+    turned = DOOR.turned(turn)
+    np.testing.assert_allclose(turned.panel.center, turn @ DOOR.panel.center)
+    np.testing.assert_allclose(turned.panel.outward, turn @ DOOR.panel.outward)
+    np.testing.assert_allclose(turned.handle.point, turn @ DOOR.handle.point)
+    back = turned.turned(turn.T)
+    np.testing.assert_allclose(back.panel.frame, DOOR.panel.frame, atol=1e-15)
+
+
+def test_a_part_is_remembered_with_all_that_it_is() -> None:
+    kept = unpack(Part, pack(DOOR))
+    assert kept.kind is PartKind.DOOR
+    assert kept.panel.opens is OpensBy.LEFT
+    assert kept.source == DOOR.source
+    np.testing.assert_array_equal(kept.panel.frame, DOOR.panel.frame)
+    plain = unpack(Part, pack(Part("base", np.arange(2))))
+    assert plain.kind is PartKind.PART
+    assert plain.panel is None
+    assert plain.source is None
