@@ -83,7 +83,7 @@ def _drafts(
     judge: Judge,
     stages: Stages,
 ) -> Iterator[HypothesisDraft]:
-    """Yield each hypothesis as an asset, repaired, validated without simulators, within limits."""
+    """Yield each hypothesis as an asset, repaired and validated, up to so much work."""
     limits = stages.config.readings
     refused_first: InputRejected | None = None
     done = 0

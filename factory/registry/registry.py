@@ -294,7 +294,7 @@ class Registry:
 
 
 def _completed(entry: Entry, told: BuildReport, content: Path) -> Entry:
-    """Complete an entry from its files. Raises RegistryError if it cannot be an entry."""
+    """Fill in an entry from its files. Raises RegistryError if it cannot be an entry."""
     hard = told.report.hard
     entry = replace(entry, message=entry.message or (hard[0].message if hard else ""))
     if not entry.license and (content / MANIFEST).is_file():
