@@ -37,7 +37,9 @@ ARTICULATE = Stage(
     version=11,
     settings=("articulator", "particulate", "auto"),
     libraries=("numpy", "scipy", "trimesh", "torch"),
-    data=("auto.toml", "evidence.toml", "seams.toml"),
+    data=tuple(
+        f"weights/{name}.safetensors" for name in ("trust", "evidence", "rectangles", "seams")
+    ),
     also=_weight_digests,
 )
 
