@@ -73,7 +73,7 @@ class Trainer:
     def state(
         self, step: int, best: tuple[float, int] | None, recipe: str, data: str, seconds: float
     ) -> State:
-        """Everything there is after ``step`` steps."""
+        """Return everything there is after ``step`` steps."""
         return State(
             step=step,
             weights=self.network.state_dict(),

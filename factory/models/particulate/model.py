@@ -103,7 +103,7 @@ class Model:
         return self._read(driven, hidden, driven.updates[-1:], hypothesis)
 
     def encode(self, cloud: PointCloud) -> Driven:
-        """What a cloud tells about its parts: enough to label other points of the same surface."""
+        """Encode a cloud's parts: enough to label other points of the same surface."""
         from ..network.streaming import drive
 
         driven: Driven = drive(self._network, self._embed(cloud), self.dtype)
@@ -156,7 +156,7 @@ class Model:
 
 
 def _opening(parts: dict[str, Any]) -> dict[str, Any]:
-    """Axes turned round where most of the range lies behind this pose: positive then opens."""
+    """Turn axes round where most of the range lies behind this pose: positive then opens."""
     limits = parts["revolute_range"]
     behind = -limits.min(axis=1) > limits.max(axis=1)
     sign = np.where(behind, -1.0, 1.0).astype(np.float32)[:, None]
@@ -326,7 +326,7 @@ def load_field(
     device: str = "cpu",
     heads: int = 8,
 ) -> FeatureField:
-    """PartField's encoder from a checkpoint. The published weights are for non-commercial use only.
+    """Return PartField's encoder. The published weights are for non-commercial use only.
 
     Args:
         checkpoint: a safetensors, ``.pt`` or ``.ckpt`` file, or ``hf:owner/repository/file``.
