@@ -91,7 +91,7 @@ class Labelled:
 
     @property
     def crosses(self) -> FloatArray:
-        """Return the normal of every face, of twice its area's length [m2], shape [face_count, 3]."""
+        """Return the normal of every face, as long as twice its area [m2], [face_count, 3]."""
         corners = self.corners
         return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
 

@@ -103,7 +103,7 @@ def by_component(surface: Surface, labels: IntArray) -> IntArray:
 
 
 def fused_components(surface: Surface, labels: IntArray, share: float) -> IntArray:
-    """Return the components that cannot be one part each: in them are parts that exist nowhere else.
+    """Return the components that are no single parts: some parts exist nowhere else.
 
     That is so where a component covers at least ``share`` of the mesh, and the labels that
     :func:`by_component` would wipe out of the whole mesh cover at least ``share`` of it; and
