@@ -34,7 +34,8 @@ def load_network(config: ParticulateConfig) -> Particulate:
     """
     import torch
 
-    from .model import Particulate, load_field, load_model
+    from .field import load_field
+    from .model import Particulate, load_model
 
     # Sums in another order would have other bits, and workers are as many as processors.
     torch.set_num_threads(1)
