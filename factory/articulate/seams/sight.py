@@ -1,6 +1,6 @@
 """What a small picture network sees on a side: which pixels open, where they end, and how.
 
-``learn/elevations`` trains it.
+``learn/fit`` trains it.
 """
 
 from __future__ import annotations
