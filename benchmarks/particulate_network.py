@@ -21,11 +21,11 @@ from typing import Any
 import numpy as np
 import torch  # noqa: TID253
 
+from asset_factory.factory.models.network.precision import fastest_precision, product_dtype
 from asset_factory.factory.models.network.shape import NetworkShape
 from asset_factory.factory.models.network.streaming import CHUNK
 from asset_factory.factory.models.network.transformer import PartArticulationTransformer
 from asset_factory.factory.models.particulate.model import Model, PointCloud
-from asset_factory.factory.models.particulate.precision import fastest_precision, product_dtype
 
 PRECISIONS = ("float32", "bfloat16")
 PRODUCT_CHUNKS = 4

@@ -90,8 +90,8 @@ class AutoConfig:
             surer.
         points: labelled per view.
         context_points: per view, from which what components look like is measured.
-        least_confidence: parts less likely to be right stay fixed, 0 to 1; ``None``: as
-            ``configs/auto.toml`` says.
+        least_confidence: parts less likely to be right stay fixed, 0 to 1; ``None``: as the shipped
+            trust says, 0.3.
     """
 
     views: int = 4

@@ -83,6 +83,8 @@ def test_the_wheel_holds_real_files_and_nothing_else(distributions):
         "asset_factory/envs/__init__.py",
         "asset_factory/configs/presets/strict.toml",
         "asset_factory/configs/categories.toml",
+        "asset_factory/configs/weights/trust.safetensors",
+        "asset_factory/configs/weights/trust.md",
     } <= names
     assert all(name.startswith("asset_factory/") for name in names)
     assert not any("/tests/" in name or name.endswith(".pyc") for name in names)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from ..config import ParticulateConfig
 from ..errors import ConfigError
+from ..models.network.precision import Precision
 from ..models.network.shape import read_shape
 from ..models.partfield.shape import read_partfield_shape
 from ..models.particulate.components import COMPONENT_FEATURES
 from ..models.particulate.decoding import DecodeRules, TreeOver
 from ..models.particulate.inference import MOST_SAMPLES
 from ..models.particulate.labels import Refinement
-from ..models.particulate.precision import Precision
 from ..models.weights.checkpoint import naming, open_checkpoint
 from ..models.weights.sources import PARTFIELD, SHIPPED, fetch
 

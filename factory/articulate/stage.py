@@ -40,7 +40,9 @@ ARTICULATE = Stage(
     code=("asset_factory.factory.articulate", "asset_factory.factory.models"),
     settings=("articulator", "particulate", "auto"),
     libraries=("numpy", "scipy", "trimesh", "torch"),
-    data=("auto.toml", "evidence.toml", "seams.toml", "weights/seams.npz"),
+    data=tuple(
+        f"weights/{name}.safetensors" for name in ("trust", "evidence", "rectangles", "seams")
+    ),
     also=_weight_digests,
 )
 

@@ -24,7 +24,7 @@ from ..errors import ConfigError, InputRejected
 from ..geometry.crossings import Side
 from ..part import PartKind
 from .files import InputFiles
-from .reads import ABSENT, note_link_out, note_read
+from .reads import ABSENT
 
 MOST_BYTES = 256 * 1024
 MOST_PARTS = 128
@@ -169,7 +169,7 @@ def read_stated(path: Path, files: InputFiles) -> Stated | None:
     for candidate in stated_paths(path):
         if candidate.is_file():
             return _parse(candidate, files)
-        note_read(candidate, ABSENT)
+        files.log.note(candidate, ABSENT)
     return None
 
 
@@ -200,7 +200,7 @@ def _parse(path: Path, files: InputFiles) -> Stated:
     if path.stat().st_size > MOST_BYTES:
         raise _bad(path, f"is {path.stat().st_size} bytes, want at most {MOST_BYTES}")
     if not inside(path, path.parent.resolve()):
-        note_link_out(path, path.parent)
+        files.log.note_link_out(path, path.parent)
         raise InputRejected(
             "external_reference", f"{path.name}: is a link that leads outside the input's folder"
         )

@@ -73,7 +73,7 @@ def followed(rows: Iterable[Row], total: int) -> list[Row]:
 
 
 def print_summary(data: dict[str, Any], output: Path) -> None:
-    """Tables of what :func:`~asset_factory.learn.evaluate.files.write_results` wrote."""
+    """Print tables of what :func:`~asset_factory.learn.evaluate.files.write_results` wrote."""
     console = Terminal()
     # A pipe or a log file has no width; a table squeezed into 80 columns there could not be read.
     console = console if console.is_terminal else Terminal(width=240)

@@ -105,7 +105,7 @@ def prepare(
 
 
 def find_all(kind: str, path: Path) -> tuple[SourceItem, ...]:
-    """A dataset's objects, not read yet. Raises ConfigError: no such kind or folder, or empty."""
+    """Return a dataset's objects, not read yet. Raises ConfigError: no such kind, or empty."""
     known = source(kind)
     if not path.is_dir():
         raise ConfigError(f"dataset {path}: is no folder")

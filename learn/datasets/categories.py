@@ -14,7 +14,7 @@ MAX_BYTES = 64 * 1024 * 1024
 
 
 def categories_of(root: Path) -> Callable[[str], str]:
-    """Category by object name: the inventory's, else its start (``box`` of ``box_101``).
+    """Return the category by object name: the inventory's, else its start (``box`` of ``box_101``).
 
     The inventory is ``INVENTORY.csv`` in ``root``, with columns ``path`` and ``category``; a path
     may begin with the folders that ``root`` lies in. An inventory that cannot be read is none.

@@ -22,12 +22,12 @@ def find_descriptions(root: Path) -> tuple[SourceItem, ...]:
 
 
 def read_description(item: SourceItem, settings: SourceSettings) -> Articulation:
-    """One object, its fixed parts one with their parents, lower = closed. Raises InputRejected."""
+    """Return one object, fixed parts joined to parents, lower = closed. Raises InputRejected."""
     return articulate(load(item.main, settings.intake), BuildConfig(articulator="annotated"))
 
 
 def _mains(files: Sequence[Path]) -> list[Path]:
-    """URDF before MJCF, the file called like its folder first."""
+    """Sort URDF before MJCF, the file called like its folder first."""
     found = [path for path in files if is_description(path)]
     return sorted(
         found,

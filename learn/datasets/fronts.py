@@ -20,7 +20,7 @@ AJAR = 0.5
 
 
 def opening_way(sampled: SampledObject) -> str | None:
-    """The horizontal way most surface moves as every part opens; ``None`` if hardly any does."""
+    """Return the horizontal way most surface moves as parts open; ``None`` if hardly any does."""
     size = float(np.ptp(sampled.points, axis=0).max())
     total = np.zeros(2)
     for part in range(1, len(sampled.parents)):

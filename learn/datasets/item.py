@@ -46,11 +46,11 @@ class SourceItem:
 
     @property
     def folder(self) -> Path:
-        """Nothing outside of it belongs to the object."""
+        """Return the folder outside of which nothing belongs to the object."""
         return self.main.parent
 
     def digest(self) -> str:
-        """SHA-256 over the names and contents of its files; images do not count. Raises OSError."""
+        """Return the SHA-256 of its files' names and contents, images left out. Raises OSError."""
         lines = [f"main {self.main.name}"]
         for path in self.files:
             if path.suffix.lower() not in LOOKS:

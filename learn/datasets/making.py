@@ -56,7 +56,7 @@ def make_sampled(
 
 
 def sampled_item(kind: str, item: SourceItem, settings: SourceSettings, seed: int) -> SampledObject:
-    """One object's sample, its front along -Y. Raises InputRejected, and any reader's errors."""
+    """Return one object's sample, front along -Y. Raises InputRejected and readers' errors."""
     known = source(kind)
     read = known.read(item, settings)
     quarters = FRONTS[known.front if settings.front == "auto" else settings.front]

@@ -39,7 +39,7 @@ def _category(item: SourceItem) -> str:
 
 
 def words(name: str) -> str:
-    """``StorageFurniture`` as ``Storage Furniture``."""
+    """Split ``StorageFurniture`` into ``Storage Furniture``."""
     return "".join(
         f" {c}" if c.isupper() and i and not name[i - 1].isupper() else c
         for i, c in enumerate(name)

@@ -31,7 +31,7 @@ def find_predictions(root: Path) -> tuple[SourceItem, ...]:
 
 
 def read_prediction_item(item: SourceItem, settings: SourceSettings) -> Articulation:
-    """One mesh with its labels; turned and scaled as intake does it. Raises InputRejected."""
+    """Return a mesh with its labels, turned and scaled as in intake. Raises InputRejected."""
     intake = load(item.main, settings.intake)
     if intake.annotation_path is None:
         labels = labels_beside(item.main, item.files)
@@ -69,7 +69,7 @@ def _has_labels(mesh: Path, files: Sequence[Path]) -> bool:
 
 
 def _alone(item: SourceItem) -> SourceItem:
-    """Of a folder of many objects, only the files named like this one, or like all of them."""
+    """Keep, of a folder of many objects, the files named like this one or like all."""
     files = tuple(
         p for p in item.files if p.name.startswith(f"{item.main.stem}.") or p.name == LONE
     )

@@ -46,7 +46,7 @@ def find_published(root: Path) -> tuple[SourceItem, ...]:
 
 
 def read_published(item: SourceItem, settings: SourceSettings) -> Articulation | SampledObject:
-    """One object: a sample of the given points, where there is no mesh. Raises InputRejected."""
+    """Return one object; the given points where there is no mesh. Raises InputRejected."""
     if item.main.name != META:
         return sampled_from_points(item, settings)
     folder = item.folder
@@ -122,6 +122,6 @@ def _joints(bones: Arrays, axes: Arrays, ranges: Arrays) -> tuple[AnnotatedJoint
 
 
 def _without_repeats(faces: IntArray) -> IntArray:
-    """The first of every set of faces on the same vertices: the release writes visuals twice."""
+    """Return the first of all faces on the same vertices: the release writes visuals twice."""
     first, _ = distinct_rows(np.sort(faces, axis=1))
     return np.sort(first)

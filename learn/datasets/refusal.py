@@ -23,7 +23,7 @@ class ItemRefusal:
 
 
 def write_refusal(path: Path, refusal: ItemRefusal) -> None:
-    """As JSON, complete or not there."""
+    """Write JSON, complete or not there."""
     write_whole(path, json.dumps(asdict(refusal)).encode())
 
 

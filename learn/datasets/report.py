@@ -31,13 +31,13 @@ class SourceReport:
 
     @property
     def counts(self) -> dict[str, int]:
-        """Skipped objects by reason, most frequent first."""
+        """Return skipped objects by reason, most frequent first."""
         return dict(
             Counter({reason: len(names) for reason, names in self.skipped.items()}).most_common()
         )
 
     def lines(self) -> list[str]:
-        """For people: what was read, and each reason with its first object."""
+        """Return lines for people: what was read, and each reason with its first object."""
         total = len(self.read) + sum(self.counts.values())
         said = [f"{self.kind}: {len(self.read)} of {total} objects read, {self.made} of them new"]
         for reason, count in self.counts.items():
@@ -48,7 +48,7 @@ class SourceReport:
         return said
 
     def write(self, path: Path) -> None:
-        """As JSON, complete or not there."""
+        """Write JSON, complete or not there."""
         data: dict[str, Any] = {
             "kind": self.kind,
             "read": list(self.read),

@@ -61,7 +61,7 @@ class SourceSettings:
 
     @property
     def decisive(self) -> dict[str, int | str]:
-        """The settings that decide the output, for the cache's key: patience, memory do not."""
+        """Return the settings that decide the output, for the key: patience and memory do not."""
         # Left out where it is not asked for: what was read before stays known.
         skin = {"skin": True} if self.skin else {}
         return {

@@ -10,7 +10,7 @@ from asset_factory.factory.errors import ConfigError
 
 
 def read_split(path: Path) -> frozenset[str]:
-    """The names in a text file, one per line; empty lines and what follows ``#`` do not count.
+    """Return the names in a text file, one per line; ``#`` begins a comment.
 
     Raises:
         ConfigError: there is no such file, or it names nothing.

@@ -11,7 +11,7 @@ from ..samples.sampled_object import SampledObject
 
 
 def turned_sampled(sampled: SampledObject, yaw: float) -> SampledObject:
-    """The object turned about the vertical through the origin by ``yaw`` [rad], with joints."""
+    """Turn an object and its joints about the vertical through the origin by ``yaw`` [rad]."""
     turn = rotation_about(UP, yaw).T
     return replace(
         sampled,

@@ -132,7 +132,7 @@ class Decorations:
 
 
 def _along(where: BoolArray, level: bool) -> tuple[FloatArray, float]:
-    """How far across its lines every pixel lies, from the region's own edge, and its extent."""
+    """Return every pixel's distance from the region's edge across its lines, and its extent."""
     axis = 0 if level else 1
     held = np.flatnonzero(where.any(axis=1 - axis))
     place = np.indices(where.shape)[axis] - held[0]

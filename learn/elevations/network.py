@@ -1,4 +1,4 @@
-"""The network of ``articulate/seams/sight.py``, to be trained."""
+"""The network of ``factory/models/picture_network.py``, to be trained."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ import torch  # noqa: TID253 - this module is only imported to train
 from torch import nn  # noqa: TID253
 from torch.nn import functional  # noqa: TID253
 
-from asset_factory.factory.articulate.seams.sight import ANSWERS, CUES, HALVINGS
+from asset_factory.factory.articulate.seams.sight import ANSWERS, CUES
 from asset_factory.factory.mesh import FloatArray
+from asset_factory.factory.models.picture_network import HALVINGS
 
 Tensor = Any
 #: Channels at each size, the full one first.
@@ -17,7 +18,7 @@ WIDTHS = (12, 20, 32, 48, 64)
 
 
 class PictureNetwork(nn.Module):  # type: ignore[misc]
-    """As :func:`~asset_factory.factory.articulate.seams.sight.network_answer` has it."""
+    """As :func:`~asset_factory.factory.models.picture_network.picture_scores` has it."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -33,7 +34,7 @@ class PictureNetwork(nn.Module):  # type: ignore[misc]
         self.answer = nn.Conv2d(WIDTHS[0], len(ANSWERS), 1)
 
     def forward(self, cues: Tensor) -> Tensor:
-        """Log-odds, shape [n, answer_count, rows / 2, columns / 2]; cues [n, cue_count, ...]."""
+        """Return log-odds, [n, answer_count, rows / 2, columns / 2]; cues [n, cue_count, ...]."""
         levels = [self.first(cues)]
         for down in self.down:
             levels.append(down(functional.max_pool2d(levels[-1], 2)))

@@ -123,7 +123,7 @@ def _picture(
 
 
 def _shown(articulation: Articulation, side: Side) -> tuple[Elevation, IntArray]:
-    """The faces of an object's solids that look towards a side, and the part of each of them."""
+    """Return the faces of an object's solids that look towards a side, and their parts."""
     mesh = articulation.mesh
     corners = mesh.vertices[mesh.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -181,7 +181,7 @@ def _painted(
     looks: Looks,
     rng: np.random.Generator,
 ) -> FloatArray:
-    """Colours with baked shade and lines, CIE L*a*b*, shape [rows, columns, 3]."""
+    """Paint colours with baked shade and lines, CIE L*a*b*, shape [rows, columns, 3]."""
     if looks.plain is not None:
         color = np.broadcast_to(np.array(looks.plain), color.shape)
     dip = ndimage.grey_closing(height, size=(9, 9)) - height

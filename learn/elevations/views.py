@@ -50,7 +50,7 @@ class SideView:
     way: IntArray
 
     def mirrored(self) -> SideView:
-        """Right and left exchanged."""
+        """Return the view with right and left exchanged."""
         cues = self.cues[:, :, ::-1].copy()
         cues[_SLOPE] *= -1.0
         return SideView(cues, self.wanted[:, :, ::-1], MIRRORED[self.way[:, ::-1]])

@@ -46,7 +46,7 @@ class Bodies:
 
     @cached_property
     def mobile(self) -> BoolArray:
-        """Which bodies move at all, be it because what carries them moves, shape [body_count]."""
+        """Return which bodies move, be it because what carries them moves, shape [body_count]."""
         carried = np.zeros(len(self.articulation.parts), dtype=bool)
         for joint in self.articulation.joints:
             carried[joint.child] = carried[joint.parent] or joint.movable
@@ -74,14 +74,14 @@ class Bodies:
         )
 
     def own_motion(self, body: int, share: float) -> FloatArray:
-        """Motion of a body by its own joints, opened by a share of range, at rest frame, [4, 4]."""
+        """Return a body's motion by its own joints, opened by a share of range, [4, 4]."""
         matrix = np.eye(4)
         for joint in self.joints[body]:
             matrix = matrix @ joint.motion(value_at(joint, share))
         return matrix
 
     def centres_at(self, share: float) -> FloatArray:
-        """Face centroids with every joint opened by a share of its range [m], [face_count, 3]."""
+        """Return face centroids, joints opened by a share of their range [m], [face_count, 3]."""
         values = {joint.name: value_at(joint, share) for joint in self.articulation.movable_joints}
         poses = self.articulation.poses(values)[self.parts][self.labels]
         centres = face_centres(self.articulation.mesh)
@@ -115,7 +115,7 @@ def _own(articulation: Articulation, part: int) -> tuple[Joint, ...]:
 
 
 def value_at(joint: Joint, share: float) -> float:
-    """Joint value with a share of the range opened [rad] or [m].
+    """Return the joint value with a share of the range opened [rad] or [m].
 
     A joint without ends has no closed one: it starts where it is, and all its range is half a turn.
     """

@@ -158,7 +158,7 @@ def procedural_requests(
 def folder_requests(
     folder: Path, poses: Sequence[str] = ("closed",), yaws: Sequence[str] = ("front",)
 ) -> tuple[Request, ...]:
-    """Every URDF, MJCF and annotated mesh (by its sidecar) in a folder; fronts look along -Y.
+    """Return every URDF, MJCF and annotated mesh of a folder; fronts look along -Y.
 
     Raises:
         ConfigError: there is none, or no such pose or yaw.
@@ -251,7 +251,7 @@ def cases(
     yaws: Sequence[str] = ("front",),
     store: Store | None = None,
 ) -> Iterator[Case]:
-    """The cases of a list one by one; errors as for :func:`real_requests`, :func:`make_case`."""
+    """Yield the cases of a list; errors as for :func:`real_requests`, :func:`make_case`."""
     for request in real_requests(root, objects, half, poses, yaws):
         yield make_case(request, store)
 
@@ -262,7 +262,7 @@ def procedural_cases(
     poses: Sequence[str] = ("closed",),
     yaws: Sequence[str] = ("front",),
 ) -> Iterator[Case]:
-    """Procedural objects one by one; arguments and errors as for :func:`procedural_requests`."""
+    """Yield procedural objects; arguments and errors as for :func:`procedural_requests`."""
     for request in procedural_requests(categories, seeds, poses, yaws):
         yield make_case(request)
 
@@ -297,7 +297,7 @@ def _opened(whole: Articulation, rng: np.random.Generator) -> Articulation:
 
 
 def _rng(request: Request, purpose: str) -> np.random.Generator:
-    """Random numbers of this object, pose and yaw for one purpose, the same ever after."""
+    """Return random numbers for one purpose, the same for the same object, pose and yaw."""
     parts = {"pose": (), "skin": (), "yaw": (request.pose,), "order": (request.pose, request.yaw)}[
         purpose
     ]

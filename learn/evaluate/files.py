@@ -64,7 +64,7 @@ def _line(row: Row) -> dict[str, Any]:
 
 
 def _table(lines: Sequence[dict[str, Any]]) -> str:
-    """One column per value; per-part values become means over the parts, blank without any."""
+    """Write a column per value; those of parts become their means, blank without any."""
     fixed = ("method", "case", "repeat", "source", "category", "pose", "yaw", "failure")
     values = list(dict.fromkeys(name for line in lines for name in line["values"]))
     parts = list(dict.fromkeys(name for line in lines for name in line["parts"]))
@@ -84,7 +84,7 @@ def _table(lines: Sequence[dict[str, Any]]) -> str:
 
 
 def write_obj(path: Path, mesh: Mesh) -> None:
-    """A mesh fit to be published: faces in its own order, numbers that read back exactly."""
+    """Write a mesh fit to be published: faces in its own order, numbers that read back exactly."""
     lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in mesh.vertices.tolist()]
     lines += [f"f {a} {b} {c}" for a, b, c in (mesh.faces + 1).tolist()]
     write_whole(path, ("\n".join(lines) + "\n").encode())

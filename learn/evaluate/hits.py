@@ -20,7 +20,7 @@ STRICT_OFFSET = 0.02
 
 
 def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[float, ...]]:
-    """Per true moving part 1 or 0, in the order of its bodies; unless it is found and moves, 0.
+    """Return 1 or 0 per true moving part, in the bodies' order; 0 unless found and moving.
 
     Args:
         true: what is.
@@ -59,13 +59,13 @@ def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[f
 
 
 def angles(true: Bodies, predicted: Bodies, real: int, guess: int) -> list[float]:
-    """Between the two bodies' axes, of turns and of slides, whichever way they point [deg]."""
+    """Return the angles between two bodies' axes, of turns and slides, either way [deg]."""
     both = (true.turn(real), predicted.turn(guess)), (true.slide(real), predicted.slide(guess))
     return [_angle(one, other) for one, other in both if one is not None and other is not None]
 
 
 def offset(true: Bodies, predicted: Bodies, real: int, guess: int) -> float | None:
-    """From the true turn axis, at its point nearest to the part's centroid, to the other's [m].
+    """Return the distance of two turn axes, at the true one's point next to the part [m].
 
     ``None`` unless both turn.
     """

@@ -48,7 +48,7 @@ class Listed:
 
 
 def half_of(shape: str) -> str:
-    """The half of objects with one surface: parity of the first byte of the first path's SHA-256.
+    """Return the half of objects with one surface: parity of its first path's SHA-256.
 
     Objects that are the same fall into the same half, and a new object changes no other's.
     """

@@ -79,7 +79,7 @@ class Method:
 
 @lru_cache(maxsize=2)
 def _articulator(name: str, config: ParticulateConfig) -> Articulator:
-    """Loaded once per process; the choice ignores the mesh, as no mesh here has an annotation."""
+    """Load one per process; the choice ignores the mesh, as none has an annotation."""
     corner = Mesh.from_triangles(np.eye(3), [[0, 1, 2]])
     nothing = Intake("case", corner, np.zeros(1, np.int64), np.eye(4), Provenance("case", ""))
     return choose(nothing, BuildConfig(articulator=name, particulate=config))

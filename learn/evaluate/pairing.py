@@ -39,7 +39,7 @@ class Pairing:
         return np.asarray(_iou(self.shared, self.true_area, self.predicted_area)[true, predicted])
 
     def spread(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """One value per pair as one per true and per predicted body; 0 for an unmatched body."""
+        """Return a value per true and per predicted body for one per pair; 0 for the unmatched."""
         of_true = np.zeros(len(self.true_area))
         of_predicted = np.zeros(len(self.predicted_area))
         of_true[self.pairs[:, 0]] = values

@@ -83,7 +83,7 @@ def physical(true: Articulation, predicted: Articulation) -> Score:
 
 
 def _without_needless_ends(articulation: Articulation) -> Articulation:
-    """Joints that turn all the way round have no ends that matter, whatever the file calls them."""
+    """Take the ends from joints that turn all the way round, whatever the file calls them."""
 
     def endless(joint: Joint) -> Joint:
         if joint.kind is not JointKind.REVOLUTE or joint.range < WHOLE_TURN:
@@ -94,7 +94,7 @@ def _without_needless_ends(articulation: Articulation) -> Articulation:
 
 
 def _both_ways(of: tuple[FloatArray, FloatArray], true: BoolArray, predicted: BoolArray) -> float:
-    """Mean over the chosen true and over the chosen predicted bodies, averaged; none gives 0."""
+    """Return the mean over chosen true and over chosen predicted bodies, averaged; none: 0."""
     chosen = of[0][true], of[1][predicted]
     return sum(float(values.mean()) if len(values) else 0.0 for values in chosen) / 2.0
 
@@ -130,7 +130,7 @@ def _motion_aware(
 
 
 def _shares(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[float, ...]]:
-    """Per moving part, true or predicted: whether it was found, is right, was left, is still."""
+    """Return per moving part whether it was found, is right, was left fixed, is still."""
     pairs = pairing.pairs
     iou = pairing.iou()
     good = (iou > FOUND_IOU) & true.moving[pairs[:, 0]] & predicted.moving[pairs[:, 1]]
@@ -148,7 +148,7 @@ def _shares(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tupl
 def _joint_errors(
     true: Bodies, predicted: Bodies, pairing: Pairing, areas: FloatArray
 ) -> dict[str, tuple[float, ...]]:
-    """Per matched true moving part: whether its type is right; errors of axis, sign, range."""
+    """Return per matched true moving part if its type is right; errors of axis and range."""
     names = (
         "type_accuracy",
         "axis_angle_deg",
@@ -201,7 +201,7 @@ def _opening(bodies: Bodies, body: int, points: FloatArray) -> FloatArray:
 
 
 def _with_aligned_turns(true: Bodies, predicted: Bodies, pairing: Pairing) -> Bodies:
-    """Axes of joints without ends turned to match their true ones, as their sign means nothing."""
+    """Turn axes of endless joints to match their true ones, as their sign means nothing."""
     flipped = set()
     for real, guess in pairing.pairs:
         ours = true.turn(real)

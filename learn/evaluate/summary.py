@@ -48,7 +48,7 @@ def summarised(rows: Iterable[Row]) -> list[dict[str, Any]]:
 
 
 def in_order(rows: Iterable[Row]) -> list[Row]:
-    """By method, case and repetition: however they came."""
+    """Sort rows by method, case and repetition."""
     return sorted(
         rows, key=lambda row: (row.trial.method.name, row.trial.request.name, row.trial.repeat)
     )
@@ -101,5 +101,5 @@ def _pooled(rows: Sequence[Row]) -> dict[str, dict[str, float]]:
 
 
 def rounded(value: float | np.floating[Any]) -> float:
-    """To ``DIGITS``, without a negative zero."""
+    """Round to ``DIGITS``, without a negative zero."""
     return round(float(value), DIGITS) + 0.0

@@ -31,7 +31,7 @@ def on_mesh(truth: Articulation, mesh: Mesh) -> Articulation:
 
 
 def sources(whole: Mesh, cut: Mesh) -> IntArray:
-    """For each triangle of a cut mesh the one that it is, or was cut from, shape [face_count]."""
+    """Return the triangle that each one of a cut mesh is, or was cut from, [face_count]."""
     known = {row.tobytes(): index for index, row in enumerate(_corners(whole))}
     found = np.array([known.get(row.tobytes(), -1) for row in _corners(cut)], dtype=np.int64)
     left = np.flatnonzero(found < 0)
@@ -49,7 +49,7 @@ def _corners(mesh: Mesh) -> FloatArray:
 
 
 def _outside(points: FloatArray, triangles: FloatArray) -> FloatArray:
-    """How far points are from lying in triangles, as a share of their size; [points, triangles]."""
+    """Return how far points are outside triangles, over their size; [points, triangles]."""
     a, b, c = triangles.transpose(1, 0, 2)
     one = b - a
     other = c - a

@@ -76,7 +76,7 @@ class MotionSample:
 def motion_samples(
     name: str, articulation: Articulation, rng: np.random.Generator
 ) -> Iterator[MotionSample]:
-    """What an object teaches, closed, turned at random, and with some of its labels spoilt."""
+    """Yield an object's samples, closed, turned at random, some of its labels spoilt."""
     truth = truth_of(articulation, float(rng.uniform(0.0, 2.0 * np.pi)))
     partition = spoilt(truth.partition, rng)
     parts = rng.permutation(sorted(truth.joints))[:MOST_PARTS]
@@ -123,7 +123,7 @@ def _judged(
 
 
 def _distance(points: FloatArray, candidates: Candidates) -> FloatArray:
-    """Of points [m] from the candidates' axes [m], shape [n]."""
+    """Return the distance of points [m] from the candidates' axes [m], shape [n]."""
     offset = points - candidates.origin
     return np.asarray(np.linalg.norm(np.cross(offset, candidates.axis), axis=1))
 

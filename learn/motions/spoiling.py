@@ -18,7 +18,7 @@ BITE = 0.2
 
 
 def spoilt(partition: Partition, rng: np.random.Generator) -> Partition:
-    """The same object with wrong labels on about half of its parts; every part keeps some faces."""
+    """Give about half of an object's parts wrong labels; every part keeps some faces."""
     labels = np.array(partition.face_part)
     ways = (_lose_pieces, _keep_largest, _gain_piece, _lose_bite, _gain_bite)
     for part in range(1, len(partition.parents)):

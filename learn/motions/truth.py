@@ -57,7 +57,7 @@ def truth_of(articulation: Articulation, yaw: float) -> Truth:
 
 
 def _way_down(articulation: Articulation, part: int) -> tuple[int, list[Joint]]:
-    """The nearest part with faces that a part hangs on, and the joints between them that move."""
+    """Return the nearest part with faces that a part hangs on, and movable joints between."""
     above = {joint.child: joint for joint in articulation.joints}
     at = part
     found = []

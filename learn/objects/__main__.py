@@ -16,7 +16,7 @@ from .sample_files import write_sample
 
 
 def opening(articulation: Articulation, share: float) -> dict[str, float]:
-    """Joint values at this share of every joint's way from closed; one without ends turns to pi."""
+    """Return joint values at a share of every way from closed; endless ones turn to pi."""
     closed = {
         joint.name: 0.0 if joint.kind is JointKind.CONTINUOUS else joint.lower
         for joint in articulation.movable_joints

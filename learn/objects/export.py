@@ -31,7 +31,7 @@ class FileFrame:
 
     @property
     def scale(self) -> float:
-        """File units per metre."""
+        """Return file units per metre."""
         return float(np.cbrt(np.linalg.det(self.matrix[:3, :3])))
 
 
@@ -41,7 +41,7 @@ def written_order(mesh: Mesh) -> IntArray:
 
 
 def write_glb(mesh: Mesh, frame: FileFrame, path: Path) -> None:
-    """One node, one primitive per material, images embedded; colours linear as glTF wants them."""
+    """Write one node, a primitive per material, images embedded, colours linear."""
     buffer = Buffer()
     placed = mesh.transformed(frame.matrix)
     primitives = [
@@ -66,7 +66,7 @@ def write_glb(mesh: Mesh, frame: FileFrame, path: Path) -> None:
 
 
 def write_obj(mesh: Mesh, frame: FileFrame, path: Path) -> None:
-    """An OBJ and, beside it, an MTL of the same stem; plain colours only.
+    """Write an OBJ and, beside it, an MTL of the same stem; plain colours only.
 
     Raises:
         ValueError: a material has a texture.
@@ -88,13 +88,13 @@ def write_obj(mesh: Mesh, frame: FileFrame, path: Path) -> None:
 
 
 def write_sidecar(path: Path, values: dict[str, str | float]) -> None:
-    """A TOML file of strings and numbers, in the order given."""
+    """Write a TOML file of strings and numbers, in the order given."""
     lines = [f"{key} = {json.dumps(value)}" for key, value in values.items()]
     path.write_text("\n".join(lines) + "\n", encoding="utf-8", newline="\n")
 
 
 def write_annotation(articulation: Articulation, frame: FileFrame, path: Path) -> None:
-    """Ground truth as ``pred.npz``, in the frame, units and face order of the mesh file beside it.
+    """Write ``pred.npz``, in the frame, units and face order of the mesh file beside it.
 
     A part on a carrier, a part without faces, is one part that turns and slides.
 
@@ -150,7 +150,7 @@ def write_annotation(articulation: Articulation, frame: FileFrame, path: Path) -
 
 
 def _numbers(articulation: Articulation) -> tuple[list[int], set[int]]:
-    """Number of each part, a carrier's that of what it carries; and the parts that are carried."""
+    """Return the parts' numbers, a carrier's that of what it carries, and who is carried."""
     carried: dict[int, int] = {}
     for joint in articulation.joints:
         carrier = articulation.parts[joint.parent]

@@ -61,7 +61,7 @@ class MixtureSettings:
 
     @property
     def weights(self) -> tuple[float, float, float]:
-        """Of what artists, early and recent image-to-3D tools make."""
+        """Return the weights of artists, early and recent image-to-3D tools."""
         return self.artist, self.generated, self.skin
 
 
@@ -73,7 +73,7 @@ def training_object(seed: int, settings: MixtureSettings | None = None) -> Artic
 def sample_object(
     rng: np.random.Generator, settings: MixtureSettings | None = None
 ) -> tuple[str, Articulation]:
-    """A labelled object and its name, ``category-seed-character-seed``, by which to make it again.
+    """Return a labelled object and its name, ``category-seed-character-seed``.
 
     Joint values 0 are closed, the front looks towards -Y.
 

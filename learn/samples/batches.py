@@ -71,7 +71,7 @@ class Batch:
             yield self._map(lambda array, rows=slice(start, start + size): array[rows])
 
     def to(self, device: str) -> Batch:
-        """As tensors on a device; to a GPU the copies run beside the work that is queued there."""
+        """Copy to tensors on a device; a GPU's copies run beside the work queued there."""
         import torch
 
         def moved(array: Array) -> Array:

@@ -104,7 +104,7 @@ class _Body:
 
 
 def draw(sampled: SampledObject, rng: np.random.Generator, settings: DrawSettings) -> Sample:
-    """A sample by the paper's recipe: a random state, the unit box, then jitter in size, place."""
+    """Draw a sample by the paper's recipe: a random state, the unit box, then jitter."""
     rows = _chosen(sampled, rng, settings)
     seen = np.concatenate([rows, rng.integers(0, len(sampled.points), settings.context)])
     body = _shaped(sampled, seen, rng, settings)
@@ -142,7 +142,7 @@ def draw(sampled: SampledObject, rng: np.random.Generator, settings: DrawSetting
 def _shaped(
     sampled: SampledObject, rows: IntArray, rng: np.random.Generator, settings: DrawSettings
 ) -> _Body:
-    """Mirrored and stretched at joint values 0, where any stretch keeps a valid jointed object."""
+    """Mirror and stretch at joint values 0, where any stretch keeps a valid object."""
     factor = np.exp(rng.uniform(-0.5, 0.5, 3) * settings.stretch)
     mirrored = rng.random() < settings.mirrored_share
     factor[0] *= -1.0 if mirrored else 1.0
@@ -184,7 +184,7 @@ def _state(
 
 
 def _moved(sampled: SampledObject, body: _Body, turns: FloatArray, slides: FloatArray) -> _Body:
-    """Every part where its own and its ancestors' joints carry it; axes where its parent does."""
+    """Move every part by its own and its ancestors' joints; axes by its parent's."""
     count = len(sampled.parents)
     rotation = np.tile(np.eye(3), (count, 1, 1))
     shift = np.zeros((count, 3))
@@ -224,7 +224,7 @@ def _facing(rng: np.random.Generator, settings: DrawSettings) -> float:
 
 
 def _placed(body: _Body, yaw: float, rng: np.random.Generator, settings: DrawSettings) -> _Body:
-    """In the network's box, but for a little size and place; slide lengths are in ``reach``."""
+    """Place in the network's box, but for a little jitter; slide lengths are in ``reach``."""
     turn = rotation_about(np.array([0.0, 0.0, 1.0]), yaw).T
     points = body.points @ turn
     # Along rows of memory; along columns it takes ten times as long.
@@ -246,7 +246,7 @@ def _placed(body: _Body, yaw: float, rng: np.random.Generator, settings: DrawSet
 
 
 def _chosen(sampled: SampledObject, rng: np.random.Generator, settings: DrawSettings) -> IntArray:
-    """Rows of the pool: some on sharp edges, the rest on faces; repeated only if too few."""
+    """Return rows of the pool: some on sharp edges, the rest on faces; repeated only if too few."""
     on_edge = np.flatnonzero(sampled.sharp)
     on_face = np.flatnonzero(~sampled.sharp)
     wanted = int(settings.sharp_share * settings.points) if len(on_edge) else 0

@@ -180,7 +180,7 @@ def _motions(chains: dict[int, tuple[Joint, ...]], parent: dict[int, int]) -> di
 
 
 def _moving_parts(articulation: Articulation) -> tuple[dict[int, tuple[Joint, ...]], list[int]]:
-    """Joints by which each moving part hangs on the one before; each part's representative."""
+    """Return the joints of each moving part, and every part's representative."""
     group = list(range(len(articulation.parts)))
     chains: dict[int, tuple[Joint, ...]] = {}
     waiting: dict[int, Joint] = {}
@@ -202,7 +202,7 @@ def _moving_parts(articulation: Articulation) -> tuple[dict[int, tuple[Joint, ..
 
 
 def write_sampled(path: Path, sampled: SampledObject) -> None:
-    """One uncompressed npz file, complete or not there."""
+    """Write one uncompressed npz file, complete or not there."""
     buffer = BytesIO()
     np.savez(
         buffer,

@@ -33,7 +33,7 @@ Pass = Callable[[Labelled, np.random.Generator], Labelled]
 
 
 def _spaced(mesh: Labelled, rng: np.random.Generator) -> Labelled:
-    """Pieces shrunk, so that hairlines open between them, or grown into one another, to 2 mm."""
+    """Shrink pieces, so that hairlines open between them, or grow them, by up to 2 mm."""
     return grown(mesh, float(rng.uniform(-1.0, 1.0)) * min(0.002, 0.004 * mesh.longest))
 
 
@@ -111,7 +111,7 @@ def artist_like(articulation: Articulation, seed: int) -> Articulation:
 
 
 def _factors(articulation: Articulation, rng: np.random.Generator) -> FloatArray:
-    """Of the three axes; alike across the axis of what turns all round: wheels stay round."""
+    """Return the three axes' factors, alike across what turns all round: wheels stay round."""
     logarithms = np.clip(rng.normal(0.0, STRETCH, 3), -2.0 * STRETCH, 2.0 * STRETCH)
     for joint in articulation.joints:
         if joint.turns and joint.range > ALL_ROUND:
@@ -121,7 +121,7 @@ def _factors(articulation: Articulation, rng: np.random.Generator) -> FloatArray
 
 
 def stretched(articulation: Articulation, factors: npt.ArrayLike) -> Articulation:
-    """The object scaled by a factor per axis; by their geometric mean where a joint lies aslant.
+    """Scale an object by a factor per axis; by their mean where a joint lies aslant.
 
     A part turns as rigidly after stretching as before, but two of its sides may come to meet what
     they missed.

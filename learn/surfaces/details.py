@@ -29,7 +29,7 @@ _CORNERS = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
 
 
 def lettered(mesh: Labelled, rng: np.random.Generator, lines: int = 3) -> Labelled:
-    """Lines of small quads in front, at the side or on top of large boxes, of the same part."""
+    """Add lines of small quads before, beside or on top of large boxes, of the same part."""
     low, high = mesh.boxes()
     boxes = boxes_among(mesh)
     added = [mesh]
@@ -57,7 +57,7 @@ def lettered(mesh: Labelled, rng: np.random.Generator, lines: int = 3) -> Labell
 
 
 def without_handles(mesh: Labelled, rng: np.random.Generator) -> Labelled:
-    """Half of the moving parts without the small pieces that stick out of their largest."""
+    """Strip half of the moving parts of the small pieces that stick out of their largest."""
     low, high = mesh.boxes()
     areas = np.bincount(mesh.piece, mesh.areas)
     owner = mesh.piece_labels[:, 0]
@@ -101,12 +101,12 @@ def hidden_faces(mesh: Labelled, rng: np.random.Generator) -> BoolArray:
 
 
 def without_hidden(mesh: Labelled, rng: np.random.Generator) -> Labelled:
-    """No faces that are hidden from everywhere outside."""
+    """Leave out faces that are hidden from everywhere outside."""
     return mesh.without(hidden_faces(mesh, rng))
 
 
 def without_hidden_pieces(mesh: Labelled, rng: np.random.Generator) -> Labelled:
-    """No pieces most of which is hidden: an object without its inside."""
+    """Leave out pieces that are mostly hidden: an object without its inside."""
     areas = mesh.areas
     hidden = np.bincount(mesh.piece, areas * hidden_faces(mesh, rng))
     mostly = hidden > MOSTLY * np.bincount(mesh.piece, areas)
@@ -114,7 +114,7 @@ def without_hidden_pieces(mesh: Labelled, rng: np.random.Generator) -> Labelled:
 
 
 def _directions() -> FloatArray:
-    """The corners and the sides of a cube, slightly aslant, so that none looks along a board."""
+    """Return the corners and sides of a cube, aslant, so that none looks along a board."""
     ways = [way for way in product((-1, 0, 1), repeat=3) if np.abs(way).sum() in (1, 3)]
     directions = np.array(ways) + np.array([0.11, 0.07, 0.05])
     return np.asarray(directions / np.linalg.norm(directions, axis=1, keepdims=True))

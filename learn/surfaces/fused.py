@@ -94,7 +94,7 @@ def skin(
     groove: int = 0,
     bumps: float = 0.25,
 ) -> tuple[FloatArray, IntArray, IntArray]:
-    """Vertices [m] and faces of the surface ``reach`` cells outside, and a point near each face.
+    """Return vertices [m] and faces ``reach`` cells outside, and a point near each face.
 
     Args:
         points: on the surface [m], shape [point_count, 3]; several in every cell that it passes.
@@ -138,7 +138,7 @@ def _splatted(place: FloatArray, shape: tuple[int, ...]) -> BoolArray:
 
 
 def _filled(occupied: BoolArray) -> BoolArray:
-    """Everything that cannot be reached from outside; small holes between points closed."""
+    """Fill everything that cannot be reached from outside; small holes are closed."""
     thick = ndimage.binary_dilation(occupied, AROUND)
     outside: npt.NDArray[np.int32] = np.zeros(thick.shape, dtype=np.int32)
     ndimage.label(~thick, output=outside)
@@ -160,7 +160,7 @@ def _engraved(solid: BoolArray, place: FloatArray, owner: IntArray, depth: int) 
 
 
 def _without_contacts(solid: BoolArray) -> BoolArray:
-    """Filled where two grid points touch only diagonally in a plane of the grid.
+    """Fill where two grid points touch only diagonally in a plane of the grid.
 
     Four sheets would meet in an edge there.
     """
@@ -184,7 +184,7 @@ def _without_contacts(solid: BoolArray) -> BoolArray:
 
 
 def _nets(solid: BoolArray) -> tuple[FloatArray, IntArray]:
-    """Surface nets: a vertex in every mixed cell, a quad across every grid edge that changes sides.
+    """Return surface nets: a vertex per mixed cell, a quad across each edge that changes.
 
     Vertices in grid steps, shape [vertex_count, 3]; triangles that look away from what is solid.
     S. F. Gibson, Constrained elastic surface nets, MICCAI 1998.

@@ -39,7 +39,7 @@ class Labelled:
 
     @classmethod
     def of(cls, articulation: Articulation) -> Labelled:
-        """The mesh of an articulation; faces of one part that share vertices are one piece."""
+        """Return an articulation's mesh; faces of a part that share vertices are one piece."""
         mesh = articulation.mesh
         part = face_parts(articulation)
         key = part[:, None] * len(mesh.vertices) + mesh.faces
@@ -53,7 +53,7 @@ class Labelled:
         return cls(mesh.vertices[used % len(mesh.vertices)], faces, _numbered(label))
 
     def articulation(self, original: Articulation, character: str) -> Articulation:
-        """These faces with the parts and joints of ``original``, and one sentence about them."""
+        """Return these faces with the parts and joints of ``original``, and a note."""
         used, corners = np.unique(self.faces, return_inverse=True)
         looks = tuple(plain(material) for material in original.mesh.materials)
         faces = corners.reshape(-1, 3)
@@ -66,12 +66,12 @@ class Labelled:
 
     @property
     def part(self) -> IntArray:
-        """Of every face, shape [face_count]."""
+        """Return the part of every face, shape [face_count]."""
         return np.asarray(self.label[:, 0])
 
     @property
     def piece(self) -> IntArray:
-        """Of every face, shape [face_count]."""
+        """Return the piece of every face, shape [face_count]."""
         return np.asarray(self.label[:, 1])
 
     @property
@@ -81,23 +81,23 @@ class Labelled:
 
     @property
     def piece_labels(self) -> IntArray:
-        """Part, piece and material of every piece, shape [piece_count, 3]."""
+        """Return part, piece and material of every piece, shape [piece_count, 3]."""
         return self.label[np.unique(self.piece, return_index=True)[1]]
 
     @property
     def corners(self) -> FloatArray:
-        """Of every face [m], shape [face_count, 3, 3]."""
+        """Return the corners of every face [m], shape [face_count, 3, 3]."""
         return np.asarray(self.vertices[self.faces])
 
     @property
     def crosses(self) -> FloatArray:
-        """Normal of every face, as long as twice its area [m2], shape [face_count, 3]."""
+        """Return the normal of every face, as long as twice its area [m2], [face_count, 3]."""
         corners = self.corners
         return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
 
     @property
     def areas(self) -> FloatArray:
-        """Of every face [m2], shape [face_count]."""
+        """Return the area of every face [m2], shape [face_count]."""
         return np.asarray(np.linalg.norm(self.crosses, axis=1) / 2.0)
 
     @property
@@ -121,11 +121,11 @@ class Labelled:
         return low, np.maximum.reduceat(corners.max(axis=1), start)
 
     def chosen(self, faces: BoolArray) -> Labelled:
-        """Only these faces."""
+        """Return only these faces."""
         return Labelled(self.vertices, self.faces[faces], _numbered(self.label[faces]))
 
     def without(self, faces: BoolArray) -> Labelled:
-        """All but these faces; a part that would lose too much of its surface loses nothing."""
+        """Leave out these faces; a part that would lose too much of its surface loses nothing."""
         areas = self.areas
         whole = np.bincount(self.part, areas)
         left = np.bincount(self.part, np.where(faces, 0.0, areas))
@@ -140,7 +140,7 @@ class Labelled:
         return replace(self, vertices=vertices, faces=faces.reshape(-1, 3))
 
     def grown(self, reach: float, least: float) -> Labelled:
-        """Every piece stretched by ``reach`` at either end [m], to no less than a share of it."""
+        """Stretch every piece by ``reach`` at either end [m], to no less than a share of it."""
         own = self.with_own_vertices()
         low, high = own.boxes()
         half = np.maximum((high - low) / 2.0, 1e-9)
@@ -151,7 +151,7 @@ class Labelled:
         return replace(own, vertices=middle + (own.vertices - middle) * factor)
 
     def sampled(self, shares: FloatArray, rng: np.random.Generator) -> tuple[FloatArray, IntArray]:
-        """Points on each face, and on those at these shares of all area; and their faces [m]."""
+        """Return points on each face, and at these shares of all area [m]; and their faces."""
         areas = self.areas
         far = np.searchsorted(np.cumsum(areas / areas.sum()), shares)
         face = np.concatenate([np.arange(len(areas)), np.minimum(far, len(areas) - 1)])
@@ -162,7 +162,7 @@ class Labelled:
 
 
 def joined(several: Sequence[Labelled]) -> Labelled:
-    """All faces of several meshes, in order; no vertices and no pieces are shared between them."""
+    """Join all faces of several meshes, in order; they share no vertices and no pieces."""
     faces: list[IntArray] = []
     label: list[IntArray] = []
     vertex = 0

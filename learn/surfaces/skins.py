@@ -81,7 +81,7 @@ def skin_like(
 def _simplified(
     vertices: np.ndarray, faces: np.ndarray, label: np.ndarray, most: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """At most about ``most`` faces, each labelled by the face that was nearest to its middle."""
+    """Simplify to about ``most`` faces, each labelled as the face nearest to its middle."""
     if len(faces) <= most:
         return vertices, faces, label
     import fast_simplification

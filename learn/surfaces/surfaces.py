@@ -24,7 +24,7 @@ MOST_FACES = 6000
 
 
 def bevelled(mesh: Labelled, rng: np.random.Generator, share: float = 0.6) -> Labelled:
-    """Boxes with chamfered edges, the same on all edges of a box; other pieces stay as they are."""
+    """Chamfer the edges of boxes, alike on all edges of one; other pieces stay."""
     chosen = boxes_among(mesh) & some(rng, mesh.piece_count, share)
     low, high = (corner[chosen][:, None] for corner in mesh.boxes())
     half = (high - low) / 2.0
@@ -50,7 +50,7 @@ def boxes_among(mesh: Labelled) -> BoolArray:
 
 @cache
 def _chamfered_box() -> tuple[FloatArray, FloatArray, IntArray]:
-    """Signs of 24 corners, along which axes each is set back, and 44 outward triangles."""
+    """Return signs of 24 corners, along which axes each is set back, and 44 outward triangles."""
     signs = np.repeat(np.array(list(product((-1.0, 1.0), repeat=3))), 3, axis=0)
     inset = np.tile(1.0 - np.eye(3), (8, 1))
     hull = ConvexHull(signs * (1.0 - 0.2 * inset))
@@ -61,7 +61,7 @@ def _chamfered_box() -> tuple[FloatArray, FloatArray, IntArray]:
 
 
 def curved(mesh: Labelled, rng: np.random.Generator, share: float = 0.5) -> Labelled:
-    """Moving panels that bulge forwards, by up to 3 cm, across width, height or both."""
+    """Bulge moving panels forwards, by up to 3 cm, across width, height or both."""
     for part in range(1, int(mesh.part.max()) + 1):
         own = mesh.part == part
         finer = len(mesh.faces) + 15 * int(own.sum())
@@ -92,7 +92,7 @@ def snapped(mesh: Labelled, rng: np.random.Generator) -> Labelled:
 
 
 def exploded(mesh: Labelled, rng: np.random.Generator, share: float = 0.4) -> Labelled:
-    """Pieces taken apart into their sides, each a sheet of its own, a hair smaller than it was."""
+    """Take pieces apart into their sides, each a sheet a hair smaller than it was."""
     chosen = some(rng, mesh.piece_count, share)[mesh.piece]
     gap = float(np.exp(rng.uniform(*np.log(SPLIT_M)))) * min(1.0, mesh.longest)
     label = mesh.label.copy()
@@ -102,13 +102,13 @@ def exploded(mesh: Labelled, rng: np.random.Generator, share: float = 0.4) -> La
 
 
 def patched(mesh: Labelled, rng: np.random.Generator, share: float = 0.15) -> Labelled:
-    """Single sides of pieces cut finer than their neighbours: vertices lie within others' edges."""
+    """Cut single sides of pieces finer, so that vertices lie within others' edges."""
     side = np.unique(sides(mesh), return_inverse=True)[1].reshape(-1)
     return quartered(mesh, some(rng, int(side.max()) + 1, share)[side])
 
 
 def subdivided(mesh: Labelled, rng: np.random.Generator, share: float = 0.3) -> Labelled:
-    """Whole pieces cut finer, once or twice."""
+    """Cut whole pieces finer, once or twice."""
     chosen = some(rng, mesh.piece_count, share)
     for _ in range(int(rng.integers(1, 3))):
         faces = chosen[mesh.piece]
@@ -150,7 +150,7 @@ def facing(mesh: Labelled) -> IntArray:
 
 
 def opened(mesh: Labelled, rng: np.random.Generator, share: float = 0.5) -> Labelled:
-    """Pieces without the faces on one or two sides of their boxes: a box becomes five quads."""
+    """Open pieces on one or two sides of their boxes: a box becomes five quads."""
     gone = some(rng, 6 * mesh.piece_count, 0.25).reshape(-1, 6)
     gone &= some(rng, mesh.piece_count, share)[:, None]
     return mesh.without(gone[mesh.piece, facing(mesh)])
@@ -187,7 +187,7 @@ def flattened(
 
 
 def doubled(mesh: Labelled, rng: np.random.Generator, share: float = 1.0) -> Labelled:
-    """Faces a second time the other way round, on the same vertices or on others in their place."""
+    """Double faces the other way round, on the same vertices or on others in their place."""
     chosen = some(rng, mesh.piece_count, share)[mesh.piece]
     apart = len(mesh.vertices) if rng.random() < 0.5 else 0
     vertices = np.concatenate([mesh.vertices, mesh.vertices]) if apart else mesh.vertices

@@ -20,7 +20,7 @@ def parts_united(mesh: Labelled, rng: np.random.Generator, share: float = 0.85) 
 
 
 def all_united(mesh: Labelled, rng: np.random.Generator, reach: float = 0.004) -> Labelled:
-    """One skin around all parts: pieces are grown by ``reach`` [m] until gaps close, then united.
+    """Unite all parts in one surface: pieces grow by ``reach`` [m] until gaps close.
 
     It grows less on a small object. Nothing is drawn; every pass takes a generator.
     """
@@ -29,13 +29,13 @@ def all_united(mesh: Labelled, rng: np.random.Generator, reach: float = 0.004) -
 
 
 def grown(mesh: Labelled, reach: float) -> Labelled:
-    """Every piece stretched about its middle by ``reach`` at either end [m]; negative: shrunk."""
+    """Stretch every piece about its middle by ``reach`` at either end [m]; negative: shrink."""
     # What is thinner than the change would turn inside out.
     return mesh.grown(reach, 0.5)
 
 
 def _united(mesh: Labelled) -> Labelled:
-    """Closed pieces united; others are handed back as they are."""
+    """Unite closed pieces; others are handed back as they are."""
     import manifold3d
 
     own = mesh.with_own_vertices()
@@ -65,7 +65,7 @@ def _united(mesh: Labelled) -> Labelled:
 
 
 def _body(vertices: FloatArray, faces: IntArray, mark: int) -> Any:
-    """A solid whose faces say where they came from, whatever becomes of them; ``None`` if open.
+    """Return a solid whose faces keep where they came from; ``None`` if open.
 
     Open pieces are not only refused, some crash the process.
     """

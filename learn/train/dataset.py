@@ -84,7 +84,7 @@ def find_pools(sources: Iterable[DataSource], cache: Path) -> tuple[Pool, ...]:
 
 
 def source_lines(pools: Iterable[Pool]) -> list[str]:
-    """For people: what became of the objects of every source that had to be converted."""
+    """Return lines for people: what became of the objects of converted sources."""
     return [
         line
         for pool in pools
@@ -143,7 +143,7 @@ def _sampled_files(source: DataSource) -> Files:
 
 
 def digest(pools: Iterable[Pool]) -> str:
-    """Of which data there is: file names and generator settings, as a hexadecimal number."""
+    """Return a digest of the data: file names and generator settings, hexadecimal."""
     hashed = sha256()
     for pool in pools:
         named = (
@@ -203,7 +203,7 @@ class Dataset:
         )
 
     def _object_seed(self, which: int, step: int, number: int, attempt: int) -> tuple[int, ...]:
-        """Seed of the procedural object behind a sample.
+        """Return the seed of the procedural object behind a sample.
 
         Each lane has its own stream of objects, of which ``reuse`` samples are drawn from each, in
         an order in which objects from a window of steps are mixed; a worker that takes a whole lane
@@ -264,7 +264,7 @@ def held_out_samples(config: TrainConfig, pools: tuple[Pool, ...]) -> list[Sampl
 def _some(
     pool: Pool, wanted: int, which: int, seed: int, kept: _Kept
 ) -> Iterable[tuple[int, SampledObject]]:
-    """Sampled objects with their numbers; those that cannot be used leave out theirs."""
+    """Yield sampled objects with their numbers; those that cannot be used leave out theirs."""
     if isinstance(pool, Files):
         rows = np.unique(np.linspace(0, len(pool.paths) - 1, wanted).round().astype(int))
         for number, row in enumerate(rows):

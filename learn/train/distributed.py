@@ -31,7 +31,7 @@ class ProcessGroup:
         return self.rank == 0
 
     def sums(self, numbers: Sequence[float]) -> list[float]:
-        """Sums over the processes."""
+        """Return sums over the processes."""
         import torch
 
         if self.world == 1:
@@ -75,7 +75,7 @@ class ProcessGroup:
             self.wait()
 
     def wait(self) -> None:
-        """Until every process is here."""
+        """Wait until every process is here."""
         import torch
 
         if self.world > 1:

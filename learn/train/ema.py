@@ -8,7 +8,7 @@ Tensor = Any
 
 
 class RunningMean:
-    """A mean of a network's weights in which the last steps count most.
+    """A mean of a network's weights in which the last steps count most; of integers, the last.
 
     Args:
         network: whose weights.
@@ -28,9 +28,13 @@ class RunningMean:
 
         decay = min(self.decay, (1.0 + step) / (10.0 + step))
         now = network.state_dict()
+        whole = [name for name, each in self.weights.items() if not each.is_floating_point()]
+        for name in whole:
+            self.weights[name].copy_(now[name])
+        names = [name for name in self.weights if name not in whole]
         with torch.no_grad():
             torch._foreach_lerp_(
-                list(self.weights.values()), [now[name] for name in self.weights], 1.0 - decay
+                [self.weights[name] for name in names], [now[name] for name in names], 1.0 - decay
             )
 
     def load(self, weights: dict[str, Tensor]) -> None:

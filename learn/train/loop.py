@@ -158,7 +158,7 @@ class _Run:
         return RunOutcome(self._output, step, not stopped, self._scores)
 
     def _steps(self, first: int, watch: Watch) -> tuple[int, bool]:
-        """Steps until the last or until stopped; returns how many are done, and if stopped."""
+        """Run steps until the last or until stopped; returns how many are done, and if stopped."""
         config = self._config
         group = self._group
         pending: list[tuple[int, Any]] = []
@@ -244,7 +244,7 @@ class _Run:
         }
 
     def _finish(self, watch: Watch) -> None:
-        """The picture and the card, of a run that is at its end."""
+        """Write the picture and the card, of a run that is at its end."""
         config = self._config
         output = self._output
         if self._scores is None and self._held_out:
@@ -317,7 +317,7 @@ def _require_same(config: TrainConfig, stored: str, output: Path) -> None:
 
 @contextmanager
 def _asked_to_stop() -> Iterator[list[int]]:
-    """A list that fills when somebody interrupts or ends the process; a second time is at once."""
+    """Yield a list that fills when the process is interrupted; a second time ends it."""
     asked: list[int] = []
 
     def note(number: int, _frame: Any) -> None:

@@ -77,7 +77,7 @@ class LossSettings:
     upright_axes: bool = False
 
     def weight(self, name: str) -> float:
-        """Of one of ``NAMES``."""
+        """Return the weight of one of ``NAMES``."""
         return float(getattr(self, name))
 
 
@@ -227,7 +227,7 @@ def losses(
     counts: Counts,
     settings: LossSettings,
 ) -> dict[str, Tensor]:
-    """Every loss by its name in ``NAMES``, not weighted: this batch's share of the step's mean.
+    """Return each loss of ``NAMES``, not weighted: this batch's share of the step's mean.
 
     A loss that applies to nothing is 0, and so is its gradient.
     """
@@ -312,7 +312,7 @@ def _direction_error(said: Tensor, true: Tensor, limits: Tensor, sign_free: bool
 
 
 def _place_error(answers: Answers, batch: Batch) -> Tensor:
-    """How far each point's axis is off: its nearest point, or its moment; shape [batch, n]."""
+    """Return how far each point's axis is off: nearest point or moment; shape [batch, n]."""
     if answers.closest_points is not None:
         return (answers.closest_points.float() - batch.closest_points).abs().mean(-1)
     part = batch.part_ids[..., None].expand(-1, -1, 3)
@@ -321,5 +321,5 @@ def _place_error(answers: Answers, batch: Batch) -> Tensor:
 
 
 def _sum(values: Tensor, where: Tensor) -> Tensor:
-    """Over the rows a loss applies to; other rows, even infinite, do not reach the gradient."""
+    """Sum over the rows a loss applies to; others, even infinite, reach no gradient."""
     return values.masked_fill(~where, 0.0).sum()

@@ -45,7 +45,7 @@ def match(
 
 
 def assignment_costs(mask_logits: Tensor, part_ids: Tensor) -> Tensor:
-    """Cost of giving a part to a query, [batch, part, query]: minus log-probability over points."""
+    """Return the cost of a part for a query, [batch, part, query]: minus log-probability."""
     import torch
     from torch.nn import functional
 

@@ -66,7 +66,7 @@ class Watch:
         self._samples = 0
 
     def say(self, line: str) -> None:
-        """A line, above the bar where there is one."""
+        """Print a line, above the bar where there is one."""
         self._console.print(line, markup=False, highlight=False, soft_wrap=True)
 
 

@@ -27,7 +27,7 @@ class ScheduleSettings:
     late_from: float = 0.75
 
     def rate_at(self, step: int) -> float:
-        """Learning rate of a step, counted from 0: a line up, then half a cosine down."""
+        """Return the rate of a step, counted from 0: a line up, then half a cosine down."""
         if step < self.warm_up:
             return self.rate * (step + 1) / self.warm_up
         done = (step - self.warm_up) / max(1, self.steps - self.warm_up)

@@ -85,7 +85,7 @@ class NetworkSettings:
 
     @property
     def shape(self) -> NetworkShape:
-        """As the network wants them."""
+        """Return the sizes as the network wants them."""
         return NetworkShape(
             hidden=self.hidden,
             blocks=self.blocks,
@@ -207,7 +207,7 @@ class TrainConfig:
 
     @property
     def validation_draw(self) -> DrawSettings:
-        """How validation samples are drawn: as training's, but upright, whole, not stretched."""
+        """Return how validation samples are drawn: as training's, but upright and whole."""
         return replace(
             self.draw_at(0), points=self.validation.points, fused_share=0.0, merged_share=0.0
         )

@@ -17,6 +17,7 @@ from asset_factory.factory.models.network.transformer import PartArticulationTra
 
 from ..samples.batches import Batch
 from .checkpoints import State, fill
+from .descent import Descent
 from .distributed import ProcessGroup
 from .ema import RunningMean
 from .losses import NAMES, Counts, count, forward, losses, targets_of, taught, total
@@ -25,8 +26,6 @@ from .settings import TrainConfig
 Tensor = Any
 COLUMNS = ("total", *NAMES, "rate", "gradient")
 _DROPOUT = 4
-_MOST_MISSED = 20
-"""Steps in a row whose gradients are not finite, after which a run ends."""
 _SPREAD = 1000.0
 _BASE = 10000.0
 
@@ -42,15 +41,14 @@ class Trainer:
     def __init__(self, config: TrainConfig, group: ProcessGroup) -> None:
         self._config = config
         self._group = group
-        self._missed = 0
         torch.manual_seed(config.seed)
         network = PartArticulationTransformer(config.network.shape, config.network.dropout)
         if config.network.quiet_start:
             quieten(network, config.network.quiet_below)
         self.network = network.to(group.device).train()
-        self.mean = RunningMean(self.network, config.optimiser.ema)
-        self._parameters = list(self.network.parameters())
-        self.optimiser = _optimiser(self.network, config)
+        settings = config.optimiser
+        optimiser = _optimiser(self.network, config)
+        self._descent = Descent(self.network, optimiser, settings.clip, settings.ema)
         with torch.device("meta"):
             self.mean_network = PartArticulationTransformer(config.network.shape)
         # It shares the running mean's tensors, so it always has the weights of the last step.
@@ -62,6 +60,11 @@ class Trainer:
                 for block in self.network.blocks:
                     block.compile()
 
+    @property
+    def mean(self) -> RunningMean:
+        """Return the running mean of the weights."""
+        return self._descent.mean
+
     def start_from(self, weights: dict[str, Tensor]) -> None:
         """Begin with given weights instead of random ones."""
         self.network.load_state_dict(weights)
@@ -70,12 +73,12 @@ class Trainer:
     def state(
         self, step: int, best: tuple[float, int] | None, recipe: str, data: str, seconds: float
     ) -> State:
-        """Everything there is after ``step`` steps."""
+        """Return everything there is after ``step`` steps."""
         return State(
             step=step,
             weights=self.network.state_dict(),
             mean=self.mean.weights,
-            optimiser=self.optimiser.state_dict(),
+            optimiser=self._descent.optimiser.state_dict(),
             best=best,
             recipe=recipe,
             data=data,
@@ -92,7 +95,7 @@ class Trainer:
             fill(self.network, weights, path)
         self.mean.load(state.mean)
         try:
-            self.optimiser.load_state_dict(state.optimiser)
+            self._descent.optimiser.load_state_dict(state.optimiser)
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise ConfigError(f"{path}: its optimiser's state does not fit: {error}") from error
 
@@ -127,9 +130,6 @@ class Trainer:
         group = self._group
         if config.network.dropout:
             self._seed_dropout(step)
-        rate = config.schedule.rate_at(step)
-        for each in self.optimiser.param_groups:
-            each["lr"] = rate
         host = [
             taught(each.to("cpu"), config.loss)
             for each in batch.split(config.run.micro_batch or len(batch))
@@ -141,7 +141,7 @@ class Trainer:
             [*(sum(column) for column in zip(*counted, strict=True)), float(stop)]
         )
         counts = Counts(*sums)
-        self.optimiser.zero_grad(set_to_none=True)
+        self._descent.optimiser.zero_grad(set_to_none=True)
         values = torch.zeros(len(NAMES) + 1, device=group.device)
         for each in micro:
             with self._precision():
@@ -151,33 +151,11 @@ class Trainer:
             weighted = total(found, config.loss)
             weighted.backward()
             values += torch.stack([weighted.detach(), *(found[name].detach() for name in NAMES)])
-        norm = self._update(step)
+        group.add_gradients(list(self.network.parameters()))
+        rate = config.schedule.rate_at(step)
+        norm = self._descent.step(step, rate)
         last = [torch.full_like(norm, rate), norm] if group.first else [torch.zeros_like(norm)] * 2
         return torch.cat([values, torch.stack(last)]), stops > 0
-
-    def _update(self, step: int) -> Tensor:
-        """Move the weights along the gradient, unless it is not finite; returns its norm.
-
-        Raises:
-            ConfigError: it has not been finite for many steps.
-        """
-        self._group.add_gradients(self._parameters)
-        limit = self._config.optimiser.clip or math.inf
-        norm = torch.nn.utils.clip_grad_norm_(self._parameters, limit)
-        # One bad step must not end the run: a sample may be so odd that it overflows.
-        if bool(torch.isfinite(norm)):
-            self.optimiser.step()
-            self.mean.update(self.network, step)
-            self._missed = 0
-        else:
-            self._missed += 1
-        if self._missed >= _MOST_MISSED:
-            raise ConfigError(
-                f"step {step}: the gradients of {_MOST_MISSED} steps in a row are not finite, "
-                "so nothing is learnt; "
-                "the checkpoint is from before; want a lower schedule.rate, or look at the data"
-            )
-        return norm.detach()
 
     def _precision(self) -> AbstractContextManager[Any]:
         device = self._group.device

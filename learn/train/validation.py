@@ -41,7 +41,7 @@ class Scores:
     prismatic_angle: float
 
     def to_dict(self) -> dict[str, float]:
-        """As plain numbers."""
+        """Return the figures as plain numbers."""
         return {name: float(value) for name, value in asdict(self).items()}
 
 

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib import resources
 
 import numpy as np
 
-from ...errors import ConfigError
 from ...mesh import FloatArray
+from ...models.perceptron import Perceptron
+from ...models.shipped import Arrays, load_shipped
 
-FILE = "auto.toml"
+FILE = "trust.safetensors"
+NAME = "trust"
 SIGNS = (
     "geometric",  # 1 if only the rules of shape say so
     "learned",  # 1 if only the network says so
@@ -35,19 +35,19 @@ SIGNS = (
 
 @dataclass(frozen=True)
 class Trust:
-    """Weights of a logistic model.
+    """A logistic model of the signs.
 
     Attributes:
-        weights: one per sign, shape [len(SIGNS)].
+        network: from signs to one log-odds.
         least: confidence below which a part is left fixed.
     """
 
-    weights: FloatArray
+    network: Perceptron
     least: float
 
     def confidence(self, signs: Mapping[str, float]) -> float:
         """Return the probability that a proposal for which these signs speak is right, 0 to 1."""
-        return float(1.0 / (1.0 + np.exp(-float(signs_of(signs) @ self.weights))))
+        return float(1.0 / (1.0 + np.exp(-float(self.network.scores(signs_of(signs))[0]))))
 
 
 def signs_of(values: Mapping[str, float]) -> FloatArray:
@@ -70,19 +70,14 @@ def log_odds(probability: float) -> float:
 
 @cache
 def load_trust() -> Trust:
-    """Return the weights that come with the package.
+    """Return the trust that comes with the package.
 
     Raises:
         ConfigError: the file is for other signs.
     """
-    table = tomllib.loads(
-        (resources.files("asset_factory") / "configs" / FILE).read_text(encoding="utf-8")
-    )
-    if set(table["weights"]) != set(SIGNS):
-        raise ConfigError(
-            f"{FILE}: weighs {sorted(table['weights'])}, want {sorted(SIGNS)}; fit it again"
-        )
-    return Trust(
-        np.array([table["weights"][name] for name in SIGNS], dtype=np.float64),
-        float(table["least"]),
-    )
+    return trust_of(load_shipped(FILE))
+
+
+def trust_of(stored: Arrays) -> Trust:
+    """Return what a file holds; errors as for :func:`load_trust`."""
+    return Trust(Perceptron.read(stored, NAME, SIGNS), float(stored.arrays["least"][0]))

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...mesh import FloatArray
+from ...models.perceptron import Perceptron
+from ...models.shipped import Arrays
 from .setting import SLIDE_SETTING, TURN_SETTING, Setting
 
 #: A guessed range is that much off, as a standard deviation of its logarithm, or altogether wrong
@@ -27,25 +28,19 @@ ROUND = 0.95 * 2.0 * np.pi
 
 @dataclass(frozen=True)
 class Usual:
-    """``scores = tanh(numbers @ inner + offset) @ outer + base`` over steps of range.
+    """Scores of steps of range.
 
     Attributes:
         values: of the steps, in the setting's unit; infinite for turns without end, shape [k].
-        inner: shape [n, h].
-        offset: shape [h].
-        outer: shape [h, k].
-        base: shape [k].
+        network: from the numbers of a setting to a score per step.
     """
 
     values: FloatArray
-    inner: FloatArray
-    offset: FloatArray
-    outer: FloatArray
-    base: FloatArray
+    network: Perceptron
 
     def shares(self, numbers: FloatArray) -> FloatArray:
         """Return the share of belief in each step, shape [..., k] for numbers of shape [..., n]."""
-        scores = np.tanh(numbers @ self.inner + self.offset) @ self.outer + self.base
+        scores = self.network.scores(numbers)
         weights = np.exp(scores - scores.max(axis=-1, keepdims=True))
         return np.asarray(weights / weights.sum(axis=-1, keepdims=True))
 
@@ -76,24 +71,16 @@ def worth(values: FloatArray) -> FloatArray:
     return np.asarray(np.exp(-np.abs(np.log(finite[:, None] / finite[None])) / WORTH))
 
 
-def usual_of(table: dict[str, Any], slides: bool, file: str) -> Usual:
-    """Read them from a table of the configuration.
+def usual_of(stored: Arrays, slides: bool) -> Usual:
+    """Return the usual ranges of a file.
 
     Raises:
-        ValueError: its numbers are not those that are measured.
+        ConfigError: its numbers are not those that are measured.
     """
-    names = SLIDE_SETTING if slides else TURN_SETTING
-    wrong = set(names) ^ set(table["numbers"])
-    if wrong:
-        raise ValueError(
-            f"{file}: its numbers are not those that are measured: {sorted(wrong)}; fit it again"
-        )
-    values = np.array(table["values"], dtype=np.float64)
+    name, inputs = ("slide_range", SLIDE_SETTING) if slides else ("turn_range", TURN_SETTING)
+    network = Perceptron.read(stored, name, inputs)
+    values = stored.arrays[f"{name}.values"]
     kept = values <= LONGEST_SLIDE if slides else np.full(len(values), True)
     return Usual(
-        values=values[kept],
-        inner=np.array([table["numbers"][name] for name in names], dtype=np.float64),
-        offset=np.array(table["offset"], dtype=np.float64),
-        outer=np.array(table["outer"], dtype=np.float64).T[:, kept],
-        base=np.array(table["base"], dtype=np.float64)[kept],
+        values[kept], replace(network, outer=network.outer[:, kept], base=network.base[kept])
     )

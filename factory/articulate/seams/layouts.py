@@ -57,7 +57,7 @@ def value_of(scene: FrontScene, panels: Sequence[FrontPanel], found: Sequence[Re
     others = [each.rectangle for each in candidates_of(scene, found) if not each.cut]
     around = Context(scene, others or [panel.rectangle for panel in panels])
     rows = [features(around, panel.rectangle, cut=panel.cut) for panel in panels]
-    return float(load_judge("panel", NAMES).logits(np.stack(rows))[:, 0].sum())
+    return float(load_judge("panel", NAMES).scores(np.stack(rows))[:, 0].sum())
 
 
 def rated(scene: FrontScene, candidates: Sequence[PanelCandidate]) -> list[Group]:
@@ -65,7 +65,7 @@ def rated(scene: FrontScene, candidates: Sequence[PanelCandidate]) -> list[Group
     if not candidates:
         return []
     pieces, rows = described(scene, candidates)
-    values = load_judge("panel", NAMES).logits(rows)[:, 0].tolist()
+    values = load_judge("panel", NAMES).scores(rows)[:, 0].tolist()
     panels = iter(
         FrontPanel(piece, scene.handles_in(piece), value, cut)
         for (piece, cut), value in zip(pieces, values, strict=True)

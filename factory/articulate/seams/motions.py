@@ -51,7 +51,7 @@ def openings_of(
         return ()
     every = [panel.rectangle for panel in panels]
     rows = np.stack([motion_features(scene, each, every) for each in every])
-    learned = load_judge("motion", MOTION_NAMES).logits(rows)
+    learned = load_judge("motion", MOTION_NAMES).scores(rows)
     has_controls = any(handle.control for handle in scene.face.handles)
     company = said_by_company(panels, has_controls=has_controls)
     found = []

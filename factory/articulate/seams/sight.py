@@ -1,35 +1,32 @@
 """What a small picture network sees on a side: which pixels open, where they end, and how.
 
-Its figures come from ``learn/elevations``; it runs in numpy, so that reading a mesh needs no
-framework and gives the same answer everywhere.
+``learn/fit`` trains it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib import resources
 
 import numpy as np
 from scipy import ndimage
 
 from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray
+from ...models import picture_network
+from ...models.shipped import load_shipped
 from .rectangles import Rectangle
 from .relief import Relief
 
-FILE = "weights/seams.npz"
+FILE = "seams.safetensors"
 #: What is given to the network, and what it answers, by name and in order.
 CUES = (
     *("seen", "height", "groove", "bump", "slope_right", "slope_up", "light", "red", "yellow"),
     *("up", "aside", "deep"),
 )
 ANSWERS = ("panel", "lid", "level", "upright", "left", "right", "bottom", "top", "out")
-#: It answers for squares of so many pixels, and halves its picture so often.
-SQUARE = 2
-HALVINGS = 4
-GRID = SQUARE * 2**HALVINGS
+SQUARE = picture_network.SQUARE
+GRID = picture_network.GRID
 #: Windows that tell grooves and bumps from the rest [pixels].
 GROOVE = 9
 BUMP = 17
@@ -46,7 +43,6 @@ LEAST_CHANCE = 10.0
 
 #: First row and the one after the last, likewise of columns [squares].
 Block = tuple[int, int, int, int]
-Weights = Mapping[str, FloatArray]
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +121,7 @@ def _squares_in(rectangle: Rectangle) -> tuple[slice, slice]:
 
 def sight_of(relief: Relief) -> Sight:
     """Return what is seen on one side."""
-    answer = network_answer(shipped_weights(), cues_of(relief))
+    answer = picture_network.picture_scores(shipped_weights(), cues_of(relief))
     squares = tuple(-(-length // SQUARE) for length in relief.shape)
     answer = answer[:, : squares[0], : squares[1]]
     yes = 1.0 / (1.0 + np.exp(-answer[:4]))
@@ -169,74 +165,7 @@ def cues_of(relief: Relief) -> FloatArray:
     return np.pad(np.where(seen, cues, 0.0), ((0, 0), *room))
 
 
-def network_answer(weights: Weights, cues: FloatArray) -> FloatArray:
-    """Return log-odds of every answer for every square, [answer_count, rows / 2, columns / 2].
-
-    A U-Net (Ronneberger et al., MICCAI 2015) of one coarse first layer, pairs of layers at each
-    of four halved sizes, and likewise up again.
-
-    Args:
-        weights: by layer, normalisations folded in.
-        cues: as :func:`cues_of` gives them.
-    """
-    levels = [_layer(weights, "first", cues, step=SQUARE)]
-    for number in range(HALVINGS):
-        levels.append(_pair(weights, f"down_{number}", _halved(levels[-1])))
-    inner = levels.pop()
-    for number in reversed(range(1, HALVINGS)):
-        beside = levels.pop()
-        inner = _pair(weights, f"up_{number}", np.concatenate([_doubled(inner), beside]))
-    inner = _layer(weights, "last", np.concatenate([_doubled(inner), levels.pop()]))
-    return _convolved(inner, weights["answer.weight"], weights["answer.bias"])
-
-
 @cache
-def shipped_weights() -> Weights:
-    """Return those that come with the package, by name."""
-    path = resources.files("asset_factory") / "configs" / FILE
-    with path.open("rb") as file, np.load(file, allow_pickle=False) as stored:
-        return {name: stored[name].astype(np.float32) for name in stored.files}
-
-
-def _pair(weights: Weights, name: str, values: FloatArray) -> FloatArray:
-    return _layer(weights, f"{name}.1", _layer(weights, f"{name}.0", values))
-
-
-def _layer(weights: Weights, name: str, values: FloatArray, step: int = 1) -> FloatArray:
-    """Return a convolution, cut off below 0."""
-    found = _convolved(values, weights[f"{name}.weight"], weights[f"{name}.bias"], step)
-    return np.maximum(found, 0.0)
-
-
-def _convolved(
-    values: FloatArray, kernel: FloatArray, bias: FloatArray, step: int = 1
-) -> FloatArray:
-    """Return the cross-correlation with zeros around.
-
-    Args:
-        values: shape [channels, rows, columns].
-        kernel: shape [answers, channels, width, width], ``width`` odd.
-        bias: shape [answers].
-        step: between two places of the answer.
-    """
-    width = kernel.shape[-1]
-    rows, columns = (length // step for length in values.shape[1:])
-    room = (width // 2, width // 2)
-    padded = np.pad(values.astype(np.float32), ((0, 0), room, room))
-    found = np.repeat(bias[:, None], rows * columns, axis=1)
-    for row in range(width):
-        for column in range(width):
-            part = padded[:, row::step, column::step][:, :rows, :columns]
-            found += kernel[:, :, row, column] @ part.reshape(len(part), -1)
-    shaped: FloatArray = found.reshape(-1, rows, columns)
-    return shaped
-
-
-def _halved(values: FloatArray) -> FloatArray:
-    """Return the greatest of every four."""
-    channels, rows, columns = values.shape
-    return np.asarray(values.reshape(channels, rows // 2, 2, columns // 2, 2).max(axis=(2, 4)))
-
-
-def _doubled(values: FloatArray) -> FloatArray:
-    return values.repeat(2, axis=1).repeat(2, axis=2)
+def shipped_weights() -> picture_network.Weights:
+    """Return the weights that come with the package, by layer, float32."""
+    return {name: each.astype(np.float32) for name, each in load_shipped(FILE).arrays.items()}

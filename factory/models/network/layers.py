@@ -32,11 +32,11 @@ class SinusoidEmbedding(nn.Module):  # type: ignore[misc]
         self.mlp = two_layers(inputs, width, width)
 
     def forward(self, coordinates: Tensor) -> Tensor:
-        """Embeds coordinates, shape [..., k] to [..., width]."""
+        """Embed coordinates, shape [..., k] to [..., width]."""
         return self.mlp(self.expand(coordinates))
 
     def expand(self, coordinates: Tensor) -> Tensor:
-        """All sines, then all cosines per coordinate; [..., k] to [..., 64 k] or [..., 65 k]."""
+        """Return sines, then cosines per coordinate; [..., k] to [..., 64 k] or [..., 65 k]."""
         # In this order of operations: the angles reach 500 rad, where float32 has few digits left,
         # and the weights were trained on these.
         steps = torch.arange(FREQUENCIES, dtype=torch.float32, device=coordinates.device)
@@ -66,14 +66,14 @@ class Attention(nn.Module):  # type: ignore[misc]
         self.to_out = nn.ModuleList([nn.Linear(width, width), nn.Dropout(dropout)])
 
     def forward(self, asking: Tensor, asked: Tensor) -> Tensor:
-        """What ``asking``, [..., n, width], reads in ``asked``, [..., m, width]; as ``asking``."""
+        """Let ``asking`` [..., n, width] attend to ``asked`` [..., m, width]; as ``asking``."""
         query = self.norm_q(self.split(self.to_q(asking)))
         key = self.norm_k(self.split(self.to_k(asked)))
         found = F.scaled_dot_product_attention(query, key, self.split(self.to_v(asked)))
         return self.to_out[1](self.to_out[0](found.transpose(-3, -2).flatten(-2)))
 
     def split(self, tensor: Tensor) -> Tensor:
-        """[..., n, width] to [..., heads, n, width / heads]."""
+        """Split [..., n, width] into [..., heads, n, width / heads]."""
         return tensor.unflatten(-1, (self.heads, -1)).transpose(-3, -2)
 
 
@@ -85,7 +85,7 @@ class GatedLinear(nn.Module):  # type: ignore[misc]
         self.proj = nn.Linear(inputs, 2 * outputs)
 
     def forward(self, tensor: Tensor) -> Tensor:
-        """[..., inputs] to [..., outputs]."""
+        """Map [..., inputs] to [..., outputs]."""
         value, gate = self.proj(tensor).chunk(2, dim=-1)
         return value * F.gelu(gate)
 
@@ -100,7 +100,7 @@ class GatedPerceptron(nn.Module):  # type: ignore[misc]
         )
 
     def forward(self, tensor: Tensor) -> Tensor:
-        """[..., width] to [..., width]."""
+        """Map [..., width] to [..., width]."""
         for layer in self.net:
             tensor = layer(tensor)
         return tensor
@@ -132,7 +132,7 @@ class Block(nn.Module):  # type: ignore[misc]
         return points, self.finish_queries(queries)
 
     def among_queries(self, queries: Tensor) -> Tensor:
-        """Self-attention of queries; the release adds to the *normalised* queries only here."""
+        """Let queries attend to one another; the release adds to *normalised* queries only here."""
         queries = self.norm1(queries)
         return queries + self.attn1(queries, queries)
 

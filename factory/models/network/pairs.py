@@ -38,7 +38,7 @@ class _Pairs(torch.autograd.Function):  # type: ignore[misc]
 
     @staticmethod
     def forward(context: Any, rows: Tensor, columns: Tensor, last: Tensor) -> Tensor:
-        """[batch, n, h], [batch, m, h] and [h] to [batch, n, m]."""
+        """Map [batch, n, h], [batch, m, h] and [h] to [batch, n, m]."""
         context.save_for_backward(rows, columns, last)
         logits = rows.new_empty(*rows.shape[:2], columns.shape[1])
         for some in _passes(rows):
@@ -52,7 +52,7 @@ class _Pairs(torch.autograd.Function):  # type: ignore[misc]
 
     @staticmethod
     def backward(context: Any, above: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-        """Gradients of the three, from that of the logits."""
+        """Return the gradients of the three, from that of the logits."""
         rows, columns, last = context.saved_tensors
         # Sums over columns and samples stay in at least float32, whatever the products are in.
         wide = torch.promote_types(rows.dtype, torch.float32)

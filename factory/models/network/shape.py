@@ -111,7 +111,7 @@ def read_shape(tensors: Mapping[str, Shape], max_parts: int = 16) -> NetworkShap
 
 
 def check_tensors(tensors: Mapping[str, Shape], expected: Mapping[str, Shape], what: str) -> None:
-    """Whether a checkpoint has exactly the tensors a network needs.
+    """Check that a checkpoint has exactly the tensors a network needs.
 
     Raises:
         ConfigError: names the first tensor that is missing, unknown or of another shape.

@@ -186,7 +186,7 @@ def finish(
 def own_parts(
     hidden: Tensor, head: PairHead, part_ids: IntArray, rows: IntArray, chunk: int = CHUNK
 ) -> Float32Array:
-    """What a head says about some of the points and their parts, shape [row_count, outputs]."""
+    """Return a head's outputs for some points and their parts, shape [row_count, outputs]."""
     found = np.empty((len(rows), head.outputs), dtype=np.float32)
     for part in chunks(len(rows), chunk):
         at = torch.tensor(rows[part], device=hidden.device)
@@ -284,7 +284,7 @@ def _normed(points: Tensor, norm: Any, dtype: Any) -> Tensor:
 
 
 def _inverse_rms(heads: Tensor) -> Tensor:
-    """[n, heads, head_width] to [n, heads]."""
+    """Map [n, heads, head_width] to [n, heads]."""
     return (
         torch.linalg.vector_norm(heads, dim=-1)
         .square_()

@@ -97,7 +97,7 @@ class PartArticulationTransformer(nn.Module):  # type: ignore[misc]
         return hidden
 
     def first_queries(self) -> Tensor:
-        """Queries before the first block: the embedded part number, shape [parts, hidden]."""
+        """Return the queries before the first block: embedded part numbers, [parts, hidden]."""
         weight = self.part_id_embed.mlp[0].weight
         numbers = torch.arange(self.shape.max_parts, dtype=torch.float32, device=weight.device)
         return self.part_id_embed((numbers / self.shape.max_parts)[:, None])

@@ -35,7 +35,7 @@ class PointsToPlanes(nn.Module):  # type: ignore[misc]
         self.unet_encoder = PlaneUNet(shape.channels, shape.unet)
 
     def forward(self, points: Tensor) -> Tensor:
-        """[n, 3] within [-1, 1]^3 to [1, 3, channels, resolution, resolution]."""
+        """Map [n, 3] within [-1, 1]^3 to [1, 3, channels, resolution, resolution]."""
         features = self.pc_encoder.encoder[0](points)
         return self.unet_encoder(
             scatter_to_planes(points, features[0].T.to(points.dtype), self.resolution)

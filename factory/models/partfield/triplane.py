@@ -27,7 +27,7 @@ class SelfAttention(nn.Module):  # type: ignore[misc]
         self.out_proj = nn.Linear(width, width, bias=False)
 
     def forward(self, tokens: Tensor) -> Tensor:
-        """[n, width] to the same."""
+        """Map [n, width] to the same."""
         sides = (
             F.linear(tokens, self.in_proj_weight)
             .unflatten(1, (3, self.heads, -1))
@@ -51,7 +51,7 @@ class Layer(nn.Module):  # type: ignore[misc]
         )
 
     def forward(self, tokens: Tensor) -> Tensor:
-        """[n, width] to the same."""
+        """Map [n, width] to the same."""
         tokens = tokens + self.self_attn(self.norm1(tokens))
         return tokens + self.mlp(self.norm2(tokens))
 
@@ -65,7 +65,7 @@ class Stack(nn.Module):  # type: ignore[misc]
         self.norm = nn.LayerNorm(shape.width, eps=_EPS)
 
     def forward(self, tokens: Tensor) -> Tensor:
-        """[n, width] to the same."""
+        """Map [n, width] to the same."""
         for layer in self.layers:
             tokens = layer(tokens)
         return self.norm(tokens)
@@ -95,7 +95,7 @@ class TriplaneTransformer(nn.Module):  # type: ignore[misc]
         )
 
     def forward(self, planes: Tensor) -> Tensor:
-        """[1, 3, channels, n, n] to [1, 3, plane_channels, n, n]."""
+        """Map [1, 3, channels, n, n] to [1, 3, plane_channels, n, n]."""
         # One plane at a time: the first layer's result takes 67 MB per plane at the released size.
         coarse = torch.cat([self.downsampler(plane) for plane in planes.unbind(1)])
         tokens = coarse.flatten(2).transpose(1, 2).reshape(-1, self.shape.width)

@@ -30,7 +30,7 @@ class PlaneExchange(nn.Module):  # type: ignore[misc]
         self.plane_convs = nn.ModuleList([nn.Conv2d(3 * channels, channels, 1) for _ in range(3)])
 
     def forward(self, stacked: Tensor) -> Tensor:
-        """[1, channels, 3 n, n] to the same."""
+        """Map [1, channels, 3 n, n] to the same."""
         first, second, third = stacked.chunk(3, dim=2)
         # With the third plane turned over, each plane's second axis is the next one's first.
         planes = (first, second, third.transpose(2, 3))
@@ -57,7 +57,7 @@ class ResBlock(nn.Module):  # type: ignore[misc]
             self.nin_shortcut = nn.Conv2d(inputs, outputs, 1)
 
     def forward(self, image: Tensor) -> Tensor:
-        """[1, inputs, 3 n, n] to [1, outputs, 3 n, n]."""
+        """Map [1, inputs, 3 n, n] to [1, outputs, 3 n, n]."""
         inner = self.conv1(F.silu(self.norm1(image)))
         inner = self.conv_3daware(F.silu(self.norm_mid(inner)))
         inner = self.conv2(F.silu(self.norm2(inner)))
@@ -81,7 +81,7 @@ class Up(nn.Module):  # type: ignore[misc]
         self.block = ResBlock(inputs, outputs)
 
     def forward(self, image: Tensor, before: Tensor) -> Tensor:
-        """Coarse and fine image to a fine one."""
+        """Merge a coarse and a fine image into a fine one."""
         finer = F.interpolate(image, scale_factor=2.0, mode="nearest")
         return self.block(self.norm1(torch.cat([finer, before], dim=1)))
 
@@ -105,7 +105,7 @@ class PlaneUNet(nn.Module):  # type: ignore[misc]
         self.conv_final = nn.Conv2d(levels[0], channels, 1)
 
     def forward(self, planes: Tensor) -> Tensor:
-        """[1, 3, channels, n, n] to the same."""
+        """Map [1, 3, channels, n, n] to the same."""
         image = planes.transpose(1, 2).flatten(2, 3)
         seen = []
         for number, down in enumerate(self.down_convs):

@@ -27,7 +27,7 @@ class PointFeatures(nn.Module):  # type: ignore[misc]
         )
 
     def forward(self, inputs: Tensor) -> Tensor:
-        """[1, 8, n] to [1, channels, n]."""
+        """Map [1, 8, n] to [1, channels, n]."""
         return self.layers(inputs)
 
 
@@ -98,7 +98,7 @@ def scatter_to_planes(points: Tensor, features: Tensor, resolution: int) -> Tens
 
 
 def scatter_mean(values: Tensor, index: Tensor, size: int) -> Tensor:
-    """Mean of the rows with each index, [n, channels] to [size, channels]; zero for none."""
+    """Average the rows of each index, [n, channels] to [size, channels]; zero for none."""
     sums = values.new_zeros(size, values.shape[1]).index_add_(0, index, values)
     counts = torch.bincount(index, minlength=size).clamp(min=1)
     return sums / counts[:, None]

@@ -55,7 +55,7 @@ def consensus(readings: tuple[Decoded, ...], areas: npt.ArrayLike) -> Consensus:
 
 
 def part_agreement(one: Decoded, other: Decoded, areas: FloatArray) -> FloatArray:
-    """For each part of ``one`` its overlap with its match in ``other``, shape [part_count].
+    """Return how each part of ``one`` overlaps its match in ``other``, shape [part_count].
 
     Parts are matched one to one so that the overlaps add up to the most; unmatched ones have 0.
     """
@@ -86,7 +86,7 @@ def _effective(reading: Decoded, part: int) -> PredictedMotion | None:
 
 
 def _alike(one: PredictedMotion | None, other: PredictedMotion | None) -> float:
-    """1 for the same class and parallel axes, down to 0 for perpendicular ones or other classes."""
+    """Return 1 for the same class and parallel axes, 0 for perpendicular ones or others."""
     if one is None or other is None or one.kind != other.kind:
         still = all(
             motion is None or not (motion.kind.turns or motion.kind.slides)
@@ -102,7 +102,7 @@ def _alike(one: PredictedMotion | None, other: PredictedMotion | None) -> float:
 
 
 def _weighted(reading: Decoded, support: FloatArray, areas: FloatArray) -> float:
-    """Half how well the average part is supported, half how well the average bit of surface is."""
+    """Return half the mean support of parts, and half that of bits of surface."""
     share = np.bincount(reading.face_part, weights=areas, minlength=len(reading.parts))
     return float(
         (support.mean() + support @ share / max(float(share.sum()), np.finfo(np.float64).tiny))

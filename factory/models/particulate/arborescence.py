@@ -11,7 +11,7 @@ Edge = tuple[int, int]
 
 
 def spanning_arborescence(logits: npt.ArrayLike, parts: IntArray) -> tuple[Edge, ...]:
-    """Edges (parent, child) of the tree with the largest total ``log sigmoid(logit)``, by child.
+    """Return the edges (parent, child) of the tree with most ``log sigmoid(logit)``, by child.
 
     Edmonds' algorithm over all pairs; every part may be the root, and the best one is.
 
@@ -35,7 +35,7 @@ def spanning_arborescence(logits: npt.ArrayLike, parts: IntArray) -> tuple[Edge,
 
 
 def induced(edges: tuple[Edge, ...], parts: IntArray) -> tuple[Edge, ...]:
-    """The tree's edges among ``parts`` alone, by child; orphans go to the nearest kept ancestor.
+    """Return the tree's edges among ``parts``, by child; orphans go to the nearest kept ancestor.
 
     Where the root is lost this may be several trees.
 

@@ -31,7 +31,7 @@ class Assignment:
 
 
 def assigned(mask_logits: npt.ArrayLike, least_confidence: float = 0.0) -> Assignment:
-    """Every point to its likeliest part; parts below a confidence dissolve, least confident first.
+    """Give every point to its likeliest part; unsure parts dissolve, least confident first.
 
     A dissolved part's points go to their next likeliest parts and all confidences are computed anew
     before the next one is judged. The last part always stays.

@@ -162,7 +162,7 @@ def require_finite(prediction: Prediction) -> None:
 def _tree(
     prediction: Prediction, owners: IntArray, present: IntArray, over: TreeOver
 ) -> tuple[Edge, ...]:
-    """One tree over the parts that own faces; recomputed where the predicted root owns none."""
+    """Return one tree over the parts with faces; recomputed where the predicted root has none."""
     competing = present if over is TreeOver.PRESENT else np.arange(prediction.part_count)
     tree = induced(spanning_arborescence(prediction.hierarchy_logits, competing), owners)
     return (

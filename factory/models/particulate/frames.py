@@ -35,7 +35,7 @@ class UnitBox:
         return cls((low + high) / 2.0, size if size > 0.0 else 1.0)
 
     def inside(self, points: npt.ArrayLike) -> FloatArray:
-        """Outer to unit frame, shape [n, 3]."""
+        """Map the outer to the unit frame, shape [n, 3]."""
         return np.asarray((np.asarray(points, dtype=np.float64) - self.center) / self.size)
 
     def then(self, inner: UnitBox) -> UnitBox:

@@ -35,7 +35,7 @@ class Refinement(StrEnum):
 
 
 def voted(point_faces: IntArray, point_labels: IntArray, face_count: int) -> IntArray:
-    """The label most of a face's points have, lowest if tied; -1 without points, [face_count]."""
+    """Return the label most of a face's points have, lowest if tied; -1 for none, [face_count]."""
     count = int(point_labels.max(initial=0)) + 1
     votes = np.bincount(point_faces * count + point_labels, minlength=face_count * count).reshape(
         face_count, count
@@ -70,7 +70,7 @@ def with_gaps_filled(
 def refined(
     surface: Surface, labels: IntArray, how: Refinement, fused_share: float
 ) -> tuple[IntArray, int]:
-    """Labels after refinement, shape [face_count]; and how many components were treated as fused.
+    """Return refined labels, shape [face_count], and how many components were taken for fused.
 
     Args:
         surface: whose faces border on one another.
@@ -98,12 +98,12 @@ def refined(
 
 
 def by_component(surface: Surface, labels: IntArray) -> IntArray:
-    """Every component's faces with the label that covers most of its area, shape [face_count]."""
+    """Give every component's faces the label that covers most of its area, shape [face_count]."""
     return np.asarray(_area_by_label(surface, labels).argmax(axis=1)[surface.components])
 
 
 def fused_components(surface: Surface, labels: IntArray, share: float) -> IntArray:
-    """Components that cannot be one part each: in them are parts that exist nowhere else.
+    """Return the components that are no single parts: some parts exist nowhere else.
 
     That is so where a component covers at least ``share`` of the mesh, and the labels that
     :func:`by_component` would wipe out of the whole mesh cover at least ``share`` of it; and
@@ -128,7 +128,7 @@ def _tiny(surface: Surface, labels: IntArray) -> BoolArray:
 
 
 def _area_by_label(surface: Surface, labels: IntArray) -> FloatArray:
-    """Shape [component_count, label_count]; faces without area weigh next to nothing, not 0."""
+    """Return areas [component_count, label_count]; faces without any weigh next to nothing."""
     count = int(labels.max(initial=0)) + 1
     key = surface.components * count + labels
     weights = np.maximum(surface.areas, np.finfo(np.float64).tiny)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def weight_files(config: ParticulateConfig) -> tuple[str, ...]:
-    """The checkpoints that an answer rests on, as the configuration names them; no tensor is read.
+    """Return the checkpoints that an answer rests on, as the configuration names them.
 
     Raises:
         ConfigError: no such checkpoint, or not one of this network.
@@ -27,14 +27,15 @@ def weight_files(config: ParticulateConfig) -> tuple[str, ...]:
 
 
 def load_network(config: ParticulateConfig) -> Particulate:
-    """The networks with their weights, ready to answer; imports torch, which then has one thread.
+    """Return the networks with their weights; imports torch, which then has one thread.
 
     Raises:
         ConfigError: no such checkpoint, or not one of this network.
     """
     import torch
 
-    from .model import Particulate, load_field, load_model
+    from .field import load_field
+    from .model import Particulate, load_model
 
     # Sums in another order would have other bits, and workers are as many as processors.
     torch.set_num_threads(1)

@@ -6,23 +6,21 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from ...errors import ConfigError
 from ...mesh import Float32Array, IntArray
+from ..network.precision import Precision, product_dtype
 from ..network.shape import NetworkShape, read_shape
-from ..partfield.shape import UNUSED, PartFieldShape, read_partfield_shape
-from ..weights.checkpoint import load_tensors, naming, open_checkpoint
+from ..weights.checkpoint import filled, load_tensors, naming, open_checkpoint
 from ..weights.sources import PARTFIELD, fetch
 from .components import COMPONENT_FEATURES, component_features
-from .precision import Precision, product_dtype
+from .field import FeatureField
 from .prediction import Prediction
 from .sampling import Cloud
 
 if TYPE_CHECKING:
     from ..network.streaming import Driven
 
-_FIELD_HALF_SIZE = 0.9
 _DRIVING_SEED = 0
 
 
@@ -103,7 +101,7 @@ class Model:
         return self._read(driven, hidden, driven.updates[-1:], hypothesis)
 
     def encode(self, cloud: PointCloud) -> Driven:
-        """What a cloud tells about its parts: enough to label other points of the same surface."""
+        """Encode a cloud's parts: enough to label other points of the same surface."""
         from ..network.streaming import drive
 
         driven: Driven = drive(self._network, self._embed(cloud), self.dtype)
@@ -156,7 +154,7 @@ class Model:
 
 
 def _opening(parts: dict[str, Any]) -> dict[str, Any]:
-    """Axes turned round where most of the range lies behind this pose: positive then opens."""
+    """Turn axes round where most of the range lies behind this pose: positive then opens."""
     limits = parts["revolute_range"]
     behind = -limits.min(axis=1) > limits.max(axis=1)
     sign = np.where(behind, -1.0, 1.0).astype(np.float32)[:, None]
@@ -185,59 +183,6 @@ class _Closest:
             self.hidden, self.head, np.asarray(part_ids, dtype=np.int64), picked
         )
         return found
-
-
-@dataclass(frozen=True)
-class FeatureField:
-    """PartField's encoder with weights.
-
-    Attributes:
-        shape: its sizes.
-        dtype: of the products, a torch type.
-        device: where it runs.
-    """
-
-    shape: PartFieldShape
-    dtype: Any
-    device: str
-    _encoder: Any = field(repr=False)
-
-    def features(self, context: npt.ArrayLike, points: npt.ArrayLike) -> Float32Array:
-        """Return a feature for every point.
-
-        Args:
-            context: a sample of the whole surface, any frame, shape [context_count, 3]; features
-                depend on it.
-            points: where features are wanted, same frame, shape [point_count, 3].
-
-        Returns:
-            [point_count, channels].
-        """
-        import torch
-
-        from ..partfield.encoder import sample_field
-
-        cloud = np.asarray(context, dtype=np.float32)
-        low = cloud.min(axis=0)
-        high = cloud.max(axis=0)
-        scale = (
-            2.0
-            * _FIELD_HALF_SIZE
-            / max(float((high - low).max()), float(np.finfo(np.float32).tiny))
-        )
-
-        def inside(where: npt.ArrayLike) -> Any:
-            placed = (np.asarray(where, dtype=np.float32) - (low + high) / 2.0) * np.float32(scale)
-            return torch.tensor(placed, device=self.device)
-
-        lowered = self.dtype is not torch.float32
-        with (
-            torch.inference_mode(),
-            torch.autocast(self.device.split(":")[0], self.dtype, enabled=lowered),
-        ):
-            field = self._encoder(inside(cloud))
-        with torch.inference_mode():
-            return np.asarray(sample_field(field, inside(points)).cpu().numpy())
 
 
 @dataclass(frozen=True)
@@ -314,42 +259,6 @@ def load_model(
     stored = open_checkpoint(fetch(checkpoint))
     with naming(stored.file):
         shape = read_shape(stored.shapes, max_parts)
-    network = _filled(PartArticulationTransformer, shape, load_tensors(stored), device)
+    network = filled(PartArticulationTransformer, shape, load_tensors(stored), device)
     upright = stored.metadata.get("axes") == "upright"
     return Model(shape, product_dtype(precision), device, network, upright)
-
-
-def load_field(
-    checkpoint: str,
-    *,
-    precision: Precision | str = Precision.FLOAT32,
-    device: str = "cpu",
-    heads: int = 8,
-) -> FeatureField:
-    """PartField's encoder from a checkpoint. The published weights are for non-commercial use only.
-
-    Args:
-        checkpoint: a safetensors, ``.pt`` or ``.ckpt`` file, or ``hf:owner/repository/file``.
-        precision: of the products.
-        device: as torch names it.
-        heads: of its transformer, which no tensor tells; the published weights have 8.
-
-    Raises:
-        ConfigError: no such checkpoint, or not one of this network.
-    """
-    from ..partfield.encoder import PartFieldEncoder
-
-    stored = open_checkpoint(fetch(checkpoint))
-    with naming(stored.file):
-        shape = read_partfield_shape(stored.shapes, heads=heads)
-    encoder = _filled(PartFieldEncoder, shape, load_tensors(stored, leave=UNUSED), device)
-    return FeatureField(shape, product_dtype(precision), device, encoder)
-
-
-def _filled(kind: Any, shape: Any, tensors: dict[str, Any], device: str) -> Any:
-    import torch
-
-    with torch.device("meta"):
-        network = kind(shape)
-    network.load_state_dict(tensors, strict=True, assign=True)
-    return network.to(device).eval().requires_grad_(False)

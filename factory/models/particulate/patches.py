@@ -12,7 +12,7 @@ from .surface import BoolArray, Surface, grouped
 
 
 def merged_into_one_each(surface: Surface, labels: IntArray, inside: BoolArray) -> IntArray:
-    """Labels where each label is at most one connected patch in each component, shape [face_count].
+    """Return labels that are one connected patch at most in each component, [face_count].
 
     Again and again the smallest patch whose label has another patch in its component takes the
     bordering label that covers most of the component.

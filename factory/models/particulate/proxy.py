@@ -28,7 +28,7 @@ class Proxy:
 
 
 def proxy_of(surface: Surface, most_faces: int) -> Proxy:
-    """The surface with about ``most_faces`` faces, by quadric edge collapse; itself if fewer.
+    """Return the surface with about ``most_faces`` faces, by quadric edge collapse.
 
     Collapses run along edges, so no two components become one. What falls into pieces too small to
     collapse keeps more faces.
@@ -63,7 +63,7 @@ def proxy_of(surface: Surface, most_faces: int) -> Proxy:
 
 
 def _became(count: int, collapses: IntArray) -> IntArray:
-    """The vertex each one ended in, shape [count]; each pair's second was drawn into its first."""
+    """Return the vertex each ended in, [count]; a pair's second was drawn into its first."""
     into = np.arange(count)
     into[collapses[:, 1]] = collapses[:, 0]
     while True:
@@ -74,7 +74,7 @@ def _became(count: int, collapses: IntArray) -> IntArray:
 
 
 def carried_back(proxy: Proxy, labels: IntArray, faces: IntArray) -> IntArray:
-    """Labels of the original's faces from those of the proxy's, shape [original_face_count].
+    """Return the original's faces' labels from the proxy's, shape [original_face_count].
 
     A face takes the label with the largest area around the three proxy vertices that its corners
     became; -1 where
@@ -101,7 +101,7 @@ def carried_back(proxy: Proxy, labels: IntArray, faces: IntArray) -> IntArray:
 
 
 def _area_by_label(surface: Surface, labels: IntArray) -> FloatArray:
-    """Area of the faces around each vertex by their labels, shape [vertex_count, label_count]."""
+    """Return the area of the faces around each vertex by label, [vertex_count, label_count]."""
     count = int(labels.max(initial=0)) + 1
     said = labels >= 0
     key = surface.faces[said] * count + labels[said][:, None]

@@ -82,7 +82,7 @@ def sample(
 def draw(
     surface: Surface, folds: SharpEdges, count: int, rng: np.random.Generator, most_covered: int
 ) -> Cloud:
-    """``count`` points: half on sharp edges, by length, and half on faces, by area.
+    """Draw ``count`` points: half on sharp edges, by length, and half on faces, by area.
 
     Args:
         surface: any frame.

@@ -129,7 +129,7 @@ class Surface:
 
     @cached_property
     def components(self) -> IntArray:
-        """Number of each face's connected component, in first-face order, shape [face_count]."""
+        """Return the number of each face's component, in first-face order, shape [face_count]."""
         return grouped(len(self.faces), self.neighbours)
 
     @cached_property
@@ -143,7 +143,7 @@ class Surface:
 
     @cached_property
     def pieces(self) -> IntArray:
-        """Number of each face's piece, shape [face_count]: components; patches of a skin."""
+        """Return the number of each face's piece, [face_count]: components; patches of a skin."""
         return pieces(Sheet(self.areas, self.normals, self.neighbours, self.borders))
 
     @cached_property
@@ -159,7 +159,7 @@ class Surface:
 
 
 def grouped(count: int, pairs: IntArray) -> IntArray:
-    """Components of ``count`` things joined by ``pairs``, numbered by first member, [count]."""
+    """Return the components of ``count`` things joined by ``pairs``, by first member, [count]."""
     graph = coo_matrix(
         (np.ones(len(pairs), dtype=np.int8), (pairs[:, 0], pairs[:, 1])), shape=(count, count)
     )

@@ -40,7 +40,7 @@ class Answering:
         self._numbers = itertools.count()
 
     def __call__(self, question: bytes) -> bytes:
-        """The answer to a packed question; any error is in an answer of the kind ``refused``."""
+        """Return the answer to a packed question; an error is an answer of the kind ``refused``."""
         try:
             asked = unpack(question)
             if asked.texts.get("identity") != self._identity:
@@ -98,7 +98,7 @@ def _cloud(asked: Message, name: str) -> Cloud:
 
 
 def identity_of(config: ParticulateConfig, digests: tuple[str, ...]) -> str:
-    """Says which answers a network gives: the same identity, the same bits.
+    """Return what tells a network's answers: the same identity, the same bits.
 
     Args:
         config: how the network is run.

@@ -42,7 +42,7 @@ _ADDRESS: ContextVar[Address | None] = ContextVar("model_service", default=None)
 
 @contextmanager
 def asking(address: Address | None) -> Iterator[None]:
-    """Within this, networks are asked there; with ``None``, at home."""
+    """Have networks asked there within this; with ``None``, at home."""
     before = _ADDRESS.set(address)
     try:
         yield
@@ -51,7 +51,7 @@ def asking(address: Address | None) -> Iterator[None]:
 
 
 def call_asking(address: Address | None, function: Callable[..., T], *args: Any) -> T:
-    """``function(*args)`` within :func:`asking`; what a job hands to its child processes."""
+    """Call ``function(*args)`` within :func:`asking`, as a job has its children do."""
     with asking(address):
         return function(*args)
 
@@ -91,7 +91,7 @@ class ServedNetwork:
         return self._at_home()(cloud, context)
 
     def closest(self, token: str, part_ids: IntArray, rows: IntArray) -> Float32Array | None:
-        """Closest points of an answer that the service still holds; ``None`` if it does not."""
+        """Return the closest points of an answer that the service still holds, else ``None``."""
         try:
             answer = self._ask("closest", {"token": token}, {"part_ids": part_ids, "rows": rows})
             found = np.asarray(answer.arrays["points"], np.float32)

@@ -69,7 +69,7 @@ class ModelService:
 
     @property
     def pid(self) -> int | None:
-        """Of its process; ``None`` while there is none."""
+        """Return the number of its process; ``None`` while there is none."""
         return self._child.pid
 
     def _keep(self) -> None:

@@ -43,7 +43,7 @@ class Message:
 
 
 def pack(message: Message) -> bytes:
-    """A message as bytes: two lengths, a header of JSON, then the arrays one after the other.
+    """Return a message as bytes: two lengths, a header of JSON, then one array after another.
 
     Raises:
         WireError: it would be too long.
@@ -110,7 +110,7 @@ def send(connection: socket.socket, data: bytes, deadline: float) -> None:
 
 
 def receive(connection: socket.socket, deadline: float) -> bytes:
-    """One packed message, whole; memory is taken as bytes come, never because a header says so.
+    """Receive one packed message; memory is taken as bytes come, not because a header says so.
 
     Raises:
         OSError: the other side is gone, or the deadline came (TimeoutError).

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from ...errors import ConfigError
 from ..network.shape import parameter_count, read_shape
@@ -81,6 +82,23 @@ def load_tensors(checkpoint: Checkpoint, leave: tuple[str, ...] = ()) -> dict[st
         tensor = stored.load()
         loaded[name] = tensor.float() if tensor.is_floating_point() else tensor
     return loaded
+
+
+def filled(kind: Any, shape: Any, tensors: dict[str, Tensor], device: str) -> Any:
+    """Return a network with its weights, ready to answer.
+
+    Args:
+        kind: makes it of its shape.
+        shape: its sizes.
+        tensors: all of its weights, by name.
+        device: as torch names it.
+    """
+    import torch
+
+    with torch.device("meta"):
+        network = kind(shape)
+    network.load_state_dict(tensors, strict=True, assign=True)
+    return network.to(device).eval().requires_grad_(False)
 
 
 @contextmanager

@@ -101,7 +101,7 @@ def _unpacked(file: Path, _inode: int, _size: int, _changed_ns: int) -> Path:
 
 
 def unpack(file: Path, target: Path, most_s: int) -> None:
-    """In the child: write an archive's tensors as safetensors.
+    """Write an archive's tensors as safetensors; called in the child.
 
     Args:
         file: the archive, by its real path.

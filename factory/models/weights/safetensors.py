@@ -7,17 +7,22 @@ metadata in another order each time.
 from __future__ import annotations
 
 import json
+import os
 import struct
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any, BinaryIO
 
+import numpy as np
+import numpy.typing as npt
+
 from ...errors import ConfigError
 from ...runtime.store import writing
 from .stored import Checkpoint, StoredTensor, Tensor
 
+Array = npt.NDArray[Any]
 _LENGTH = struct.Struct("<Q")
 _MAX_HEADER = 16_000_000
 _METADATA = "__metadata__"
@@ -48,6 +53,24 @@ def read_safetensors(file: Path) -> Checkpoint:
     return Checkpoint(file, tensors, metadata)
 
 
+def read_arrays(file: Path) -> tuple[dict[str, Array], dict[str, str]]:
+    """Return a small file's arrays by name, read-only, and its metadata; imports no torch.
+
+    Raises:
+        ConfigError: as :func:`read_safetensors`, or an array of a type that numpy has not.
+    """
+    library = _library()
+    stored = read_safetensors(file)
+    try:
+        with library.safe_open(file, framework="numpy") as opened:
+            arrays = {name: opened.get_tensor(name) for name in stored.tensors}
+    except (library.SafetensorError, TypeError) as error:
+        raise _unreadable(file, error) from error
+    for array in arrays.values():
+        array.setflags(write=False)
+    return arrays, dict(stored.metadata)
+
+
 def write_safetensors(
     file: Path, tensors: Mapping[str, Tensor], metadata: Mapping[str, str]
 ) -> None:
@@ -65,12 +88,27 @@ def write_safetensors(
     from safetensors.torch import save_file
 
     owned = {name: tensor.detach().cpu().contiguous() for name, tensor in tensors.items()}
+    _write(file, lambda target: save_file(owned, target, dict(metadata) or None))
+
+
+def write_arrays(file: Path, arrays: Mapping[str, Array], metadata: Mapping[str, str]) -> None:
+    """Write arrays as :func:`write_safetensors` writes tensors; imports no torch."""
+    _library()
+    from safetensors.numpy import save_file
+
+    owned = {name: np.array(array, order="C") for name, array in arrays.items()}
+    _write(file, lambda target: save_file(owned, target, dict(metadata) or None))
+
+
+def _write(file: Path, save: Callable[[str], None]) -> None:
     with writing(file) as stream:
         try:
-            save_file(owned, stream.name, dict(metadata) or None)
+            save(stream.name)
         except (KeyError, ValueError) as error:
             raise ConfigError(f"{file}: cannot be saved as safetensors: {error}") from error
         _put_in_order(stream)
+        # The library puts a file of its own in place, which only its user may read.
+        os.chmod(stream.name, 0o644)
 
 
 def _library() -> ModuleType:

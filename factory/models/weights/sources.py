@@ -62,7 +62,7 @@ _ELSEWHERE: ContextVar[Mapping[str, Path]] = ContextVar("weights_at", default=Ma
 
 @contextmanager
 def weights_at(places: Mapping[str, Path]) -> Iterator[None]:
-    """Within this, checkpoints lie where ``places`` says, by what configurations call them."""
+    """Have checkpoints fetched from ``places`` within this, by their configured names."""
     before = _ELSEWHERE.set(places)
     try:
         yield
@@ -108,7 +108,7 @@ def parse_address(address: str) -> HubFile:
 
 
 def fetch(checkpoint: str) -> Path:
-    """The checkpoint's file: the path itself, the package's own, or a download kept by the hub.
+    """Return a checkpoint's file: the path itself, the package's own, or a download.
 
     Within :func:`weights_at`, the file that it names. A download is what its address says before
     anybody reads it; where that says no commit or no digest, this is told once, with both.

@@ -13,7 +13,7 @@ def box_of(points: FloatArray) -> FloatArray:
 
 
 def volume(box: FloatArray) -> float:
-    """Of a box; 0 if it is inside out."""
+    """Return the volume of a box; 0 if it is inside out."""
     return float(np.prod(np.maximum(box[1] - box[0], 0.0)))
 
 
@@ -30,7 +30,7 @@ def enclosing(a: FloatArray, b: FloatArray) -> float:
 
 
 def giou(a: FloatArray, b: FloatArray) -> float:
-    """Generalised intersection over union (Rezatofighi et al. 2019), -1 to 1."""
+    """Return the generalised intersection over union (Rezatofighi et al. 2019), -1 to 1."""
     shared = volume(np.stack([np.maximum(a[0], b[0]), np.minimum(a[1], b[1])]))
     return generalised(shared, volume(a) + volume(b) - shared, enclosing(a, b))
 

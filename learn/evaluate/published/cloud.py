@@ -42,7 +42,7 @@ class ScoredCloud:
         return np.unique(self.labels)
 
     def at(self, share: float) -> FloatArray:
-        """The points with every joint at a share from lower to upper, shape [point_count, 3]."""
+        """Return the points with joints at a share from lower to upper, shape [point_count, 3]."""
         return self.moved(self.poses(share))
 
     def moved(self, poses: FloatArray) -> FloatArray:
@@ -51,7 +51,7 @@ class ScoredCloud:
         return np.asarray(np.einsum("nij,nj->ni", own[:, :3, :3], self.points) + own[:, :3, 3])
 
     def parts(self, points: FloatArray) -> list[FloatArray]:
-        """``points`` by part, in the order of ``present``."""
+        """Split ``points`` by part, in the order of ``present``."""
         return [points[self.labels == part] for part in self.present]
 
     def poses(
@@ -92,7 +92,7 @@ def _parents_first(parents: tuple[int, ...]) -> list[int]:
 
 
 def cloud_of(articulation: Articulation, seed: int, count: int = POINTS) -> ScoredCloud:
-    """Points spread evenly over an articulation's surface; frame: box centred, longest side 1.
+    """Return points spread evenly over a surface; its box is centred, its longest side 1.
 
     Args:
         articulation: any.

@@ -45,7 +45,7 @@ class Matching:
 
 
 def matched(true: ScoredCloud, predicted: ScoredCloud) -> Matching:
-    """The assignment with the least sum of distances of part centroids (of points), at rest."""
+    """Return the assignment with the least sum of distances of parts' centroids, at rest."""
     from scipy.optimize import linear_sum_assignment
     from scipy.spatial.distance import cdist
 
@@ -60,7 +60,7 @@ def _centres(cloud: ScoredCloud) -> FloatArray:
 
 
 def chamfer(a: FloatArray, b: FloatArray) -> float:
-    """Mean squared distance to the nearest point of the other cloud, both ways, added."""
+    """Return the mean squared distance to the other cloud's nearest point, both ways, added."""
     from scipy.spatial import cKDTree
 
     there = cKDTree(b).query(a)[0]
@@ -69,5 +69,5 @@ def chamfer(a: FloatArray, b: FloatArray) -> float:
 
 
 def half_diagonal(cloud: ScoredCloud) -> float:
-    """Of the box of all points at rest: what a part without partner is said to be away."""
+    """Return half the diagonal at rest: how far a part without partner counts as off."""
     return float(np.linalg.norm(np.ptp(cloud.points, axis=0))) / 2.0

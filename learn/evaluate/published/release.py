@@ -76,7 +76,7 @@ def solid_giou(
     share: float,
     rng: np.random.Generator,
 ) -> tuple[FloatArray, FloatArray]:
-    """Of each pair, seen from the predicted part and from the true one."""
+    """Return each pair's, seen from the predicted part and from the true one."""
     ours, theirs = (
         [box_of(part) for part in cloud.parts(cloud.points)] for cloud in (predicted, true)
     )

@@ -35,7 +35,7 @@ def _bucket(a: Assembly, outline: FloatArray, low: float, high: float) -> Form:
 
 
 def swing_bin(a: Assembly) -> None:
-    """A bin under a lid with a hole; in it a flap, or two halves, that swing both ways."""
+    """Build a bin under a lid with a hole; in it a flap, or two halves, that swing both ways."""
     half_x, half_y, high = a.draws((0.12, 0.22), (0.1, 0.18), (0.35, 0.75))
     share, thick = a.draws((0.6, 0.85), (0.003, 0.02))
     skin, top = a.picks(SKINS, SKINS)
@@ -66,7 +66,7 @@ def swing_bin(a: Assembly) -> None:
 
 
 def step_bin(a: Assembly) -> None:
-    """A bin with a domed lid at the end of a hinge behind it, a pedal, at times a bail."""
+    """Build a bin with a domed lid at the end of a hinge behind it, a pedal, at times a bail."""
     half_x, half_y, high = a.draws((0.1, 0.2), (0.1, 0.18), (0.25, 0.65))
     base, rise = a.draws((0.02, 0.045), (0.008, 0.09))
     skin, dark = a.picks(SKINS, (BLACK, STEEL))
@@ -101,7 +101,7 @@ def step_bin(a: Assembly) -> None:
 
 
 def _pedal(a: Assembly, front: float, start: float, z: float) -> None:
-    """A lever under a bin, from y = ``start`` to before its ``front``; its end goes down."""
+    """Build a lever under a bin, from y = ``start`` to before its ``front``; its end goes down."""
     if a.happens(0.25):
         pedal = a.slider("pedal", DOWN, (0, start, z), z - 0.005, look=BLACK)
     else:
@@ -113,7 +113,7 @@ def _pedal(a: Assembly, front: float, start: float, z: float) -> None:
 
 
 def wheelie_bin(a: Assembly) -> None:
-    """A tall tapered bin on two wheels with a sloping lid and a grip behind."""
+    """Build a tall tapered bin on two wheels with a sloping lid and a grip behind."""
     half_x, half_y, high = a.draws((0.2, 0.32), (0.22, 0.36), (0.75, 1.0))
     foot, radius, wide, rise = a.draws((0.7, 0.9), (0.08, 0.12), (0.03, 0.05), (0.01, 0.1))
     outline = rounded(about(half_x), about(half_y), 0.03)
@@ -149,7 +149,7 @@ def wheelie_bin(a: Assembly) -> None:
 
 
 def push_bin(a: Assembly) -> None:
-    """A tall bin under a dome with an upright flap in front that is pushed in."""
+    """Build a tall bin under a dome with an upright flap in front that is pushed in."""
     radius, high, dome = a.draws((0.12, 0.2), (0.45, 0.7), (0.2, 0.3))
     skin, top = a.picks(SKINS, SKINS)
     corner = a.draw(0.01, 0.05) if a.happens(0.5) else 0.98 * radius
@@ -179,7 +179,7 @@ def push_bin(a: Assembly) -> None:
 
 
 def bucket(a: Assembly) -> None:
-    """A pail or a basket with a bail that swings over it; some have a lid that lifts off."""
+    """Build a pail or a basket with a bail that swings over it; some have a lid that lifts off."""
     wide, high = a.draws((0.1, 0.17), (0.12, 0.32))
     skin, metal = a.picks(SKINS, (STEEL, BLACK))
     foot = wide * a.draw(0.6, 1.0)
@@ -216,7 +216,7 @@ def bucket(a: Assembly) -> None:
 
 
 def trash_can(a: Assembly) -> None:
-    """A bin of the demo: boxy, with a lid hinged at its back; most have a pedal at the front."""
+    """Build the demo's bin: boxy, a lid hinged at its back; most have a pedal in front."""
     width, depth, height = a.draws((0.25, 0.38), (0.26, 0.36), (0.4, 0.62))
     x, y = centred(width / 2, depth / 2)
     z = span(0.05, height)

@@ -18,7 +18,7 @@ SQUARE = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)])
 
 
 def flap_box(a: Assembly) -> None:
-    """A carton with two to four flaps, or a lid with a tongue, closed or standing open at rest.
+    """Build a carton with two to four flaps, or a lid with a tongue; some stand open at rest.
 
     Flaps turn outwards. Where two pairs lie on each other, each is free on its own: who opens a
     lower flap pushes the upper ones up.
@@ -50,7 +50,7 @@ def flap_box(a: Assembly) -> None:
 
 
 def _tuck_lid(a: Assembly, half_x: float, half_y: float, z: Span) -> None:
-    """The lid of a product box, standing open, with a tongue at its end."""
+    """Build the lid of a product box, standing open, with a tongue at its end."""
     value = a.draw(1.65, 2.6)
     at = (0.0, half_y + z[1] - z[0], z[0])
     lid = a.hinge("lid", LEFT, at, value + a.draw(0.2, 1.0), rest=value)
@@ -63,7 +63,7 @@ def _tuck_lid(a: Assembly, half_x: float, half_y: float, z: Span) -> None:
 def _flap_pair(
     a: Assembly, axis: int, edge: float, half: float, long: float, z: Span, opened: bool
 ) -> None:
-    """Two flaps at ``+-edge`` along ``axis``, each reaching inwards by ``long`` [m]."""
+    """Build two flaps at ``+-edge`` along ``axis``, each reaching inwards by ``long`` [m]."""
     upper = a.degrees(180, 250) if a.happens(0.6) else a.degrees(90, 170)
     across = about(0.98 * half - 0.001)
     for name, side in (("near", -1.0), ("far", 1.0)):
@@ -95,7 +95,7 @@ def _half_shell(x: Span, y: Span, z: Span, radius: float, axis: int = Z) -> Form
 
 
 def case(a: Assembly) -> None:
-    """A briefcase, a tool case or a suitcase lying down: two shells, latches, a grip that folds."""
+    """Build a briefcase, tool case or suitcase lying down: shells, latches, a folding grip."""
     half_x, half_y, low, high = a.draws((0.15, 0.35), (0.11, 0.24), (0.03, 0.12), (0.025, 0.1))
     skin, metal = a.picks((BLACK, WALNUT, BLUE, STEEL, RED), (BRASS, STEEL, BLACK))
     x, y = centred(half_x, half_y)
@@ -132,7 +132,7 @@ def case(a: Assembly) -> None:
 
 
 def trolley_case(a: Assembly) -> None:
-    """An upright suitcase: a telescopic handle, two or four wheels, at times a front that opens."""
+    """Build an upright suitcase: telescopic handle, wheels, at times a front that opens."""
     half_x, half_y, high = a.draws((0.17, 0.25), (0.1, 0.15), (0.45, 0.7))
     radius, r, lift = a.draws((0.018, 0.03), (0.02, 0.06), (0.005, 0.04))
     skin, metal = a.picks((BLACK, BLUE, RED, GREEN, STEEL), (STEEL, BLACK))
@@ -181,7 +181,7 @@ def _luggage_wheels(
 
 
 def mailbox(a: Assembly) -> None:
-    """An arched box with a door in front and a flag, on a post or on its own."""
+    """Build an arched box with a door in front and a flag, on a post or on its own."""
     half, long, tall, rise = a.draws((0.07, 0.12), (0.2, 0.28), (0.06, 0.16), (0.5, 1.0))
     skin, metal = a.picks((BLACK, WHITE, BLUE, STEEL, RED), (OAK, STEEL))
     post = a.draw(0.7, 1.0) if a.happens(0.5) else 0.0
@@ -211,7 +211,7 @@ def mailbox(a: Assembly) -> None:
 
 
 def _arch(half: float, rise: float, tall: float, inset: float, low: float) -> FloatArray:
-    """The outline of an arched box across, ``inset`` inside of it [m]; it stands on ``low``."""
+    """Return the outline of an arched box, ``inset`` inside of it [m]; it stands on ``low``."""
     curve = arc((0.0, 0.0), 1.0, 0.0, np.pi, 11) * (half - inset, rise - inset)
     foot = np.array([(half - inset, inset - tall), (inset - half, inset - tall)])
     outline = np.vstack([foot[:1], curve, foot[1:]])

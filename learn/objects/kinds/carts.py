@@ -17,7 +17,7 @@ SIDES = (("left", -1.0), ("right", 1.0))
 
 
 def cart(a: Assembly) -> None:
-    """A platform, shelves or a basket on four wheels: on fixed axles, castors, or both."""
+    """Build a platform, shelves or a basket on four wheels: on fixed axles, castors, or both."""
     half_x, half_y, radius, wide = a.draws((0.18, 0.32), (0.28, 0.5), (0.03, 0.075), (0.015, 0.035))
     skin, metal = a.picks((STEEL, BLUE, RED, OAK, WHITE, GREEN), (STEEL, BLACK))
     deck = 2 * radius + a.draw(0.015, 0.04)
@@ -43,7 +43,7 @@ def cart(a: Assembly) -> None:
 
 
 def _push_bar(a: Assembly, x: Span, y: float, low: float, high: float, metal: Material) -> None:
-    """An inverted U at the back, to push at."""
+    """Build an inverted U at the back, to push at."""
     half = x[1] - 0.02
     lean = a.draw(0.0, 0.12)
     right = [(half, y, low), (half, y + 0.8 * lean, high - 0.06), (half - 0.05, y + lean, high)]
@@ -73,13 +73,13 @@ def _shelves(a: Assembly, x: Span, y: Span, deck: float, metal: Material) -> Non
 
 
 def _rim(x: Span, y: Span, z: Span, thick: float) -> list[Form]:
-    """Four walls on the edges of a board."""
+    """Build four walls on the edges of a board."""
     sides = [box(about(thick, end), y, z) for end in within(x, 0.001)]
     return [*sides, *(box(x, about(thick, end), within(z, 0.0002)) for end in y)]
 
 
 def _basket(a: Assembly, x: Span, y: Span, deck: float, metal: Material) -> None:
-    """A cage of wires, or a tub, on a frame."""
+    """Build a cage of wires, or a tub, on a frame."""
     z = (deck + a.draw(0.15, 0.4), deck + a.draw(0.55, 0.8))
     posts = [cylinder(Z, at, 0.01, (deck + 0.014, z[1]), 10) for at in corners(x, y, 0.03)]
     a.root.add(block(x, y, span(deck, 0.015), 0.03), *posts, look=metal)
@@ -99,7 +99,7 @@ def _basket(a: Assembly, x: Span, y: Span, deck: float, metal: Material) -> None
 
 
 def wheelbarrow(a: Assembly) -> None:
-    """A tray between two shafts, two legs behind, one wheel in front."""
+    """Build a tray between two shafts, two legs behind, one wheel in front."""
     radius, wide, half, long = a.draws((0.15, 0.2), (0.06, 0.09), (0.2, 0.28), (0.65, 0.8))
     skin, metal = a.picks((GREEN, BLUE, RED, STEEL), (STEEL, BLACK))
     level = 2 * radius + 0.03
@@ -126,7 +126,7 @@ def wheelbarrow(a: Assembly) -> None:
 
 
 def hand_truck(a: Assembly) -> None:
-    """An upright frame on two wheels with a toe plate, fixed or folding."""
+    """Build an upright frame on two wheels with a toe plate, fixed or folding."""
     half, high, radius, wide = a.draws((0.18, 0.25), (1.0, 1.3), (0.08, 0.13), (0.03, 0.05))
     r, long = a.draws((0.012, 0.018), (0.18, 0.28))
     skin, metal = a.picks((RED, BLUE, BLACK, STEEL), (STEEL, BLACK))
@@ -152,7 +152,7 @@ def hand_truck(a: Assembly) -> None:
 
 
 def skateboard(a: Assembly) -> None:
-    """A deck with kicked ends on two trucks of two wheels."""
+    """Build a deck with kicked ends on two trucks of two wheels."""
     half, long, radius, wide = a.draws((0.09, 0.12), (0.32, 0.45), (0.024, 0.034), (0.028, 0.04))
     skin, metal = a.picks((OAK, BLACK, RED), (STEEL, WHITE))
     level = 2 * radius + a.draw(0.012, 0.03)

@@ -18,7 +18,7 @@ PLAY = 0.001
 
 
 def coffee_machine(a: Assembly) -> None:
-    """A column with a head over a drip tray; a tank lid, controls, a filter holder or a jug."""
+    """Build a column with a head over a drip tray; lid, controls, a filter holder or a jug."""
     half, deep, high, base = a.draws((0.07, 0.16), (0.22, 0.34), (0.26, 0.4), (0.035, 0.06))
     head, r = a.draws((0.07, 0.12), (0.004, 0.025))
     skin, dark = a.picks((BLACK, STEEL, RED, WHITE), (BLACK, STEEL))
@@ -67,7 +67,7 @@ def _control(
     place: Place,
     turned: float,
 ) -> None:
-    """A knob in this share of cases, else a button."""
+    """Build a knob in this share of cases, else a button."""
     if a.happens(turned):
         knob(a, f"knob_{i}", at, radius, look, place, upper=a.degrees(90, 300))
         return
@@ -90,7 +90,7 @@ def _drip_tray(a: Assembly, half: float, front: float, base: float, dark: Materi
 
 
 def _filter_holder(a: Assembly, y: float, z: float, dark: Material) -> None:
-    """A filter holder that locks under the group by a turn."""
+    """Build a filter holder that locks under the group by a turn."""
     radius, long, tilt = a.draws((0.026, 0.034), (0.09, 0.14), (0.0, 0.02))
     holder = a.hinge("filter_holder", DOWN, (0, y, z), a.degrees(30, 60), look=dark)
     cup = [(0.6 * radius, -0.045), (radius, -0.03), (radius, 0.0)]
@@ -107,7 +107,7 @@ def _wand(a: Assembly, x: float, y: float, z: float) -> None:
 
 
 def _jug(a: Assembly, y: float, z: float, top: float, radius: float, dark: Material) -> None:
-    """A glass jug on the hot plate that pulls out."""
+    """Build a glass jug on the hot plate that pulls out."""
     high = 0.9 * (top - z)
     neck = 0.7 * radius
     outside = [(0.8 * radius, 0.0), (radius, 0.35 * high), (neck, 0.9 * high)]
@@ -121,7 +121,7 @@ def _jug(a: Assembly, y: float, z: float, top: float, radius: float, dark: Mater
 
 
 def toaster(a: Assembly) -> None:
-    """A shell with slots on top; levers that go down, knobs and buttons at one end or in front."""
+    """Build a shell with slots on top; levers, knobs and buttons at one end or in front."""
     skin, dark = a.picks((STEEL, RED, BLACK, WHITE), (BLACK, STEEL))
     slots = a.pick(1, 2, 2, 4)
     long, pitch, wide = a.draws((0.12, 0.2), (0.045, 0.06), (0.022, 0.032))
@@ -155,7 +155,7 @@ def toaster(a: Assembly) -> None:
 def _panel(
     a: Assembly, levers: int, room: float, foot: float, high: float, dark: Material, place: Place
 ) -> None:
-    """Levers above knobs and buttons."""
+    """Build levers above knobs and buttons."""
     upper = 0.8 * high
     reach = a.draw(0.25, 0.4) * (high - foot)
     for i in range(levers):

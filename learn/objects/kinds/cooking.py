@@ -42,7 +42,7 @@ def _style(a: Assembly, panels: Mapping[str, float]) -> Style:
 
 
 def burners(a: Assembly, x: Span, y: Span, z: float) -> None:
-    """Burners on a hob at ``z``: plates, glass marks, or gas under grates."""
+    """Build burners on a hob at ``z``: plates, glass marks, or gas under grates."""
     style = a.pick("plate", "mark", "gas")
     columns = shares(x, 2 if size(x) < 0.75 else 3)
     radius = 0.36 * min(size(columns[0]), size(y) / 2)
@@ -80,14 +80,14 @@ def racks(a: Assembly, case: Casework, most: int = 3) -> None:
 
 
 def _panel_row(a: Assembly, case: Casework, share: float, looks: tuple[Material, ...]) -> None:
-    """Knobs on the fixed panel that is the uppermost ``share`` of a case's front."""
+    """Build knobs on the fixed panel that is the uppermost ``share`` of a case's front."""
     high = share * size(case.z)
     x = within(case.x, case.style.board)
     knob_row(a, x, case.z[1] - high / 2, high, looks, facing_front(case.face))
 
 
 def stove(a: Assembly) -> None:
-    """A range: oven doors that drop, knobs before or behind the hob, often a drawer below."""
+    """Build a range: oven doors that drop, knobs before or behind the hob, often a drawer below."""
     style = _style(a, {"glazed": 0.6, "slab": 0.3, "bevel": 0.1})
     width, depth, height, share = a.draws((0.5, 1.2), (0.5, 0.7), (0.75, 0.92), (0.1, 0.17))
     console = a.happens(0.4)
@@ -116,7 +116,7 @@ def stove(a: Assembly) -> None:
 
 
 def built_in_oven(a: Assembly) -> None:
-    """An oven without a hob: one or two doors under a panel with knobs and buttons."""
+    """Build an oven without a hob: one or two doors under a panel with knobs and buttons."""
     style = _style(a, {"glazed": 0.7, "slab": 0.3})
     width, depth, share = a.draws((0.35, 0.76), (0.35, 0.6), (0.14, 0.24))
     height = a.draw(0.28, 0.65) if a.happens(0.7) else a.draw(0.9, 1.3)
@@ -140,7 +140,7 @@ def built_in_oven(a: Assembly) -> None:
 
 
 def microwave_oven(a: Assembly) -> None:
-    """A door beside a panel of keys, some of which give way; a plate that turns."""
+    """Build a door beside a panel of keys, some of which give way; a plate that turns."""
     *sizes, share = a.draws((0.42, 0.8), (0.3, 0.5), (0.24, 0.45), (0.16, 0.3))
     style = _style(a, {"glazed": 0.6, "slab": 0.4})
     style = replace(style, pull=replace(style.pull, length=0.7 * sizes[2]))
@@ -164,7 +164,7 @@ def microwave_oven(a: Assembly) -> None:
 
 
 def hob(a: Assembly) -> None:
-    """A hob on its own, its knobs before or upon it."""
+    """Build a hob on its own, its knobs before or upon it."""
     width, depth, height = a.draws((0.3, 1.0), (0.35, 0.55), (0.04, 0.18))
     x, y = upto(width, depth)
     metal = any_metal(a)
@@ -184,7 +184,7 @@ def hob(a: Assembly) -> None:
 
 
 def hood(a: Assembly) -> None:
-    """An extractor hood: a visor that slides out or a pane that lifts, and buttons."""
+    """Build an extractor hood: a visor that slides out or a pane that lifts, and buttons."""
     width, depth, low = a.draws((0.5, 1.0), (0.4, 0.55), (0.05, 0.1))
     high, top = a.draws((low + 0.12, low + 0.3), (low + 0.5, low + 0.9))
     x, y = upto(width, depth)
@@ -203,7 +203,7 @@ def hood(a: Assembly) -> None:
 
 
 def dish_washer(a: Assembly) -> None:
-    """A door that drops, before racks that come out over it."""
+    """Build a door that drops, before racks that come out over it."""
     style = _style(a, {"slab": 0.7, "bevel": 0.3})
     sizes = a.draws((0.42, 0.62), (0.5, 0.65), (0.6, 0.8))
     node = a.weighted({"flap": 0.6, column((0.86, "flap"), (0.14, "fixed")): 0.4})
@@ -240,7 +240,7 @@ def _demo(
 
 
 def oven(a: Assembly) -> None:
-    """A range of the demo: a drop door with a window, knobs above it, a drawer below, burners."""
+    """Build the demo's range: a drop door with a window, knobs, a drawer below, burners."""
     skin, metal = a.picks((WHITE, STEEL, BLACK), (STEEL, BLACK))
     style = convex_style(a, skin, board=0.018, front=0.035)
     sizes = a.draws((0.55, 0.7), (0.53, 0.61), (0.81, 0.89))
@@ -258,7 +258,7 @@ def oven(a: Assembly) -> None:
 
 
 def microwave(a: Assembly) -> None:
-    """A microwave of the demo: a side door with a window, a panel with buttons and a knob."""
+    """Build a microwave of the demo: a side door with a window, a panel with buttons and a knob."""
     skin, dark = a.picks((WHITE, STEEL, BLACK), (BLACK, STEEL))
     style = convex_style(a, skin, board=0.016, front=0.028)
     sizes = a.draws((0.46, 0.56), (0.31, 0.39), (0.26, 0.31))
@@ -278,7 +278,7 @@ def microwave(a: Assembly) -> None:
 
 
 def dishwasher(a: Assembly) -> None:
-    """A dishwasher of the demo: a drop door before two racks, on a recessed plinth."""
+    """Build a dishwasher of the demo: a drop door before two racks, on a recessed plinth."""
     skin, dark = a.picks((WHITE, STEEL, BLACK), (BLACK, STEEL))
     style = convex_style(a, skin, board=0.016, front=0.03)
     sizes = a.draws((0.45, 0.6), (0.51, 0.57), (0.7, 0.76))

@@ -63,7 +63,7 @@ def _style(a: Assembly, glazed: bool) -> Style:
 
 
 def cold_box(kind: str, a: Assembly) -> None:
-    """A refrigerator that is ``tall``, ``mini`` or ``wine``."""
+    """Build a refrigerator that is ``tall``, ``mini`` or ``wine``."""
     sizes = a.draws(*SIZES[kind])
     style = _style(a, kind == "wine")
     node = "door" if kind == "wine" else _front(a, sizes[0], sizes[2])
@@ -87,7 +87,7 @@ def cold_box(kind: str, a: Assembly) -> None:
 
 
 def _shelves(a: Assembly, case: Casework, cell: Cell) -> list[float]:
-    """Panes of glass in a cell; their heights [m]."""
+    """Build panes of glass in a cell; returns their heights [m]."""
     x, z = cell.inner
     levels = between(z, int(size(z) / a.draw(0.18, 0.35)))
     deep = within(case.y, 0.13, 0.008)
@@ -96,7 +96,7 @@ def _shelves(a: Assembly, case: Casework, cell: Cell) -> list[float]:
 
 
 def _inner(a: Assembly, case: Casework, cell: Cell, levels: list[float]) -> None:
-    """A crisper at the bottom of a door's room, or an ice box at its top; three at most."""
+    """Build a crisper at the bottom of a door's room, or an ice box at its top; three at most."""
     number = sum(part.name.startswith("inner") for part in a.parts)
     if number > 2:
         return
@@ -117,7 +117,7 @@ def _inner(a: Assembly, case: Casework, cell: Cell, levels: list[float]) -> None
 
 
 def _bins(a: Assembly, door: Leaf) -> None:
-    """A lining and bins on the inner side of a door, which pass the walls on their way out."""
+    """Build a lining and bins on a door's inner side, which pass the walls on the way out."""
     part = door.part
     depth = a.draw(0.05, 0.1)
     x, z = door.cell.inner
@@ -138,7 +138,7 @@ def _bins(a: Assembly, door: Leaf) -> None:
 
 
 def _on_door(a: Assembly, face: float, door: Leaf) -> None:
-    """A water dispenser's paddle, or a smaller door on a door."""
+    """Build a water dispenser's paddle, or a smaller door on a door."""
     x = within(door.x, 0.1)
     z = (mid(door.z) - 0.05, door.z[1] - 0.1)
     if size(x) < 0.1 or size(z) < 0.25:
@@ -154,7 +154,7 @@ def _on_door(a: Assembly, face: float, door: Leaf) -> None:
 
 
 def fridge(a: Assembly) -> None:
-    """Two doors, freezer above or below; shelves inside and bins in the doors."""
+    """Build two doors, freezer above or below; shelves inside and bins in the doors."""
     skin, metal = a.picks((WHITE, STEEL, RED), (STEEL, BLACK))
     style = convex_style(a, skin, board=0.04, front=0.055, panel="slab", upper="slab", shelves=0)
     pull = replace(style.pull, kind=a.pick("rail", "bar"), length=0.4, look=metal)

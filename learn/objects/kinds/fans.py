@@ -26,7 +26,7 @@ def _blades(
     wide: float,
     pitch: float,
 ) -> list[Form]:
-    """Twisted blades around an axis, Y or Z, from the hub out to ``radius`` [m]."""
+    """Build twisted blades around an axis, Y or Z, from the hub out to ``radius`` [m]."""
     share = np.linspace(0.0, 1.0, 5)
     half = 0.5 * wide * (0.45 + 0.55 * np.sin(np.pi * (0.25 + 0.55 * share)) ** 2)
     sweep = a.draw(-0.3, 0.3) * wide * share
@@ -42,7 +42,7 @@ def _blades(
 
 
 def fan(a: Assembly) -> None:
-    """A desk or floor fan: a head that tilts, at times swings; blades in a cage, controls."""
+    """Build a desk or floor fan: a head that tilts, at times swings; blades in a cage, controls."""
     radius, thick, pole, depth = a.draws((0.1, 0.2), (0.015, 0.04), (0.01, 0.018), (0.025, 0.04))
     skin, metal = a.picks((WHITE, BLACK, BLUE, STEEL), (STEEL, BLACK))
     wide = radius * a.draw(0.7, 1.0)
@@ -105,7 +105,7 @@ def _cage(
 
 
 def ceiling_fan(a: Assembly) -> None:
-    """A canopy and a rod; below, a motor with blades, at times with a lamp and a pull cord."""
+    """Build a canopy and a rod; below, a motor with blades, at times a lamp and a cord."""
     rod, radius, hub = a.draws((0.1, 0.4), (0.4, 0.65), (0.07, 0.11))
     wide, pitch, long = a.draws((0.1, 0.15), (0.12, 0.3), (0.2, 0.3))
     skin, metal = a.picks((OAK, WALNUT, WHITE, BLACK), (BRASS, STEEL, BLACK))
@@ -135,7 +135,7 @@ def ceiling_fan(a: Assembly) -> None:
 
 
 def globe(a: Assembly) -> None:
-    """A ball on a tilted axis in a half ring on a foot; some half rings swivel."""
+    """Build a ball on a tilted axis in a half ring on a foot; some half rings swivel."""
     radius, high, gap, lean = a.draws((0.09, 0.18), (0.05, 0.12), (0.008, 0.02), (10, 30))
     skin, metal, wood = a.picks((BLUE, OAK, STEEL), (BRASS, STEEL), (OAK, WALNUT, BLACK))
     swivels = a.happens(0.35)

@@ -17,7 +17,7 @@ PLAY = 0.0008
 
 
 def faucet(a: Assembly) -> None:
-    """A spout with one lever or two handles; most spouts swivel."""
+    """Build a spout with one lever or two handles; most spouts swivel."""
     body = a.body(a.pick(STEEL, BRASS, BLACK, WHITE))
     if a.happens(0.25):
         _mixer(a)
@@ -43,7 +43,7 @@ def faucet(a: Assembly) -> None:
 
 
 def _mixer(a: Assembly) -> None:
-    """A column with a spout in front of it and a lever on top that turns, lifts, or both."""
+    """Build a column with a spout in front of it and a lever on top that turns, lifts, or both."""
     radius, tall, reach, high = a.draws((0.018, 0.027), (0.07, 0.2), (0.09, 0.16), (0.012, 0.03))
     body = a.root
     _plinth(a, radius, tall)
@@ -92,7 +92,7 @@ def _plinth(a: Assembly, radius: float, tall: float) -> None:
 def _spout(
     a: Assembly, part: PartDraft, radius: float, low: float
 ) -> tuple[FloatArray, FloatArray]:
-    """A pipe that rises and comes down towards -Y; its end [m] and the way that it points there."""
+    """Build a pipe that rises and comes down towards -Y; returns its end [m] and direction."""
     reach, rise, drop = a.draws((0.1, 0.24), (0.05, 0.3), (0.01, 0.06))
     thin = radius * a.draw(0.45, 0.8)
     style = a.pick("goose", "goose", "angle", "straight", "slant")
@@ -129,7 +129,7 @@ def _spout(
 
 
 def _grip(a: Assembly, style: str, low: float, radius: float, room: float) -> list[Form]:
-    """A handle around the z axis, standing on ``low``, reaching out by ``room`` at most [m]."""
+    """Build a handle around z, standing on ``low``, reaching out by ``room`` at most [m]."""
     neck = radius * a.draw(0.6, 0.9)
     top = low + a.draw(0.015, 0.04)
     stem = lathe([(neck, low), (0.8 * neck, low + 0.7 * (top - low)), (neck, top)], sides=16)
@@ -152,7 +152,7 @@ def _grip(a: Assembly, style: str, low: float, radius: float, room: float) -> li
 
 
 def _pair(a: Assembly, radius: float) -> None:
-    """Two handles beside the spout, on feet, often on one plate."""
+    """Build two handles beside the spout, on feet, often on one plate."""
     apart, base = a.draws((0.07, 0.14), (0.01, 0.05))
     style = a.pick("lever", "cross", "knob", "paddle")
     face = a.pick(0.0, np.pi / 2)
@@ -172,7 +172,7 @@ def _pair(a: Assembly, radius: float) -> None:
 
 
 def _single(a: Assembly, radius: float, tall: float) -> float:
-    """One lever at the side that turns about its stem, or tips up; how high it reaches [m]."""
+    """Build a lever at the side that turns about its stem, or tips up; returns its top [m]."""
     thick, length, reach, lean = a.draws((0.007, 0.012), (0.015, 0.035), (0.05, 0.11), (0.0, 0.03))
     side = a.sign()
     # Clear of the flare at the foot, and of the spout above.
@@ -189,7 +189,7 @@ def _single(a: Assembly, radius: float, tall: float) -> float:
 
 
 def valve(a: Assembly) -> None:
-    """A valve: a pipe with flanges, a bonnet and a hand wheel that turns without end."""
+    """Build a valve: a pipe with flanges, a bonnet and a hand wheel that turns without end."""
     radius, half, rim, neck = a.draws((0.012, 0.03), (0.06, 0.12), (0.03, 0.07), (0.03, 0.06))
     skin, bright = a.picks((STEEL, BRASS, BLACK), (STEEL, BRASS))
     body = a.body(skin)
@@ -209,7 +209,7 @@ def valve(a: Assembly) -> None:
 
 
 def switch_panel(a: Assembly) -> None:
-    """An upright plate or box with one to twelve controls, mostly of one kind."""
+    """Build an upright plate or box with one to twelve controls, mostly of one kind."""
     wide, tall, deep = a.draws((0.028, 0.05), (0.05, 0.09), (0.004, 0.05))
     skin, other = a.picks((WHITE, BLACK, STEEL, BRASS), (WHITE, BLACK, RED, STEEL))
     columns, rows = a.picks((1, 2, 3, 4), (1, 1, 2, 3))
@@ -233,7 +233,7 @@ def switch_panel(a: Assembly) -> None:
 
 
 def _rocker(a: Assembly, name: str, at: Flat, wide: float, tall: float, look: Material) -> None:
-    """A shallow wedge on a pin: its upper half stands out, and goes in."""
+    """Build a shallow wedge on a pin: its upper half stands out, and goes in."""
     x, z = at
     tilt = a.draw(0.06, 0.14)
     rise = tall * np.tan(tilt)

@@ -17,7 +17,7 @@ PLAY = 0.0005
 
 
 def usb_stick(a: Assembly) -> None:
-    """A stick with a cap that pulls off, a bracket that swings round, or a plug that slides out."""
+    """Build a stick with a cap, a bracket that swings round, or a plug that slides out."""
     half, long, thick = a.draws((0.006, 0.011), (0.025, 0.045), (0.005, 0.011))
     skin, other = a.picks((BLACK, BLUE, RED, WHITE), (STEEL, BLACK, GREEN))
     x = about(half)
@@ -67,7 +67,7 @@ def _sliding_plug(a: Assembly, x: Span, z: Span, long: float, look: Material) ->
 
 
 def phone(a: Assembly) -> None:
-    """A phone that flips, or whose screen slides up or sideways over its keys."""
+    """Build a phone that flips, or whose screen slides up or sideways over its keys."""
     half, long, thick, r = a.draws((0.022, 0.03), (0.08, 0.12), (0.006, 0.011), (0.002, 0.012))
     skin, other = a.picks((BLACK, STEEL, BLUE, RED), (BLACK, STEEL, WHITE))
     x, y = centred(half, long / 2)
@@ -99,7 +99,7 @@ def phone(a: Assembly) -> None:
 
 
 def remote(a: Assembly) -> None:
-    """A remote control or a keypad: rows of buttons that go down."""
+    """Build a remote control or a keypad: rows of buttons that go down."""
     half, long, thick, stroke = a.draws((0.018, 0.05), (0.05, 0.1), (0.01, 0.02), (0.001, 0.002))
     skin, other = a.picks((BLACK, WHITE, STEEL), (WHITE, RED, BLUE, STEEL))
     body = a.body(skin)
@@ -111,7 +111,7 @@ def remote(a: Assembly) -> None:
 
 
 def calculator(a: Assembly) -> None:
-    """A wedge with a display and rows of keys that go down."""
+    """Build a wedge with a display and rows of keys that go down."""
     half, long, thick, stroke = a.draws((0.03, 0.08), (0.05, 0.09), (0.006, 0.014), (0.0012, 0.003))
     tall, style, margin = a.draws((0.0015, 0.005), (0.2, 0.9), (0.06, 0.18))
     skin, other = a.picks((BLACK, WHITE, STEEL, BLUE), (WHITE, BLACK, RED, STEEL))
@@ -126,7 +126,7 @@ def calculator(a: Assembly) -> None:
 
 
 def lighter(a: Assembly) -> None:
-    """A flip lighter: a lid, and under it a wheel."""
+    """Build a flip lighter: a lid, and under it a wheel."""
     half, deep, high, rise = a.draws((0.016, 0.021), (0.005, 0.007), (0.03, 0.04), (0.016, 0.02))
     x, y = centred(half, deep)
     body = a.body(a.pick(STEEL, BRASS, BLACK))
@@ -144,7 +144,7 @@ def lighter(a: Assembly) -> None:
 
 
 def camera(a: Assembly) -> None:
-    """A body with a lens that turns or pulls out, dials and a release on top."""
+    """Build a body with a lens that turns or pulls out, dials and a release on top."""
     half, deep, high, long = a.draws((0.045, 0.075), (0.015, 0.03), (0.055, 0.09), (0.02, 0.06))
     skin, metal = a.picks((BLACK, STEEL), (BLACK, STEEL))
     body = a.body(skin)
@@ -176,7 +176,7 @@ def camera(a: Assembly) -> None:
 
 
 def clock(a: Assembly) -> None:
-    """A dial with two or three hands, in a round or square case; at times a pendulum below."""
+    """Build a dial with two or three hands in a case; at times a pendulum below."""
     radius, deep, rim = a.draws((0.05, 0.18), (0.015, 0.05), (0.006, 0.02))
     skin, dark = a.picks((WHITE, OAK, BLACK, RED, STEEL), (BLACK, RED, BRASS))
     half = radius + rim
@@ -211,7 +211,7 @@ def clock(a: Assembly) -> None:
 
 
 def eyeglasses(a: Assembly) -> None:
-    """Two lenses or a shield, and two temples, spread as worn; positive values fold them in."""
+    """Build lenses or a shield, and temples, spread as worn; positive values fold them in."""
     half, high, long, bar = a.draws((0.062, 0.074), (0.016, 0.025), (0.12, 0.15), (0.0018, 0.005))
     bend, drop, back, ratio = a.draws((0.6, 0.8), (0.01, 0.04), (0.012, 0.02), (1.0, 2.2))
     skin, tint = a.picks((BLACK, STEEL, BRASS, RED, WALNUT), (GLASS, STEEL, BLUE))
@@ -243,7 +243,7 @@ def eyeglasses(a: Assembly) -> None:
 
 
 def _lenses(a: Assembly, half: float, high: float, level: float, tint: Material) -> None:
-    """Two rims around lenses, a bridge, at times pads for the nose."""
+    """Build two rims around lenses, a bridge, at times pads for the nose."""
     body = a.root
     wide = min(a.draw(0.022, 0.028), 0.42 * half)
     rim, lean, tilted, lift = a.draws((0.0012, 0.003), (0.0, 0.12), (0.0, 0.15), (0.0, 0.45))
@@ -273,7 +273,7 @@ def _lenses(a: Assembly, half: float, high: float, level: float, tint: Material)
 
 
 def _shield(a: Assembly, half: float, high: float, level: float, tint: Material) -> float:
-    """One bent lens over both eyes, with a notch for the nose; where its ends lie, on y [m]."""
+    """Build one bent lens with a notch for the nose; returns where its ends lie, on y [m]."""
     bend = a.draw(0.01, 0.022)
     x = np.linspace(-half, half, 17)
     back = bend * (x / half) ** 2

@@ -30,7 +30,7 @@ def _strip(rows: npt.ArrayLike, along: Span, axis: int = Z) -> Form:
 
 
 def scissors(a: Assembly) -> None:
-    """Two blades on a pin, closed, lying flat; each ends in a loop for the fingers."""
+    """Build two blades on a pin, closed, lying flat; each ends in a loop for the fingers."""
     thick, long, grip, half = a.draws((0.0015, 0.003), (0.07, 0.13), (0.06, 0.1), (0.006, 0.011))
     skin = a.pick(RED, BLACK, BLUE, STEEL, GREEN)
     tip, edge = a.draws((0.001, 0.4 * half), (0.0, 0.3 * half))
@@ -65,7 +65,7 @@ def scissors(a: Assembly) -> None:
 
 
 def pliers(a: Assembly) -> None:
-    """Two levers crossing at a rivet: jaws on one side, handles on the other."""
+    """Build two levers crossing at a rivet: jaws on one side, handles on the other."""
     thick, boss, jaw, grip = a.draws((0.008, 0.014), (0.009, 0.014), (0.025, 0.07), (0.09, 0.15))
     skin = a.pick(RED, BLUE, BLACK, STEEL)
     bow = a.draw(0.012, 0.03)
@@ -101,7 +101,7 @@ def pliers(a: Assembly) -> None:
 
 
 def stapler(a: Assembly) -> None:
-    """A base with its anvil, a magazine and a cover that turn about a pin at the back.
+    """Build a base with its anvil, a magazine and a cover that turn about a pin at the back.
 
     Cover and magazine both hang on the base, each on its own: what opens the magazine lifts the
     cover too.
@@ -135,7 +135,7 @@ def stapler(a: Assembly) -> None:
 
 
 def pocket_knife(a: Assembly) -> None:
-    """A handle of two scales with one to three blades folded in between."""
+    """Build a handle of two scales with one to three blades folded in between."""
     long, high, scale = a.draws((0.07, 0.11), (0.014, 0.022), (0.003, 0.006))
     belly, back = a.draws((-0.1, 0.1), (0.95, 1.1))
     count = a.count(1, 3)
@@ -169,7 +169,7 @@ def pocket_knife(a: Assembly) -> None:
 
 
 def cutter(a: Assembly) -> None:
-    """A utility knife: a hollow grip with a blade that a thumb slide pushes out."""
+    """Build a utility knife: a hollow grip with a blade that a thumb slide pushes out."""
     long, half, thick = a.draws((0.11, 0.17), (0.008, 0.013), (0.01, 0.016))
     wall = 0.002
     slit = 0.0035
@@ -193,7 +193,7 @@ def cutter(a: Assembly) -> None:
 
 
 def pen(a: Assembly) -> None:
-    """A pen lying along Y: with a cap that pulls off and turns, or with a button at its end."""
+    """Build a pen along Y, with a cap that pulls off and turns, or a button at its end."""
     radius, long = a.draws((0.0035, 0.007), (0.11, 0.15))
     skin, other = a.picks((BLACK, BLUE, RED, STEEL), (BLACK, STEEL, BLUE))
     sides = a.pick(6, 12, 20)
@@ -219,7 +219,7 @@ def pen(a: Assembly) -> None:
 
 
 def _clip(part: PartDraft, radius: float, start: float, long: float, look: Material) -> None:
-    """A flat bar along the top, held at its start."""
+    """Build a flat bar along the top, held at its start."""
     foot = span(start, 0.004 if long > 0.0 else -0.004)
     bar = box(about(0.0015), span(start, long), span(radius + 0.001, 0.001))
     part.add(bar, box(about(0.0014), foot, (0.7 * radius, radius + 0.001)), look=look)

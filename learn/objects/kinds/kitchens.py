@@ -47,7 +47,7 @@ def _oven_style(style: Style) -> Style:
 
 
 def _dials(a: Assembly, case: Casework, high: float, prefix: str = "") -> None:
-    """Knobs on the fixed panel over an oven, which is ``high`` [m]."""
+    """Build knobs on the fixed panel over an oven, which is ``high`` [m]."""
     x = within(case.x, case.style.board)
     level = case.z[1] - high / 2
     room = high - 2.4 * case.style.board
@@ -55,7 +55,7 @@ def _dials(a: Assembly, case: Casework, high: float, prefix: str = "") -> None:
 
 
 def kitchen(a: Assembly) -> None:
-    """Two to five base units on a plinth; a worktop with a sink or a hob; at times wall units."""
+    """Build two to five base units, a worktop with a sink or a hob; at times wall units."""
     depth, base, height = a.draws((0.5, 0.65), (0.07, 0.15), (0.65, 0.78))
     style = any_style(a, None, 0.12, pull_at=(0.85, 0.8))
     style = replace(style, covered=True, crowded=True, reveal=0.0, shelves=2)
@@ -97,7 +97,7 @@ def _worktop(a: Assembly, style: Style, x: Span, y: Span, z: float, hob: Span | 
 
 
 def _wall_units(a: Assembly, style: Style, width: float, depth: float, z: float) -> None:
-    """Cabinets over the worktop, on a back wall that holds them."""
+    """Build cabinets over the worktop, on a back wall that holds them."""
     high = span(z + a.draw(0.45, 0.6), a.draw(0.4, 0.8))
     y = (depth - a.draw(0.28, 0.38), depth)
     upper = replace(style, covered=False, pull_at=0.15)
@@ -108,7 +108,7 @@ def _wall_units(a: Assembly, style: Style, width: float, depth: float, z: float)
 
 
 def oven_tower(a: Assembly) -> None:
-    """A tall unit around an oven, doors above and drawers or a door below."""
+    """Build a tall unit around an oven, doors above and drawers or a door below."""
     width, depth, height, base = a.draws((0.55, 0.68), (0.5, 0.65), (1.6, 2.2), (0.05, 0.12))
     style = replace(any_style(a, None, 0.15), shelves=2, covered=True, taste=0.0)
     # What lies above and below is a neighbour: fronts keep half a gap to the level's end.

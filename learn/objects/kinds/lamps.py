@@ -17,7 +17,7 @@ PLAY = 0.001
 
 
 def desk_lamp(a: Assembly) -> None:
-    """A foot, one to three arms in a chain of hinges, a shade; a switch or a dimmer on the foot.
+    """Build a foot, one to three hinged arms, a shade; a switch or a dimmer on the foot.
 
     Arms are described straight up, one above the other, and left at an angle. They lie in two
     layers, side by side, so that they can fold past each other.
@@ -65,7 +65,7 @@ def _foot(a: Assembly, wide: float, thick: float) -> None:
 
 
 def _arm(a: Assembly, arm: PartDraft, z: Span, bar: float, x: float) -> None:
-    """A bar in one layer, with a disc around the hinge at either end; at times two bars."""
+    """Build a bar in one layer, with a disc around the hinge at either end; at times two bars."""
     sides = a.pick(4, 10)
     arm.add(pipe([(x, 0, z[0]), (x, 0, z[1])], 0.98 * bar, sides))
     if a.happens(0.3):
@@ -75,7 +75,7 @@ def _arm(a: Assembly, arm: PartDraft, z: Span, bar: float, x: float) -> None:
 
 
 def _shade(a: Assembly, shade: PartDraft, z: float, bar: float, x: float) -> None:
-    """A shade that looks up, with its bulb and fork; its chain of arms turns it down."""
+    """Build a shade that looks up, with its bulb and fork; its chain of arms turns it down."""
     neck, long, wide = a.draws((0.015, 0.03), (0.08, 0.16), (0.04, 0.09))
     low = z + 3 * bar + 0.7 * neck
     shade.add(pipe([(x, 0, z), (x, 0, z + 3 * bar + neck)], 0.98 * bar, 8))
@@ -111,7 +111,7 @@ def _switch(a: Assembly, wide: float, top: float, metal: Material) -> None:
 
 
 def standing_lamp(a: Assembly) -> None:
-    """A foot, a pole, a shade on top; a cord or a foot switch, at times a telescopic pole."""
+    """Build a foot, a pole, a shade on top; a cord or a foot switch, at times a telescopic pole."""
     wide, thick, pole, tall = a.draws((0.1, 0.17), (0.015, 0.03), (0.006, 0.014), (0.9, 1.5))
     skin, metal = a.picks((BLACK, WHITE, BRASS), (STEEL, BRASS, BLACK))
     scale = a.pick(0.35, 1.0)

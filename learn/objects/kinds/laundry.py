@@ -18,7 +18,7 @@ from ..kit.styles import any_metal
 
 
 def front_loader(a: Assembly) -> None:
-    """A round or square door before a drum; a soap drawer, knobs and buttons above it."""
+    """Build a round or square door before a drum; a soap drawer, knobs and buttons above it."""
     width, depth, height, strip = a.draws((0.45, 0.7), (0.4, 0.7), (0.7, 1.0), (0.1, 0.16))
     body = a.body(a.pick(WHITE, WHITE, STEEL, BLACK))
     x, y = upto(width, depth)
@@ -82,7 +82,7 @@ def _porthole(a: Assembly, at: Flat, radius: float) -> None:
 
 
 def _controls(a: Assembly, x: Span, z: Span) -> None:
-    """A soap drawer at one end, a knob and buttons along the rest."""
+    """Build a soap drawer at one end, a knob and buttons along the rest."""
     level = mid(z)
     place = facing_front(0.0)
     left = a.happens(0.8)
@@ -104,7 +104,7 @@ def _controls(a: Assembly, x: Span, z: Span) -> None:
 
 
 def top_loader(a: Assembly) -> None:
-    """A lid that lifts, before a console with knobs."""
+    """Build a lid that lifts, before a console with knobs."""
     width, depth, height = a.draws((0.45, 0.72), (0.5, 0.7), (0.8, 1.0))
     console, tall = a.draws((0.1, 0.18), (0.08, 0.2))
     x, y = upto(width, depth)

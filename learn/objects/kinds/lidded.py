@@ -39,7 +39,7 @@ def _staves(x: Span, y: Span, z: float, board: float, rise: float) -> list[Form]
 
 
 def _lid(a: Assembly, name: str, x: Span, y: Span, z: float, look: Material) -> None:
-    """A lid over ``z``, hinged at its back; its axis lies at its lower or upper edge."""
+    """Build a lid over ``z``, hinged at its back; its axis lies at its lower or upper edge."""
     over = a.pick(0.0, 0.005, 0.015)
     thick = a.draw(0.015, 0.08)
     low = z + a.pick(0.0, 0.001, 0.003)
@@ -66,7 +66,7 @@ def _side_grips(body: PartDraft, x: Span, y: Span, z: float, look: Material) -> 
 
 
 def coffer(a: Assembly) -> None:
-    """A chest, a bench or a freezer: one lid hinged at its back, or two beside each other."""
+    """Build a chest, a bench or a freezer: one lid hinged at its back, or two beside each other."""
     width, depth, height, wall = a.draws((0.4, 1.7), (0.3, 0.7), (0.25, 0.9), (0.012, 0.06))
     x, y = upto(width, depth)
     z = span(a.pick(0.0, 0.03, 0.08), height)
@@ -84,7 +84,7 @@ def coffer(a: Assembly) -> None:
 
 
 def chest(a: Assembly) -> None:
-    """A chest of the demo: on feet, with a flat or arched lid."""
+    """Build a chest of the demo: on feet, with a flat or arched lid."""
     width, depth, height = a.draws((0.6, 1.0), (0.38, 0.5), (0.3, 0.42))
     board = a.pick(0.016, 0.018)
     x, y = upto(width, depth)
@@ -107,7 +107,7 @@ def chest(a: Assembly) -> None:
 
 
 def glass_freezer(a: Assembly) -> None:
-    """A shop's freezer: two panes that slide over its top."""
+    """Build a shop's freezer: two panes that slide over its top."""
     width, depth, height = a.draws((0.9, 2.0), (0.5, 0.8), (0.7, 0.95))
     x, y = upto(width, depth)
     wall = 0.06
@@ -128,7 +128,7 @@ def glass_freezer(a: Assembly) -> None:
 
 
 def safe(a: Assembly) -> None:
-    """A strong box: on its door a dial, a wheel, a lever or keys, which move with it."""
+    """Build a strong box: on its door a dial, a wheel, a lever or keys, which move with it."""
     sizes = a.draws((0.28, 0.75), (0.25, 0.65), (0.22, 1.2))
     style = any_style(a, {"slab": 1.0}, 0.6, 0.75)
     style = replace(
@@ -158,7 +158,7 @@ def safe(a: Assembly) -> None:
 
 
 def _locks(a: Assembly, leaf: Leaf, face: float, metal: Material) -> None:
-    """What turns and gives way on a safe's door."""
+    """Add what turns and gives way on a safe's door."""
     door, _, side, x, z = leaf
     left = side == "left"
     at = x[0] + (0.7 if left else 0.3) * size(x)

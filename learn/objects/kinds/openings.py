@@ -47,7 +47,7 @@ def _framed(
 
 
 def _lever(a: Assembly, leaf: PartDraft, at: Flat, y: Span, inward: float, look: Material) -> None:
-    """A lever or a round knob on both sides of a leaf, on one spindle."""
+    """Build a lever or a round knob on both sides of a leaf, on one spindle."""
     x, z = at
     lever = a.happens(0.75)
     reach, r, length = a.draws((0.04, 0.065), (0.007, 0.011), (0.09, 0.14))
@@ -70,7 +70,7 @@ def _lever(a: Assembly, leaf: PartDraft, at: Flat, y: Span, inward: float, look:
 
 
 def door(a: Assembly) -> None:
-    """One or two leaves in a frame, with side lights or a fan light at times."""
+    """Build one or two leaves in a frame, with side lights or a fan light at times."""
     double, sill, levers = a.happen(0.25, 0.3, 0.65)
     width = a.draw(1.2, 1.9) if double else a.draw(0.65, 1.1)
     height, bar, wall, thick = a.draws((1.85, 2.3), (0.025, 0.09), (0.06, 0.2), (0.03, 0.06))
@@ -111,7 +111,7 @@ def door(a: Assembly) -> None:
 
 
 def sliding_door(a: Assembly) -> None:
-    """A leaf on a rail before a wall, or two on two tracks in a frame."""
+    """Build a leaf on a rail before a wall, or two on two tracks in a frame."""
     width, height, thick = a.draws((0.7, 1.1), (1.9, 2.3), (0.025, 0.05))
     panels = LEAVES | {"glazed": 0.5}
     if a.happens(0.5):
@@ -150,7 +150,7 @@ def _tracks(
     thick: float,
     upright: bool = False,
 ) -> None:
-    """Two or three sashes that slide past each other in a frame, sideways or up and down."""
+    """Build two or three sashes that slide past each other in a frame, sideways or up and down."""
     body = a.body(any_color(a))
     style = a.weighted(panels)
     count = 2 if upright else a.pick(2, 2, 2, 3)
@@ -178,7 +178,7 @@ def _tracks(
 
 
 def window(a: Assembly) -> None:
-    """Sashes in a frame: side, top or bottom hung, sliding, or turning about their middle."""
+    """Build sashes in a frame: side, top or bottom hung, sliding, or turning about their middle."""
     width, height, bar, thick = a.draws((0.45, 2.0), (0.45, 1.7), (0.03, 0.07), (0.025, 0.05))
     deep, rail = a.draws((0.06, 0.14), (0.03, 0.055))
     panels = {"mullion": 0.3, "glazed": 0.7}
@@ -208,7 +208,7 @@ def window(a: Assembly) -> None:
 
 
 def _latch(a: Assembly, leaf: Leaf, rail: float) -> None:
-    """A handle that hangs, and turns over its own sash, where no neighbour's handle is."""
+    """Build a handle that hangs, and turns over its own sash, where no neighbour's handle is."""
     sash, _, side, x, z = leaf
     at = {"left": x[1] - rail / 2, "right": x[0] + rail / 2}.get(side, mid(x))
     level = {"top": z[0] + 0.15, "bottom": z[1] - rail / 2}.get(side, mid(z))
@@ -220,7 +220,7 @@ def _latch(a: Assembly, leaf: Leaf, rail: float) -> None:
 
 
 def _pivoted(a: Assembly, style: Style, cell: Cell) -> None:
-    """A sash about its horizontal or upright middle; trimmed so that it clears the frame."""
+    """Build a sash about its horizontal or upright middle; trimmed so that it clears the frame."""
     x, z = (within(inner, style.gap) for inner in cell.inner)
     upright = a.happens(0.4)
     half = size(x if upright else z) / 2

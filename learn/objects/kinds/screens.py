@@ -20,7 +20,7 @@ PLAY = 0.0008
 
 
 def laptop(a: Assembly) -> None:
-    """A notebook of the demo, closed, with gaps that leave no doubt what is its lid."""
+    """Build a notebook of the demo, closed, with gaps that leave no doubt what is its lid."""
     width, depth, thick = a.draws((0.3, 0.38), (0.21, 0.26), (0.013, 0.018))
     body = a.body(a.pick(STEEL, BLACK, BLUE))
     radius = 0.005
@@ -51,7 +51,7 @@ def laptop(a: Assembly) -> None:
 
 
 def notebook(a: Assembly) -> None:
-    """A flat or wedge-shaped base, a lid on one or two barrels; about half stand open at rest."""
+    """Build a flat or wedge-shaped base, a lid on barrels; about half stand open at rest."""
     half, deep, thick, nose = a.draws((0.12, 0.2), (0.17, 0.27), (0.006, 0.028), (0.25, 1.0))
     lid_thick, radius, corner, rim = a.draws(
         (0.003, 0.009), (0.003, 0.006), (0.001, 0.02), (0.003, 0.018)
@@ -86,7 +86,7 @@ def notebook(a: Assembly) -> None:
 def _barrels(
     a: Assembly, lid: PartDraft, half: float, radius: float, pin: Point, lid_z: float
 ) -> None:
-    """Knuckles that turn with the lid and knuckles that stay."""
+    """Build knuckles that turn with the lid and knuckles that stay."""
     look = a.pick(lid.look, BLACK)
     _, y, z = pin
     knuckles = [about(0.7 * half)]
@@ -103,7 +103,7 @@ def _barrels(
 
 
 def _deck(a: Assembly, half: float, deep: float, top: float) -> None:
-    """Keys one by one, in rows, as one plate, or none; often a touch pad."""
+    """Build keys one by one, in rows, as one plate, or none; often a touch pad."""
     style = a.pick("keys", "rows", "plate", "none")
     x = about(0.88 * half)
     y = (-a.draw(0.5, 0.62) * deep, -a.draw(0.02, 0.04))
@@ -122,7 +122,7 @@ def _deck(a: Assembly, half: float, deep: float, top: float) -> None:
 
 
 def monitor(a: Assembly) -> None:
-    """A screen that tilts at the top of a stem on a foot."""
+    """Build a screen that tilts at the top of a stem on a foot."""
     half, high, thick, rise = a.draws((0.1, 0.32), (0.08, 0.19), (0.007, 0.03), (0.06, 0.2))
     wide, deep, corner, rim = a.draws((0.4, 0.7), (0.06, 0.11), (0.005, 0.05), (0.003, 0.015))
     body = a.body(a.pick(BLACK, STEEL, WHITE))
@@ -142,7 +142,7 @@ def monitor(a: Assembly) -> None:
 
 
 def mouse(a: Assembly) -> None:
-    """A computer mouse: a wheel that turns without end, two buttons that tip, at times a wire."""
+    """Build a computer mouse: an endless wheel, two buttons that tip, at times a wire."""
     half, long, high = a.draws((0.024, 0.034), (0.045, 0.062), (0.024, 0.04))
     taper, lean, slot = a.draws((0.1, 0.35), (0.0, 0.3), (0.0035, 0.006))
     skin, other = a.picks((BLACK, WHITE, STEEL, RED), (BLACK, STEEL))
@@ -189,7 +189,7 @@ def _bar(y: FloatArray, *section: tuple[FloatArray, FloatArray]) -> Form:
 
 
 def printer(a: Assembly) -> None:
-    """A box with a scanner lid, a paper drawer, flaps in front and behind, and buttons."""
+    """Build a box with a scanner lid, a paper drawer, flaps in front and behind, and buttons."""
     half, deep, high, r = a.draws((0.19, 0.26), (0.15, 0.22), (0.13, 0.3), (0.004, 0.03))
     skin, dark = a.picks((WHITE, BLACK, STEEL), (BLACK, STEEL))
     body = a.body(skin)

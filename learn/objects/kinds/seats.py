@@ -17,7 +17,7 @@ PLAY = 0.0015
 
 
 def office_chair(a: Assembly) -> None:
-    """Feet on castors or glides, a column, and a seat that turns and rises; some backs tilt."""
+    """Build feet on castors or glides, and a seat that turns and rises; some backs tilt."""
     reach, radius, wide, column = a.draws((0.26, 0.34), (0.022, 0.03), (0.02, 0.03), (0.02, 0.03))
     top, clear, heading = a.draws((0.38, 0.5), (0.008, 0.02), (0.0, 2 * np.pi))
     cloth, metal = a.picks((BLACK, BLUE, RED, GREEN, WHITE), (STEEL, BLACK))
@@ -52,7 +52,7 @@ def office_chair(a: Assembly) -> None:
 
 
 def _cushion(a: Assembly, seat: PartDraft, top: float, metal: Material) -> None:
-    """A cushion, round or square; often arm rests."""
+    """Build a cushion, round or square; often arm rests."""
     half, deep, thick, rise = a.draws((0.21, 0.26), (0.2, 0.24), (0.04, 0.09), (0.18, 0.26))
     z = span(top + 0.0122, thick)
     if a.happens(0.25):
@@ -85,7 +85,7 @@ def _back(a: Assembly, back: PartDraft, top: float, metal: Material) -> None:
 
 
 def folding_chair(a: Assembly) -> None:
-    """Two crossed frames and a seat, unfolded; positive values fold it up."""
+    """Build two crossed frames and a seat, unfolded; positive values fold it up."""
     half, seat_z, high, r = a.draws((0.2, 0.25), (0.4, 0.47), (0.76, 0.95), (0.009, 0.014))
     foot, lean, rest, crossing = a.draws((0.2, 0.26), (0.3, 0.42), (0.12, 0.3), (0.0, 0.06))
     back, deep, thick = a.draws((-0.02, 0.06), (0.34, 0.4), (0.008, 0.02))
@@ -126,14 +126,14 @@ def folding_chair(a: Assembly) -> None:
 
 
 def _egg(wide: float, front: float, back: float, inset: float = 0.0) -> FloatArray:
-    """An oval that reaches ``front`` towards -Y and ``back`` towards +Y [m], shape [32, 2]."""
+    """Return an oval from ``front`` towards -Y to ``back`` towards +Y [m], shape [32, 2]."""
     angle = 2.0 * np.pi * np.arange(32) / 32
     reach = np.where(np.sin(angle) < 0.0, front, back) - inset
     return np.stack([(wide - inset) * np.cos(angle), reach * np.sin(angle)], axis=1)
 
 
 def toilet(a: Assembly) -> None:
-    """A bowl with a seat and a lid; most have a cistern with a lever or buttons.
+    """Build a bowl with a seat and a lid; most have a cistern with a lever or buttons.
 
     Seat and lid both turn about the pins behind the bowl, each on its own: who lifts the seat lifts
     the lid too.
@@ -178,7 +178,7 @@ def toilet(a: Assembly) -> None:
 
 
 def _bowl(a: Assembly, rim: float, wide: float, front: float, back: float) -> Form:
-    """Foot, waist, rim, and down the inside: one surface."""
+    """Build foot, waist, rim, and down the inside: one surface."""
     top = _egg(wide, front, back)
     deep = _egg(0.35 * wide, 0.35 * front, 0.3 * back)
     inside = _egg(wide, front, back, a.draw(0.03, 0.045))

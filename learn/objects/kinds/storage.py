@@ -74,7 +74,7 @@ class CaseworkPlan:
 
 
 def stored(plan: CaseworkPlan, a: Assembly) -> None:
-    """One piece of furniture after a plan."""
+    """Build a piece of furniture after a plan."""
     width, depth, height = a.draws(*plan.sizes)
     support = a.weighted(plan.stands)
     top = a.weighted(plan.tops)
@@ -92,7 +92,7 @@ def stored(plan: CaseworkPlan, a: Assembly) -> None:
 
 
 def _spaced(a: Assembly, style: Style, cells: list[Cell]) -> Style:
-    """A style whose fronts leave the frame between them bare, if the cells are large enough."""
+    """Return a style whose fronts leave the frame bare, if the cells are large enough."""
     smallest = min(min(size(cell.x), size(cell.z)) for cell in cells)
     if style.inset or smallest < 0.15 or not a.happens(0.2):
         return style
@@ -295,7 +295,7 @@ PLANS: dict[str, CaseworkPlan] = {
 
 
 def cabinet(a: Assembly) -> None:
-    """One to three columns of doors and drawers on a plinth or feet; the first column has both."""
+    """Build one to three columns of doors and drawers; the first column has both."""
     textured = wood(a.count(0, 999))
     body = a.pick(textured, WHITE, OAK)
     face = textured if body is textured else a.pick(GREEN, WALNUT, WHITE)
@@ -314,7 +314,7 @@ MIX = {"double": 1.5, "door": 1.0, "drawers": 1.0}
 
 
 def hutch(a: Assembly) -> None:
-    """A deep case below, a shallow one upon it, a gap between them at times."""
+    """Build a deep case below, a shallow one upon it, a gap between them at times."""
     width, depth, base = a.draws((0.7, 1.6), (0.38, 0.55), (0.03, 0.15))
     low, high = a.draws((0.6, 0.9), (0.7, 1.2))
     x, y = upto(width, depth)
@@ -348,7 +348,7 @@ def hutch(a: Assembly) -> None:
 
 
 def secretaire(a: Assembly) -> None:
-    """A writing cabinet: drawers, and over them a flap to write on."""
+    """Build a writing cabinet: drawers, and over them a flap to write on."""
     sizes = a.draws((0.6, 1.0), (0.3, 0.5), (0.95, 1.5))
     style = replace(any_style(a), covered=True)
     node = column((a.draw(0.8, 1.4), drawers(a, a.count(2, 3))), (1.0, "flap"))
@@ -360,7 +360,7 @@ def secretaire(a: Assembly) -> None:
 
 
 def storage_bed(a: Assembly) -> None:
-    """A bed seen from its long side, drawers under the mattress, a headboard at one end."""
+    """Build a bed seen from its long side, drawers under the mattress, a headboard at one end."""
     sizes = a.draws((1.7, 2.1), (0.8, 1.6), (0.2, 0.35))
     style = replace(any_style(a), reveal=0.0)
     fixed = [(1.0, "fixed")] if a.happens(0.4) else []

@@ -16,7 +16,7 @@ UNDER = {"tapered": 0.35, "round": 0.25, "feet": 0.2, "turned": 0.2}
 
 
 def _top(a: Assembly, x: Span, y: Span, z: float) -> float:
-    """A table top under ``z``, square or with rounded corners; the height of its underside [m]."""
+    """Build a table top under ``z``; returns the height of its underside [m]."""
     level = span(z, -a.draw(0.015, 0.05))
     radius = 0.0 if a.happens(0.7) else a.draw(0.02, 0.1)
     top = block(x, y, level, radius) if radius else box(x, y, level)
@@ -25,7 +25,7 @@ def _top(a: Assembly, x: Span, y: Span, z: float) -> float:
 
 
 def table(a: Assembly) -> None:
-    """A table with one to four drawers in its apron; a shelf below at times."""
+    """Build a table with one to four drawers in its apron; a shelf below at times."""
     width, depth, height, apron = a.draws((0.4, 1.9), (0.35, 0.9), (0.4, 0.95), (0.08, 0.2))
     style = replace(any_style(a, {"slab": 0.7, "bevel": 0.3}, 0.6), shelves=0, covered=True)
     over = a.pick(0.0, 0.01, 0.03, 0.06)
@@ -41,7 +41,7 @@ def table(a: Assembly) -> None:
 
 
 def desk(a: Assembly) -> None:
-    """A desk: a case on one side or on both, drawers over the knees at times."""
+    """Build a desk: a case on one side or on both, drawers over the knees at times."""
     width, depth, height = a.draws((0.9, 2.0), (0.45, 0.85), (0.68, 0.8))
     panels = {"slab": 0.5, "bevel": 0.15, "shaker": 0.2, "raised": 0.15}
     style = replace(any_style(a, panels), covered=True, crowded=True, shelves=2)
@@ -72,7 +72,7 @@ def desk(a: Assembly) -> None:
 
 
 def folding_table(a: Assembly) -> None:
-    """A table whose side leaves hang and come up."""
+    """Build a table whose side leaves hang and come up."""
     width, depth, height, thick = a.draws((0.3, 0.8), (0.6, 1.2), (0.6, 0.8), (0.015, 0.03))
     x, y = upto(width, depth)
     under = height - thick
@@ -93,7 +93,7 @@ def folding_table(a: Assembly) -> None:
 
 
 def vanity(a: Assembly) -> None:
-    """A dressing table: drawers under the top, a mirror on it that tilts."""
+    """Build a dressing table: drawers under the top, a mirror on it that tilts."""
     width, depth, height, high = a.draws((0.7, 1.4), (0.35, 0.5), (0.68, 0.8), (0.1, 0.35))
     style = any_style(a, {"slab": 0.6, "bevel": 0.2, "raised": 0.2})
     style = replace(style, covered=True, shelves=0)

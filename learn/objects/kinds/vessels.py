@@ -17,13 +17,13 @@ PLAY = 0.0006
 
 
 def _walled(outer: Profile, wall: float, floor: float) -> Profile:
-    """Up the outside and down the inside of a vessel, both [m]."""
+    """Return the profile up the outside and down the inside of a vessel [m]."""
     inner = [(max(r - wall, 0.002), h) for r, h in reversed(outer) if h > floor]
     return [*outer, *inner, (max(min(inner[-1][0], outer[0][0] - wall), 0.002), floor)]
 
 
 def _side_curve(a: Assembly, foot: float, belly: float, rim: float, high: float) -> Profile:
-    """From foot to rim through a belly, smooth [m]."""
+    """Return a smooth profile from foot to rim through a belly [m]."""
     top = a.draw(0.35, 0.7)
     t = np.linspace(0.0, 1.0, a.count(4, 8))
     phase = np.where(t < top, t / top, 1.0 + (t - top) / (1 - top))
@@ -47,7 +47,7 @@ def _round_knob(a: Assembly, part: PartDraft, z: float, size: float, look: Mater
 
 
 def pot(a: Assembly) -> None:
-    """A pot or a pan with a lid that lifts, at times turns; two ears or one long handle."""
+    """Build a pot or a pan with a lid that lifts, at times turns; two ears or one long handle."""
     wide, wall = a.draws((0.08, 0.16), (0.002, 0.006))
     skin, dark = a.picks((STEEL, RED, BLACK, GREEN, BLUE), (BLACK, STEEL, BRASS))
     sides = a.pick(20, 32, 40)
@@ -94,7 +94,7 @@ def _handles(a: Assembly, wide: float, high: float, look: Material) -> None:
 
 
 def kettle(a: Assembly) -> None:
-    """A body with a spout and a handle; a lid that lifts off or turns; at times electric."""
+    """Build a body with a spout and a handle; a lid that lifts off or turns; at times electric."""
     rim, belly, high, foot = a.draws((0.04, 0.065), (0.07, 0.1), (0.12, 0.22), (0.06, 0.085))
     skin, dark = a.picks((STEEL, WHITE, RED, BLACK), (BLACK, WALNUT, STEEL))
     electric, hinged, switched = a.happen(0.5, 0.4, 0.8)
@@ -144,7 +144,7 @@ def _radius_at(outer: Profile, height: float) -> float:
 
 
 def _spout(a: Assembly, outer: Profile, lift: float, high: float) -> None:
-    """A tapered tube towards -Y, straight or in an S."""
+    """Build a tapered tube towards -Y, straight or in an S."""
     share, out, wide, up = a.draws((0.35, 0.75), (0.05, 0.1), (0.014, 0.022), (0.7, 1.1))
     low = lift + share * high
     rise = (1.0 - share) * high * up
@@ -168,7 +168,7 @@ def _back_handle(a: Assembly, outer: Profile, lift: float, high: float, look: Ma
 
 
 def bottle(a: Assembly) -> None:
-    """A bottle or a jar with a screw cap that turns and comes off; at times a cap on a hinge."""
+    """Build a bottle or a jar with a screw cap that comes off; at times a hinged cap."""
     wide, high, neck_h, power = a.draws((0.025, 0.06), (0.07, 0.3), (0.015, 0.03), (0.6, 1.4))
     skin, cap_skin = a.picks((GREEN, BLUE, WHITE, STEEL, RED), (RED, WHITE, BLACK, BLUE))
     neck = wide * a.draw(0.28, 0.5)
@@ -212,7 +212,7 @@ def bottle(a: Assembly) -> None:
 
 
 def dispenser(a: Assembly) -> None:
-    """A soap or lotion bottle with a pump that goes down and turns."""
+    """Build a soap or lotion bottle with a pump that goes down and turns."""
     wide, high, collar, stroke = a.draws(
         (0.025, 0.045), (0.09, 0.18), (0.011, 0.016), (0.012, 0.025)
     )
@@ -235,7 +235,7 @@ def dispenser(a: Assembly) -> None:
 
 
 def pepper_mill(a: Assembly) -> None:
-    """A turned body under a head, or a crank, that turns without end."""
+    """Build a turned body under a head, or a crank, that turns without end."""
     wide, high, thin = a.draws((0.022, 0.032), (0.07, 0.18), (0.05, 0.45))
     skin, metal = a.picks((OAK, WALNUT, BLACK, STEEL, WHITE), (STEEL, BRASS))
     body = a.body(skin)

@@ -134,7 +134,7 @@ class Assembly(Chance):
         rest: float = 0.0,
         **how: Unpack[Hanging],
     ) -> PartDraft:
-        """A part that turns between ``lower`` and ``upper`` [rad] and is left at ``rest``."""
+        """Add a part that turns between ``lower`` and ``upper`` [rad] and is left at ``rest``."""
         part = self._hung(name, JointKind.REVOLUTE, axis, at, **how)
         part.lower = lower - rest
         part.upper = upper - rest
@@ -155,7 +155,7 @@ class Assembly(Chance):
         slide: float = 0.0,
         **how: Unpack[Hanging],
     ) -> PartDraft:
-        """A part that turns without end, and slides along its axis by up to ``slide`` [m]."""
+        """Add a part that turns without end, and slides along its axis by up to ``slide`` [m]."""
         part = self._hung(name, JointKind.CONTINUOUS, axis, at, **how)
         part.lower = -np.pi
         part.upper = np.pi
@@ -184,7 +184,7 @@ class Assembly(Chance):
         turns: float,
         **how: Unpack[Hanging],
     ) -> PartDraft:
-        """A part that slides by up to ``reach`` [m], and in this share of cases turns as well."""
+        """Add a part that slides by up to ``reach`` [m], and in a share of cases turns too."""
         if self.happens(turns):
             return self.spin(name, axis, at, reach, **how)
         return self.slider(name, axis, at, reach, **how)
@@ -212,7 +212,7 @@ class Assembly(Chance):
         return part
 
     def articulation(self) -> Articulation:
-        """The object; it comes to stand on z = 0, centred over the origin, everything at rest."""
+        """Return the object, standing on z = 0, centred over the origin, everything at rest."""
         drafts = [self.root, *self.parts]
         vertices, faces, look, materials = _joined(drafts, self.hairline)
         low = vertices.min(axis=0)
@@ -253,7 +253,7 @@ def _after(second: FloatArray | None, first: FloatArray | None) -> FloatArray | 
 
 
 def _joints(draft: PartDraft, parent: int, child: int, offset: FloatArray) -> list[Joint]:
-    """The joint of a part, or that of its carrier and its own; ``child`` is the first one's."""
+    """Return the joint of a part, or its carrier's and its own; ``child`` is the first's."""
     name = f"{draft.name}_joint"
     line = (draft.axis, draft.origin + offset)
     if draft.slide <= 0.0:

@@ -31,7 +31,7 @@ def frame(x: Span, y: Span, z: Span, width: float, sill: bool = True) -> list[Fo
 def carcass(
     x: Span, y: Span, z: Span, wall: float, back: float = 0.006, sill: bool = True
 ) -> list[Form]:
-    """Two sides, a bottom, a top and a back around a room that is open towards -Y; outer spans."""
+    """Build sides, bottom, top and back around a room open towards -Y; outer spans."""
     rear = box(within(x, wall), span(y[1], -back), within(z, wall))
     return [*frame(x, y, z, wall, sill), rear]
 
@@ -59,7 +59,7 @@ def rack(x: Span, y: Span, z: float, rods: int, along_y: bool = True) -> list[Fo
 
 
 def stand(a: Assembly, kind: str, x: Span, y: Span, height: float, look: Material) -> None:
-    """Supports under a body over ``x`` and ``y`` whose underside is at ``height`` [m].
+    """Build supports under a body over ``x`` and ``y`` whose underside is at ``height`` [m].
 
     Kinds are ``plinth``, ``feet``, ``tapered``, ``round``, ``turned``, ``sled``, ``castors``,
     ``skirt`` and ``none``.
@@ -87,7 +87,7 @@ def stand(a: Assembly, kind: str, x: Span, y: Span, height: float, look: Materia
 
 
 def leg(body: PartDraft, kind: str, at: Flat, height: float, half: float, look: Material) -> None:
-    """One leg of some ``half`` width under ``height`` [m]; kinds as in :func:`stand`."""
+    """Build one leg of some ``half`` width under ``height`` [m]; kinds as in :func:`stand`."""
     x, y = at
     up = (0.0, height)
     if kind == "feet":
@@ -131,7 +131,7 @@ def ring_of_boards(outer: tuple[Span, Span], hole: tuple[Span, Span], z: Span) -
 def worktop(
     a: Assembly, kind: str, x: Span, y: Span, z: float, looks: tuple[Material, ...]
 ) -> None:
-    """A stone around a ``sink`` that hangs in the body, or under a ``vessel``; and a spout.
+    """Build a stone around a ``sink`` that hangs in the body, or under a ``vessel``; and a spout.
 
     ``x`` and ``y`` are the stone's, ``z`` is its underside [m]; looks are the stone's and the
     metal's.

@@ -165,7 +165,7 @@ class Casework:
             self._door(cell, front, "top" if kind == "lift" else "bottom")
 
     def _pair(self, cell: Cell, front: _Front) -> None:
-        """Two doors; their seam may lie off the middle."""
+        """Build two doors; their seam may lie off the middle."""
         left, right, *others = front.rooms
         gap = self.style.gap
         seam = mid(front.x) + self.a.pick(0.0, 0.0, self.a.draw(-0.1, 0.1)) * size(front.x)
@@ -234,7 +234,7 @@ class Casework:
             add_pull(drawer, style.pull, at, level, self.face, False, room)
 
     def _drawer_box(self, drawer: PartDraft, cell: Cell, y: Span) -> None:
-        """Bottom, sides and back behind a drawer's front, or a block."""
+        """Build bottom, sides and back behind a drawer's front, or a block."""
         look = self.style.inside
         inner_x, inner_z = cell.inner
         x = within(inner_x, self.a.pick(0.002, 0.006, 0.0125) if size(inner_x) > 0.1 else 0.002)
@@ -253,7 +253,7 @@ class Casework:
             drawer.add(*(box(x, y, span(v, t)) for v in between(above, 2)), look=look)
 
     def _furnish(self, cell: Cell, kind: str) -> None:
-        """Shelves, a partition or a clothes rod in a cell."""
+        """Build shelves, a partition or a clothes rod in a cell."""
         x, z = cell.inner
         body = self.a.root
         look = self.style.inside
@@ -272,7 +272,7 @@ class Casework:
             body.add(box(about(t / 2, mid(x)), deep, z), look=look)
 
     def _sliders(self, cell: Cell) -> None:
-        """Two panels on two tracks that cover an opening together."""
+        """Build two panels on two tracks that cover an opening together."""
         style = self.style
         x, z = (within(inner, 0.001) for inner in cell.inner)
         t = min(style.front, 0.04 if style.backless else 0.018)
@@ -311,7 +311,7 @@ def furniture(
     base: float = 0.0,
     look: Material | None = None,
 ) -> Casework:
-    """A case of some width, depth and height [m] on a support; its left lower edge is x = y = 0."""
+    """Build a case of a width, depth and height [m] on a support; its left edge is x = y = 0."""
     width, depth, height = sizes
     case = casework(a, style, (0.0, width), (0.0, depth), span(base, height), node)
     stand(a, support, case.x, case.y, base, look or style.body)

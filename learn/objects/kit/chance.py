@@ -39,15 +39,15 @@ class Chance:
         return float(np.radians(self.rng.integers(round(low), round(high) + 1)))
 
     def happens(self, share: float) -> bool:
-        """True in this share of cases."""
+        """Return true in this share of cases."""
         return bool(self.rng.random() < share)
 
     def happen(self, *shares: float) -> tuple[bool, ...]:
-        """Of several things, each in its share of cases."""
+        """Return whether each of several things happens, in its share of cases."""
         return tuple(self.happens(share) for share in shares)
 
     def sign(self) -> float:
-        """1 or -1."""
+        """Return 1 or -1."""
         return 1.0 if self.rng.random() < 0.5 else -1.0
 
     def pick(self, *things: T) -> T:

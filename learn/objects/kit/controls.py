@@ -61,7 +61,7 @@ def knob_row(
     a: Assembly, x: Span, z: float, height: float, looks: tuple[Material, ...], place: Place,
     prefix: str = "",
 ) -> None:  # fmt: skip
-    """Two to eight knobs over ``x`` at ``z``, even or in two groups, in a room of some height [m].
+    """Add two to eight knobs over ``x`` at ``z``, even or in two groups, in some height [m].
 
     Looks are those of the knobs and of their marks.
     """
@@ -99,7 +99,7 @@ def button(
     style: float = 1.0,
     on: PartDraft | None = None,
 ) -> PartDraft:
-    """A button, see :func:`key`, that goes in by ``stroke`` [m] and is then ``thick`` proud."""
+    """Add a button, see :func:`key`, that goes in by ``stroke`` [m], then ``thick`` proud."""
     part = a.slider(name, BACK, (mid(x), 0.0, mid(z)), stroke, on=on, look=look, place=place)
     part.add(key(x, z, span(stroke + 0.0003, thick), style))
     return part
@@ -108,7 +108,7 @@ def button(
 def cells(
     x: Span, z: Span, rows: int, columns: int, margin: float = 0.1
 ) -> Iterator[tuple[str, Span, Span]]:
-    """Names and places of rows and columns of keys, less a share of their size at every edge."""
+    """Return names and places of rows and columns of keys, less a share at every edge."""
     for r, high in enumerate(shares(z, rows)):
         for c, wide in enumerate(shares(x, columns)):
             yield f"{r}_{c}", within(wide, margin * size(wide)), within(high, margin * size(high))
@@ -117,7 +117,7 @@ def cells(
 def keypad(
     a: Assembly, x: Span, z: Span, place: Place, on: PartDraft | None = None, still: bool = False
 ) -> None:
-    """A pad of keys, or one or two knobs over a long key; ``still`` ones do not move."""
+    """Build a pad of keys, or one or two knobs over a long key; ``still`` ones do not move."""
     if still or a.happens(0.65):
         style = a.pick(0.0, 0.0, 1.0)
         thick = a.draw(0.001, 0.0025)

@@ -64,7 +64,7 @@ def swing(
 
 
 def stop(chance: Chance, furthest: float) -> float:
-    """How far a door opens [rad] that could open this far [degrees]; half of them to 90 at most."""
+    """Return how far a door opens [rad] that could this far [degrees]; half to 90 at most."""
     draw = chance.draw(0.0, 1.0)
     degrees = min(90.0, furthest)
     if draw >= 0.5 and furthest > 90.0:

@@ -44,7 +44,7 @@ class Cell:
 
     @property
     def inner(self) -> tuple[Span, Span]:
-        """Free spans between the boards, x and z [m]."""
+        """Return free spans between the boards, x and z [m]."""
         left, right, bottom, top = self.walls
         return (self.x[0] + left, self.x[1] - right), (self.z[0] + bottom, self.z[1] - top)
 
@@ -131,7 +131,7 @@ def drawers(chance: Chance, count: int) -> Node:
 
 
 def grid(chance: Chance, columns: int, rows: int, kind: str = "drawer") -> Node:
-    """Equal cells in rows and columns; the cuts are upright first or lying first."""
+    """Return equal cells in rows and columns; the cuts are upright first or lying first."""
     if chance.happens(0.5):
         return row(*((1.0, column(*((1.0, kind),) * rows)),) * columns)
     return column(*((1.0, row(*((1.0, kind),) * columns)),) * rows)

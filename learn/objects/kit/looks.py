@@ -49,7 +49,7 @@ def wood(seed: int, size: int = 64) -> Material:
 def laid_over(
     corners: FloatArray, face_material: IntArray, materials: tuple[Material, ...]
 ) -> FloatArray | None:
-    """Texture coordinates, shape [face_count, 3, 2], NaN on plain faces; ``None`` if all are.
+    """Return texture coordinates, [face_count, 3, 2], NaN on plain faces; ``None`` if all are.
 
     Args:
         corners: of every face [m], shape [face_count, 3, 3].

@@ -20,7 +20,7 @@ def circle(sides: int) -> FloatArray:
 
 
 def arc(center: Flat, radius: float, start: float, stop: float, count: int) -> FloatArray:
-    """Points on a circle, shape [count, 2], from one angle to another [rad], both included."""
+    """Return points on a circle, shape [count, 2], between two angles [rad], both included."""
     angle = np.linspace(start, stop, count)
     return np.stack([np.cos(angle), np.sin(angle)], axis=1) * radius + center
 

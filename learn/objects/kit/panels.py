@@ -25,7 +25,7 @@ def _rectangle(x: Span, z: Span) -> list[tuple[float, float]]:
 
 
 def _pyramid(tip: tuple[Span, Span], foot: tuple[Span, Span], y: Span) -> Form:
-    """A plate whose edges slope from its foot at the back to its tip; spans across x and z."""
+    """Build a plate whose edges slope from its foot at the back to its tip, over x and z."""
     return stack([(_rectangle(*tip), y[0]), (_rectangle(*foot), y[1])], Y)
 
 

@@ -44,25 +44,25 @@ class Form(NamedTuple):
     faces: IntArray
 
     def moved(self, motion: FloatArray) -> Form:
-        """Carried along by a rigid motion, shape [4, 4]."""
+        """Carry the form along by a rigid motion, shape [4, 4]."""
         return Form(self.vertices @ motion[:3, :3].T + motion[:3, 3], self.faces)
 
     def shifted(self, offset: npt.ArrayLike) -> Form:
-        """Moved by ``offset`` [m], shape [3]."""
+        """Move the form by ``offset`` [m], shape [3]."""
         return Form(self.vertices + np.asarray(offset), self.faces)
 
     def turned(self, axis: npt.ArrayLike, angle: float, origin: Point = (0.0, 0.0, 0.0)) -> Form:
-        """Turned by ``angle`` [rad] about a unit axis through ``origin`` [m]."""
+        """Turn the form by ``angle`` [rad] about a unit axis through ``origin`` [m]."""
         rotation = rotation_about(axis, angle)
         return Form((self.vertices - np.array(origin)) @ rotation.T + np.array(origin), self.faces)
 
     def mirrored(self) -> Form:
-        """Left for right: x negated."""
+        """Mirror the form left for right: x negated."""
         return Form(self.vertices * (-1.0, 1.0, 1.0), self.faces[:, ::-1])
 
 
 def both(*forms: Form) -> list[Form]:
-    """Forms and their mirror images, left for right."""
+    """Return forms and their mirror images, left for right."""
     return [*forms, *(form.mirrored() for form in forms)]
 
 
@@ -72,7 +72,7 @@ def box(x: Span, y: Span, z: Span) -> Form:
 
 
 def loft(rings: npt.ArrayLike, looped: bool = False) -> Form:
-    """A skin over rings of equally many corners, closed by a fan over the first and the last ring.
+    """Build a surface over rings of equally many corners, closed by a fan at either end.
 
     Args:
         rings: corners [m], shape [ring_count, corner_count, 3]; first and last ring flat and

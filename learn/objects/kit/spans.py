@@ -27,12 +27,12 @@ def about(half: float, middle: float = 0.0) -> Span:
 
 
 def span(start: float, length: float) -> Span:
-    """From ``start`` on by ``length``, which may be negative."""
+    """Return the span from ``start`` on by ``length``, which may be negative."""
     return (start, start + length) if length >= 0.0 else (start + length, start)
 
 
 def within(outer: Span, margin: float, other: float | None = None) -> Span:
-    """A span less ``margin`` at its lower end and ``other``, or the same, at its upper end."""
+    """Return a span less ``margin`` at its lower end and ``other``, or the same, above."""
     return (outer[0] + margin, outer[1] - (margin if other is None else other))
 
 
@@ -42,12 +42,12 @@ def ends(of: Span, length: float) -> tuple[Span, Span]:
 
 
 def upto(*lengths: float) -> tuple[Span, ...]:
-    """For each length the span from 0."""
+    """Return the span from 0 for each length."""
     return tuple((0.0, length) for length in lengths)
 
 
 def centred(*halves: float) -> tuple[Span, ...]:
-    """For each half length the span about 0."""
+    """Return the span about 0 for each half length."""
     return tuple((-half, half) for half in halves)
 
 
@@ -67,6 +67,6 @@ def shares(of: Span, count: int) -> list[Span]:
 
 
 def between(of: Span, count: int) -> list[float]:
-    """``count`` places that cut a span evenly, its ends not among them."""
+    """Return ``count`` places that cut a span evenly, its ends not among them."""
     step = size(of) / (count + 1)
     return [of[0] + step * (i + 1) for i in range(count)]

@@ -19,7 +19,7 @@ _HUB = 0.0008
 
 
 def tyre(center: Point, radius: float, wide: float) -> tuple[Form, Form]:
-    """A tyre with rounded shoulders about an axis along x, and a hub that stands out a little."""
+    """Build a tyre with rounded shoulders about an axis along x, and a hub."""
     half = wide / 2
     soft = min(0.25 * wide, 0.2 * radius)
     round_off = radius - soft
@@ -58,7 +58,7 @@ def castor(
     metal: Material,
     twin: bool = False,
 ) -> None:
-    """A fork that swivels under a body, and ``<name>_wheel`` in it; both turn without end.
+    """Build a fork that swivels under a body, and ``<name>_wheel`` in it; both turn without end.
 
     The swivel's axis meets what it is mounted on at ``at`` [m], the wheel stands on z = 0; the
     fork trails towards ``heading`` [rad]. ``twin`` wheels turn around a middle plate, as under

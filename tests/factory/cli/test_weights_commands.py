@@ -16,7 +16,8 @@ from asset_factory.factory.models.partfield.shape import UNUSED, PartFieldShape
 from asset_factory.factory.models.partfield.shape import (
     expected_tensors as expected_field_tensors,
 )
-from asset_factory.factory.models.particulate.model import load_field, load_model
+from asset_factory.factory.models.particulate.field import load_field
+from asset_factory.factory.models.particulate.model import load_model
 from asset_factory.factory.models.weights.checkpoint import convert, describe
 from asset_factory.factory.models.weights.safetensors import (
     read_safetensors,

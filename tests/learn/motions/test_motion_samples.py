@@ -1,17 +1,14 @@
-"""Samples name the right candidates for any labels; the command writes a file that can be read."""
+"""Samples name the right candidates for any labels."""
 
 from __future__ import annotations
-
-import tomllib
 
 import numpy as np
 import pytest
 
 from asset_factory.factory.articulate.evidence.numbers import GUESS, NAMES
 from asset_factory.factory.errors import ConfigError
-from asset_factory.learn.motions import __main__ as command
-from asset_factory.learn.motions import motion_samples
-from asset_factory.learn.motions.objects import described, generated
+from asset_factory.learn.datasets.objects import described, generated
+from asset_factory.learn.motions.motion_sample import motion_samples
 from asset_factory.learn.motions.spoiling import spoilt
 from asset_factory.learn.motions.truth import made_up_guess, truth_of
 from asset_factory.learn.objects.catalog import make_object
@@ -66,15 +63,3 @@ def test_generated_objects_are_named_and_the_same_again():
 def test_a_folder_without_objects_is_refused(tmp_path):
     with pytest.raises(ConfigError, match="holds no URDF"):
         list(described(tmp_path))
-
-
-def test_the_command_writes_what_the_evidence_reads(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(
-        command, "generated", lambda seeds: generated(seeds, ["chest", "nightstand", "laptop"])
-    )
-    output = tmp_path / "evidence.toml"
-    assert command.main(["--output", str(output), "--seeds", "1", "--steps", "3"]) == 0
-    assert "objects; weights in" in capsys.readouterr().out
-    assert {"guided", "blind", "turn_range", "slide_range"} == set(
-        tomllib.loads(output.read_text())
-    )

@@ -18,6 +18,7 @@ from asset_factory.factory.geometry.posing import face_parts, turned
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.models.particulate.prediction import MotionClass, Prediction
+from asset_factory.factory.models.perceptron import linear
 from asset_factory.factory.part import Proposer
 from asset_factory.learn.evaluate.bodies import bodies_of
 from asset_factory.learn.objects import make_object
@@ -28,7 +29,7 @@ QUERIES = 16
 UP = np.array([0.0, 0.0, 1.0])
 #: Believes the network where it is sure of its points, and the shapes always.
 WEIGHTS = {"geometric": 4.0, "shared": 4.0, "confidence": 1.0}
-BELIEVING = Trust(np.array([WEIGHTS.get(sign, 0.0) for sign in SIGNS]), 0.5)
+BELIEVING = Trust(linear(np.array([WEIGHTS.get(sign, 0.0) for sign in SIGNS])), 0.5)
 
 
 class Labeller:

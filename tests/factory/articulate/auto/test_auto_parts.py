@@ -10,6 +10,7 @@ from asset_factory.factory.articulate.auto.parts import agreed_parts, shared
 from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, load_trust, log_odds, signs_of
 from asset_factory.factory.articulate.auto.views import SeenPart, View
 from asset_factory.factory.articulate.proposal import Motion
+from asset_factory.factory.models.perceptron import linear
 
 AREAS = np.ones(10)
 UP = np.array([0.0, 0.0, 1.0])
@@ -88,7 +89,7 @@ def test_every_chosen_part_keeps_faces_and_hangs_on_an_earlier_one(parts):
 
 
 def test_trust_is_a_logistic_of_the_signs():
-    trust = Trust(np.eye(len(SIGNS))[SIGNS.index("evidence")], 0.5)
+    trust = Trust(linear(np.eye(len(SIGNS))[SIGNS.index("evidence")]), 0.5)
     assert trust.confidence({"evidence": log_odds(0.8)}) == pytest.approx(0.8)
     assert trust.confidence({}) == 0.5
     with pytest.raises(KeyError, match="no sign"):

@@ -1,4 +1,4 @@
-"""The picture network: its arithmetic against other libraries, and what the shipped one sees."""
+"""What the shipped picture network sees on a side."""
 
 from __future__ import annotations
 
@@ -6,10 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy import signal
 from tests.samples import one_piece
 
-from asset_factory.factory.articulate.seams import hypotheses, sight
+from asset_factory.factory.articulate.seams import hypotheses
 from asset_factory.factory.articulate.seams.fronts import fronts_of
 from asset_factory.factory.articulate.seams.hypotheses import hypotheses_of_reliefs
 from asset_factory.factory.articulate.seams.rectangles import Rectangle
@@ -21,7 +20,6 @@ from asset_factory.factory.articulate.seams.sight import (
     SQUARE,
     Sight,
     cues_of,
-    network_answer,
     shipped_weights,
     sight_of,
 )
@@ -33,36 +31,6 @@ from asset_factory.learn.objects import make_object
 @pytest.fixture(scope="module")
 def fridge() -> Relief:
     return relief_of(make_object("fridge", 1).mesh, Side.FRONT)
-
-
-def test_a_convolution_is_a_cross_correlation() -> None:
-    rng = np.random.default_rng(0)
-    values = rng.normal(size=(3, 8, 6))
-    kernel = rng.normal(size=(2, 3, 3, 3))
-    bias = rng.normal(size=2)
-    found = sight._convolved(values, kernel.astype(np.float32), bias.astype(np.float32))
-    expected = [
-        sum(signal.correlate2d(values[c], kernel[k, c], mode="same") for c in range(3)) + bias[k]
-        for k in range(2)
-    ]
-    assert found == pytest.approx(np.stack(expected), abs=1e-5)
-    halved = sight._convolved(values, kernel.astype(np.float32), bias.astype(np.float32), step=2)
-    assert halved == pytest.approx(np.stack(expected)[:, ::2, ::2], abs=1e-5)
-
-
-def test_it_computes_what_was_trained() -> None:
-    torch = pytest.importorskip("torch")
-    from asset_factory.learn.elevations.network import PictureNetwork
-
-    torch.manual_seed(3)
-    network = PictureNetwork()
-    cues = torch.randn(2, len(CUES), 4 * GRID, 3 * GRID)
-    # Normalisations learn from what they see before they are folded in.
-    network(3.0 * cues + 1.0)
-    network.eval()
-    with torch.no_grad():
-        expected = network(cues)[0].numpy()
-    assert network_answer(network.folded(), cues[0].numpy()) == pytest.approx(expected, abs=1e-4)
 
 
 def test_what_is_given_does_not_depend_on_size(fridge: Relief) -> None:

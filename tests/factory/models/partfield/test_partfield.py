@@ -23,7 +23,7 @@ from asset_factory.factory.models.partfield.voxels import (
     scatter_to_planes,
     voxelize,
 )
-from asset_factory.factory.models.particulate.model import FeatureField
+from asset_factory.factory.models.particulate.field import FeatureField
 
 TINY = PartFieldShape(channels=8, unet=(8, 16), resolution=8, width=16, layers=1, plane_channels=72)
 

@@ -1,8 +1,7 @@
-"""Obvious preferences are recovered from few samples; the file that is written is read back."""
+"""Obvious preferences are recovered from few samples; the command writes what is read back."""
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +12,11 @@ from asset_factory.factory.articulate.evidence.rating import rating_of
 from asset_factory.factory.articulate.evidence.setting import SLIDE_SETTING, TURN_SETTING, Setting
 from asset_factory.factory.articulate.evidence.usual import likelihood, usual_of, worth
 from asset_factory.factory.errors import ConfigError
-from asset_factory.learn.motions import MotionSample, fit_motions, motions_text
+from asset_factory.factory.models.shipped import load_arrays
+from asset_factory.learn.datasets.objects import generated
+from asset_factory.learn.fit import __main__ as command
+from asset_factory.learn.fit.motions import fit_motions
+from asset_factory.learn.motions.motion_sample import MotionSample
 
 COUNT = 12
 
@@ -44,12 +47,12 @@ def motion_samples():
 
 
 @pytest.fixture(scope="module")
-def table(motion_samples):
-    return tomllib.loads(motions_text(fit_motions(motion_samples, steps=60)))
+def stored(motion_samples):
+    return fit_motions(motion_samples, steps=60)
 
 
-def test_a_preference_is_recovered_for_parts_never_seen(table):
-    rating = rating_of(table["guided"], "fitted")
+def test_a_preference_is_recovered_for_parts_never_seen(stored):
+    rating = rating_of(stored, "guided")
     unseen = [motion_sample(seed) for seed in range(1000, 1060)]
     hits = [one.right[int(np.argmax(rating.scores(one.numbers)))] for one in unseen]
     assert np.mean(hits) > 0.8
@@ -57,8 +60,8 @@ def test_a_preference_is_recovered_for_parts_never_seen(table):
 
 
 @pytest.mark.parametrize("slides", [False, True])
-def test_a_usual_range_is_recovered(table, slides):
-    usual = usual_of(table["slide_range" if slides else "turn_range"], slides, "fitted")
+def test_a_usual_range_is_recovered(stored, slides):
+    usual = usual_of(stored, slides)
     unseen = [one for one in map(motion_sample, range(1000, 1060)) if one.setting.slides == slides]
     assert (
         np.mean(
@@ -68,21 +71,46 @@ def test_a_usual_range_is_recovered(table, slides):
     )
 
 
-def test_a_guess_decides_between_usual_ranges(table):
-    usual = usual_of(table["turn_range"], False, "fitted")
+def test_a_guess_decides_between_usual_ranges(stored):
+    usual = usual_of(stored, False)
     doubtful = replace(motion_sample(0).setting, numbers=0.5 * (np.array(TURN_SETTING) == "tall"))
     assert usual.range(doubtful, 2.2) == pytest.approx(2.0, rel=1e-3)
     assert usual.range(doubtful, 0.9) == pytest.approx(1.0, rel=1e-3)
 
 
-def test_the_same_motion_samples_give_the_same_file(motion_samples):
-    few = motion_samples[:30]
-    assert motions_text(fit_motions(few, steps=5)) == motions_text(fit_motions(few, steps=5))
+def test_the_same_motion_samples_give_the_same_weights(motion_samples):
+    first, again = (fit_motions(motion_samples[:30], steps=5) for _ in range(2))
+    assert set(first.arrays) == set(again.arrays)
+    for name, values in first.arrays.items():
+        assert np.array_equal(values, again.arrays[name])
 
 
 def test_a_kind_that_nothing_has_is_refused(motion_samples):
     with pytest.raises(ConfigError, match="nothing slides"):
         fit_motions([one for one in motion_samples[:20] if not one.setting.slides], steps=2)
+
+
+def test_the_command_writes_what_the_evidence_reads_and_a_card(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(
+        command, "generated", lambda seeds: generated(seeds, ["chest", "nightstand", "laptop"])
+    )
+    output = tmp_path / "evidence.safetensors"
+    asked = ["motions", str(output), "--seeds", "1", "--steps", "3"]
+    assert command.main(asked) == 0
+    assert f"weights in {output}" in capsys.readouterr().out
+    stored = load_arrays(output)
+    for name in ("guided", "blind"):
+        assert rating_of(stored, name).scores(np.zeros((2, len(NAMES)))).shape == (2,)
+    assert usual_of(stored, False).values.ndim == usual_of(stored, True).values.ndim == 1
+    card = (tmp_path / "evidence.md").read_text()
+    assert f"`python -m asset_factory.learn.fit {' '.join(asked)}`" in card
+    assert "| seed | 500 |" in card
+
+
+def test_the_command_refuses_a_folder_without_objects(tmp_path, capsys):
+    asked = ["motions", str(tmp_path / "none"), "--seeds", "0", "--data", str(tmp_path)]
+    assert command.main(asked) == 2
+    assert "holds no URDF" in capsys.readouterr().err
 
 
 def test_no_end_is_like_no_end_only():

@@ -5,18 +5,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asset_factory.factory.articulate.auto.trust import SIGNS, Trust
+from asset_factory.factory.articulate.auto.trust import NAME, SIGNS, trust_of
 from asset_factory.factory.articulate.proposal import Motion, Proposal
 from asset_factory.factory.articulation import JointKind
+from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.geometry.triangles import face_areas
-from asset_factory.learn.evaluate.trust import (
+from asset_factory.factory.models.perceptron import linear
+from asset_factory.factory.models.shipped import load_arrays
+from asset_factory.learn.fit.trust import (
     TrustTrial,
-    described,
-    fitted,
+    described_turned,
+    fit_signs,
     is_right,
     procedural,
-    text_of,
 )
+from asset_factory.learn.fit.writing import Fit, networks_stored, write_fit
 from asset_factory.learn.objects import make_object
 
 FRIDGE = make_object("fridge", 0)
@@ -62,7 +65,7 @@ def test_weights_recover_the_sign_that_decides():
         right = rng.random(5) < 1.0 / (1.0 + np.exp(-2.0 * signs[:, SIGNS.index("evidence")]))
         given = tuple(replace(proposal(), signs=row) for row in signs)
         trials.append(TrustTrial(FRIDGE, given, right.astype(float)))
-    weights = dict(zip(SIGNS, fitted(trials), strict=True))
+    weights = dict(zip(SIGNS, fit_signs(trials).direct[:, 0], strict=True))
     assert weights.pop("evidence") == pytest.approx(2.0, abs=0.5)
     assert max(abs(weight) for weight in weights.values()) < 0.5
 
@@ -70,10 +73,15 @@ def test_weights_recover_the_sign_that_decides():
 def test_objects_to_fit_on_are_the_same_every_time_and_none_of_the_trainings(tmp_path):
     first, again = (next(iter(procedural([3]))) for _ in range(2))
     assert np.array_equal(first.mesh.vertices, again.mesh.vertices)
-    assert list(described(tmp_path, ["nothing"])) == []
+    with pytest.raises(ConfigError, match="holds no URDF"):
+        list(described_turned(tmp_path, ["nothing"]))
 
 
-def test_the_file_says_what_was_fitted():
-    text = text_of(Trust(np.arange(len(SIGNS), dtype=float), 0.35))
-    assert "least = 0.35" in text
-    assert "learned = 1.0000" in text
+def test_what_was_fitted_comes_back(tmp_path):
+    wanted = linear(np.arange(len(SIGNS), dtype=float))
+    stored = networks_stored({NAME: wanted}, {NAME: SIGNS}, {"least": np.array([0.35])})
+    fit = Fit(stored.arrays, stored.metadata, "Trust.", "nothing", "none")
+    write_fit(tmp_path / "trust.safetensors", fit, ["trust", "trust.safetensors"], 0)
+    trust = trust_of(load_arrays(tmp_path / "trust.safetensors"))
+    assert trust.least == 0.35
+    assert np.array_equal(trust.network.direct, wanted.direct)

@@ -1,37 +1,33 @@
-"""Fits the trust in each source of ``auto`` on objects of known truth, for ``configs/auto.toml``.
-
-``python -m asset_factory.learn.evaluate.trust --help``
-"""
+"""Fits the trust in each source of ``auto`` on objects of known truth."""
 
 from __future__ import annotations
 
-import argparse
-import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from asset_factory.factory.articulate.auto.articulator import AutoArticulator, load_auto
+from asset_factory.factory.articulate.auto.articulator import AutoArticulator
 from asset_factory.factory.articulate.auto.parts import shared
 from asset_factory.factory.articulate.auto.sides import sightings
-from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, signs_of
+from asset_factory.factory.articulate.auto.trust import NAME, SIGNS, Trust, signs_of
 from asset_factory.factory.articulate.proposal import Proposal
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
-from asset_factory.factory.config import AutoConfig, BuildConfig, IntakeConfig, ParticulateConfig
-from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.geometry.posing import closed, turned
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import FloatArray
-from asset_factory.factory.runtime.store import write_whole
-from asset_factory.factory.runtime.terminal import say
+from asset_factory.factory.models.perceptron import Perceptron
+from asset_factory.factory.models.shipped import Arrays
 
+from ..datasets.objects import described
+from ..evaluate.physical import physical
+from ..evaluate.transfer import on_mesh
 from ..objects.catalog import CATEGORIES, make_object
 from ..objects.mixture import in_character
-from .physical import physical
-from .transfer import on_mesh
+from .perceptron import Examples, FitSettings, Weighing, fit_perceptron
+from .writing import networks_stored
 
 #: A proposal is right if it is for a true moving part by this much of the area that both cover, of
 #: its kind, with its axis to this cosine and its place to this share of the object's longest side.
@@ -39,6 +35,7 @@ SAME_PART = 0.5
 SAME_AXIS = np.cos(np.radians(10.0))
 SAME_PLACE = 0.05
 PENALTY = 1.0
+STEPS = 1000
 #: Thresholds whose score is lower than the best by no more than this are as good: the one that
 #: moves less is taken.
 NEARLY = 0.02
@@ -61,8 +58,40 @@ class TrustTrial:
     right: FloatArray
 
 
+@dataclass(frozen=True)
+class TrustData:
+    """Objects of known truth.
+
+    Attributes:
+        seeds: of procedural objects, one of each kind.
+        described: folders of descriptions, and the names of the objects in each to use.
+    """
+
+    seeds: Sequence[int]
+    described: Sequence[tuple[Path, Collection[str]]] = ()
+
+    def procedural(self) -> Iterator[Articulation]:
+        """Yield the procedural ones."""
+        return procedural(self.seeds)
+
+
+@dataclass(frozen=True)
+class TrustFit:
+    """What was fitted.
+
+    Attributes:
+        stored: the model, and ``least``.
+        objects: how many were fitted to.
+        right: whether each of their proposals is, shape [proposal_count].
+    """
+
+    stored: Arrays
+    objects: int
+    right: FloatArray
+
+
 def procedural(seeds: Iterable[int]) -> Iterator[Articulation]:
-    """Objects that training never sees, of every kind and character, turned about the vertical."""
+    """Yield objects of every kind and character that training never sees, turned about z."""
     for seed in seeds:
         for number, category in enumerate(CATEGORIES):
             rng = np.random.default_rng((seed, number))
@@ -71,24 +100,14 @@ def procedural(seeds: Iterable[int]) -> Iterator[Articulation]:
             yield _turned_at_random(made, rng)
 
 
-def described(folder: Path, names: Sequence[str]) -> Iterator[Articulation]:
-    """The objects of folders with a URDF each, closed, turned about z; unusable ones left out."""
-    from asset_factory.factory.articulate.stage import articulate
-    from asset_factory.factory.intake.load import load
-
-    for number, name in enumerate(names):
-        for file in sorted((folder / name).glob("*.urdf")):
-            try:
-                made = closed(
-                    articulate(load(file, IntakeConfig()), BuildConfig(articulator="annotated"))
-                )
-            except InputRejected:
-                continue
-            yield _turned_at_random(made, np.random.default_rng(number))
+def described_turned(folder: Path, names: Collection[str]) -> Iterator[Articulation]:
+    """Yield the named objects of a folder of descriptions, closed and turned about z."""
+    for number, (_, found) in enumerate(described(folder, names)):
+        yield _turned_at_random(closed(found), np.random.default_rng(number))
 
 
 def _turned_at_random(made: Articulation, rng: np.random.Generator) -> Articulation:
-    """By quarters half of the time, else by any angle."""
+    """Turn an object by quarters half of the time, else by any angle."""
     quarters = float(rng.integers(4)) * np.pi / 2.0
     return turned(made, quarters if rng.random() < 0.5 else float(rng.uniform(0.0, 2.0 * np.pi)))
 
@@ -149,28 +168,22 @@ def _moves_alike(proposal: Proposal, joint: Joint, size: float) -> bool:
     )
 
 
-def fitted(trials: Sequence[TrustTrial]) -> FloatArray:
-    """Weights of the signs, by logistic regression with a quadratic penalty, shape [len(SIGNS)]."""
-    from scipy.optimize import minimize
-
+def fit_signs(trials: Sequence[TrustTrial]) -> Perceptron:
+    """Return the logistic model of the signs, fitted with a quadratic penalty."""
     signs = np.array([signs_of(each.signs) for trial in trials for each in trial.proposals])
     right = np.concatenate([trial.right for trial in trials])
-
-    def loss(weights: FloatArray) -> tuple[float, FloatArray]:
-        score = signs @ weights
-        value = np.sum(np.logaddexp(0.0, score) - right * score) + 0.5 * PENALTY * weights @ weights
-        return float(value), signs.T @ (1.0 / (1.0 + np.exp(-score)) - right) + PENALTY * weights
-
-    return np.asarray(minimize(loss, np.zeros(len(SIGNS)), jac=True, method="L-BFGS-B").x)
+    examples = Examples(signs, right[:, None], np.ones(len(right)))
+    decay = {"direct": Weighing(0.0, PENALTY / len(right))}
+    return fit_perceptron(signs, examples.cross_entropy, FitSettings(0, 1, decay, STEPS))
 
 
 def best_threshold(
-    articulator: AutoArticulator, trials: Sequence[TrustTrial], weights: FloatArray
+    articulator: AutoArticulator, trials: Sequence[TrustTrial], network: Perceptron
 ) -> float:
-    """The highest of a few thresholds that comes nearly as close to the truth as the best."""
+    """Return the highest threshold that comes nearly as close to the truth as the best one."""
     scores = []
     for least in LEAST:
-        trusting = replace(articulator, trust=Trust(weights, float(least)))
+        trusting = replace(articulator, trust=Trust(network, float(least)))
         values = [
             physical(t.truth, trusting.decide(t.truth.mesh, t.proposals)).values for t in trials
         ]
@@ -178,62 +191,23 @@ def best_threshold(
     return float(LEAST[np.flatnonzero(np.array(scores) >= max(scores) - NEARLY)[-1]])
 
 
-def text_of(trust: Trust) -> str:
-    """Return the settings file."""
-    rows = "\n".join(
-        f"{name} = {weight:.4f}" for name, weight in zip(SIGNS, trust.weights, strict=True)
-    )
-    return (
-        "# How auto weighs what speaks for a part that may move "
-        "(a logistic model, see articulate/auto/trust.py), and\n"
-        "# the probability below which the part stays fixed. Made by: "
-        "python -m asset_factory.learn.evaluate.trust\n"
-        f"least = {trust.least:g}\n\n[weights]\n{rows}\n"
-    )
+def fit_trust(articulator: AutoArticulator, data: TrustData, least: float | None) -> TrustFit:
+    """Fit the trust in every source of proposals.
 
-
-def main(arguments: list[str] | None = None) -> int:
-    """Parse, fit, write."""
-    parser = argparse.ArgumentParser(prog="trust", description="Fit how auto weighs proposals.")
-    parser.add_argument(
-        "--data", type=Path, action="append", default=[], help="folder of folders with a URDF each"
-    )
-    parser.add_argument(
-        "--split",
-        type=Path,
-        action="append",
-        default=[],
-        help="names in each of those folders to use",
-    )
-    parser.add_argument("--seeds", type=int, default=2, help="procedural objects of each kind")
-    parser.add_argument(
-        "--least", type=float, help="the probability to ask for; by default one is looked for"
-    )
-    parser.add_argument(
-        "--output", type=Path, required=True, help="file to write, as configs/auto.toml"
-    )
-    asked = parser.parse_args(arguments)
-    articulator = load_auto(ParticulateConfig(), AutoConfig(), Trust(np.zeros(len(SIGNS)), 0.5))
-    trials = list(tried(articulator, procedural(range(asked.seeds))))
-    for folder, split in zip(asked.data, asked.split, strict=True):
-        names = [
-            line.strip()
-            for line in split.read_text().splitlines()
-            if line.strip() and not line.startswith("#")
-        ]
-        trials += tried(articulator, described(folder, names))
+    Args:
+        articulator: who proposes.
+        data: objects of known truth.
+        least: the probability to ask for; ``None``: it is looked for.
+    """
+    trials = list(tried(articulator, data.procedural()))
+    for folder, names in data.described:
+        trials += tried(articulator, described_turned(folder, names))
     # They share no sign with the others, so that each side is fitted as if alone.
-    weights = fitted([*trials, *sighted(procedural(range(asked.seeds)))])
-    least = best_threshold(articulator, trials, weights) if asked.least is None else asked.least
-    trust = Trust(weights, least)
-    write_whole(asked.output, text_of(trust).encode())
-    right = np.concatenate([trial.right for trial in trials])
-    say(
-        f"{len(trials)} objects, {len(right)} proposals, {right.mean():.2f} of them right; "
-        f"least {trust.least:g}"
+    network = fit_signs([*trials, *sighted(data.procedural())])
+    if least is None:
+        least = best_threshold(articulator, trials, network)
+    return TrustFit(
+        networks_stored({NAME: network}, {NAME: SIGNS}, {"least": np.array([least])}),
+        len(trials),
+        np.concatenate([trial.right for trial in trials]),
     )
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,7 +1,8 @@
-"""How the network of ``articulate/seams/sight.py`` learns, from views of objects' sides."""
+"""Trains the picture network of ``articulate/seams/sight.py`` on views of objects' sides."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -11,13 +12,15 @@ import torch  # noqa: TID253 - this module is only imported to train
 from torch.nn import functional  # noqa: TID253
 
 from asset_factory.factory.articulate.seams.sight import CUES
-from asset_factory.factory.runtime.store import writing
 from asset_factory.factory.runtime.terminal import say
 
-from .network import PictureNetwork
-from .views import UNKNOWN, SideView, read_views
+from ..elevations.network import PictureNetwork
+from ..elevations.views import UNKNOWN, SideView, read_views
+from ..train.checkpoints import State, read_state, write_state
+from ..train.descent import Descent
 
 Tensor = Any
+Arrays = dict[str, Any]
 BATCH = 8
 #: Files are mixed in heaps of so many, and so many are gone through before each report.
 HEAP = 64
@@ -26,6 +29,7 @@ ROUND = 800
 HELD_OUT = 25
 RATE = 4e-3
 WARM_UP = 100
+EMA = 0.995
 #: Lids and ends are few, and count for more: panel, lid, level end, upright end; so does what
 #: lies at an end.
 WEIGHTS = (1.0, 3.0, 3.0, 3.0)
@@ -39,50 +43,67 @@ _LIGHT = slice(CUES.index("light"), CUES.index("yellow") + 1)
 _COLOUR = slice(CUES.index("red"), CUES.index("yellow") + 1)
 
 
-def learn_to_see(folder: Path, state: Path, output: Path, rounds: int, seed: int) -> None:
-    """Train on kept views, and write the network after every round.
+def fit_sides(folder: Path, state: Path, rounds: int, seed: int) -> tuple[Arrays, str]:
+    """Train on kept views; what is stored goes on where it was when it is asked for again.
 
     Args:
-        folder: of files that :func:`~.views.write_views` made; more may come in meanwhile.
-        state: weights to go on from if it is there; replaced after every round.
-        output: for ``configs/weights``.
+        folder: of files that :func:`~asset_factory.learn.elevations.views.write_views` made.
+        state: a checkpoint, written after every round; gone on from if it is there.
         rounds: of at most ``ROUND`` files; the rate of learning falls to nothing by the last.
         seed: of the order, and of the first weights.
+
+    Returns:
+        The running mean of the weights, as the articulator reads it, at half precision; and how
+        well views that it did not learn from are seen.
     """
     torch.manual_seed(seed)
     network = PictureNetwork()
-    if state.is_file():
-        network.load_state_dict(torch.load(state, weights_only=True))
     optimiser = torch.optim.AdamW(network.parameters(), RATE, weight_decay=1e-3)
-    step = 0
-    for number in range(rounds):
-        files = sorted(folder.glob("*.npz"))
-        held = files[::HELD_OUT]
-        learned = [file for place, file in enumerate(files) if place % HELD_OUT]
+    descent = Descent(network, optimiser, clip=1.0, ema=EMA)
+    files = sorted(folder.glob("*.npz"))
+    held_out = files[::HELD_OUT]
+    learned = [file for place, file in enumerate(files) if place % HELD_OUT]
+    done = step = 0
+    if state.is_file():
+        done, step = _restored(descent, read_state(state))
+    for number in range(done, rounds):
         rng = np.random.default_rng([seed, number])
-        fall = 0.5 * (1.0 + np.cos(np.pi * number / rounds))
+        fall = 0.5 * (1.0 + math.cos(math.pi * number / rounds))
         network.train()
         for batch in _batches(rng.permutation(np.array(learned))[:ROUND].tolist(), rng):
-            for group in optimiser.param_groups:
-                group["lr"] = RATE * fall * min(1.0, (step + 1) / WARM_UP)
-            loss = _loss(network, *batch)
             optimiser.zero_grad()
-            loss.backward()
-            torch.nn.utils.clip_grad_norm_(network.parameters(), 1.0)
-            optimiser.step()
+            _loss(network, *batch).backward()
+            descent.step(step, RATE * fall * min(1.0, (step + 1) / WARM_UP))
             step += 1
-        say(f"round {number + 1}, of views held out: {report(network, held)}")
-        torch.save(network.state_dict(), state)
-        write_network(output, network)
+        say(f"round {number + 1}, of views held out: {report(network, held_out)}")
+        write_state(state, _state(descent, number + 1, step))
+    network.load_state_dict(descent.mean.weights)
+    # Their own normalisations are not the mean of those on the way.
+    some = [Path(file) for file in learned[:ROUND]]
+    torch.optim.swa_utils.update_bn((cues for cues, _, _ in _batches(some, None)), network)
+    figures = report(network, held_out)
+    return {name: each.astype(np.float16) for name, each in network.folded().items()}, figures
 
 
-def write_network(path: Path, network: PictureNetwork) -> None:
-    """Write what the articulator reads, at half precision."""
-    weights: dict[str, Any] = {
-        name: each.astype(np.float16) for name, each in network.folded().items()
-    }
-    with writing(path) as file:
-        np.savez_compressed(file, **weights)
+def _state(descent: Descent, rounds: int, steps: int) -> State:
+    return State(
+        step=steps,
+        weights=descent.network.state_dict(),
+        mean=descent.mean.weights,
+        optimiser=descent.optimiser.state_dict(),
+        best=None,
+        recipe=str(rounds),
+        data="",
+        seconds=0.0,
+    )
+
+
+def _restored(descent: Descent, state: State) -> tuple[int, int]:
+    """Return the rounds and steps that are done, everything else as it was after them."""
+    descent.network.load_state_dict(state.weights)
+    descent.mean.load(state.mean)
+    descent.optimiser.load_state_dict(state.optimiser)
+    return int(state.recipe), state.step
 
 
 def report(network: PictureNetwork, files: Sequence[Path]) -> str:
@@ -125,7 +146,7 @@ def _seen(cues: Tensor) -> Tensor:
 def _batches(
     files: Sequence[Path], rng: np.random.Generator | None
 ) -> Iterator[tuple[Tensor, Tensor, Tensor]]:
-    """Cues, what is wanted and ways of views of like size; changed and mixed by ``rng``."""
+    """Yield cues, answers and ways of views of like size; changed and mixed by ``rng``."""
     for first in range(0, len(files), HEAP):
         views = [view for file in files[first : first + HEAP] for view in read_views(file)]
         if rng is not None:

@@ -1,0 +1,51 @@
+"""The small weights that come with the package: arrays in ``configs/weights``, a card beside each.
+
+A card names the command and the seed that made the file, what it learned from, and its figures.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from pathlib import Path
+
+from ..mesh import FloatArray
+from .weights.safetensors import read_arrays
+
+FOLDER = "weights"
+
+
+@dataclass(frozen=True, eq=False)
+class Arrays:
+    """A file of arrays.
+
+    Attributes:
+        file: where.
+        arrays: by name, as they are stored.
+        metadata: what the file says about itself.
+    """
+
+    file: Path
+    arrays: Mapping[str, FloatArray]
+    metadata: Mapping[str, str]
+
+
+@cache
+def load_shipped(file: str) -> Arrays:
+    """Return a file of ``configs/weights``.
+
+    Raises:
+        ConfigError: it is damaged.
+    """
+    return load_arrays(Path(str(resources.files("asset_factory") / "configs" / FOLDER / file)))
+
+
+def load_arrays(file: Path) -> Arrays:
+    """Return a safetensors file of plain arrays.
+
+    Raises:
+        ConfigError: not such a file, or damaged.
+    """
+    return Arrays(file, *read_arrays(file))

@@ -1,0 +1,222 @@
+"""Fits how the evidence for motions weighs, and how far parts go, to samples of known motions."""
+
+from __future__ import annotations
+
+import hashlib
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+
+import numpy as np
+from scipy.optimize import minimize
+
+from asset_factory.factory.articulate.evidence.motion import beliefs
+from asset_factory.factory.articulate.evidence.numbers import NAMES
+from asset_factory.factory.articulate.evidence.rating import Rating, rating_of
+from asset_factory.factory.articulate.evidence.setting import SLIDE_SETTING, TURN_SETTING
+from asset_factory.factory.articulate.evidence.usual import Usual
+from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.mesh import FloatArray, IntArray
+from asset_factory.factory.models.perceptron import Perceptron
+from asset_factory.factory.models.shipped import Arrays
+
+from ..motions.motion_sample import MotionSample, motion_samples
+from .perceptron import Examples, FitSettings, Weighing, fit_perceptron
+from .writing import networks_stored
+
+INPUTS = {
+    "guided": NAMES,
+    "blind": NAMES,
+    "turn_range": TURN_SETTING,
+    "slide_range": SLIDE_SETTING,
+}
+HIDDEN = 12
+RANGE_HIDDEN = 8
+#: Of ratings, and of ranges.
+RATED = {
+    "inner": Weighing(0.15, 3e-3),
+    "offset": Weighing(0.0, 0.0),
+    "outer": Weighing(0.2, 3e-3),
+    "direct": Weighing(0.0, 6e-3),
+}
+RANGED = {
+    "inner": Weighing(0.15, 0.1),
+    "offset": Weighing(0.0, 0.0),
+    "outer": Weighing(0.2, 0.1),
+    "base": Weighing(0.0, 0.01),
+}
+#: Steps of range: a quarter of an octave apart, from 5.6 degrees to a turn, and from a tenth of the
+#: unit to twice it.
+TURN_STEPS = np.pi / 2.0 * 2.0 ** (np.arange(-16, 9) / 4.0)
+SLIDE_STEPS = 2.0 ** (np.arange(-14, 6) / 4.0)
+#: Of each part's candidates so many teach at most: half of them the best, the rest at random.
+MOST_CANDIDATES = 56
+#: What no candidate is worth less than, so that a part without a right one teaches little.
+LEAST_WORTH = 1e-4
+
+
+def fit_motions(samples: Sequence[MotionSample], steps: int = 250) -> Arrays:
+    """Fit everything to the same motion samples.
+
+    Args:
+        samples: of many parts.
+        steps: of each optimisation at most.
+
+    Raises:
+        ConfigError: nothing turns, or nothing slides, among the motion samples.
+    """
+    guided = fit_rating(samples, steps)
+    blind = fit_rating([motion_sample.unguided() for motion_sample in samples], steps)
+    turns, slides = (fit_usual(samples, slides, steps) for slides in (False, True))
+    return networks_stored(
+        {
+            "guided": guided.network,
+            "blind": blind.network,
+            "turn_range": turns.network,
+            "slide_range": slides.network,
+        },
+        INPUTS,
+        {
+            "guided.sure": np.array(guided.sure),
+            "blind.sure": np.array(blind.sure),
+            "turn_range.values": turns.values,
+            "slide_range.values": slides.values,
+        },
+    )
+
+
+def measured(objects: Iterable[tuple[str, Articulation]]) -> Iterator[MotionSample]:
+    """Yield what every object teaches; its name seeds its turn and which labels are spoilt."""
+    for name, articulation in objects:
+        seed = int(hashlib.sha256(name.encode()).hexdigest()[:12], 16)
+        yield from motion_samples(name, articulation, np.random.default_rng(seed))
+
+
+def report(stored: Arrays, samples: Sequence[MotionSample]) -> str:
+    """Return how many of the parts' motions are found, those that were learned from."""
+    shares = []
+    for name, given in (("guided", samples), ("blind", [each.unguided() for each in samples])):
+        rating = rating_of(stored, name)
+        right = [each.right[int(np.argmax(rating.scores(each.numbers)))] for each in given]
+        shares.append(f"{name} {np.mean(right):.3f}")
+    return f"motions right of those learned from: {', '.join(shares)}"
+
+
+def fit_rating(samples: Sequence[MotionSample], steps: int = 250) -> Rating:
+    """Return the weights by listwise logistic regression; confidence by two-fold cross-fitting."""
+    folds: tuple[list[MotionSample], list[MotionSample]] = ([], [])
+    for motion_sample in samples:
+        folds[_digest(motion_sample.name) % 2].append(motion_sample)
+    said: list[float] = []
+    right: list[float] = []
+    for held_out, others in (folds, folds[::-1]):
+        if not others:
+            continue
+        rating = Rating(_weights(others, max(steps * 2 // 3, 1)), (1.0, 0.0))
+        for motion_sample in held_out:
+            belief = beliefs(rating.scores(motion_sample.numbers))
+            chosen = int(np.argmax(belief))
+            said.append(float(belief[motion_sample.alike[chosen]].sum()))
+            right.append(float(motion_sample.right[chosen]))
+    return Rating(_weights(samples, steps), _calibrated(said, right))
+
+
+def fit_usual(samples: Sequence[MotionSample], slides: bool, steps: int = 250) -> Usual:
+    """Return the shares of belief over steps of range, by logistic regression.
+
+    Raises:
+        ConfigError: no motion sample is of that kind.
+    """
+    known = [
+        (x, x.setting)
+        for x in samples
+        if x.setting is not None and x.setting.slides == slides and x.range > 0.0
+    ]
+    if not known:
+        raise ConfigError(
+            f"motions: nothing {'slides' if slides else 'turns'} among what is to be learned from"
+        )
+    numbers = np.array([setting.numbers for _, setting in known])
+    ranges = np.array([motion_sample.range for motion_sample, _ in known])
+    grid = SLIDE_STEPS if slides else TURN_STEPS
+    finite = np.where(np.isinf(ranges), 1.0, ranges)
+    step = np.abs(np.log(finite[:, None] / grid[None])).argmin(axis=1)
+    step = np.where(np.isinf(ranges), len(grid), step)
+    values = np.array(
+        [
+            np.median(ranges[step == k]) if (step == k).any() else value
+            for k, value in enumerate(grid)
+        ]
+    )
+    values = values if slides else np.append(values, np.inf)
+    weights = _weights_of([motion_sample for motion_sample, _ in known])
+    examples = Examples(numbers, np.eye(len(values))[step], weights)
+    settings = FitSettings(RANGE_HIDDEN, len(values), RANGED, steps)
+    return Usual(values, fit_perceptron(numbers, examples.cross_entropy, settings))
+
+
+def _weights(samples: Sequence[MotionSample], steps: int) -> Perceptron:
+    """Return the network that scores the candidates of every part, by a listwise loss."""
+    teaching = [_telling(motion_sample) for motion_sample in samples]
+    numbers = np.concatenate(
+        [x.numbers[rows] for x, rows in zip(samples, teaching, strict=True)]
+    ).astype(np.float32)
+    counts = np.array([len(rows) for rows in teaching])
+    owner = np.repeat(np.arange(len(samples)), counts)
+    starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
+    worth = (
+        np.concatenate([x.worth[rows] for x, rows in zip(samples, teaching, strict=True)])
+        + LEAST_WORTH
+    )
+    weights = _weights_of(samples)
+
+    def loss(scores: FloatArray) -> tuple[float, FloatArray]:
+        scores = scores[:, 0]
+        shares = np.exp(scores - np.maximum.reduceat(scores, starts)[owner])
+        total = np.add.reduceat(shares, starts)
+        good = np.add.reduceat(shares * worth, starts)
+        value = float((weights * (np.log(total) - np.log(good))).mean())
+        slope = weights[owner] * shares * (1.0 / total[owner] - worth / good[owner])
+        return value, slope[:, None] / len(samples)
+
+    return fit_perceptron(numbers, loss, FitSettings(HIDDEN, 1, RATED, steps))
+
+
+def _telling(motion_sample: MotionSample) -> IntArray:
+    """Return the rows of the candidates that teach, in order; the same ones each time."""
+    order = np.argsort(-motion_sample.worth, kind="stable")
+    if len(order) <= MOST_CANDIDATES:
+        return np.sort(order)
+    best = order[: MOST_CANDIDATES // 2]
+    others = order[MOST_CANDIDATES // 2 :]
+    rng = np.random.default_rng(_digest(motion_sample.name) + len(order))
+    return np.sort(
+        np.concatenate([best, rng.choice(others, MOST_CANDIDATES - len(best), replace=False)])
+    )
+
+
+def _calibrated(said: Sequence[float], right: Sequence[float]) -> tuple[float, float]:
+    """Return slope and offset of the logistic from belief to probability (Platt scaling)."""
+    if not said:
+        return 1.0, 0.0
+    bounded = np.clip(said, 1e-4, 1.0 - 1e-4)
+    odds = np.log(bounded / (1.0 - bounded))
+    sign = 2.0 * np.array(right) - 1.0
+
+    def loss(values: FloatArray) -> float:
+        miss = np.logaddexp(0.0, -sign * (values[0] * odds + values[1])).mean()
+        return float(miss + 1e-3 * ((values[0] - 1.0) ** 2 + values[1] ** 2))
+
+    slope, offset = minimize(loss, [1.0, 0.0]).x
+    return float(slope), float(offset)
+
+
+def _weights_of(samples: Sequence[MotionSample]) -> FloatArray:
+    """Return the weight of every sample: one over the root of how many its object has."""
+    count = Counter(motion_sample.name for motion_sample in samples)
+    weights = np.array([count[motion_sample.name] ** -0.5 for motion_sample in samples])
+    return np.asarray(weights / weights.mean())
+
+
+def _digest(name: str) -> int:
+    return int(hashlib.sha256(name.encode()).hexdigest()[:8], 16)

@@ -1,0 +1,62 @@
+"""One step down a loss, whatever network it is of; and the running mean of the weights."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import torch  # noqa: TID253 - this module is only imported to train
+
+from asset_factory.factory.errors import ConfigError
+
+from .ema import RunningMean
+
+Tensor = Any
+_MOST_MISSED = 20
+"""Steps in a row whose gradients are not finite, after which a run ends."""
+
+
+class Descent:
+    """A network's optimiser, and the running mean of its weights, which is what is shipped.
+
+    Args:
+        network: whose weights are moved.
+        optimiser: of all its parameters.
+        clip: largest norm of the gradient; 0: any.
+        ema: see :class:`RunningMean`.
+    """
+
+    def __init__(self, network: Any, optimiser: Any, clip: float, ema: float) -> None:
+        self.network = network
+        self.optimiser = optimiser
+        self.mean = RunningMean(network, ema)
+        self._clip = clip or math.inf
+        self._missed = 0
+
+    def step(self, step: int, rate: float) -> Tensor:
+        """Move the weights along the gradients, unless those are not finite; returns their norm.
+
+        Args:
+            step: its number, from 0.
+            rate: of learning.
+
+        Raises:
+            ConfigError: they have not been finite for many steps.
+        """
+        for each in self.optimiser.param_groups:
+            each["lr"] = rate
+        norm = torch.nn.utils.clip_grad_norm_(self.network.parameters(), self._clip)
+        # One bad step must not end the run: a sample may be so odd that it overflows.
+        if bool(torch.isfinite(norm)):
+            self.optimiser.step()
+            self.mean.update(self.network, step)
+            self._missed = 0
+        else:
+            self._missed += 1
+        if self._missed >= _MOST_MISSED:
+            raise ConfigError(
+                f"step {step}: the gradients of {_MOST_MISSED} steps in a row are not finite, "
+                "so nothing is learnt; "
+                "the checkpoint is from before; want a lower schedule.rate, or look at the data"
+            )
+        return norm.detach()
