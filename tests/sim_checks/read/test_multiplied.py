@@ -101,6 +101,8 @@ def test_what_multiplies_without_bounds_is_refused_by_counting(tmp_path, name, m
 )
 def test_as_many_are_counted_as_mujoco_makes(tmp_path, world, bodies, monkeypatch):
     mujoco = pytest.importorskip("mujoco")
+    # It logs its warnings into whatever folder it is called from.
+    monkeypatch.chdir(tmp_path)
     path = written(tmp_path, world, inner=f"<mujocoinclude>{BODY * 2}</mujocoinclude>")
     assert mujoco.MjModel.from_xml_path(str(path)).nbody == bodies
     # The world is not written in the file.
