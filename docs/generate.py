@@ -11,6 +11,7 @@ import inspect
 import re
 import sys
 import textwrap
+import tomllib
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields, is_dataclass
@@ -30,6 +31,7 @@ from asset_factory.sim_checks.reasons import DEGREES
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS
 
 ROOT = Path(__file__).resolve().parents[1]
+RESULTS = ROOT / "benchmarks" / "results"
 MARKED = re.compile(r"(<!-- table: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 
@@ -194,6 +196,33 @@ def tasks() -> str:
     return table(("task", "class"), rows)
 
 
+def results() -> str:
+    """Return every file of results as a table with what made it and what it means."""
+    files = [tomllib.loads(each.read_text(encoding="utf-8")) for each in RESULTS.glob("*.toml")]
+    text = ""
+    for section in sorted({each["section"] for each in files}, key=SECTIONS.index):
+        text += f"## {section}\n\n"
+        of_section = (each for each in files if each["section"] == section)
+        for each in sorted(of_section, key=lambda result: result["order"]):
+            text += f"### {each['title']}\n\n{textwrap.fill(each['means'].strip(), 160)}\n\n"
+            text += table(tuple(each["columns"]), [tuple(row) for row in each["rows"]])
+            made = f"`{each['command']}`" if "command" in each else "Not by a command of the project"
+            text += f"\n{made}, {each['date']}, at {each['commit']}. "
+            text += f"Held out: {each['held_out']}.\n\n"
+    return text
+
+
+#: Headings of the page of results, in order.
+SECTIONS = (
+    "Inputs that nobody here has seen",
+    "Validation",
+    "Objects that others made, rebuilt",
+    "One-piece meshes",
+    "Meshes by artists",
+    "Joints",
+    "Speed",
+)
+
 WRITERS: Mapping[str, Callable[[], str]] = {
     "reasons": reasons,
     "degrees": degrees,
@@ -204,6 +233,7 @@ WRITERS: Mapping[str, Callable[[], str]] = {
     "finding": finding,
     "simulators": simulators,
     "tasks": tasks,
+    "results": results,
 }
 
 if __name__ == "__main__":
