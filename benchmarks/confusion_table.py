@@ -26,7 +26,7 @@ from asset_factory.sim_checks import Finding, Report, Severity  # noqa: E402
 from asset_factory.sim_checks.judge import Judge  # noqa: E402
 
 #: How a finding's code is written down in the judge's own source.
-CODES = r'(?:Finding|DescriptionError|found|yield \w+)\(\s*"([a-z_]+)"'
+CODES = r'(?:Finding|DescriptionError|found|error|warning|yield \w+)\(\s*"([a-z_]+)"'
 #: No file can bring these about: they tell of the machine.
 NOT_OF_A_FILE = {"simulator_missing", "simulator_timeout", "check_timeout", "check_crashed"}
 

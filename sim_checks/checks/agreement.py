@@ -12,9 +12,9 @@ import numpy.typing as npt
 from ..config import LoadingConfig
 from ..description import Description, FloatArray, JointLine, sensible
 from ..geometry.kinematics import MOVING_KINDS, NotATree, build_tree
-from ..report import Finding, Severity
+from ..report import Finding
 from ..simulators.simulator import JointValues, Observation
-from .result import CheckResult
+from .result import CheckResult, error
 
 #: Shares of the range at which link poses are compared; irrational steps, so that no symmetry hides
 #: a sign.
@@ -110,31 +110,26 @@ def _finding(
 ) -> Finding:
     if math.isinf(distance):
         message = f"{simulator} puts link {name!r} nowhere: its pose is no number"
-        return Finding(
+        return error(
             "pose_mismatch",
-            Severity.HARD,
             message,
-            simulator,
-            None,
-            (name,),
-            None,
-            "m",
-            config.position_m,
+            simulator=simulator,
+            parts=(name,),
+            unit="m",
+            limit=config.position_m,
         )
     message = (
         f"{simulator} puts link {name!r} up to {1000 * distance:.4g} mm and "
         f"{math.degrees(angle):.4g} deg from where the file's own kinematics put it"
     )
-    return Finding(
+    return error(
         "pose_mismatch",
-        Severity.HARD,
         message,
-        simulator,
-        None,
-        (name,),
-        distance,
-        "m",
-        config.position_m,
+        simulator=simulator,
+        parts=(name,),
+        value=distance,
+        unit="m",
+        limit=config.position_m,
     )
 
 

@@ -15,7 +15,7 @@ from ..geometry.kinematics import NotATree, build_tree
 from ..geometry.statics import gravity_load
 from ..report import Finding, Severity
 from ..simulators.simulator import HoldMotion, Observation
-from .result import CheckResult
+from .result import CheckResult, error
 
 #: Numbers in a report keep this many decimals: engines differ in the last bits from machine to
 #: machine.
@@ -75,7 +75,7 @@ def _findings(
         message = (
             f"{simulator}: joint {line.name!r} went to infinity or NaN while left alone at {at}"
         )
-        yield Finding("not_finite", Severity.HARD, message, simulator, line.name, parts)
+        yield error("not_finite", message, simulator=simulator, joint=line.name, parts=parts)
         return
     unit, most = ("m", config.creep_m) if line.kind == "prismatic" else ("rad", config.creep_rad)
     allowed = min(most, config.creep_share * length)

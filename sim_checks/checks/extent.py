@@ -8,7 +8,8 @@ from __future__ import annotations
 from ..config import WorkConfig
 from ..description import Description
 from ..geometry.kinematics import NotATree, build_tree, free_ranges
-from ..report import Finding, Severity
+from ..report import Finding
+from .result import error
 
 CODE = "too_large_to_judge"
 
@@ -58,11 +59,10 @@ def undriven(description: Description, name: str, config: WorkConfig) -> Finding
 
 def beyond(words: str, count: int, most: int, simulator: str | None = None) -> Finding:
     """Return the finding that something was too much to look at."""
-    return Finding(
+    return error(
         CODE,
-        Severity.HARD,
         f"too large to judge: {words} ({count}, at most {most})",
-        simulator,
+        simulator=simulator,
         value=count,
         limit=most,
     )

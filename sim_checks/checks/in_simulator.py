@@ -11,7 +11,7 @@ from ..config import CheckConfig
 from ..description import Description
 from ..geometry.apart import joints_apart
 from ..processes.isolation import Failure, Outcome, WarmChild, run_isolated
-from ..report import KILLED, OUT_OF_TIME, Finding, Severity
+from ..report import KILLED, OUT_OF_TIME, Finding
 from ..simulators.catalog import install_line, installed, simulator
 from ..simulators.observe import observe
 from ..simulators.simulator import Observation
@@ -20,7 +20,7 @@ from .creep import check_creep
 from .extent import undriven
 from .loading import check_loading
 from .motion import check_motion
-from .result import CheckResult
+from .result import CheckResult, error, warning
 
 
 def judge_in_simulator(
@@ -42,13 +42,13 @@ def judge_in_simulator(
     engine = simulator(name)
     if not installed(name):
         message = f"{name} is not installed; {install_line(name)} adds it"
-        return _only(Finding("simulator_missing", Severity.HARD, message, simulator=name))
+        return _only(error("simulator_missing", message, simulator=name))
     if description.format not in engine.formats:
         message = (
             f"{name} loads {' and '.join(engine.formats)} here, not {description.format}: "
             "it did not judge this file"
         )
-        return _only(Finding("format_not_loaded", Severity.SOFT, message, simulator=name))
+        return _only(warning("format_not_loaded", message, simulator=name))
     too_large = undriven(description, name, config.work)
     if too_large is not None:
         return _only(too_large)
@@ -85,20 +85,13 @@ def _writable(data: Any) -> Any:
 def _failure(outcome: Outcome[Observation], name: str, path: Path) -> Finding:
     if outcome.failure is Failure.TIMEOUT:
         message = f"{name} gave no verdict on {path.name}: {outcome.detail}"
-        return Finding(
-            "simulator_timeout", Severity.HARD, message, simulator=name, cause=OUT_OF_TIME
-        )
+        return error("simulator_timeout", message, simulator=name, cause=OUT_OF_TIME)
     if isinstance(outcome.error, ValueError):
         words = " | ".join(str(outcome.error).replace(str(path.parent), "").split("\n"))
-        return Finding(
-            "load_failed",
-            Severity.HARD,
-            f"{name} does not load {path.name}: {words}",
-            simulator=name,
-        )
+        return error("load_failed", f"{name} does not load {path.name}: {words}", simulator=name)
     message = f"{name} died on {path.name}: {outcome.detail}"
     cause = KILLED if outcome.killed else None
-    return Finding("simulator_crashed", Severity.HARD, message, simulator=name, cause=cause)
+    return error("simulator_crashed", message, simulator=name, cause=cause)
 
 
 def _only(finding: Finding) -> CheckResult:

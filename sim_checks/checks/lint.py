@@ -16,7 +16,7 @@ from .lint_mimic import mimic_findings
 from .lint_ranges import range_findings
 from .lint_resistance import resistance_findings
 from .lint_shapes import shape_findings
-from .result import CheckResult
+from .result import CheckResult, error, warning
 
 KNOWN_KINDS = (*MOVING_KINDS, "fixed")
 #: How far an axis may be from length 1.
@@ -51,7 +51,7 @@ def check_lint(description: Description, config: LintConfig) -> CheckResult:
         # Said once for the file, not once for each link.
         findings = [finding for finding in findings if finding.code != "no_collision"]
         message = "no link has collision geometry: nothing can be touched or held"
-        findings.append(Finding("no_collision", Severity.HARD, message))
+        findings.append(error("no_collision", message))
     moving = sum(joint.kind in MOVING_KINDS for joint in description.joints)
     measurements = {
         "format": description.format,
@@ -75,18 +75,13 @@ def _downs(description: Description) -> dict[str, FloatArray]:
 def _tree_findings(description: Description) -> Iterator[Finding]:
     try:
         build_tree(description)
-    except NotATree as error:
-        yield Finding("not_a_tree", Severity.HARD, f"the links form no tree: {error}")
+    except NotATree as caught:
+        yield error("not_a_tree", f"the links form no tree: {caught}")
     names = [joint.name for joint in description.joints]
     for name in sorted({name for name in names if names.count(name) > 1}):
-        yield Finding(
-            "duplicate_name",
-            Severity.HARD,
-            f"{names.count(name)} joints are named {name!r}",
-            joint=name,
-        )
+        yield error("duplicate_name", f"{names.count(name)} joints are named {name!r}", joint=name)
     if not any(joint.kind in MOVING_KINDS for joint in description.joints):
-        yield Finding("no_moving_joint", Severity.SOFT, "no joint moves")
+        yield warning("no_moving_joint", "no joint moves")
 
 
 def _joint_findings(
@@ -108,7 +103,7 @@ def _joint_findings(
     length = float(np.linalg.norm(joint.axis))
     if length < UNIT or not np.isfinite(length):
         message = f"joint {joint.name!r} has axis {joint.axis.tolist()}, which is no direction"
-        yield Finding("zero_axis", Severity.HARD, message, joint=joint.name, parts=parts)
+        yield error("zero_axis", message, joint=joint.name, parts=parts)
     elif abs(length - 1.0) > UNIT:
         far = abs(length - 1.0) > config.axis_slack
         message = (
@@ -129,7 +124,7 @@ def _joint_findings(
     for word, number in (("damping", joint.damping), ("friction", joint.friction)):
         if not (np.isfinite(number) and number >= 0.0):
             message = f"joint {joint.name!r} has {word} {number}, want 0 or more"
-            yield Finding("invalid_dynamics", Severity.HARD, message, joint=joint.name, parts=parts)
+            yield error("invalid_dynamics", message, joint=joint.name, parts=parts)
 
 
 def _limit_findings(joint: JointLine) -> Iterator[Finding]:
@@ -137,23 +132,22 @@ def _limit_findings(joint: JointLine) -> Iterator[Finding]:
     unit = "m" if joint.kind == "prismatic" else "rad"
     if joint.lower is None or joint.upper is None:
         message = f"joint {joint.name!r} ({joint.kind}) has no limits"
-        yield Finding("missing_limits", Severity.HARD, message, joint=joint.name, parts=parts)
+        yield error("missing_limits", message, joint=joint.name, parts=parts)
         return
     if not (np.isfinite(joint.lower) and np.isfinite(joint.upper)):
         message = (
             f"joint {joint.name!r} has limits {joint.lower} .. {joint.upper} "
             f"{unit}, want finite ones"
         )
-        yield Finding("limits_not_finite", Severity.HARD, message, joint=joint.name, parts=parts)
+        yield error("limits_not_finite", message, joint=joint.name, parts=parts)
         return
     if joint.lower >= joint.upper:
         message = (
             f"joint {joint.name!r} has limits {joint.lower:g} .. {joint.upper:g} {unit}: "
             "want lower below upper"
         )
-        yield Finding(
+        yield error(
             "limits_not_ordered",
-            Severity.HARD,
             message,
             joint=joint.name,
             parts=parts,
@@ -167,9 +161,7 @@ def _limit_findings(joint: JointLine) -> Iterator[Finding]:
             f"joint {joint.name!r} has limits {joint.lower:g} .. {joint.upper:g} {unit}: "
             "0, where simulators start, lies outside"
         )
-        yield Finding(
-            "zero_outside_limits", Severity.SOFT, message, joint=joint.name, parts=parts, unit=unit
-        )
+        yield warning("zero_outside_limits", message, joint=joint.name, parts=parts, unit=unit)
 
 
 def _body_findings(link: Link) -> Iterator[Finding]:
@@ -177,4 +169,4 @@ def _body_findings(link: Link) -> Iterator[Finding]:
         message = (
             f"link {link.name!r} is visible but has no collision geometry: hands pass through it"
         )
-        yield Finding("no_collision", Severity.HARD, message, parts=(link.name,))
+        yield error("no_collision", message, parts=(link.name,))

@@ -12,6 +12,7 @@ from ..description import ABSURD, Description, FloatArray, Link, LinkInertia, se
 from ..geometry.hull import FlatHull, convex_hull
 from ..geometry.kinematics import NotATree, build_tree
 from ..report import Finding, Severity
+from .result import error, warning
 
 #: Relative slack of the triangle inequality: files are written with few digits.
 TRIANGLE_SLACK = 1e-3
@@ -53,18 +54,12 @@ def inertia_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
     parts = (link.name,)
     if not (sensible(inertia.mass) and sensible(inertia.center) and sensible(inertia.tensor)):
         message = f"link {link.name!r}: a number of its inertia is not finite, or beyond {ABSURD:g}"
-        yield Finding("inertia_not_finite", Severity.HARD, message, parts=parts)
+        yield error("inertia_not_finite", message, parts=parts)
         return
     if inertia.mass <= 0.0:
         message = f"link {link.name!r} weighs {inertia.mass:g} kg, want more than 0"
-        yield Finding(
-            "mass_not_positive",
-            Severity.HARD,
-            message,
-            parts=parts,
-            value=inertia.mass,
-            unit="kg",
-            limit=0.0,
+        yield error(
+            "mass_not_positive", message, parts=parts, value=inertia.mass, unit="kg", limit=0.0
         )
         return
     moments: FloatArray = np.linalg.eigvalsh(0.5 * (inertia.tensor + inertia.tensor.T)).astype(
@@ -75,9 +70,8 @@ def inertia_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
             f"link {link.name!r}: smallest principal moment is "
             f"{moments[0]:.3g} kg m2, want more than 0"
         )
-        yield Finding(
+        yield error(
             "inertia_not_positive",
-            Severity.HARD,
             message,
             parts=parts,
             value=float(moments[0]),
@@ -92,14 +86,7 @@ def inertia_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
             "the two smaller must add up to the largest at least"
         )
         ratio = float((a + b) / c)
-        yield Finding(
-            "inertia_triangle",
-            Severity.HARD,
-            message,
-            parts=parts,
-            value=round(ratio, 6),
-            limit=1.0,
-        )
+        yield error("inertia_triangle", message, parts=parts, value=round(ratio, 6), limit=1.0)
         return
     yield from _plausible(link, inertia, moments, config)
 
@@ -186,16 +173,8 @@ def _gyration(
             f"{across:.3g} m: no mass within it has such an inertia"
         )
         limit = round(across, 6)
-        yield Finding(
-            "inertia_impossible",
-            Severity.HARD,
-            message,
-            None,
-            None,
-            (link.name,),
-            number,
-            "m",
-            limit,
+        yield error(
+            "inertia_impossible", message, parts=(link.name,), value=number, unit="m", limit=limit
         )
     elif gyration > config.gyration_share * diagonal:
         message = (
@@ -203,16 +182,8 @@ def _gyration(
             f"link {diagonal:.3g} m across"
         )
         limit = round(config.gyration_share * diagonal, 6)
-        yield Finding(
-            "inertia_implausible",
-            Severity.SOFT,
-            message,
-            None,
-            None,
-            (link.name,),
-            number,
-            "m",
-            limit,
+        yield warning(
+            "inertia_implausible", message, parts=(link.name,), value=number, unit="m", limit=limit
         )
 
 

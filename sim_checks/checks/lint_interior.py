@@ -14,7 +14,8 @@ from scipy import ndimage
 from ..config import LintConfig
 from ..description import DescribedShape, FloatArray, Link
 from ..geometry.hull import CollisionHull, FlatHull, convex_hull
-from ..report import Finding, Severity
+from ..report import Finding
+from .result import error, warning
 
 BoolArray = npt.NDArray[np.bool_]
 
@@ -112,26 +113,16 @@ def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Iterat
             f"link {link.name!r}: collision shapes leave {100 * pocket:.0f} % of its open inside "
             f"free, want at least {100 * config.pocket_kept:.0f} %: no hand can reach into it"
         )
-        yield Finding(
-            "interior_filled",
-            Severity.HARD,
-            message,
-            parts=(link.name,),
-            value=pocket,
-            limit=config.pocket_kept,
+        yield error(
+            "interior_filled", message, parts=(link.name,), value=pocket, limit=config.pocket_kept
         )
     elif cavity < config.interior_kept:
         message = (
             f"link {link.name!r}: collision shapes leave {100 * cavity:.0f} % of the free space "
             f"within its outline free, want at least {100 * config.interior_kept:.0f} %"
         )
-        yield Finding(
-            "interior_filled",
-            Severity.SOFT,
-            message,
-            parts=(link.name,),
-            value=cavity,
-            limit=config.interior_kept,
+        yield warning(
+            "interior_filled", message, parts=(link.name,), value=cavity, limit=config.interior_kept
         )
 
 

@@ -8,6 +8,7 @@ from ..description import ABSURD, Description, JointLine, Mimic, sensible
 from ..geometry.coupling import Limits, common_range, whole_chain
 from ..geometry.kinematics import MOVING_KINDS, own_limits, sound_mimics, sweep_range
 from ..report import Finding, Severity
+from .result import error
 
 #: Limits written with few digits may miss what the leader asks by this share of the follower's
 #: range.
@@ -29,7 +30,7 @@ def mimic_findings(description: Description) -> Iterator[Finding]:
                 f"joint {joint.name!r} follows {mimic.leader!r} by {mimic.multiplier} times its "
                 f"value plus {mimic.offset}; want finite numbers up to {ABSURD:g}"
             )
-            yield Finding("mimic_not_finite", Severity.HARD, message, joint=joint.name, parts=parts)
+            yield error("mimic_not_finite", message, joint=joint.name, parts=parts)
         elif joint.name in sound:
             whole = wholes[joint.name]
             led = [
@@ -45,7 +46,7 @@ def mimic_findings(description: Description) -> Iterator[Finding]:
             message = (
                 f"joint {joint.name!r} follows {mimic.leader!r}, {_fault(joint, mimic, moving)}"
             )
-            yield Finding("mimic_unknown", Severity.HARD, message, joint=joint.name, parts=parts)
+            yield error("mimic_unknown", message, joint=joint.name, parts=parts)
 
 
 def _fault(joint: JointLine, mimic: Mimic, moving: dict[str, JointLine]) -> str:

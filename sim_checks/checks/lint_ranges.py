@@ -13,6 +13,7 @@ from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine, Link
 from ..geometry.kinematics import MOVING_KINDS, NotATree, Tree, build_tree, sweep_range, unit_axis
 from ..report import Finding, Severity
+from .result import error, warning
 
 #: Directions in the half-degrees of a circle in which an axis may stand off.
 AROUND = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
@@ -65,8 +66,14 @@ def _size_findings(
             f"but {of}{_slip(length, diagonal, slides)}"
         )
         limit = float(f"{most:.6g}")
-        yield Finding(
-            "range_implausible", Severity.HARD, message, None, joint.name, parts, value, unit, limit
+        yield error(
+            "range_implausible",
+            message,
+            joint=joint.name,
+            parts=parts,
+            value=value,
+            unit=unit,
+            limit=limit,
         )
     elif 0.0 < length < least:
         message = (
@@ -74,8 +81,14 @@ def _size_findings(
             f"want {least:.3g} at least"
         )
         limit = float(f"{least:.6g}")
-        yield Finding(
-            "range_tiny", Severity.SOFT, message, None, joint.name, parts, value, unit, limit
+        yield warning(
+            "range_tiny",
+            message,
+            joint=joint.name,
+            parts=parts,
+            value=value,
+            unit=unit,
+            limit=limit,
         )
 
 
@@ -99,8 +112,8 @@ def _drive_findings(joint: JointLine) -> Iterator[Finding]:
             )
             value = number if math.isfinite(number) else None
             parts = (joint.parent, joint.child)
-            yield Finding(
-                "invalid_effort", Severity.SOFT, message, None, joint.name, parts, value, None, 0.0
+            yield warning(
+                "invalid_effort", message, joint=joint.name, parts=parts, value=value, limit=0.0
             )
 
 
@@ -125,16 +138,14 @@ def _place_findings(
             f"further than either is across: want at most {most:.3g} m, or they are no one object"
         )
         parts = (joint.parent, joint.child)
-        yield Finding(
+        yield error(
             "part_remote",
-            Severity.HARD,
             message,
-            None,
-            joint.name,
-            parts,
-            round(gap, 6),
-            "m",
-            round(most, 6),
+            joint=joint.name,
+            parts=parts,
+            value=round(gap, 6),
+            unit="m",
+            limit=round(most, 6),
         )
     elif joint.kind != "prismatic" and float(np.linalg.norm(joint.axis)) > 0.0:
         yield from _axis_findings(

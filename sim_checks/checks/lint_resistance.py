@@ -14,6 +14,7 @@ from ..description import Description, FloatArray, JointLine, Link
 from ..geometry.kinematics import NotATree, Tree, build_tree, sweep_range, unit_axis
 from ..report import Finding, Severity
 from .lint_ranges import closed_poses
+from .result import warning
 
 #: What robot-learning environments commonly step by [s].
 TIME_STEP_S = 1.0 / 240.0
@@ -96,16 +97,14 @@ def _step_finding(joint: JointLine, lever: _Lever, config: LintConfig) -> Iterat
         )
         parts = (joint.parent, joint.child)
         value = float(f"{share:.6g}")
-        yield Finding(
+        yield warning(
             "damping_stiff",
-            Severity.SOFT,
             message,
-            None,
-            joint.name,
-            parts,
-            value,
-            "of speed",
-            config.damping_step,
+            joint=joint.name,
+            parts=parts,
+            value=value,
+            unit="of speed",
+            limit=config.damping_step,
         )
 
 

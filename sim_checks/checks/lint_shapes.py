@@ -16,6 +16,7 @@ from ..geometry.hull import CollisionHull, FlatHull, convex_hull, farthest_along
 from ..geometry.outside import distance_outside
 from ..report import Finding, Severity
 from .lint_interior import interior_findings
+from .result import error, warning
 
 #: Visible surface is sampled this many times denser where it is the yardstick.
 DENSER = 8
@@ -32,11 +33,9 @@ def shape_findings(
     for shape in link.collisions:
         try:
             hull = convex_hull(shape.vertices[np.unique(shape.faces)])
-        except FlatHull as error:
-            message = f"collision shape {shape.name!r} of link {link.name!r} has no volume: {error}"
-            findings.append(
-                Finding("degenerate_collision", Severity.HARD, message, parts=(link.name,))
-            )
+        except FlatHull as flat:
+            message = f"collision shape {shape.name!r} of link {link.name!r} has no volume: {flat}"
+            findings.append(error("degenerate_collision", message, parts=(link.name,)))
             continue
         hulls.append(hull)
         doubtful.extend(_hull_findings(link, shape, hull, config))
@@ -56,14 +55,7 @@ def shape_findings(
         )
         limit = float(config.hulls_per_link)
         findings.append(
-            Finding(
-                "many_hulls",
-                Severity.SOFT,
-                message,
-                parts=(link.name,),
-                value=float(count),
-                limit=limit,
-            )
+            warning("many_hulls", message, parts=(link.name,), value=float(count), limit=limit)
         )
     findings.extend(_scale_findings(link, config))
     if hulls and link.visuals:
@@ -116,13 +108,8 @@ def _hull_findings(
             f"{name} is {aspect:.0f} times longer than thick; "
             f"GPU simulation takes up to {config.hull_aspect:g}"
         )
-        yield Finding(
-            "oblong_hull",
-            Severity.SOFT,
-            message,
-            parts=parts,
-            value=round(aspect, 3),
-            limit=config.hull_aspect,
+        yield warning(
+            "oblong_hull", message, parts=parts, value=round(aspect, 3), limit=config.hull_aspect
         )
     if shape.kind == "mesh":
         volume = _signed_volume(shape)
@@ -134,13 +121,8 @@ def _hull_findings(
                 else f"{ratio:.3g} times its own volume"
             )
             message = f"{name} is not convex: engines take its hull, {told}"
-            yield Finding(
-                "nonconvex_collision",
-                Severity.SOFT,
-                message,
-                parts=parts,
-                value=ratio,
-                limit=config.convexity,
+            yield warning(
+                "nonconvex_collision", message, parts=parts, value=ratio, limit=config.convexity
             )
 
 
@@ -191,9 +173,7 @@ def _scale_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
         ratio = (
             float(f"{touched / seen:.4g}") if seen > 0.0 and math.isfinite(touched / seen) else None
         )
-        yield Finding(
-            "collision_scale", Severity.HARD, message, parts=(link.name,), value=ratio, limit=limit
-        )
+        yield error("collision_scale", message, parts=(link.name,), value=ratio, limit=limit)
 
 
 def _cover_findings(
@@ -246,8 +226,8 @@ def _offset_finding(link: Link, shift: float, most: float) -> Finding:
     )
     value = round(1000 * shift, 3)
     limit = round(1000 * most, 3)
-    return Finding(
-        "collision_offset", Severity.HARD, message, None, None, (link.name,), value, "mm", limit
+    return error(
+        "collision_offset", message, parts=(link.name,), value=value, unit="mm", limit=limit
     )
 
 
@@ -257,9 +237,8 @@ def _bare_finding(link: Link, covered: float, config: LintConfig) -> Finding:
         f"{1000 * config.gap_m:g} mm outside its collision geometry, where nothing is felt; "
         f"want {config.least_covered:.0%} covered"
     )
-    return Finding(
+    return error(
         "collision_gap",
-        Severity.HARD,
         message,
         parts=(link.name,),
         value=round(covered, 4),
@@ -271,8 +250,8 @@ def _gap_finding(link: Link, words: str, gap: float, allowed: float) -> Finding:
     message = f"link {link.name!r}: {words} by up to {1000 * gap:.1f} mm"
     value = round(1000 * gap, 3)
     limit = round(1000 * allowed, 3)
-    return Finding(
-        "collision_gap", Severity.SOFT, message, None, None, (link.name,), value, "mm", limit
+    return warning(
+        "collision_gap", message, parts=(link.name,), value=value, unit="mm", limit=limit
     )
 
 

@@ -13,7 +13,7 @@ from ..report import Finding, Severity
 from ..simulators.simulator import LoadedLink, Observation
 from .agreement import check_agreement
 from .loading_joints import finite, joint_findings, joint_numbers, listed, rounded
-from .result import CheckResult
+from .result import CheckResult, warning
 
 MOST_WARNINGS = 3
 
@@ -160,8 +160,14 @@ def _added(
             f"want none: {listed(names)}"
         )
         count = float(len(names))
-        yield Finding(
-            "link_added", Severity.SOFT, message, simulator, None, tuple(names), count, "links", 0.0
+        yield warning(
+            "link_added",
+            message,
+            simulator=simulator,
+            parts=tuple(names),
+            value=count,
+            unit="links",
+            limit=0.0,
         )
 
 
@@ -182,15 +188,13 @@ def _invented(
             f"{simulator} invented mass and inertia, {total:.4g} kg in all, "
             f"for {listed(names)}: the file gives none"
         )
-        yield Finding(
+        yield warning(
             "inertia_invented",
-            Severity.SOFT,
             message,
-            simulator,
-            None,
-            tuple(names),
-            finite(total),
-            "kg",
+            simulator=simulator,
+            parts=tuple(names),
+            value=finite(total),
+            unit="kg",
         )
 
 
@@ -198,15 +202,8 @@ def _said(observation: Observation, simulator: str) -> Iterator[Finding]:
     lines = observation.model.warnings
     if lines:
         message = f"{simulator} said while loading: {' | '.join(lines[:MOST_WARNINGS])}"
-        yield Finding(
-            "loader_warning",
-            Severity.SOFT,
-            message,
-            simulator,
-            None,
-            (),
-            float(len(lines)),
-            "lines",
+        yield warning(
+            "loader_warning", message, simulator=simulator, value=float(len(lines)), unit="lines"
         )
 
 

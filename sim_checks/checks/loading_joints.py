@@ -15,8 +15,9 @@ from ..config import LoadingConfig
 from ..description import Description, JointLine, Mimic
 from ..geometry.coupling import whole_chain
 from ..geometry.kinematics import MOVING_KINDS, sound_mimics, unit_axis
-from ..report import Finding, Severity
+from ..report import Finding
 from ..simulators.simulator import LoadedJoint
+from .result import error, warning
 
 #: Names spelled out in a sentence that concerns many.
 MOST_NAMES = 4
@@ -43,11 +44,10 @@ def joint_findings(
             f"{simulator} holds {len(added)} joints that the file does not have, "
             f"want none: {listed(added)}"
         )
-        yield Finding(
+        yield warning(
             "joint_added",
-            Severity.SOFT,
             message,
-            simulator,
+            simulator=simulator,
             value=float(len(added)),
             unit="joints",
             limit=0.0,
@@ -92,15 +92,7 @@ def _joint(
     def found(code: str, message: str, **numbers: Any) -> Finding:
         where = (line.parent, line.child)
         sentence = f"{simulator}: {message}"
-        return Finding(
-            code,
-            Severity.HARD,
-            sentence,
-            simulator=simulator,
-            joint=line.name,
-            parts=where,
-            **numbers,
-        )
+        return error(code, sentence, simulator=simulator, joint=line.name, parts=where, **numbers)
 
     if held is None:
         yield found("joint_missing", f"joint {line.name!r} of the file did not arrive")
@@ -175,7 +167,9 @@ def _coupling(
                 f"in the file it {said}; want them coupled as written"
             )
             parts = (line.parent, line.child)
-            yield Finding("mimic_mismatch", Severity.HARD, message, simulator, line.name, parts)
+            yield error(
+                "mimic_mismatch", message, simulator=simulator, joint=line.name, parts=parts
+            )
         elif held.mimic is not None:
             yield from _otherwise(
                 line, whole_chain(line.name, mimics, held.follows), held.mimic, simulator, config
@@ -186,14 +180,8 @@ def _coupling(
             "which the file couples to another joint: whoever simulates it must couple them"
         )
         count = float(len(dropped))
-        yield Finding(
-            "mimic_ignored",
-            Severity.SOFT,
-            message,
-            simulator,
-            value=count,
-            unit="joints",
-            limit=0.0,
+        yield warning(
+            "mimic_ignored", message, simulator=simulator, value=count, unit="joints", limit=0.0
         )
 
 
@@ -212,13 +200,12 @@ def _otherwise(
         value = finite(wrong[1])
         limit = finite(wrong[0])
         parts = (line.parent, line.child)
-        yield Finding(
+        yield error(
             "mimic_mismatch",
-            Severity.HARD,
             message,
-            simulator,
-            line.name,
-            parts,
+            simulator=simulator,
+            joint=line.name,
+            parts=parts,
             value=value,
             limit=limit,
         )
@@ -239,9 +226,8 @@ def _ignored(
                 names.append(line.name)
         if names:
             message = f"{simulator} drops the {quantity} that the file gives to {listed(names)}"
-            yield Finding(
+            yield warning(
                 f"{quantity}_ignored",
-                Severity.SOFT,
                 message,
                 simulator=simulator,
                 value=float(len(names)),

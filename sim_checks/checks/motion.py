@@ -13,7 +13,7 @@ from ..config import CheckConfig, MotionConfig
 from ..description import Description
 from ..report import Finding, Severity
 from ..simulators.simulator import Fall, FallMotion, JointMotion, Observation, RestMotion
-from .result import CheckResult
+from .result import CheckResult, error, warning
 
 #: Numbers in a report keep this many decimals: engines differ in the last bits from machine to
 #: machine.
@@ -48,7 +48,7 @@ def check_motion(
         )
     if observation.warnings:
         message = f"{simulator} complained while moving: {', '.join(observation.warnings)}"
-        findings.append(Finding("engine_warning", Severity.SOFT, message, simulator=simulator))
+        findings.append(warning("engine_warning", message, simulator=simulator))
     spoken_for = {motion.joint for motion in observation.motions}
     coupled = {
         name
@@ -62,7 +62,9 @@ def check_motion(
     for name in idle:
         message = f"{simulator}: joint {name!r} was not driven: it has no range from lower to upper"
         findings.append(
-            Finding("not_driven", Severity.SOFT, message, simulator, name, parts.get(name, ()))
+            warning(
+                "not_driven", message, simulator=simulator, joint=name, parts=parts.get(name, ())
+            )
         )
     measurements: dict[str, Any] = {
         "joints": [_rounded(asdict(motion)) for motion in observation.motions],
@@ -103,7 +105,7 @@ def _motion_findings(
 
     if not motion.finite:
         message = f"{simulator}: joint {motion.joint!r} went to infinity or NaN while driven"
-        yield Finding("not_finite", Severity.HARD, message, simulator, motion.joint, parts)
+        yield error("not_finite", message, simulator=simulator, joint=motion.joint, parts=parts)
         return
     if motion.reached < config.reach_fraction:
         message = (
@@ -143,7 +145,7 @@ def _rest_findings(
             f"{simulator}: joint {rest.joint!r} went to infinity or NaN while left "
             "alone at its lower limit"
         )
-        yield Finding("not_finite", Severity.HARD, message, simulator, rest.joint, parts)
+        yield error("not_finite", message, simulator=simulator, joint=rest.joint, parts=parts)
         return
     if rest.share > config.drift_soft:
         severity = Severity.HARD if rest.share > config.drift_hard else Severity.SOFT
@@ -176,7 +178,7 @@ def _fall_findings(
         message = (
             f"{simulator}: the object went to infinity or NaN while left alone under its own weight"
         )
-        yield Finding("not_finite", Severity.HARD, message, simulator)
+        yield error("not_finite", message, simulator=simulator)
     elif not known and _made_up(fall.energy, fall.energy_height, config):
         yield _energy(
             fall.energy,
@@ -197,16 +199,15 @@ def _opened(
             "nothing holds it closed"
         )
         share = round(fallen.share, DECIMALS)
-        yield Finding(
+        yield warning(
             "opens_by_itself",
-            Severity.SOFT,
             message,
-            simulator,
-            fallen.joint,
-            parts,
-            share,
-            "of range",
-            config.fall_soft,
+            simulator=simulator,
+            joint=fallen.joint,
+            parts=parts,
+            value=share,
+            unit="of range",
+            limit=config.fall_soft,
         )
 
 

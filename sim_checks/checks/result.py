@@ -1,12 +1,12 @@
-"""What one check hands back to the run."""
+"""What one check hands back: its findings and numbers."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypedDict, Unpack
 
-from ..report import Finding
+from ..report import Finding, Severity
 
 
 @dataclass(frozen=True)
@@ -18,3 +18,26 @@ class CheckResult:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "findings", tuple(self.findings))
+
+
+class Details(TypedDict, total=False):
+    """What a :class:`Finding` may say besides its code, severity and message."""
+
+    simulator: str | None
+    joint: str | None
+    parts: tuple[str, ...]
+    value: float | None
+    unit: str | None
+    limit: float | None
+    cause: str | None
+    joints: tuple[str, ...]
+
+
+def error(code: str, message: str, **details: Unpack[Details]) -> Finding:
+    """Return a finding that rejects the asset."""
+    return Finding(code, Severity.HARD, message, **details)
+
+
+def warning(code: str, message: str, **details: Unpack[Details]) -> Finding:
+    """Return a finding with which the asset may pass."""
+    return Finding(code, Severity.SOFT, message, **details)

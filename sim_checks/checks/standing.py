@@ -21,8 +21,8 @@ from ..config import StandingConfig
 from ..description import DescribedShape, Description, FloatArray, JointLine, Link
 from ..geometry.hull import FlatHull, convex_hull
 from ..geometry.kinematics import NotATree, Poser, Tree, build_tree, free_ranges, unit_axis
-from ..report import Finding, Severity
-from .result import CheckResult
+from ..report import Finding
+from .result import CheckResult, warning
 
 GRAVITY = 9.81
 #: Values of a joint's range that are tried before the worst is refined.
@@ -196,7 +196,7 @@ def check_standing(description: Description, config: StandingConfig) -> CheckRes
             "fewer than three points apart touch the floor with every joint closed: "
             "it does not stand by itself"
         )
-        return CheckResult((Finding("no_stable_footing", Severity.SOFT, message),), measurements)
+        return CheckResult((warning("no_stable_footing", message),), measurements)
     rows = [_joint_row(body, joint) for joint in tree.free if joint.name in body.ranges]
     together = body.stance(body.opened)
     measurements.update(joints=rows, all_upper=_numbers(together))
@@ -273,14 +273,8 @@ def _topples(
                 f"its centre of mass lies only {margin:.1f} mm inside what it stands on, "
                 f"want {least:g} mm: a floor that leans by {tilt:.2f} deg topples it"
             )
-        return Finding(
-            "topples",
-            Severity.SOFT,
-            f"{subject}: {told}",
-            joint=joint,
-            value=margin,
-            unit="mm",
-            limit=least,
+        return warning(
+            "topples", f"{subject}: {told}", joint=joint, value=margin, unit="mm", limit=least
         )
 
     if _short(_numbers(closed), least):
@@ -315,9 +309,8 @@ def _pulled(rows: list[dict[str, Any]], config: StandingConfig) -> Iterator[Find
             f"{worst['tipping_force_n']:.1f} N, "
             f"want it to stand {config.hand_force_n:g} N or be fastened{others}"
         )
-        yield Finding(
+        yield warning(
             "topples_when_pulled",
-            Severity.SOFT,
             message,
             joint=worst["joint"],
             value=worst["tipping_force_n"],
