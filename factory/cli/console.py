@@ -21,6 +21,7 @@ from rich.table import Table
 
 from asset_factory.sim_checks import Disagreement, Finding, Report, Severity, Status
 
+from ..export.manifest import Manifest
 from ..models.weights.checkpoint import WeightsInfo
 from ..registry import Entry
 from ..registry.report_file import BuildReport
@@ -213,8 +214,8 @@ def _told(entry: Entry) -> tuple[str, ...]:
     return *map(str, counts), f"[{STATUS_STYLE[entry.status]}]{entry.status}[/]"
 
 
-def print_entry(entry: Entry, folder: Path, told: BuildReport) -> None:
-    """Print one asset with its findings and repairs."""
+def print_entry(entry: Entry, folder: Path, told: BuildReport, manifest: Manifest | None) -> None:
+    """Print one asset with its findings, its repairs, and the proposals of its parts."""
     console = terminal()
     console.print(
         f"{entry.id}: {entry.parts} parts, {entry.joints} movable joints, {entry.hulls} hulls",
@@ -224,6 +225,8 @@ def print_entry(entry: Entry, folder: Path, told: BuildReport) -> None:
     print_report(told.report)
     for repair in told.repairs:
         console.print(f"  [green]repair[/] {escape(repair.sentence)}", soft_wrap=True)
+    for part, proposal in manifest.proposed.items() if manifest else ():
+        console.print(f"  [blue]part[/] {escape(f'{part}: {proposal.told}')}", soft_wrap=True)
 
 
 def print_weights(info: WeightsInfo) -> None:

@@ -43,5 +43,5 @@ def run(command: Show) -> int:
         }
         say(json.dumps(data, indent=2))
     else:
-        console.print_entry(entry, registry.folder(entry), told)
+        console.print_entry(entry, registry.folder(entry), told, registry.manifest(entry))
     return Exit.OK

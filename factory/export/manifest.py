@@ -113,6 +113,13 @@ class ManifestProposal:
     probability: float | None
     signs: dict[str, float]
 
+    @property
+    def told(self) -> str:
+        """Return it for people: who proposed it, how probable it is, and what spoke for it."""
+        rated = "" if self.probability is None else f", probability {self.probability:.2f}"
+        signs = ", ".join(f"{name} {value:g}" for name, value in self.signs.items())
+        return f"{self.kind} {self.id} by {self.proposer}{rated}{f' ({signs})' if signs else ''}"
+
 
 @dataclass(frozen=True)
 class ManifestLink:
@@ -207,6 +214,11 @@ class Manifest:
     tools: dict[str, str | None]
     notes: tuple[str, ...]
     invented: tuple[ManifestSurface, ...] = ()
+
+    @property
+    def proposed(self) -> dict[str, ManifestProposal]:
+        """Return the proposal of every link that somebody proposed, by the link's name."""
+        return {link.name: link.proposal for link in self.links if link.proposal is not None}
 
     @property
     def movable(self) -> dict[str, ManifestJoint]:

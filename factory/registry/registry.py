@@ -14,6 +14,7 @@ from pathlib import Path
 from asset_factory.sim_checks import Report, Status
 
 from ..errors import RegistryError
+from ..export.manifest import Manifest
 from ..runtime.layout import ASSETS, MANIFEST, NOTES, REJECTED, REPORT, STAGING
 from . import rows
 from .database import connected, writing
@@ -28,6 +29,7 @@ from .staging import held_folder
 
 _PAGE = 1000
 _TRIES = 3
+_MAX_MANIFEST = 16_000_000
 
 
 class Registry:
@@ -258,6 +260,10 @@ class Registry:
                 entry = self.entry(entry.id)
         return read_report(self.folder(entry)).told
 
+    def manifest(self, entry: Entry) -> Manifest | None:
+        """Return an asset's manifest; ``None`` where there is none that can be read."""
+        return read_manifest(self.folder(entry))
+
     def _entry(self, connection: sqlite3.Connection, asset_id: str) -> Entry:
         entry = rows.find(connection, "id", asset_id)
         if entry is not None:
@@ -291,6 +297,17 @@ class Registry:
             if other.exists():
                 os.rename(other, staging / entry.id)
         return folder
+
+
+def read_manifest(folder: Path) -> Manifest | None:
+    """Return the manifest in an asset's folder; ``None`` where there is none that can be read."""
+    path = folder / MANIFEST
+    try:
+        if path.is_symlink() or path.stat().st_size > _MAX_MANIFEST:
+            return None
+        return Manifest.from_json(path.read_bytes())
+    except (OSError, ValueError, RecursionError):
+        return None
 
 
 def _completed(entry: Entry, told: BuildReport, content: Path) -> Entry:

@@ -12,6 +12,7 @@ from registry_samples import PASSED
 from asset_factory.factory.export.bundle import export_bundle
 from asset_factory.factory.export.model import write_model
 from asset_factory.factory.manufacture.repair import Repair, RepairKind
+from asset_factory.factory.part import PartKind, PartSource, Proposer
 from asset_factory.factory.registry import Entry, Registry
 from asset_factory.factory.registry.report_file import BuildReport
 from asset_factory.sim_checks import Finding, Report, Severity
@@ -42,7 +43,11 @@ WORDS = Finding("articulation_note", Severity.SOFT, HOSTILE, parts=(HOSTILE,))
 
 def bundle_in(folder: Path) -> Path:
     """A cabinet's bundle with its model, its manifest full of markup."""
-    asset = cabinet()
+    made = cabinet()
+    body, door, *rest = made.articulation.parts
+    source = PartSource(HOSTILE, Proposer.SIDES, 0.7, {HOSTILE: 1.5})
+    parts = (body, replace(door, kind=PartKind.DOOR, source=source), *rest)
+    asset = replace(made, articulation=replace(made.articulation, parts=parts))
     provenance = replace(PROVENANCE, input=f"{HOSTILE}.glb")
     export_bundle(asset, provenance, folder)
     write_model(asset, folder)

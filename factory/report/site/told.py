@@ -21,14 +21,14 @@ from ...export.manifest import Manifest
 from ...manufacture.repair import Repair
 from ...reasons import TABLES
 from ...registry import Entry
+from ...registry.registry import read_manifest
 from ...registry.report_file import BuildReport, StoredReport, read_report
-from ...runtime.layout import ASSETS, MANIFEST, MODEL, REJECTED, URDF
+from ...runtime.layout import ASSETS, MODEL, REJECTED, URDF
 from .places import Places
 
 MEANINGS = {code: meaning for table in TABLES.values() for code, meaning in table.items()}
 #: Findings on other hypotheses of the input have a section of their own.
 OTHER_HYPOTHESIS = "other_reading"
-_MAX_MANIFEST = 16_000_000
 _MAX_FINDINGS = 300
 _MESSAGE = 240
 
@@ -145,7 +145,7 @@ def asset_page(root: Path, entry: Entry) -> AssetPage:
     page = AssetPage(
         entry,
         report,
-        manifest=_manifest(folder),
+        manifest=read_manifest(folder),
         findings=_findings(report, None),
         hypotheses=tuple(f.message for f in report.findings if f.code == OTHER_HYPOTHESIS),
         repairs=told.repairs,
@@ -216,16 +216,6 @@ def _told(stored: StoredReport) -> BuildReport:
         return stored.told
     except (KeyError, TypeError, ValueError) as error:
         raise RegistryError(f"report.json: is none ({error})") from error
-
-
-def _manifest(folder: Path) -> Manifest | None:
-    path = folder / MANIFEST
-    try:
-        if path.is_symlink() or path.stat().st_size > _MAX_MANIFEST:
-            return None
-        return Manifest.from_json(path.read_bytes())
-    except (OSError, ValueError, RecursionError):
-        return None
 
 
 def _model(folder: Path) -> bytes:

@@ -100,6 +100,15 @@ def test_names_of_inputs_are_text(registry):
     assert '<script id="told" type="application/json">{' in told
 
 
+def test_a_verdict_leads_back_to_the_proposals_of_its_parts(registry):
+    page = asset_page(registry.root, registry.entry("cabinet-1"))
+    assert page.manifest is not None
+    ((part, proposal),) = page.manifest.proposed.items()
+    assert (part, proposal.kind, proposal.proposer) == ("part_1", "door", "sides")
+    assert "by sides, probability 0.70 (" in proposal.told
+    assert "<h2>Proposals</h2>" in (registry.root / "report/a/cabinet-1/index.html").read_text()
+
+
 def test_the_data_of_a_page_cannot_end_its_script(registry):
     text = (registry.root / "report/a/hitting-2/index.html").read_text()
     (data,) = re.findall(
