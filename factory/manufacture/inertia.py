@@ -14,15 +14,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import manifold3d
 import numpy as np
-from manifold3d import Manifold
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import breadth_first_order
 
 from ..asset import Hull, Inertial
 from ..config import InertiaConfig
 from ..errors import InvalidAsset
-from ..geometry.triangles import doubled_normals
+from ..geometry.edges import label_linked, shared_edges
+from ..geometry.rows import distinct_rows
+from ..geometry.triangles import areas_of, doubled_normals
 from ..mesh import FloatArray, IntArray, Mesh
-from .decompose.solids import gate, manifold_of_hull, triangles_of, union
 
 #: Lighter bodies make constraint solvers ill-conditioned beside furniture of many kilograms [kg].
 MIN_MASS_KG = 0.005
@@ -121,33 +124,61 @@ def _inertial(moments: _Moments, reference: FloatArray) -> Inertial:
 
 def _mesh_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _Moments:
     """Return moments per unit of density: mass is a volume [m3]."""
-    # What is inside out altogether is turned, so that shells within are told from what they bound.
-    inside_out = _solid_moments(vertices, faces).mass < 0.0
-    gated = gate(vertices, faces[:, ::-1] if inside_out else faces)
+    closed: list[tuple[FloatArray, IntArray]] = []
     total = _NOTHING
-    for sheet in gated.sheets:
-        total += _sheet_moments(sheet.vertices, sheet.faces, thickness)
-    solids = []
-    for solid in gated.solids:
-        if 2.0 * solid.volume() < SHEET_THICKNESS_M * solid.surface_area():
-            total += _sheet_moments(*triangles_of(solid), thickness).scaled(0.5)
+    for component in _components(_without_repeats(vertices, faces)):
+        used, compact = np.unique(component, return_inverse=True)
+        points = vertices[used]
+        triangles = compact.reshape(-1, 3)
+        oriented = _consistently_wound(triangles)
+        area = float(areas_of(points[triangles]).sum())
+        volume = 0.0 if oriented is None else abs(_solid_moments(points, oriented).mass)
+        if oriented is None:
+            total += _sheet_moments(points, triangles, thickness)
+        elif 2.0 * volume < SHEET_THICKNESS_M * area:
+            total += _sheet_moments(points, triangles, thickness).scaled(0.5)
         else:
-            solids.append(solid)
-    return total + _manifold_moments(_united(solids, gated.cavities))
+            closed.append((points, oriented))
+    return total + _union_moments(closed)
 
 
-def _united(solids: Sequence[Manifold], cavities: Sequence[Manifold]) -> Manifold:
-    """Unite solids and take out cavities, the largest first: what stands in a cavity stays."""
-    signed = [*((solid, False) for solid in solids), *((cavity, True) for cavity in cavities)]
-    body = Manifold()
-    run: list[Manifold] = []
-    for each, hollow in sorted(signed, key=lambda pair: -pair[0].volume()):
-        if hollow:
-            body = union([body, *run]) - each
-            run = []
-        else:
-            run.append(each)
-    return union([body, *run])
+def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
+    """Return faces with an area, one of each set of corners: back-to-back copies are one."""
+    real = faces[areas_of(vertices[faces]) > 0.0]
+    first, _ = distinct_rows(np.sort(real, axis=1))
+    return real[np.sort(first)]
+
+
+def _components(faces: IntArray) -> list[IntArray]:
+    """Group faces over edges of exactly two faces: solids that merely touch stay apart."""
+    if not len(faces):
+        return []
+    label = label_linked(len(faces), shared_edges(faces).faces)
+    order = np.argsort(label, kind="stable")
+    return np.split(faces[order], np.flatnonzero(np.diff(label[order])) + 1)
+
+
+def _consistently_wound(faces: IntArray) -> IntArray | None:
+    """Return the faces of one component, wound alike; ``None`` if it is open or one-sided."""
+    shared = shared_edges(faces)
+    if 2 * len(shared.faces) < 3 * len(faces):
+        return None
+    pairs = shared.faces
+    flipped = (~shared.alike).astype(np.int64)
+    if not flipped.any():
+        return faces
+    count = len(faces)
+    # Weight 1: wound alike, 2: not; an explicit zero would be no edge.
+    graph = coo_matrix((flipped + 1, pairs.T), shape=(count, count)).tocsr()
+    graph = graph.maximum(graph.T)
+    order, before = breadth_first_order(graph, 0, directed=False)
+    turned = np.zeros(count, dtype=np.int64)
+    steps = np.asarray(graph[order[1:], before[order[1:]]]).reshape(-1)
+    for face, step in zip(order[1:], steps, strict=True):
+        turned[face] = turned[before[face]] ^ (int(step) - 1)
+    if ((turned[pairs[:, 0]] ^ turned[pairs[:, 1]]) != flipped).any():
+        return None
+    return np.where(turned[:, None] == 1, faces[:, ::-1], faces)
 
 
 def _solid_moments(vertices: FloatArray, faces: IntArray) -> _Moments:
@@ -171,10 +202,70 @@ def _sheet_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _
     return _Moments(float(volume.sum()), (volume @ total) / 3.0, np.asarray(second + across))
 
 
-def _manifold_moments(body: Manifold) -> _Moments:
-    return _NOTHING if body.is_empty() else _solid_moments(*triangles_of(body))
+def _union_moments(closed: list[tuple[FloatArray, IntArray]]) -> _Moments:
+    """Add up closed, consistently wound components: solids united, cavities removed."""
+    signed = np.array([_solid_moments(*component).mass for component in closed])
+    order = np.argsort(-np.abs(signed), kind="stable")
+    hollow = _cavities(closed, signed)
+    total = _NOTHING
+    body = manifold3d.Manifold()
+    run: list[manifold3d.Manifold] = []
+    for index in order:
+        vertices, faces = closed[index]
+        outward = faces if signed[index] > 0.0 else faces[:, ::-1]
+        solid = manifold3d.Manifold(
+            manifold3d.Mesh64(vertices, np.ascontiguousarray(outward, dtype=np.uint64))
+        )
+        if solid.status() != manifold3d.Error.NoError:
+            # What manifold3d refuses still has exact integrals; only its overlaps with others count
+            # twice.
+            total += _solid_moments(vertices, outward).scaled(-1.0 if hollow[index] else 1.0)
+        elif hollow[index]:
+            body = manifold3d.Manifold.batch_boolean([body, *run], manifold3d.OpType.Add) - solid
+            run = []
+        else:
+            run.append(solid)
+    body = manifold3d.Manifold.batch_boolean([body, *run], manifold3d.OpType.Add)
+    return total + _manifold_moments(body)
+
+
+def _manifold_moments(body: manifold3d.Manifold) -> _Moments:
+    if body.is_empty():
+        return _NOTHING
+    mesh = body.to_mesh64()
+    return _solid_moments(
+        np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, dtype=np.int64)
+    )
+
+
+def _cavities(closed: list[tuple[FloatArray, IntArray]], signed: FloatArray) -> list[bool]:
+    """Find components that bound a cavity: they face opposite to the outermost one around."""
+    hollow = [False] * len(closed)
+    if not (signed > 0.0).any() or not (signed < 0.0).any():
+        return hollow
+    low = np.array([points.min(axis=0) for points, _ in closed])
+    high = np.array([points.max(axis=0) for points, _ in closed])
+    by_size = np.argsort(-np.abs(signed), kind="stable")
+    for index in range(len(closed)):
+        around = (low < low[index]).all(axis=1) & (high > high[index]).all(axis=1)
+        for outer in by_size[around[by_size]]:
+            if _encloses(closed[outer], closed[index][0][0]):
+                hollow[index] = bool(signed[outer] * signed[index] < 0.0)
+                break
+    return hollow
+
+
+def _encloses(component: tuple[FloatArray, IntArray], point: FloatArray) -> bool:
+    """Return whether a closed surface winds around a point (Van Oosterom and Strackee 1983)."""
+    vertices, faces = component
+    a, b, c = (vertices[faces[:, i]] - point for i in range(3))
+    la, lb, lc = (np.linalg.norm(p, axis=1) for p in (a, b, c))
+    dot = [np.einsum("ij,ij->i", p, q) for p, q in ((a, b), (b, c), (c, a))]
+    triple = np.einsum("ij,ij->i", a, np.cross(b, c))
+    angle = 2.0 * np.arctan2(triple, la * lb * lc + dot[0] * lc + dot[1] * la + dot[2] * lb)
+    return bool(abs(angle.sum()) > 2.0 * np.pi)
 
 
 def _hull_moments(hulls: Sequence[Hull], center: FloatArray) -> _Moments:
-    shift = (-center).tolist()
-    return _manifold_moments(union([manifold_of_hull(hull).translate(shift) for hull in hulls]))
+    solids = [manifold3d.Manifold.hull_points(hull.vertices - center) for hull in hulls]
+    return _manifold_moments(manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add))

@@ -18,8 +18,7 @@ from ...intake.stated import Stated
 from ...mesh import IntArray, Mesh
 from ...part import PartKind, Proposer
 from ..articulator import Articulator, HypothesisMaker
-from ..assembly import assembled
-from ..naming import JOINT_SUFFIX
+from ..assembly import JOINT_SUFFIX, assembled
 from ..proposal import Hypothesis, Proposal
 from ..rigid import rigid_articulation
 from ..seams.articulator import cut_along
