@@ -63,7 +63,8 @@ def test_weights_recover_the_sign_that_decides():
     for _ in range(60):
         signs = rng.normal(size=(5, len(SIGNS)))
         right = rng.random(5) < 1.0 / (1.0 + np.exp(-2.0 * signs[:, SIGNS.index("evidence")]))
-        given = tuple(replace(proposal(), signs=row) for row in signs)
+        named = [dict(zip(SIGNS, row, strict=True)) for row in signs]
+        given = tuple(replace(proposal(), signs=each) for each in named)
         trials.append(TrustTrial(FRIDGE, given, right.astype(float)))
     weights = dict(zip(SIGNS, fit_signs(trials).direct[:, 0], strict=True))
     assert weights.pop("evidence") == pytest.approx(2.0, abs=0.5)

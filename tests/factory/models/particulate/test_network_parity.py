@@ -20,11 +20,10 @@ from asset_factory.factory.models.partfield.shape import PartFieldShape, read_pa
 from asset_factory.factory.models.partfield.shape import (
     expected_tensors as expected_field_tensors,
 )
+from asset_factory.factory.models.particulate.field import FeatureField, load_field
 from asset_factory.factory.models.particulate.model import (
-    FeatureField,
     Model,
     PointCloud,
-    load_field,
     load_model,
 )
 
