@@ -28,7 +28,7 @@ from .targets.handles import find_handle
 #: Its version is raised when the same hulls would be cut, weighed or held otherwise.
 FINISH = Stage(
     "finish",
-    version=20,
+    version=21,
     settings=("separate", "inertia", "decompose.max_vertices"),
     libraries=("numpy", "scipy", "trimesh", "manifold3d"),
 )
