@@ -9,22 +9,23 @@ from itertools import islice, product
 
 import numpy as np
 
-from ...articulation import Articulation, rotation_about
+from ...articulation import Articulation, JointKind, rotation_about
 from ...config import BuildConfig
 from ...errors import InputRejected
+from ...geometry.posing import posed
 from ...geometry.triangles import face_areas
 from ...intake.intake import Intake
-from ...intake.stated import Stated
+from ...intake.stated import Stated, StatedPart
 from ...mesh import IntArray, Mesh
 from ...part import PartKind, Proposer
 from ..articulator import Articulator, HypothesisMaker
 from ..assembly import JOINT_SUFFIX, assembled
-from ..proposal import Hypothesis, Proposal
+from ..proposal import Hypothesis, Motion, Proposal
 from ..rigid import rigid_articulation
 from ..seams.articulator import cut_along
 from ..seams.cutting import inside
 from ..seams.placing import OpeningPart
-from .placing import NOT_FOUND, USUAL, Placed, place_parts
+from .placing import MM, NOT_FOUND, USUAL, Placed, place_parts
 
 NAME = "stated"
 #: Whole hypotheses that are worth trying.
@@ -169,19 +170,38 @@ def _articulation(
         Proposal(
             way.kind,
             owner == number,
-            way.motion,
+            _from_closed(each.stated, way.motion),
             proposer=Proposer.SIDECAR,
-            panel=way.panel,
-            handle=way.handle,
+            panel=way.panel if each.stated.drawn is None else None,
+            handle=way.handle if each.stated.drawn is None else None,
         )
-        for number, way in enumerate(ways, start=1)
+        for number, (each, way) in enumerate(zip(placed, ways, strict=True), start=1)
     ]
-    names = {
-        proposal.source.id: each.stated.name
-        for proposal, each in zip(proposals, placed, strict=True)
-        if each.stated.name is not None
+    stated = {
+        proposal.source.id: each.stated for proposal, each in zip(proposals, placed, strict=True)
     }
-    return _named(assembled(mesh, owner, proposals, NAME, hosts), names)
+    made = _named(assembled(mesh, owner, proposals, NAME, hosts), stated)
+    return _closed(made, stated)
+
+
+def _from_closed(part: StatedPart, motion: Motion) -> Motion:
+    """Return a motion whose lower limit is the closed pose of a part that is drawn open."""
+    if part.drawn is None:
+        return motion
+    unit = MM if motion.kind is JointKind.PRISMATIC else float(np.degrees(1.0))
+    by = motion.upper if part.drawn == "open" else float(part.drawn) / unit
+    return replace(motion, lower=-by, upper=max(motion.upper - by, 0.0))
+
+
+def _closed(made: Articulation, stated: Mapping[str, StatedPart]) -> Articulation:
+    """Return an articulation whose parts that are drawn open are closed, its new rest."""
+    drawn = {
+        joint.name: joint.lower
+        for joint in made.joints
+        if (source := made.parts[joint.child].source) is not None
+        and stated[source.id].drawn is not None
+    }
+    return posed(made, drawn) if drawn else made
 
 
 def _hosts(placed: Sequence[Placed], ways: Sequence[OpeningPart]) -> list[int]:
@@ -229,12 +249,12 @@ def _owners(
     return owner
 
 
-def _named(made: Articulation, names: Mapping[str, str]) -> Articulation:
+def _named(made: Articulation, stated: Mapping[str, StatedPart]) -> Articulation:
     """Return an articulation whose parts are called as stated, by the id of their proposal."""
     parts = []
     joints = []
     for part in made.parts:
-        name = names.get(part.source.id) if part.source is not None else None
+        name = stated[part.source.id].name if part.source is not None else None
         parts.append(replace(part, name=name or part.name))
     for joint in made.joints:
         suffix = JOINT_SUFFIX[joint.kind]

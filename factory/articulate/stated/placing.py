@@ -32,6 +32,8 @@ LEAST_SHOWN = 0.3
 MOST_SHARED = 0.25
 #: Ways to open that are tried for one part.
 MOST_WAYS = 2
+#: Rows below a lid's seam that show where the body ends [pixels].
+BELOW = 8
 #: How far a button is pressed [m].
 BUTTON_TRAVEL_M = 0.004
 MM = 1000.0
@@ -215,7 +217,23 @@ def _lid_openings(fronts: Mapping[Side, Front], side: Side, part: _Boxed) -> lis
     likely = [OPPOSITE[side], *others] if hinge is None else [_HINGE_SIDES[hinge]]
     row = int(part.panel.rectangle.low[0])
     lid = Lid(row, 1.0, 1.0, tuple((each, 1.0) for each in likely))
-    return [lid_mover(fronts, lid, each, 1.0, 1.0) for each in likely[:MOST_WAYS]]
+    found = [(each, lid_mover(fronts, lid, each, 1.0, 1.0)) for each in likely[:MOST_WAYS]]
+    if part.stated.drawn is None:
+        return [mover for _, mover in found]
+    return [_hung_on_body(fronts[each], mover, row) for each, mover in found]
+
+
+def _hung_on_body(front: Front, mover: OpeningPart, row: int) -> OpeningPart:
+    """Return a lid hinged where the body ends: one that stands open may lean out beyond it."""
+    rows = slice(max(row - BELOW, 0), row)
+    depth = -front.face.height[rows][front.relief.seen[rows]]
+    if not len(depth):
+        return mover
+    raster = front.relief.raster
+    away = raster.side.frame[2]
+    at = raster.near + float(np.percentile(depth, 25)) * raster.pixel
+    origin = mover.motion.origin + (at - float(mover.motion.origin @ away)) * away
+    return replace(mover, motion=replace(mover.motion, origin=origin))
 
 
 def _control(part: _Boxed) -> OpeningPart:

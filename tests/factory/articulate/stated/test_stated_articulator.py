@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from one_piece import doors, drawers, fridge
+from manifold3d import Manifold
+from one_piece import doors, drawers, fridge, mesh_of
 
 from asset_factory.factory.articulate.seams.articulator import SeamsArticulator
 from asset_factory.factory.articulate.stated import StatedArticulator
@@ -168,3 +169,24 @@ def test_what_is_expected_is_found_or_counted():
     with pytest.raises(InputRejected, match="found 3 of 4 drawers") as caught:
         StatedArticulator(too_many, Guess()).articulate(drawers())
     assert caught.value.code == "stated_part_not_found"
+
+
+def opened_box(angle):
+    """A box of half a metre with a lid of 40 mm that stands open about its back edge [rad]."""
+    body = Manifold.cube([0.5, 0.4, 0.3])
+    lid = Manifold.cube([0.5, 0.4, 0.04]).translate([0.0, -0.4, 0.0])
+    lid = lid.rotate([-float(np.degrees(angle)), 0.0, 0.0]).translate([0.0, 0.4, 0.3])
+    return mesh_of(body + lid, 0.05)
+
+
+@pytest.mark.parametrize("degrees", [70.0, 90.0])
+def test_a_lid_that_is_drawn_open_is_closed_first(degrees):
+    mesh = opened_box(np.radians(degrees))
+    seam = 0.3 / float(mesh.extents[2])
+    lid = {"kind": "lid", "side": "front", "box": [0, seam, 1, 1], "hinge": "back"}
+    made = articulated(mesh, {**lid, "drawn": degrees})[0]
+    low, high = box_of(made, 1)
+    assert low == pytest.approx([0.0, 0.0, 0.3], abs=FINE)
+    assert high == pytest.approx([0.5, 0.4, 0.34], abs=FINE)
+    assert made.joints[0].lower == 0.0
+    assert made.joints[0].upper >= np.radians(degrees) - 1e-9
