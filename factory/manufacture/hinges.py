@@ -12,13 +12,14 @@ import numpy as np
 
 from ..articulation import Articulation, Joint, JointKind
 from ..mesh import FloatArray
-from ..part import OpensBy, Panel
 
 #: What is so near to the hinge's edge, of the door's width, is looked at for where it begins.
 EDGE = 0.1
 #: Hinges that lie this close to that edge are there already [m].
 THERE_M = 0.0005
-#: Directions at right angles are so to this cosine.
+#: A handle before a door turns what is taken for its plane: directions are alike to this cosine.
+ALIKE = 0.9
+#: And at right angles to this one.
 ACROSS = 0.02
 #: Axes this near to a principal direction may have been meant to lie along it [cosine of 12 deg];
 STRAIGHT = float(np.cos(np.radians(12.0)))
@@ -34,7 +35,7 @@ def is_askew(axis: FloatArray) -> bool:
 
 
 def is_crooked(axis: FloatArray) -> bool:
-    """Return whether a unit axis is further off a principal direction than careless annotations."""
+    """Whether a unit axis is further off a principal direction than annotators are careless."""
     return is_askew(axis) and float(np.abs(axis).max()) < CROOKED
 
 
@@ -48,36 +49,33 @@ def at_front_edge(articulation: Articulation, joint: Joint) -> Joint | None:
         joint: of it.
 
     Returns:
-        ``None`` where the joint is no hinge of a panel that opens one way, or is there already.
+        ``None`` where the joint is no hinge that opens one way, or is there already.
     """
     return _at_edge(articulation, joint, np.max)
 
 
 def at_back_edge(articulation: Articulation, joint: Joint) -> Joint | None:
-    """Return the same hinge at the edge towards what the door lies before."""
+    """The same at the edge towards what the door lies before; otherwise as the front edge."""
     return _at_edge(articulation, joint, np.min)
-
-
-def _toward_hinge(panel: Panel) -> FloatArray:
-    """Return the direction from a panel's middle to the edge where it is hinged, shape [3]."""
-    right, up, away = panel.frame
-    ways = {OpensBy.LEFT: -right, OpensBy.RIGHT: right, OpensBy.BOTTOM: -up, OpensBy.TOP: up}
-    return np.asarray(ways.get(panel.opens, away))
 
 
 def _at_edge(
     articulation: Articulation, joint: Joint, extreme: Callable[[FloatArray], np.float64]
 ) -> Joint | None:
-    """Return the same hinge where its panel begins, or ends, at the hinge's edge."""
-    part = articulation.parts[joint.child]
-    opens_one_way = joint.kind is JointKind.REVOLUTE and joint.upper + joint.lower != 0.0
-    if not opens_one_way or part.panel is None or not len(part.faces):
+    """The same hinge where its part begins: at the least or the most that it stands out there."""
+    turn = joint.upper + joint.lower
+    faces = articulation.parts[joint.child].faces
+    if joint.kind is not JointKind.REVOLUTE or turn == 0.0 or not len(faces):
         return None
-    outward = part.panel.outward
-    toward = _toward_hinge(part.panel)
-    if max(abs(float(way @ joint.axis)) for way in (outward, toward)) > ACROSS:
+    part = articulation.part_mesh(joint.child)
+    arm = part.bounds.mean(axis=0) - joint.origin
+    arm = arm - joint.axis * float(arm @ joint.axis)
+    outward = _along_axis(np.cross(joint.axis, arm) * np.sign(turn))
+    if outward is None or abs(float(outward @ joint.axis)) > ACROSS:
         return None
-    points = articulation.mesh.vertices[np.unique(articulation.mesh.faces[part.faces])]
+    toward = np.cross(outward, joint.axis)
+    toward = toward * -np.sign(float(toward @ arm))
+    points = part.vertices[np.unique(part.faces)]
     reach = points @ toward
     near = reach >= reach.max() - EDGE * float(np.ptp(reach))
     face = float(extreme(points[near] @ outward))
@@ -86,3 +84,12 @@ def _at_edge(
     if float(np.linalg.norm(off)) <= THERE_M:
         return None
     return replace(joint, origin=joint.origin + off)
+
+
+def _along_axis(direction: FloatArray) -> FloatArray | None:
+    """Return the axis of the object frame that a direction goes along, if it does."""
+    length = float(np.linalg.norm(direction))
+    longest = int(np.abs(direction).argmax())
+    if abs(float(direction[longest])) <= ALIKE * length:
+        return None
+    return np.asarray(np.eye(3)[longest] * np.sign(direction[longest]))

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from asset_factory.factory.articulate.seams.ways import OpensBy
 
 from asset_factory.factory.articulate.seams.features import MOTION_NAMES, NAMES
 from asset_factory.factory.mesh import FloatArray
 from asset_factory.factory.models.perceptron import Perceptron
 from asset_factory.factory.models.shipped import Arrays
+from asset_factory.factory.part import OpensBy
 
 from ..elevations.rows import Rows
 from .perceptron import Examples, FitSettings, Weighing, averaged, fit_examples

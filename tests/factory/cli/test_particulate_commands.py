@@ -131,7 +131,7 @@ def test_predict_refuses_more_faces_than_the_limit_with_both_numbers(capsys, tmp
         (["--checkpoint", str(FRIDGE)], "fridge.obj: not safetensors"),
         (
             ["--articulator", "guess"],
-            "there are auto, annotated, geometric, seams, particulate, rigid",
+            "there are auto, stated, annotated, geometric, seams, particulate, rigid",
         ),
         (["--samples", "0"], "samples: is 0, want at least 1"),
     ],

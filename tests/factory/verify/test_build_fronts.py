@@ -18,6 +18,7 @@ from asset_factory.factory.manufacture.plan import (
     first_plan,
 )
 from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.part import PartSource, Proposer
 from asset_factory.factory.verify.repair import next_plan
 from asset_factory.factory.verify.validate import Verdict
 from asset_factory.sim_checks import Finding, Severity
@@ -31,14 +32,16 @@ def rejected(code: str) -> Verdict:
     return Verdict(Report("asset.urdf", findings=(finding,)))
 
 
-def drawer(articulator: str) -> Articulation:
+def drawer(proposer: Proposer) -> Articulation:
     """The upper drawer of a chest, by whoever says so."""
     mesh = drawer_chest()
     own = np.isin(connected_components(mesh), (2, 4))
-    parts = (Part("base", np.flatnonzero(~own)), Part("drawer", np.flatnonzero(own)))
+    source = PartSource("upper", proposer)
+    front = Part("drawer", np.flatnonzero(own), source=source)
+    parts = (Part("base", np.flatnonzero(~own)), front)
     out = np.array([0.0, -1.0, 0.0])
     joint = Joint("slide", JointKind.PRISMATIC, 0, 1, out, np.zeros(3), upper=0.3)
-    return Articulation(mesh, parts, (joint,), articulator)
+    return Articulation(mesh, parts, (joint,), "auto")
 
 
 def test_a_front_that_sticks_is_built_anew_once() -> None:
@@ -55,12 +58,12 @@ def test_nothing_is_built_for_other_faults_or_without_fronts() -> None:
 
 
 def test_only_guessed_fronts_are_built() -> None:
-    assert dispensable_joints(drawer("auto"), 0.1).fronts == {"drawer"}
-    assert not dispensable_joints(drawer("annotated"), 0.1).fronts
+    assert dispensable_joints(drawer(Proposer.RULES), 0.1).fronts == {"drawer"}
+    assert not dispensable_joints(drawer(Proposer.ANNOTATION), 0.1).fronts
 
 
 def test_fronts_of_many_faces_are_built_at_once() -> None:
-    chest = drawer("auto")
+    chest = drawer(Proposer.RULES)
     assert first_plan(chest, FRONTS) == Plan()
     faces = np.tile(chest.mesh.faces, (MANY_FACES // len(chest.mesh.faces) + 1, 1))
     own = chest.parts[1]

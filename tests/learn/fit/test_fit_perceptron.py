@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from asset_factory.factory.articulate.seams.ways import OpensBy
 
 from asset_factory.factory.articulate.seams.features import MOTION_NAMES, NAMES
 from asset_factory.factory.articulate.seams.learned import load_judge
 from asset_factory.factory.models.perceptron import Perceptron
+from asset_factory.factory.part import OpensBy
 from asset_factory.learn.fit.perceptron import (
     Examples,
     FitSettings,
