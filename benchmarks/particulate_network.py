@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 import torch  # noqa: TID253
 
-from asset_factory.factory.models.network.precision import fastest_precision, product_dtype
+from asset_factory.factory.models.network.precision import product_dtype
 from asset_factory.factory.models.network.shape import NetworkShape
 from asset_factory.factory.models.network.streaming import CHUNK
 from asset_factory.factory.models.network.transformer import PartArticulationTransformer
@@ -140,7 +140,6 @@ def main() -> None:
     parser.add_argument("--precision", choices=PRECISIONS, nargs="+", default=PRECISIONS)
     options = parser.parse_args()
     line: dict[str, Any] = {"benchmark": "particulate_network", "points": options.points}
-    line["faster_here"] = fastest_precision().value
     for precision in options.precision:
         # A process of its own for each, or the second one's peak would hold what the first one left
         # behind.

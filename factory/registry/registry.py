@@ -10,11 +10,11 @@ from contextlib import AbstractContextManager, contextmanager
 from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from asset_factory.sim_checks import Report, Status
 
 from ..errors import RegistryError
-from ..export.manifest import Manifest
 from ..runtime.layout import ASSETS, MANIFEST, NOTES, REJECTED, REPORT, STAGING
 from . import rows
 from .database import connected, writing
@@ -26,6 +26,9 @@ from .rebuild import make_registry, open_registry
 from .report_file import BuildReport, file_digests, read_report, write_report
 from .rows import Filters
 from .staging import held_folder
+
+if TYPE_CHECKING:
+    from ..export.manifest import Manifest
 
 _PAGE = 1000
 _TRIES = 3
@@ -301,6 +304,9 @@ class Registry:
 
 def read_manifest(folder: Path) -> Manifest | None:
     """Return the manifest in an asset's folder; ``None`` where there is none that can be read."""
+    # What writes assets loads SciPy, which `factory --help` has no need of.
+    from ..export.manifest import Manifest
+
     path = folder / MANIFEST
     try:
         if path.is_symlink() or path.stat().st_size > _MAX_MANIFEST:

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 from modelled_furniture import drawer_chest
 
+from asset_factory.factory.articulate.locate import located
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.config import RepairConfig
 from asset_factory.factory.geometry.components import connected_components
@@ -41,7 +42,7 @@ def drawer(proposer: Proposer) -> Articulation:
     parts = (Part("base", np.flatnonzero(~own)), front)
     out = np.array([0.0, -1.0, 0.0])
     joint = Joint("slide", JointKind.PRISMATIC, 0, 1, out, np.zeros(3), upper=0.3)
-    return Articulation(mesh, parts, (joint,), "auto")
+    return located(Articulation(mesh, parts, (joint,), "auto"))
 
 
 def test_a_front_that_sticks_is_built_anew_once() -> None:
