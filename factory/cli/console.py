@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.markup import escape
@@ -21,7 +21,6 @@ from rich.table import Table
 
 from asset_factory.sim_checks import Disagreement, Finding, Report, Severity, Status
 
-from ..export.manifest import Manifest
 from ..models.weights.checkpoint import WeightsInfo
 from ..registry import Entry
 from ..registry.report_file import BuildReport
@@ -29,6 +28,9 @@ from ..registry.result import Result
 from ..report.summary import Summary
 from ..runtime.layout import ASSETS, REJECTED, SUMMARY
 from ..runtime.terminal import Terminal, one_line
+
+if TYPE_CHECKING:
+    from ..export.manifest import Manifest
 
 STATUS_STYLE = {Status.PASSED: "green", Status.REJECTED: "red", Status.UNJUDGED: "yellow"}
 _SEVERITIES = {Severity.HARD: ("red", "error"), Severity.SOFT: ("yellow", "warning")}
