@@ -32,12 +32,13 @@ readers: $(VENV)/.ready-dev         ## every export format in Drake, Pinocchio, 
 real: $(VENV)/.ready-dev            ## real objects against the table of what becomes of them
 	$(BIN)/python benchmarks/real_objects.py
 
-check: $(VENV)/.ready-dev           ## lint, types, layers, conventions, tables in the docs
+check: $(VENV)/.ready-dev           ## lint, types, layers, conventions, budgets, tables in the docs
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python .ci/conventions.py
+	$(BIN)/python .ci/budget.py
 	$(BIN)/python docs/generate.py --check
 
 format: $(VENV)/.ready-dev

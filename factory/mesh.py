@@ -160,7 +160,7 @@ class Mesh:
         )
 
     def transformed(self, matrix: npt.ArrayLike) -> Mesh:
-        """The mesh moved by a 4x4 matrix (rotation, uniform or not uniform scale, translation).
+        """Move the mesh by a 4x4 matrix: rotation, scale along any axes, translation.
 
         A mirroring matrix also reverses the winding, so that faces keep pointing outwards.
         """

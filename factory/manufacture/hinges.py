@@ -55,14 +55,14 @@ def at_front_edge(articulation: Articulation, joint: Joint) -> Joint | None:
 
 
 def at_back_edge(articulation: Articulation, joint: Joint) -> Joint | None:
-    """The same at the edge towards what the door lies before; otherwise as the front edge."""
+    """Return the same hinge at the edge towards what the door lies before."""
     return _at_edge(articulation, joint, np.min)
 
 
 def _at_edge(
     articulation: Articulation, joint: Joint, extreme: Callable[[FloatArray], np.float64]
 ) -> Joint | None:
-    """The same hinge where its part begins: at the least or the most that it stands out there."""
+    """Return the same hinge where its part begins: where it stands out least or most there."""
     turn = joint.upper + joint.lower
     faces = articulation.parts[joint.child].faces
     if joint.kind is not JointKind.REVOLUTE or turn == 0.0 or not len(faces):
