@@ -2,56 +2,62 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from ...asset import Hull
 from ...mesh import FloatArray
-from .clip import carved, cut_apart, meeting, moved
+from .clip import carved, cut_apart, meeting
 
 #: For each piece more a cut must lose less, by this share.
 PIECE_SHARE = 0.25
 
-#: Steps along a joint are as large as one another, but for rounding [m] and [rad].
-EVEN = 1e-6
+#: Steps along a slide are as long as one another, but for rounding [m].
+EVEN_M = 1e-6
 #: A sheet that gives way may come to lie where something was before: so often all is looked at
 #: again.
-MOST_PASSES = 6
+MOST_PASSES = 3
 
 Sides = tuple[list[Hull], list[Hull]]
-#: A pose of the second part as seen from the first, [4, 4]; or that and the one that it comes from.
-Step = tuple[FloatArray, ...]
-#: Hulls of two parts, poses, and a clearance [m] -> what is left of the hulls.
-Cut = Callable[[Sequence[Hull], Sequence[Hull], Sequence[FloatArray], float], Sides]
+
+
+@dataclass(frozen=True)
+class Step:
+    """One pose of a way.
+
+    Attributes:
+        pose: where the second part is as seen from the first, [4, 4].
+        behind: from there to where it slid here from, in the first part's frame [m], shape [3].
+    """
+
+    pose: FloatArray
+    behind: FloatArray
 
 
 def steps_along(poses: Sequence[FloatArray]) -> list[Step]:
-    """Return the poses, each with the one that leads there along a joint, if one does.
+    """Return the poses with what lies between them, where a slide leads through them.
 
-    Hulls are thinner than a step is long: a board passes a lip between two poses. Of what turns a
-    step is so small that all points go nearly straight.
-
-    Args:
-        poses: at rest, closed, and along one joint after another, [4, 4] each.
+    Hulls are thinner than a step is long: a board passes a lip between two poses.
     """
-    steps: list[Step] = []
+    steps = []
     for number, pose in enumerate(poses):
-        before = [k for k in (number - 1, 1) if 0 <= k < number and _leads_on(poses, k, number)]
-        steps.append((pose, poses[before[0]]) if before else (pose,))
+        behind = np.zeros(3)
+        near = [poses[k] for k in (number - 2, number + 1) if 0 <= k < len(poses)]
+        if number and any(_even(poses[number - 1], pose, other) for other in near):
+            behind = poses[number - 1][:3, 3] - pose[:3, 3]
+        steps.append(Step(pose, behind))
     return steps
 
 
-def _leads_on(poses: Sequence[FloatArray], before: int, number: int) -> bool:
-    """Tell whether a step is as large as the one that follows it or the one that leads to it."""
-    step = np.linalg.inv(poses[before]) @ poses[number]
-    others = [(number, number + 1)]
-    others += [(before - 1, before)] if before == number - 1 else []
-    return any(
-        float(np.abs(np.linalg.inv(poses[i]) @ poses[j] - step).max()) < EVEN
-        for i, j in others
-        if i >= 0 and j < len(poses)
-    )
+def _even(before: FloatArray, pose: FloatArray, other: FloatArray) -> bool:
+    """Tell whether a step is as long as the one that leads to it, or on from it, and none turns."""
+    if not all(np.array_equal(pose[:3, :3], each[:3, :3]) for each in (before, other)):
+        return False
+    step = pose[:3, 3] - before[:3, 3]
+    sides = (other[:3, 3] - pose[:3, 3], before[:3, 3] - other[:3, 3])
+    return min(float(np.abs(step - side).max()) for side in sides) < EVEN_M
 
 
 def cut_apart_along(
@@ -70,13 +76,13 @@ def cut_apart_along(
     # Pose by pose: what meets first is cut first, a little at a time.
     steps = steps_along(poses)
     for _ in range(MOST_PASSES):
-        shifted = False
+        moved = False
         for step in steps:
-            for i, j in near_pairs(solids_a, solids_b, clearance_m, *step):
+            for i, j in near_pairs(solids_a, solids_b, step.pose, clearance_m, step.behind):
                 before = solids_a[i], solids_b[j]
                 solids_a[i], solids_b[j] = _cut_by_planes(*before, [step], clearance_m)
-                shifted |= any(map(_gave_way, before, (solids_a[i], solids_b[j])))
-        if not shifted:
+                moved |= any(map(_moved, before, (solids_a[i], solids_b[j])))
+        if not moved:
             break
     return [solid for solid in solids_a if solid], [solid for solid in solids_b if solid]
 
@@ -103,7 +109,7 @@ def carved_apart_along(
     whole_a = [pieces[0] for pieces in pieces_a]
     whole_b = [pieces[0] for pieces in pieces_b]
     for step in steps_along(poses):
-        for pair in near_pairs(whole_a, whole_b, clearance_m, *step):
+        for pair in near_pairs(whole_a, whole_b, step.pose, clearance_m, step.behind):
             when.setdefault(pair, []).append(step)
     for (i, j), way in sorted(when.items(), key=lambda found: found[0]):
         pieces_a[i], pieces_b[j] = _all_apart(pieces_a[i], pieces_b[j], way, clearance_m, whole)
@@ -119,7 +125,7 @@ def hull_depth(
 
     Gaps up to ``margin`` are negative depths; where all hulls are further apart, minus that.
     """
-    near = near_pairs(a, b, margin, pose)
+    near = near_pairs(a, b, pose, margin)
     return max([-margin, *(meeting(a[i], b[j], pose).depth for i, j in near)])
 
 
@@ -155,7 +161,7 @@ def _apart(
     whole: tuple[float, float],
 ) -> Sides:
     """Cut two hulls apart in the cheapest way: both by planes, pose by pose, or one carved."""
-    depths = [meeting(one, other, *step).depth for step in way]
+    depths = [meeting(one, other, step.pose, behind=step.behind).depth for step in way]
     met = [step for step, depth in zip(way, depths, strict=True) if depth > -clearance_m]
     if not met:
         return [one], [other]
@@ -164,9 +170,8 @@ def _apart(
     if max(depths) <= clearance_m:
         return by_planes
     # All the room that either takes as the other sees it.
-    ahead = np.concatenate([moved(other, pose) for step in met for pose in step])
-    inverses = [np.asarray(np.linalg.inv(pose)) for step in met for pose in step]
-    back = np.concatenate([moved(one, pose) for pose in inverses])
+    ahead = np.concatenate([_seen(other, step.pose, step.behind) for step in met])
+    back = np.concatenate([_seen(one, *_from_the_other(step)) for step in met])
     ways: tuple[Sides, ...] = (
         by_planes,
         (carved(one, ahead, clearance_m), [other]),
@@ -181,17 +186,29 @@ def _cut_by_planes(
     for step in way:
         if one is None or other is None:
             break
-        met = meeting(one, other, *step)
+        met = meeting(one, other, step.pose, behind=step.behind)
         if met.depth > -clearance_m:
-            one, other = cut_apart(one, other, step, met, clearance_m)
+            one, other = cut_apart(one, other, step.pose, met, clearance_m)
     return one, other
 
 
-def _gave_way(before: Hull | None, after: Hull | None) -> bool:
+def _moved(before: Hull | None, after: Hull | None) -> bool:
     """Tell whether a hull is as large as before, but elsewhere."""
     if before is None or after is None or before is after:
         return False
     return after.volume > (1.0 - 1e-6) * before.volume
+
+
+def _seen(solid: Hull, pose: FloatArray, behind: FloatArray) -> FloatArray:
+    """Return the corners of a moved hull, there and where it slid there from [m], shape [n, 3]."""
+    points = solid.vertices @ pose[:3, :3].T + pose[:3, 3]
+    return np.concatenate([points, points + behind]) if behind.any() else points
+
+
+def _from_the_other(step: Step) -> tuple[FloatArray, FloatArray]:
+    """Return the same step of the first part as the second sees it."""
+    back = np.asarray(np.linalg.inv(step.pose))
+    return back, -back[:3, :3] @ step.behind
 
 
 def _cost(sides: Sides, before: tuple[Hull, Hull], whole: tuple[float, float]) -> float:
@@ -204,26 +221,31 @@ def _cost(sides: Sides, before: tuple[Hull, Hull], whole: tuple[float, float]) -
 
 
 def near_pairs(
-    a: Sequence[Hull | None], b: Sequence[Hull | None], margin: float, *way: FloatArray
+    a: Sequence[Hull | None],
+    b: Sequence[Hull | None],
+    pose: FloatArray,
+    margin: float,
+    behind: FloatArray | None = None,
 ) -> list[tuple[int, int]]:
     """Return the indices of hulls whose boxes come within ``margin`` [m] of one another.
 
     Args:
         a: hulls of one part; ``None`` for one of which nothing is left.
         b: of another.
+        pose: by which the second are moved, [4, 4].
         margin: counted as near [m].
-        *way: poses of the second part, all of which count, see :func:`~.clip.meeting`.
+        behind: see :func:`~.clip.meeting`.
     """
     low_a, high_a = _boxes(a, np.eye(4))
-    boxes = [_boxes(b, pose) for pose in way]
-    low_b = np.min([low for low, _ in boxes], axis=0)
-    high_b = np.max([high for _, high in boxes], axis=0)
+    low_b, high_b = _boxes(b, pose)
+    if behind is not None:
+        low_b = low_b + np.minimum(behind, 0.0)
+        high_b = high_b + np.maximum(behind, 0.0)
     apart = (low_a[:, None] > high_b[None] + margin) | (high_a[:, None] < low_b[None] - margin)
     return [(int(i), int(j)) for i, j in np.argwhere(~apart.any(axis=2))]
 
 
 def _boxes(solids: Sequence[Hull | None], pose: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the least and the greatest corners of moved hulls [m], shape [n, 3] each."""
     low = np.full((len(solids), 3), np.inf)
     high = np.full((len(solids), 3), -np.inf)
     there = [number for number, solid in enumerate(solids) if solid is not None]

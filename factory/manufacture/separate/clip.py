@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,8 +17,6 @@ SHEET_M = 0.003
 LEFT_M = 0.001
 #: Of what is needed between two hulls, shares that may go off the first.
 SHARES = (0.0, 0.5, 1.0)
-#: Face normals that separate two hulls best, of which the cut is chosen.
-MOST_NORMALS = 6
 #: Directions with a smaller cosine are unlike one another; so many of those are tried, too.
 ALIKE = 0.7
 UNLIKE = 3
@@ -51,12 +48,15 @@ class HullMeeting:
         reaches: how far the first reaches beyond the second's start along each [m], shape [n];
             negative is a gap.
         first_ends, second_starts: their positions along each [m], shape [n].
+        lags: how far before its pose the second was along each just before [m], shape [n]; at
+            most 0.
     """
 
     directions: FloatArray
     reaches: FloatArray
     first_ends: FloatArray
     second_starts: FloatArray
+    lags: FloatArray
 
     @property
     def depth(self) -> float:
@@ -64,35 +64,36 @@ class HullMeeting:
         return float(self.reaches[0])
 
 
-def meeting(a: Hull, b: Hull, *way: FloatArray) -> HullMeeting:
+def meeting(
+    a: Hull,
+    b: Hull,
+    pose: FloatArray,
+    most: int = 6,
+    behind: FloatArray | None = None,
+) -> HullMeeting:
     """Find the face normals that separate two hulls best; if they overlap, some unlike those too.
 
     Args:
         a: the first.
         b: the second.
-        *way: a pose by which the second is moved, [4, 4]; or two, where it moves from one to the
-            other and has to be clear of the first at both in one direction.
+        pose: by which the second is moved, [4, 4].
+        most: how many normals are kept.
+        behind: from there to where it slid here from, in the first hull's frame [m], shape [3];
+            all of that way counts.
     """
-    directions = np.vstack([a.planes[:, :3], *(-b.planes[:, :3] @ turn.T for turn in _turns(way))])
+    points_b = b.vertices @ pose[:3, :3].T + pose[:3, 3]
+    directions = np.vstack([a.planes[:, :3], -b.planes[:, :3] @ pose[:3, :3].T])
     ends = (a.vertices @ directions.T).max(axis=0)
-    starts = np.min([(moved(b, pose) @ directions.T).min(axis=0) for pose in way], axis=0)
+    lags = np.zeros(len(directions)) if behind is None else np.minimum(directions @ behind, 0.0)
+    starts = (points_b @ directions.T).min(axis=0) + lags
     # Triangles of one face reach equally far but for last digits, which must not choose among them.
     order = np.argsort(np.round(ends - starts, ROUNDING_DECIMALS), kind="stable")
-    best = order[:MOST_NORMALS]
+    best = order[:most]
     if ends[best[0]] > starts[best[0]]:
         best = _with_others(directions, order, best)
-    return HullMeeting(directions[best], (ends - starts)[best], ends[best], starts[best])
-
-
-def moved(hull: Hull, pose: FloatArray) -> FloatArray:
-    """Return a hull's corners where a pose moves them [m], shape [n, 3]."""
-    return np.asarray(hull.vertices @ pose[:3, :3].T + pose[:3, 3])
-
-
-def _turns(way: Sequence[FloatArray]) -> list[FloatArray]:
-    """Return the rotations of poses, one of those that are the same, shape [3, 3] each."""
-    turns = [pose[:3, :3] for pose in way]
-    return turns[:1] if all(np.array_equal(turn, turns[0]) for turn in turns) else turns
+    return HullMeeting(
+        directions[best], (ends - starts)[best], ends[best], starts[best], lags[best]
+    )
 
 
 def _with_others(directions: FloatArray, order: IntArray, best: IntArray) -> IntArray:
@@ -108,7 +109,7 @@ def _with_others(directions: FloatArray, order: IntArray, best: IntArray) -> Int
 
 
 def cut_apart(
-    a: Hull, b: Hull, way: Sequence[FloatArray], met: HullMeeting, clearance_m: float
+    a: Hull, b: Hull, pose: FloatArray, met: HullMeeting, clearance_m: float
 ) -> tuple[Hull | None, Hull | None]:
     """Cut two hulls so that the least goes and ``clearance_m`` is left between.
 
@@ -116,39 +117,28 @@ def cut_apart(
     deep in the other, every direction is tried with the cut all in the first, all in the second and
     half in each: a stem loses what is hidden in its socket rather than the socket its rim.
 
-    Args:
-        a: the first.
-        b: the second.
-        way: the one or two poses that they met on, see :func:`meeting`.
-        met: how they did.
-        clearance_m: to be left [m].
-
     Returns:
         The hulls; ``None`` for one of which nothing is left.
     """
     deep = met.depth > clearance_m
     count = len(met.directions) if deep else 1
-    shares = np.array(SHARES)
-    if not deep:
-        shares = np.array([_thicker_gives(a, b, way[0], met.directions[0])])
+    shares = np.array(SHARES) if deep else np.array([_thicker_gives(a, b, pose, met.directions[0])])
     needed = met.reaches[:count, None] + clearance_m
     ends = (met.first_ends[:count, None] - shares * needed).ravel()
-    starts = (met.second_starts[:count, None] + (1.0 - shares) * needed).ravel()
+    shifts = met.directions[:count] @ pose[:3, 3] + met.lags[:count]
+    starts = (met.second_starts[:count, None] + (1.0 - shares) * needed - shifts[:, None]).ravel()
     normals = np.repeat(met.directions[:count], len(shares), axis=0)
-    # The same planes as the second hull sees them at each pose.
-    backs = [-normals @ pose[:3, :3] for pose in way]
-    offsets = [normals @ pose[:3, 3] - starts for pose in way]
+    backs = normals @ pose[:3, :3]
     best = 0
     if deep:
-        kept_b = [volumes_below(b, *planes) for planes in zip(backs, offsets, strict=True)]
-        left = volumes_below(a, normals, ends) + np.min(kept_b, axis=0)
+        left = volumes_below(a, normals, ends) + volumes_below(b, -backs, -starts)
         # Of cuts that differ by rounding only the first.
         best = int((left >= left.max() - ROUNDING_SHARE * (a.volume + b.volume)).argmax())
     cut = clipped if deep else given_way
-    second: Hull | None = b
-    for normal, offset in zip(backs, offsets, strict=True):
-        second = second and cut(second, normal[best], float(offset[best]))
-    return cut(a, normals[best], float(ends[best])), second
+    return (
+        cut(a, normals[best], float(ends[best])),
+        cut(b, -backs[best], -float(starts[best])),
+    )
 
 
 def _thicker_gives(a: Hull, b: Hull, pose: FloatArray, direction: FloatArray) -> float:

@@ -16,14 +16,13 @@ from ...mesh import FloatArray
 from ..hinges import is_crooked
 from ..poses import held_by, jointed, joints_between, relative_poses
 from .along import Sides, hull_depth
+from .between import poses_between
 from .budget import CutLimits, Excuse, Loss, SeenSurface, loss, overdone
 from .clip import SHEET_M
-from .hung import at_an_edge, reach_m, seat_roundness, trimmed_limit, well_hung
+from .hung import at_an_edge, seat_roundness, trimmed_limit, well_hung
 from .overlap import overlap_m, part_solids, thickness_m
 from .pits import stands_out_m
 
-#: An arm's end may be so far off the straight line between two poses, as a share of the clearance.
-BULGE_SHARE = 0.2
 #: Hulls that get so much deeper along a joint are in each other's way, however fat they are [m].
 HOPELESS_M = 0.06
 #: A slide no longer than this is a button, which is pressed into what it stands on [m].
@@ -86,21 +85,8 @@ class PartPair:
 
     @cached_property
     def poses(self) -> list[FloatArray]:
-        """Return where the second part is as seen from the first: at rest, closed, on all ways.
-
-        So many that what they meet with is nowhere far off the chord of a step.
-        """
-        config = self.bodies.config
-        surfaces = [each for part in self.parts if (each := self.bodies.surfaces[part])]
-        arms = [
-            min((reach_m(each, joint) for each in surfaces), default=0.0)
-            for joint in self.joints
-            if joint.turns
-        ]
-        bulge_m = BULGE_SHARE * config.clearance_m
-        steps = np.pi * np.sqrt(max(arms, default=0.0) / (8.0 * bulge_m))
-        count = max(config.poses, 1 + int(np.ceil(steps)))
-        return relative_poses(self.bodies.articulation, *self.parts, count)
+        """Return where the second part is as seen from the first: at rest, closed, on all ways."""
+        return relative_poses(self.bodies.articulation, *self.parts, self.bodies.config.poses)
 
     @cached_property
     def joints(self) -> list[Joint]:
@@ -164,6 +150,14 @@ class PartPair:
             return 0.0
         near_m = self.bodies.config.clearance_m
         return seat_roundness(surface, joint, self.bodies.holding(joint), near_m)
+
+    def poses_between(self) -> list[FloatArray]:
+        """Return poses between those that are cut at, where a long arm needs them."""
+        mover = self.bodies.surfaces[self.parts[1 - self.holder]]
+        if mover is None or not self.jointed:
+            return []
+        count = self.bodies.config.poses
+        return poses_between(self.bodies.articulation, self.parts, mover, count)
 
     def losses(self, after: Sides) -> list[Loss]:
         """Return what a cut takes of each that can be seen."""

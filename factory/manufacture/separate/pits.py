@@ -18,7 +18,7 @@ from ...mesh import FloatArray
 from ..decompose.convex import hull_of
 from ..decompose.solids import manifold_of_hull, union
 from .along import Sides, hull_depth, near_pairs
-from .clip import carved, clipped, moved
+from .clip import carved, clipped
 
 #: Most pieces that are kept of one hull around a pit: a floor and walls around what is round.
 MOST_WALLS = 10
@@ -53,7 +53,7 @@ class Pit:
         near = {
             number
             for pose in way
-            for _, number in near_pairs(sides[self.holder], mover, clearance_m, pose)
+            for _, number in near_pairs(sides[self.holder], mover, pose, clearance_m)
         }
         bodies: list[Hull | None] = [mover[number] for number in sorted(near)]
         if self.at_once and near:
@@ -144,7 +144,8 @@ def _before(
 
 def _room(hull: Hull, poses: Sequence[FloatArray]) -> Hull | None:
     """Return all the room that a hull takes on its way, as one."""
-    return hull_of(np.concatenate([moved(hull, pose) for pose in poses]))
+    moved = [hull.vertices @ pose[:3, :3].T + pose[:3, 3] for pose in poses]
+    return hull_of(np.concatenate(moved))
 
 
 def _around(piece: Hull, room: Hull, clearance_m: float) -> list[Hull]:

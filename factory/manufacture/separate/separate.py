@@ -15,7 +15,8 @@ from ..decompose.convex import limit_vertices
 from ..decompose.decompose import PartHulls
 from ..decompose.merge import merge
 from ..hinges import is_crooked
-from .along import Cut, Sides, carved_apart_along, cut_apart_along, hull_depth
+from .along import Sides, carved_apart_along, cut_apart_along, hull_depth
+from .between import Cut, cut_between
 from .budget import Loss, too_bare
 from .clip import ROUNDING_M
 from .hung import HUB_SHARE, ROUND_SHARE
@@ -156,9 +157,16 @@ class _Bench:
     ) -> str | None:
         """Cut two parts at some poses, or say why not."""
         config = self.bodies.config
-        after = way.cut(*pair.before, poses, config.clearance_m)
+        cut = partial(way.cut, clearance_m=config.clearance_m)
+        after = cut(*pair.before, poses)
         losses = pair.losses(after)
         reason = pair.overdone(losses, way.share)
+        between = pair.poses_between() if reason is None and len(poses) > 2 else []
+        closer = cut_between(cut, pair.before, after, poses, between)
+        if closer is not None:
+            after = closer
+            losses = pair.losses(after)
+            reason = pair.overdone(losses, way.share)
         if reason is not None:
             return reason
         if max(each.bare_area for each in losses) > SOCKET_SHARE and pair.jointed:

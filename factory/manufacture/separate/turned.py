@@ -131,7 +131,7 @@ def _ways(
     """Return the poses at which two hulls may be too near to one another, by their numbers."""
     found: dict[tuple[int, int], list[FloatArray]] = {}
     for pose in poses:
-        for pair in near_pairs(a, b, clearance_m, pose):
+        for pair in near_pairs(a, b, pose, clearance_m):
             found.setdefault(pair, []).append(pose)
     return found
 

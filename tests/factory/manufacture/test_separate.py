@@ -266,7 +266,7 @@ def test_two_hulls_cut_apart_have_the_gap_and_take_no_room(seed):
         solids.append(Hull(made.vertices, made.faces))
     pose = np.eye(4)
     met = meeting(*solids, pose)
-    first, second = cut_apart(*solids, [pose], met, 0.002)
+    first, second = cut_apart(*solids, pose, met, 0.002)
     for before, after in zip(solids, (first, second), strict=True):
         if after is not None:
             inside = before.planes[:, :3] @ after.vertices.T - before.planes[:, 3:]

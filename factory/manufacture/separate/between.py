@@ -1,0 +1,77 @@
+"""What a long arm passes between two of the poses at which hulls were cut apart."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from ...articulation import Articulation
+from ...mesh import FloatArray
+from ..poses import joints_between, relative_poses
+from .along import Sides, hull_depth
+from .budget import SeenSurface
+from .hung import reach_m
+
+#: After a cut all of a hinge's way is looked at, in steps so long at the end of its arm [m],
+STEP_M = 0.004
+#: at most so many for each that was cut at; and again after what was missed is cut, so often.
+FINEST = 8
+MOST_LOOKS = 3
+#: In the first share of its range a door leaves its frame, corner past corner: steps are shorter.
+LEAVING = 0.1
+LEAVING_STEP_M = 0.0015
+#: Hulls may be as near as this between two poses: PyBullet feels what is nearer [m].
+LEAST_M = 0.002
+
+Cut = Callable[..., Sides]
+
+
+def poses_between(
+    articulation: Articulation, parts: tuple[int, int], mover: SeenSurface, count: int
+) -> list[FloatArray]:
+    """Return poses between those of hinges, so near that a sheet at an arm's end meets another.
+
+    Args:
+        articulation: parts and joints.
+        parts: two, one of which holds the other.
+        mover: the surface of the other.
+        count: poses along a joint that were cut at.
+
+    Returns:
+        None for slides, which are cut on all of their way, and where those are near enough.
+    """
+    turning = [joint for joint in joints_between(articulation, *parts) if joint.turns]
+    way = max((joint.range * reach_m(mover, joint) for joint in turning), default=0.0)
+    most = FINEST * (count - 1)
+    finer = min(int(way / STEP_M), most) + 1
+    if finer <= count:
+        return []
+    leaving = min(int(LEAVING * way / LEAVING_STEP_M), most) + 1
+    first = relative_poses(articulation, *parts, leaving, LEAVING)
+    return first + relative_poses(articulation, *parts, finer)
+
+
+def cut_between(
+    cut: Cut, before: Sides, after: Sides, way: Sequence[FloatArray], between: Sequence[FloatArray]
+) -> Sides | None:
+    """Cut hulls of two parts anew where they are too near to one another between two poses.
+
+    Args:
+        cut: hulls at some poses.
+        before: hulls of both, object frame at rest.
+        after: the same, cut.
+        way: poses that they were cut at: of the second part as seen from the first, [4, 4] each.
+        between: other poses to be looked at.
+
+    Returns:
+        ``None`` where they are not.
+    """
+    found = None
+    poses = list(way)
+    for _ in range(MOST_LOOKS):
+        hulls = found or after
+        missed = [pose for pose in between if hull_depth(*hulls, pose, LEAST_M) > -LEAST_M]
+        if not missed:
+            break
+        poses += missed
+        found = cut(*before, poses)
+    return found
