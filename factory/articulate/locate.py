@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from ..articulation import Articulation, Joint, JointKind, Part
-from ..geometry.crossings import Side
+from ..geometry.crossings import Side, side_facing
+from ..geometry.triangles import doubled_normals
 from ..mesh import FloatArray, Mesh
 from ..part import OpensBy, Panel, PartKind, PartSource, Proposer
 from .proposal import Motion, proposal_id
@@ -64,13 +65,13 @@ def _panel(mesh: Mesh, joint: Joint, part: Part, points: FloatArray) -> Panel | 
     motion = Motion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
     outward = motion.velocity(middle) * (1.0 if joint.upper >= -joint.lower else -1.0)
-    side = min(Side, key=lambda each: float(each.frame[2] @ outward))
+    side = side_facing(outward)
     local = points @ side.frame.T
     low = local.min(axis=0)
     high = local.max(axis=0)
-    narrow = float((high - low)[:2].min())
-    deep = joint.turns and high[2] - low[2] > narrow
-    if deep or narrow < NARROWEST * float(mesh.extents.max()):
+    sides = (high - low)[:2]
+    deep = joint.turns and high[2] - low[2] > float(sides.max())
+    if deep or float(sides.min()) < NARROWEST * float(mesh.extents.max()):
         return None
     opens = _edge(side, joint, low, high)
     return Panel(side.frame, low[:2], high[:2], _front(mesh, part, side), None, opens)
@@ -79,7 +80,7 @@ def _panel(mesh: Mesh, joint: Joint, part: Part, points: FloatArray) -> Panel | 
 def _front(mesh: Mesh, part: Part, side: Side) -> float:
     """Return the depth of a part's face [m]: the median over the area that looks at the viewer."""
     corners = mesh.vertices[mesh.faces[part.faces]]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = doubled_normals(corners)
     away = side.frame[2]
     shown = np.maximum(-normals @ away, 0.0)
     depth = corners.mean(axis=1) @ away
