@@ -159,6 +159,12 @@ class Mesh:
             materials=tuple(self.materials[i] for i in kept_materials) or self.materials[:1],
         )
 
+    def turned(self, rotation: npt.ArrayLike) -> Mesh:
+        """Return the mesh turned about the origin by ``rotation``, shape [3, 3]."""
+        motion = np.eye(4)
+        motion[:3, :3] = rotation
+        return self.transformed(motion)
+
     def transformed(self, matrix: npt.ArrayLike) -> Mesh:
         """Move the mesh by a 4x4 matrix: rotation, scale along any axes, translation.
 

@@ -40,3 +40,15 @@ class HypothesisMaker(Protocol):
         Args:
             mesh: the whole object, metres, z up.
         """
+
+
+def make_hypotheses(articulator: Articulator, mesh: Mesh) -> tuple[Hypothesis, ...]:
+    """Return the hypotheses of any articulator, the likeliest first; one, if it knows one way.
+
+    Args:
+        articulator: that is asked; errors are its own.
+        mesh: the whole object, metres, z up.
+    """
+    if isinstance(articulator, HypothesisMaker):
+        return articulator.hypotheses(mesh)
+    return (Hypothesis.of(articulator.articulate(mesh)),)

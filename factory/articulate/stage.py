@@ -15,7 +15,7 @@ from ..models.weights.sources import fetch
 from ..runtime.keys import Stage
 from ..runtime.stages import Stages
 from ..runtime.store import digest_file
-from .articulator import HypothesisMaker
+from .articulator import make_hypotheses
 from .catalog import choose, entry_of
 from .locate import located
 from .proposal import Hypothesis
@@ -64,11 +64,7 @@ def hypotheses_of(intake: Intake, config: BuildConfig) -> tuple[Hypothesis, ...]
         InputRejected: ``no_movable_joint``, unless a rigid asset was asked for: there is nothing to
             open, so nothing to decompose, simulate or register.
     """
-    articulator = choose(intake, config)
-    if isinstance(articulator, HypothesisMaker):
-        found = articulator.hypotheses(intake.mesh)
-    else:
-        found = (Hypothesis.of(articulator.articulate(intake.mesh)),)
+    found = make_hypotheses(choose(intake, config), intake.mesh)
     likeliest = found[0].articulation
     if not likeliest.movable_joints and likeliest.articulator != "rigid":
         why = f": {likeliest.notes[0]}" if likeliest.notes else ""

@@ -44,7 +44,7 @@ class Build:
     """Turn meshes into simulation-checked assets and register what passes.
 
     The same command again does only what is missing: what the registry knows for the same input,
-    settings and libraries is not built anew.
+    settings and libraries is not built again.
 
     Exit codes: 0 every input got a verdict; 3 some input could not be validated; 2 wrong usage, or
     the output cannot be written; 1 something was rejected and --strict was given; 130, 143

@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 from ..asset import Hull
 from ..geometry.rows import distinct_rows
+from ..geometry.triangles import doubled_normals
 from ..mesh import FloatArray, IntArray, Material, Mesh
 from .text import DECIMALS_UNIT, number, vector, vectors
 
@@ -81,7 +82,7 @@ def _corner_table(
 def filled_normals(mesh: Mesh) -> FloatArray:
     """Return corner normals; where the input had none the face's own, so edges stay sharp there."""
     corners = mesh.vertices[mesh.faces]
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    cross = doubled_normals(corners)
     length = np.linalg.norm(cross, axis=1, keepdims=True)
     flat = np.where(length > 0.0, cross / np.where(length > 0.0, length, 1.0), [0.0, 0.0, 1.0])[
         :, None, :

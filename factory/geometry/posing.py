@@ -59,15 +59,13 @@ def turned(articulation: Articulation, yaw: float) -> Articulation:
 
 def rotated(articulation: Articulation, rotation: FloatArray) -> Articulation:
     """Return the whole object turned about the origin by ``rotation``, shape [3, 3]."""
-    motion = np.eye(4)
-    motion[:3, :3] = rotation
     joints = tuple(
         replace(joint, axis=rotation @ joint.axis, origin=rotation @ joint.origin)
         for joint in articulation.joints
     )
     return replace(
         articulation,
-        mesh=articulation.mesh.transformed(motion),
+        mesh=articulation.mesh.turned(rotation),
         parts=tuple(part.turned(rotation) for part in articulation.parts),
         joints=joints,
     )

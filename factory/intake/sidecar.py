@@ -64,28 +64,44 @@ def sidecar_paths(path: Path) -> tuple[Path, Path]:
     return path.with_name(path.name + ".toml"), path.with_name(path.stem + ".toml")
 
 
-def _parse(path: Path, files: InputFiles) -> Sidecar:
-    if path.stat().st_size > _MAX_BYTES:
-        raise _bad(path, f"is {path.stat().st_size} bytes, want at most {_MAX_BYTES}")
+def read_beside(path: Path, files: InputFiles, most_bytes: int) -> bytes:
+    """Return the content of a file that says something of the mesh beside it.
+
+    Raises:
+        InputRejected: ``bad_sidecar``: it is too large; ``external_reference``: it is a link that
+            leads out of the folder.
+    """
+    if path.stat().st_size > most_bytes:
+        raise bad_sidecar(path, f"is {path.stat().st_size} bytes, want at most {most_bytes}")
     if not inside(path, path.parent.resolve()):
         files.log.note_link_out(path, path.parent)
         raise InputRejected(
             "external_reference", f"{path.name}: is a link that leads outside the input's folder"
         )
+    return files.read(path)
+
+
+def bad_sidecar(path: Path, why: str) -> InputRejected:
+    """Return the rejection of an input for what lies beside it."""
+    return InputRejected("bad_sidecar", f"{path.name}: {why}")
+
+
+def _parse(path: Path, files: InputFiles) -> Sidecar:
+    text = read_beside(path, files, _MAX_BYTES)
     try:
-        values = tomllib.loads(files.read(path).decode("utf-8"))
+        values = tomllib.loads(text.decode("utf-8"))
     except (ValueError, RecursionError) as error:
-        raise _bad(path, f"is not TOML: {error}") from error
+        raise bad_sidecar(path, f"is not TOML: {error}") from error
     unknown = sorted(set(values) - set(KNOWN_KEYS))
     if unknown:
-        raise _bad(
+        raise bad_sidecar(
             path, f"does not know {', '.join(unknown)[:160]}; known are {', '.join(KNOWN_KEYS)}"
         )
     if "height" in values and "scale" in values:
-        raise _bad(path, "has both height and scale, want at most one")
+        raise bad_sidecar(path, "has both height and scale, want at most one")
     for key in _TEXTS:
         if key in values and not (isinstance(values[key], str) and values[key].strip()):
-            raise _bad(path, f"{key} is {repr(values[key])[:80]}, want a text")
+            raise bad_sidecar(path, f"{key} is {repr(values[key])[:80]}, want a text")
     return Sidecar(
         category=values.get("category"),
         up=_up(path, values.get("up")),
@@ -103,7 +119,7 @@ def _up(path: Path, value: str | None) -> str | None:
     try:
         return parse_up(value)
     except ConfigError as error:
-        raise _bad(path, str(error)) from error
+        raise bad_sidecar(path, str(error)) from error
 
 
 def _positive(path: Path, key: str, value: object) -> float | None:
@@ -114,7 +130,7 @@ def _positive(path: Path, key: str, value: object) -> float | None:
         or not isinstance(value, int | float)
         or not _LEAST <= value <= _MOST
     ):
-        raise _bad(
+        raise bad_sidecar(
             path, f"{key} is {repr(value)[:80]}, want a positive number, {_LEAST:g} to {_MOST:g}"
         )
     return float(value)
@@ -127,9 +143,5 @@ def _annotation(path: Path, reference: str | None, files: InputFiles) -> Path | 
     try:
         files.read(location)
     except FileNotFoundError as error:
-        raise _bad(path, f"annotation {reference!r} does not exist beside it") from error
+        raise bad_sidecar(path, f"annotation {reference!r} does not exist beside it") from error
     return location
-
-
-def _bad(path: Path, why: str) -> InputRejected:
-    return InputRejected("bad_sidecar", f"{path.name}: {why}")

@@ -18,13 +18,12 @@ from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct, ValidationError, convert
 
-from asset_factory.sim_checks.read.document import inside
-
-from ..errors import ConfigError, InputRejected
+from ..errors import ConfigError
 from ..geometry.crossings import Side
 from ..part import PartKind
 from .files import InputFiles
 from .reads import ABSENT
+from .sidecar import bad_sidecar, read_beside
 
 MOST_BYTES = 256 * 1024
 MOST_PARTS = 128
@@ -197,24 +196,17 @@ def stated_from(values: object) -> Stated:
 
 
 def _parse(path: Path, files: InputFiles) -> Stated:
-    if path.stat().st_size > MOST_BYTES:
-        raise _bad(path, f"is {path.stat().st_size} bytes, want at most {MOST_BYTES}")
-    if not inside(path, path.parent.resolve()):
-        files.log.note_link_out(path, path.parent)
-        raise InputRejected(
-            "external_reference", f"{path.name}: is a link that leads outside the input's folder"
-        )
-    text = files.read(path)
+    text = read_beside(path, files, MOST_BYTES)
     form = "TOML" if path.suffix == ".toml" else "JSON"
     try:
         decoded = text.decode("utf-8")
         values = tomllib.loads(decoded) if form == "TOML" else json.loads(decoded)
     except (ValueError, RecursionError) as error:
-        raise _bad(path, f"is not {form}: {error}") from error
+        raise bad_sidecar(path, f"is not {form}: {error}") from error
     try:
         return stated_from(values)
     except ConfigError as error:
-        raise _bad(path, str(error)) from error
+        raise bad_sidecar(path, str(error)) from error
 
 
 def _wrong_words(values: object, form: type[Struct], place: str) -> Iterator[str]:
@@ -255,10 +247,6 @@ def _faults_of(part: StatedPart) -> Iterator[str]:
         yield "range is [lower, upper] with lower < upper"
     if isinstance(part.drawn, float) and not math.isfinite(part.drawn):
         yield 'drawn is a number, degrees or millimetres, or "open"'
-
-
-def _bad(path: Path, why: str) -> InputRejected:
-    return InputRejected("bad_sidecar", f"{path.name}: {why}")
 
 
 def schema() -> dict[str, Any]:

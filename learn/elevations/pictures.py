@@ -13,6 +13,7 @@ from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.geometry.crossings import Raster, Side, crossings
 from asset_factory.factory.geometry.elevations import PIXELS, Elevation, nearest
 from asset_factory.factory.geometry.posing import face_parts
+from asset_factory.factory.geometry.triangles import doubled_normals
 from asset_factory.factory.mesh import FloatArray, IntArray
 
 from .decorations import Decorations
@@ -126,7 +127,7 @@ def _shown(articulation: Articulation, side: Side) -> tuple[Elevation, IntArray]
     """Return the faces of an object's solids that look towards a side, and their parts."""
     mesh = articulation.mesh
     corners = mesh.vertices[mesh.faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = doubled_normals(corners)
     toward = np.flatnonzero(normals @ side.frame[2] < 0.0)
     facing = replace(
         mesh,

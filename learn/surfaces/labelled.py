@@ -12,6 +12,7 @@ from scipy.sparse.csgraph import connected_components
 
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.geometry.posing import face_parts
+from asset_factory.factory.geometry.triangles import doubled_normals
 from asset_factory.factory.mesh import FloatArray, IntArray, Material, Mesh
 
 BoolArray = npt.NDArray[np.bool_]
@@ -92,8 +93,7 @@ class Labelled:
     @property
     def crosses(self) -> FloatArray:
         """Return the normal of every face, as long as twice its area [m2], [face_count, 3]."""
-        corners = self.corners
-        return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        return doubled_normals(self.corners)
 
     @property
     def areas(self) -> FloatArray:

@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from ...geometry.edges import label_linked
 from ...mesh import FloatArray, IntArray, Mesh
 from ..evidence.surfels import spread_owned
 
@@ -98,8 +97,7 @@ def settled(contacts: Contacts, face_part: IntArray, face_areas: FloatArray) -> 
     one = contacts.pairs[:, 0]
     other = contacts.pairs[:, 1]
     same = label[one] == label[other]
-    graph = coo_matrix((np.ones(int(same.sum())), (one[same], other[same])), shape=(count, count))
-    cluster = connected_components(graph, directed=False)[1]
+    cluster = label_linked(count, contacts.pairs[same])
     size = np.bincount(cluster, weights=contacts.areas)
     main = np.zeros(parts, dtype=np.int64)
     for part in np.unique(label):

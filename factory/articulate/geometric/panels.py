@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...geometry.triangles import doubled_normals
 from ...mesh import IntArray
 from .mounted import with_mounted
 from .nesting import is_visible, resolve_nesting
@@ -79,7 +80,7 @@ def _box_pieces(scene: Scene) -> IntArray:
 def _flat_front(scene: Scene, piece: int) -> float | None:
     """Return where a one-piece drawer has its front [m]: behind a handle that is one with it."""
     triangles = scene.triangles[scene.labels == piece]
-    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    normals = doubled_normals(triangles)
     width, depth, height = scene.extents[piece]
     area = np.abs(normals[:, FRONT]) / 2.0
     start = float(scene.low[piece, FRONT])

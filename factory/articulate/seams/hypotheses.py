@@ -75,9 +75,7 @@ def hypotheses_of_mesh(mesh: Mesh, pieces: IntArray | None = None) -> tuple[Move
     straight = straightening(mesh)
     if straight is None:
         return hypotheses_of_reliefs(reliefs_of(mesh, pieces))
-    turn = np.eye(4)
-    turn[:3, :3] = straight
-    found = hypotheses_of_reliefs(reliefs_of(mesh.transformed(turn), pieces))
+    found = hypotheses_of_reliefs(reliefs_of(mesh.turned(straight), pieces))
     return tuple(tuple(mover.turned(straight.T) for mover in movers) for movers in found)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulation import rotation_about
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, Mesh
 
 #: Faces that lean less than this look sideways (sine of what their normals rise).
@@ -24,7 +25,7 @@ def straightening(mesh: Mesh) -> FloatArray | None:
     By at most an eighth of a turn; ``None`` for what stands straight already or is round.
     """
     corners = mesh.vertices[mesh.faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = doubled_normals(corners)
     area = np.linalg.norm(normals, axis=1)
     sideways = np.abs(normals[:, 2]) < LEANING * area
     area = area[sideways]

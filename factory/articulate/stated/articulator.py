@@ -9,7 +9,7 @@ from itertools import islice, product
 
 import numpy as np
 
-from ...articulation import Articulation, JointKind, rotation_about
+from ...articulation import Articulation, rotation_about
 from ...config import BuildConfig
 from ...errors import InputRejected
 from ...geometry.posing import posed
@@ -18,14 +18,14 @@ from ...intake.intake import Intake
 from ...intake.stated import Stated, StatedPart
 from ...mesh import IntArray, Mesh
 from ...part import PartKind, Proposer
-from ..articulator import Articulator, HypothesisMaker
+from ..articulator import Articulator, make_hypotheses
 from ..assembly import JOINT_SUFFIX, assembled
 from ..proposal import Hypothesis, Motion, Proposal
 from ..rigid import rigid_articulation
 from ..seams.articulator import cut_along
 from ..seams.cutting import inside
 from ..seams.placing import OpeningPart
-from .placing import MM, NOT_FOUND, USUAL, Placed, place_parts
+from .placing import NOT_FOUND, USUAL, Placed, place_parts, stated_unit
 
 NAME = "stated"
 #: Whole hypotheses that are worth trying.
@@ -115,10 +115,7 @@ def _as_expected(guess: Articulator, mesh: Mesh, stated: Stated) -> tuple[Hypoth
     Raises:
         InputRejected: ``stated_part_not_found``: none has.
     """
-    if isinstance(guess, HypothesisMaker):
-        found = guess.hypotheses(mesh)
-    else:
-        found = (Hypothesis.of(guess.articulate(mesh)),)
+    found = make_hypotheses(guess, mesh)
     wanted: Counter[PartKind] = Counter()
     for part in stated.parts:
         wanted[part.kind] += part.count
@@ -144,11 +141,9 @@ def _kinds(articulation: Articulation) -> Counter[PartKind]:
 def _placed(mesh: Mesh, stated: Stated) -> list[Placed]:
     """Return the stated parts, found on the mesh turned so that its front is -Y, turned back."""
     turn = rotation_about([0.0, 0.0, 1.0], _TURNS[stated.front] * np.pi / 2.0)
-    pose = np.eye(4)
-    pose[:3, :3] = turn
     return [
         replace(each, ways=tuple(way.turned(turn.T) for way in each.ways))
-        for each in place_parts(mesh.transformed(pose), stated.parts)
+        for each in place_parts(mesh.turned(turn), stated.parts)
     ]
 
 
@@ -188,8 +183,7 @@ def _from_closed(part: StatedPart, motion: Motion) -> Motion:
     """Return a motion whose lower limit is the closed pose of a part that is drawn open."""
     if part.drawn is None:
         return motion
-    unit = MM if motion.kind is JointKind.PRISMATIC else float(np.degrees(1.0))
-    by = motion.upper if part.drawn == "open" else float(part.drawn) / unit
+    by = motion.upper if part.drawn == "open" else float(part.drawn) / stated_unit(motion)
     return replace(motion, lower=-by, upper=max(motion.upper - by, 0.0))
 
 

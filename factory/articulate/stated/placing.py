@@ -117,9 +117,7 @@ def place_parts(mesh: Mesh, parts: Sequence[StatedPart]) -> list[Placed]:
             if part.view is not None and (part.view.side is Side.TOP) is above
         }
         if views:
-            pose = np.eye(4)
-            pose[:3, :3] = turn
-            turned = mesh.transformed(pose)
+            turned = mesh.turned(turn)
             fronts = fronts_of(reliefs_of(turned))
             boxed = [
                 _boxed(turned, fronts, parts[place], place, view) for place, view in views.items()
@@ -278,6 +276,10 @@ def _as_stated(mover: OpeningPart, part: StatedPart, mesh: Mesh) -> OpeningPart:
     mover = replace(mover, kind=part.kind, region=region)
     if part.range is None:
         return mover
-    unit = MM if mover.motion.kind is JointKind.PRISMATIC else float(np.degrees(1.0))
-    lower, upper = (each / unit for each in part.range)
+    lower, upper = (each / stated_unit(mover.motion) for each in part.range)
     return replace(mover, motion=replace(mover.motion, lower=lower, upper=upper))
+
+
+def stated_unit(motion: Motion) -> float:
+    """Return how many stated units, degrees or millimetres, are one of a joint's, rad or m."""
+    return MM if motion.kind is JointKind.PRISMATIC else float(np.degrees(1.0))

@@ -8,6 +8,7 @@ from scipy.spatial import ConvexHull, QhullError
 from ...asset import Hull
 from ...errors import InvalidAsset
 from ...geometry.rows import distinct_rows
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, IntArray
 from ...runtime.numbers import DECIMALS
 
@@ -35,7 +36,7 @@ def hull_of(points: FloatArray) -> Hull | None:
     corners = np.unique(found.simplices)
     faces = np.searchsorted(corners, found.simplices)
     vertices = points[corners]
-    normals = area_vectors(vertices[faces])
+    normals = doubled_normals(vertices[faces])
     inward = np.einsum("ij,ij->i", normals, found.equations[:, :3]) < 0.0
     faces[inward] = faces[inward][:, ::-1]
     # A body is at least as thick as twice its volume over its surface: mostly that is enough, with
@@ -46,15 +47,6 @@ def hull_of(points: FloatArray) -> Hull | None:
         return Hull(vertices=vertices, faces=canonical_faces(faces))
     except InvalidAsset:
         return None
-
-
-def area_vectors(corners: FloatArray) -> FloatArray:
-    """Return the normals of triangles, twice as long as their areas [m2], shape [n, 3].
-
-    Args:
-        corners: [m], shape [n, 3, 3].
-    """
-    return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
 
 
 def canonical_faces(faces: IntArray) -> IntArray:

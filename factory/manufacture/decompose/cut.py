@@ -9,8 +9,9 @@ import numpy as np
 from manifold3d import Manifold
 
 from ...geometry.rows import distinct_rows
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, IntArray
-from .convex import THINNEST_M, area_vectors, concavity, hull_of
+from .convex import THINNEST_M, concavity, hull_of
 from .pieces import NOTHING, SolidPieces
 from .pockets import fills_little
 from .solids import LEAST_VOLUME_M3, triangles_of
@@ -93,7 +94,7 @@ def opened(solid: Manifold, cavity: Manifold) -> list[Manifold]:
         return pieces
     vertices, faces = triangles_of(cavity)
     corners = vertices[faces]
-    normals = area_vectors(corners)
+    normals = doubled_normals(corners)
     area = np.linalg.norm(normals, axis=1)
     kept = area > 1e-12 * area.max()
     offsets = np.einsum("ij,ij->i", normals, corners[:, 0])[kept] / area[kept]
@@ -162,7 +163,7 @@ def _waste(pieces: list[Manifold]) -> float:
 def _candidate_planes(vertices: FloatArray, faces: IntArray) -> list[tuple[FloatArray, float]]:
     """Return the planes through inward edges, those with the longest and sharpest edges first."""
     corners = vertices[faces]
-    normals = area_vectors(corners)
+    normals = doubled_normals(corners)
     area = np.linalg.norm(normals, axis=1)
     normals = normals / np.maximum(area, 1e-300)[:, None]
     left, right, ends = _edges(faces)

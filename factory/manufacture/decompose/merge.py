@@ -9,8 +9,9 @@ import numpy as np
 from manifold3d import Manifold
 
 from ...asset import Hull
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray
-from .convex import area_vectors, hull_of
+from .convex import hull_of
 from .pockets import fills_little
 from .room import NOWHERE, Room
 from .solids import manifold_of_hull
@@ -144,7 +145,7 @@ def _cost(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> float:
     if hull is None:
         return np.inf
     corners = hull.vertices[hull.faces]
-    area = np.linalg.norm(area_vectors(corners), axis=1).sum() / 2.0
+    area = np.linalg.norm(doubled_normals(corners), axis=1).sum() / 2.0
     middles = corners.mean(axis=1)
     filled = hull.volume - first.hull.volume - second.hull.volume
     if filled > error_m * float(area) or _gap(first, second, middles) > error_m:

@@ -6,8 +6,9 @@ import numpy as np
 from manifold3d import Manifold
 
 from ...asset import Hull
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, IntArray
-from .convex import area_vectors, concavity, hull_of, thickness
+from .convex import concavity, hull_of, thickness
 from .room import Room
 from .solids import OpenSurface, manifold_of
 
@@ -82,7 +83,7 @@ def capped(surface: OpenSurface, share: float = OPENING_SHARE) -> Manifold | Non
         apex = len(surface.vertices) + len(vertices) - 1
         vertices.append(center[None])
         faces.append(np.column_stack([np.roll(loop, -1), loop, np.full(len(loop), apex)]))
-    vectors = area_vectors(surface.vertices[surface.faces])
+    vectors = doubled_normals(surface.vertices[surface.faces])
     if opening > share * (float(np.linalg.norm(vectors, axis=1).sum()) / 2.0):
         return None
     solid = manifold_of(np.concatenate(vertices), np.concatenate(faces))
@@ -100,7 +101,7 @@ def _keeps_hands_out(surface: OpenSurface) -> bool:
 def _opens_up(surface: OpenSurface) -> bool:
     """Tell whether a surface is open towards the top, as a tray is, whichever way it is wound."""
     corners = surface.vertices[surface.faces]
-    vectors = area_vectors(corners) / 2.0
+    vectors = doubled_normals(corners) / 2.0
     middle = (surface.vertices.min(axis=0) + surface.vertices.max(axis=0)) / 2.0
     outward = float(np.einsum("ij,ij->", corners.mean(axis=1) - middle, vectors))
     opening = -vectors.sum(axis=0) * (1.0 if outward >= 0.0 else -1.0)

@@ -7,7 +7,8 @@ from manifold3d import Manifold
 from scipy.spatial import HalfspaceIntersection, QhullError
 
 from ...asset import Hull
-from .convex import area_vectors, depth_below, hull_of, thickness
+from ...geometry.triangles import doubled_normals
+from .convex import depth_below, hull_of, thickness
 from .solids import LEAST_VOLUME_M3, manifold_of_hull, triangles_of
 
 #: Pockets below this share of a cube of the error's side are dust.
@@ -75,7 +76,7 @@ def _narrow(pocket: Manifold, hull: Hull, error_m: float, slot_m: float) -> bool
     heights = around.vertices @ planes[:, :3].T
     across = planes[int(np.ptp(heights, axis=0).argmin()), :3]
     corners = vertices[faces]
-    areas = area_vectors(corners)
+    areas = doubled_normals(corners)
     mouth = depth_below(hull, corners.mean(axis=1)) < 1.01 * SKIN_SHARE * error_m
     area = float(np.linalg.norm(areas[mouth], axis=1).sum())
     faces_it = float(np.abs(areas[mouth] @ across).sum())

@@ -10,8 +10,9 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from ...asset import Hull
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray
-from .convex import area_vectors, hull_of
+from .convex import hull_of
 from .solids import OpenSurface, neighbours
 
 #: Share of its outline's convex hull that a flat patch may leave empty, for rounding's sake.
@@ -56,7 +57,7 @@ def slabs(
         One hull per patch; patches too small to be anything are left out.
     """
     corners = surface.vertices[surface.faces]
-    vectors = area_vectors(corners) / 2.0
+    vectors = doubled_normals(corners) / 2.0
     inward = -_outward_sign(corners, vectors, center)
     patches = _grow(surface, vectors, error_m)
     hulls = []

@@ -9,12 +9,13 @@ import numpy as np
 import numpy.typing as npt
 from manifold3d import Manifold
 from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import breadth_first_order, connected_components
+from scipy.sparse.csgraph import breadth_first_order
 
 from ...asset import Hull
+from ...geometry.edges import label_linked
 from ...geometry.rows import distinct_rows
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, IntArray
-from .convex import area_vectors
 
 #: Less volume than this is nothing to collide with [m3]: a cube of a tenth of a millimetre.
 LEAST_VOLUME_M3 = 1e-12
@@ -140,7 +141,7 @@ def gate(vertices: FloatArray, faces: IntArray) -> Gated:
 
 def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
     """Return the faces that have an area, each once, whichever corner it begins with."""
-    faces = faces[np.linalg.norm(area_vectors(vertices[faces]), axis=1) > 0.0]
+    faces = faces[np.linalg.norm(doubled_normals(vertices[faces]), axis=1) > 0.0]
     first = faces.argmin(axis=1)
     turned = np.take_along_axis(faces, (first[:, None] + np.arange(3)) % 3, axis=1)
     kept, _ = distinct_rows(turned)
@@ -150,11 +151,8 @@ def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
 def _groups(faces: IntArray, vertex_count: int) -> list[IntArray]:
     """Return the faces of each set that is connected through vertices, in first-face order."""
     links = np.concatenate([faces[:, :2], faces[:, 1:]])
-    graph = coo_matrix(
-        (np.ones(len(links), dtype=bool), (links[:, 0], links[:, 1])), shape=(vertex_count,) * 2
-    )
-    _, label = connected_components(graph, directed=False)
-    return _by_label(label.astype(np.int64)[faces[:, 0]]) if len(faces) else []
+    label = label_linked(vertex_count, links)
+    return _by_label(label[faces[:, 0]]) if len(faces) else []
 
 
 def _by_label(label: IntArray) -> list[IntArray]:
@@ -176,10 +174,7 @@ def two_sided_patches(faces: IntArray) -> list[IntArray]:
     faces = faces[np.sort(kept)]
     pairs, agrees = neighbours(faces)
     count = len(faces)
-    graph = coo_matrix(
-        (np.ones(len(pairs), dtype=bool), (pairs[:, 0], pairs[:, 1])), shape=(count, count)
-    )
-    label = connected_components(graph, directed=False)[1].astype(np.int64)
+    label = label_linked(count, pairs)
     flip = _flips(count, pairs, agrees, label)
     wound = np.where(flip[:, None], faces[:, ::-1], faces)
     return [wound[group] for group in _by_label(label)]

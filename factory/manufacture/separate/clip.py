@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...asset import Hull
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, IntArray
 from ...runtime.numbers import DECIMALS
-from ..decompose.convex import area_vectors, hull_of
+from ..decompose.convex import hull_of
 
 #: A hull no thicker than this is a sheet [m].
 SHEET_M = 0.003
@@ -175,7 +176,7 @@ def volumes_below(hull: Hull, normals: FloatArray, offsets: FloatArray) -> Float
     points = hull.vertices - center
     levels = offsets - normals @ center
     corners = points[hull.faces]
-    areas = area_vectors(corners)
+    areas = doubled_normals(corners)
     heights = (points @ normals.T - levels)[hull.faces]
     heights.sort(axis=1)
     low, middle, high = heights.transpose(1, 0, 2)

@@ -7,8 +7,8 @@ import numpy as np
 from manifold3d import Manifold
 
 from ...articulation import Articulation
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray
-from ..decompose.convex import area_vectors
 from ..decompose.solids import gate, union
 
 #: Intersections smaller than this are rounding [m3]: a cube of a twentieth of a millimetre.
@@ -59,7 +59,7 @@ def _thickness(piece: Manifold) -> float:
     mean = thickness_m(piece)
     mesh = piece.hull().to_mesh64()
     vertices = mesh.vert_properties[:, :3]
-    normals = area_vectors(vertices[mesh.tri_verts.astype(np.int64)])
+    normals = doubled_normals(vertices[mesh.tri_verts.astype(np.int64)])
     length = np.linalg.norm(normals, axis=1)
     kept = length > 1e-9 * length.max() if len(length) else length > 0
     heights = vertices @ (normals[kept] / length[kept, None]).T

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...geometry.edges import label_linked
 from ...mesh import IntArray
-from .surface import BoolArray, Surface, grouped
+from .surface import BoolArray, Surface
 
 
 def merged_into_one_each(surface: Surface, labels: IntArray, inside: BoolArray) -> IntArray:
@@ -24,7 +25,7 @@ def merged_into_one_each(surface: Surface, labels: IntArray, inside: BoolArray) 
     """
     pairs = surface.neighbours
     same = labels[pairs[:, 0]] == labels[pairs[:, 1]]
-    patch = grouped(len(labels), pairs[same])
+    patch = label_linked(len(labels), pairs[same])
     borders = np.unique(np.sort(patch[pairs[~same & inside[pairs[:, 0]]]], axis=1), axis=0)
     _, first = np.unique(patch, return_index=True)
     graph = _Patches(

@@ -7,9 +7,8 @@ from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
+from ...geometry.edges import label_linked
 from ...geometry.pieces import Sheet, pieces
 from ...geometry.rows import distinct_rows
 from ...mesh import FloatArray, IntArray
@@ -130,7 +129,7 @@ class Surface:
     @cached_property
     def components(self) -> IntArray:
         """Return the number of each face's component, in first-face order, shape [face_count]."""
-        return grouped(len(self.faces), self.neighbours)
+        return label_linked(len(self.faces), self.neighbours)
 
     @cached_property
     def borders(self) -> FloatArray:
@@ -156,15 +155,6 @@ class Surface:
         turn = np.degrees(np.arccos(np.clip(np.einsum("ij,ij->i", one, other), -1.0, 1.0)))
         crisp = (turn < FLAT_DEG) | (turn > SHARP_DEG)
         return bool(self.borders[crisp].sum() < CRISP * self.borders.sum())
-
-
-def grouped(count: int, pairs: IntArray) -> IntArray:
-    """Return the components of ``count`` things joined by ``pairs``, by first member, [count]."""
-    graph = coo_matrix(
-        (np.ones(len(pairs), dtype=np.int8), (pairs[:, 0], pairs[:, 1])), shape=(count, count)
-    )
-    # Its labels come in the order in which a scan over the members meets them.
-    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
 
 
 def _edges(faces: IntArray, chosen: IntArray) -> Edges:

@@ -8,6 +8,7 @@ import zlib
 import numpy as np
 import numpy.typing as npt
 
+from asset_factory.factory.geometry.triangles import doubled_normals
 from asset_factory.factory.mesh import FloatArray, IntArray, Material, Texture
 
 WHITE = Material("white", (0.85, 0.85, 0.83, 1.0))
@@ -59,7 +60,7 @@ def laid_over(
     textured = np.array([material.texture is not None for material in materials])
     if not textured.any():
         return None
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal = doubled_normals(corners)
     # The grain runs along u: along z on upright faces, along x on lying ones.
     across = np.array([[2, 1], [2, 0], [0, 1]])[np.abs(normal).argmax(axis=1)]
     uv = np.take_along_axis(corners, across[:, None], axis=2) / TEXTURE_PERIOD_M

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from stored_arrays import arrays
 
+from asset_factory.factory.geometry.edges import label_linked
 from asset_factory.factory.models.particulate.confidence import assigned
 from asset_factory.factory.models.particulate.labels import (
     Refinement,
@@ -17,7 +18,7 @@ from asset_factory.factory.models.particulate.labels import (
     with_gaps_filled,
 )
 from asset_factory.factory.models.particulate.proxy import carried_back, proxy_of
-from asset_factory.factory.models.particulate.surface import Surface, grouped
+from asset_factory.factory.models.particulate.surface import Surface
 
 
 def surface_of(mesh):
@@ -84,7 +85,7 @@ def test_a_mesh_of_one_component_keeps_its_parts():
     for label in (0, 1):
         pairs = surface.neighbours
         inside = (labels[pairs] == label).all(axis=1)
-        assert len(np.unique(grouped(len(labels), pairs[inside])[labels == label])) == 1
+        assert len(np.unique(label_linked(len(labels), pairs[inside])[labels == label])) == 1
 
 
 def test_a_stray_face_on_a_fused_mesh_is_no_part_of_its_own():
@@ -160,7 +161,7 @@ def test_afterwards_every_label_is_one_patch_and_none_is_new(seed, count):
     labels = np.random.default_rng(seed).integers(0, count, len(surface.faces))
     done, _ = refined(surface, labels, Refinement.PATCH, 0.1)
     same = done[surface.neighbours[:, 0]] == done[surface.neighbours[:, 1]]
-    patch = grouped(len(done), surface.neighbours[same])
+    patch = label_linked(len(done), surface.neighbours[same])
     keys = np.stack([surface.components, done], axis=1)
     assert len(np.unique(patch)) == len(np.unique(keys, axis=0))
     assert set(np.unique(done)) <= set(np.unique(labels))
