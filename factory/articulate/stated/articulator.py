@@ -68,8 +68,16 @@ class StatedArticulator:
         if not self.stated.opens:
             note = "its sidecar says that nothing opens"
             return (Hypothesis.of(rigid_articulation(mesh, self.name, (note,))),)
-        if all(part.view is None for part in self.stated.parts) and self.guess is not None:
+        places = [part.view is not None for part in self.stated.parts]
+        if self.guess is not None and not any(places):
             return _as_expected(self.guess, mesh, self.stated)
+        if not all(places):
+            bare = places.index(False)
+            raise InputRejected(
+                NOT_FOUND,
+                f"parts[{bare}] ({self.stated.parts[bare].kind}): has no side and box; want them "
+                "for every part, or for none where the finding is left to the factory",
+            )
         placed = _placed(mesh, self.stated)
         chosen = list(islice(_choices(placed), MOST_HYPOTHESES))
         cut = cut_along(mesh, chosen)

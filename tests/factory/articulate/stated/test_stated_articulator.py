@@ -190,3 +190,9 @@ def test_a_lid_that_is_drawn_open_is_closed_first(degrees):
     assert high == pytest.approx([0.5, 0.4, 0.34], abs=FINE)
     assert made.joints[0].lower == 0.0
     assert made.joints[0].upper >= np.radians(degrees) - 1e-9
+
+
+def test_a_part_without_a_place_beside_placed_ones_is_not_dropped():
+    door = {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1]}
+    with pytest.raises(InputRejected, match=r"parts\[1\] \(drawer\): has no side and box"):
+        articulated(fridge(), door, {"kind": "drawer"})
