@@ -196,7 +196,7 @@ class Stated(Struct, frozen=True, forbid_unknown_fields=True):
                 raise ValueError(f"parent {part.parent[:64]!r} is no part's name{near}")
             above = part.parent
             for _ in parents:
-                above = None if above is None else parents[above]
+                above = parents.get(above or "")
             if above is not None:
                 raise ValueError(f"parent {above!r} is carried by what it carries")
 

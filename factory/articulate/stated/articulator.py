@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import islice, product
 
@@ -76,7 +76,7 @@ class StatedArticulator:
         if wanted:
             return self._filled(mesh, wanted)
         placed = _placed(mesh, self.stated)
-        chosen = list(islice(_choices(placed), MOST_HYPOTHESES))
+        chosen = list(islice(_with_cut(_choices(placed)), MOST_HYPOTHESES))
         cut = cut_along(mesh, [_to_cut(ways) for ways in chosen])
         return tuple(Hypothesis.of(_articulation(cut, placed, ways)) for ways in chosen)
 
@@ -98,10 +98,10 @@ class StatedArticulator:
             if each.is_whole:
                 made.append(Hypothesis.of(each.guess))
                 continue
-            for ways in islice(_choices(each.placed), MOST_HYPOTHESES):
+            for ways in islice(_with_cut(_choices(each.placed)), MOST_HYPOTHESES):
                 cut = cut_along(each.guess.mesh, [_to_cut(ways)])
                 filled = _articulation(cut, each.placed, ways, each.proposals(cut))
-                made.append(Hypothesis.of(filled))
+                made.append(Hypothesis.of(replace(filled, weights=each.guess.weights)))
         return tuple(made[:MOST_HYPOTHESES])
 
 
@@ -145,6 +145,17 @@ def _placed(mesh: Mesh, stated: Stated) -> list[Placed]:
         replace(each, ways=tuple(way.turned(turn.T) for way in each.ways))
         for each in place_parts(mesh.turned(turn), stated.parts)
     ]
+
+
+def _with_cut(chosen: Iterable[tuple[StatedWay, ...]]) -> Iterator[tuple[StatedWay, ...]]:
+    """Yield each choice, and after one with parts that are whole pieces the same cut out.
+
+    A piece may be only a front that was set before what it opens, or hold more than what opens.
+    """
+    for ways in chosen:
+        yield ways
+        if any(len(way.pieces) for way in ways):
+            yield tuple(StatedWay(way.mover) for way in ways)
 
 
 def _to_cut(ways: Sequence[StatedWay]) -> tuple[OpeningPart, ...]:

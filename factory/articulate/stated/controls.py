@@ -11,12 +11,15 @@ from ...mesh import FloatArray
 from ...part import PartKind
 from ..proposal import Motion
 from ..seams.cutting import Region
+from ..seams.fronts import thickness
 from ..seams.knobs import knobs_on
 from ..seams.placing import TURN, OpeningPart, box_before
 from .boxed import StatedBox, slices_of
 
 #: How far a button is pressed [m].
 BUTTON_TRAVEL_M = 0.004
+#: Of what a box shows so much stands off from what carries it.
+LEAST_STANDING = 0.1
 _UP = np.array([0.0, 0.0, 1.0])
 #: Where on its box, across and up, a lever turns that is hinged so.
 _ENDS = {
@@ -86,16 +89,19 @@ def _depth_is_bounded(part: StatedBox) -> bool:
 def _standing(part: StatedBox) -> tuple[float, BoolArray]:
     """Return how high what carries a part is [pixels], and which pixels of its box stand off.
 
-    A wheel may hide most of what carries it: that is then the deeper one of two groups of depths.
+    A wheel or a lever may hide most of what carries it: that is then the deeper one of two groups
+    of depths, or, where there is one depth only, whatever is behind the part's own thickness.
     """
     slices = slices_of(part.panel.rectangle)
     seen = part.front.relief.seen[slices]
     height = part.front.relief.height[slices]
     carrier = float(np.median(part.front.face.height[slices]))
-    if part.kind is PartKind.WHEEL and seen.any():
-        between = _parting(height[seen])
-        deeper = height[seen & (height <= between)]
-        carrier = float(np.percentile(deeper, 95)) if len(deeper) else float(height[seen].min())
+    if part.kind in (PartKind.WHEEL, PartKind.LEVER):
+        deeper = height[seen & (height <= _parting(height[seen]))]
+        carrier = float(np.percentile(deeper, 95))
+    if float((height[seen] > carrier + 1.0).mean()) < LEAST_STANDING:
+        own = thickness(part.front.relief, part.front.behind)[slices][seen]
+        carrier = float(np.median(height[seen])) - float(np.percentile(own, 25))
     return carrier, seen & (height > carrier + 1.0)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -35,7 +35,7 @@ class StatedWay:
     """
 
     mover: OpeningPart
-    pieces: IntArray
+    pieces: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
 
     def turned(self, rotation: FloatArray) -> StatedWay:
         """Return the same of an object turned about the origin by ``rotation``, shape [3, 3]."""
@@ -71,9 +71,8 @@ class Pieces:
 
     def way(self, mover: OpeningPart, part: StatedBox) -> StatedWay:
         """Return a part with the pieces that it is made of, if it is some pieces."""
-        nothing = np.zeros(0, dtype=np.int64)
         if not self.several:
-            return StatedWay(mover, nothing)
+            return StatedWay(mover)
         outlines = self.seen_from(part.view.side)
         low, high = part.corners
         shown = outlines.shown(low, high)
@@ -92,7 +91,7 @@ class Pieces:
         if part.stated.also:
             own &= self._share_within(mover.region) >= ABOVE
         if shown[own].sum() < enough or own.all():
-            return StatedWay(mover, nothing)
+            return StatedWay(mover)
         return StatedWay(_as_thick(mover, outlines, shown * own), np.flatnonzero(own))
 
     def nearest(self, side: Side, corners: FloatArray, reach: FloatArray) -> FloatArray | None:

@@ -36,11 +36,13 @@ class WeightsProvenance:
         source: the published file, as :data:`ADDRESS`; without a digest, for none could be taken
             where this was written: :func:`fetch` says what a user can pin.
         terms: of the published weights, one sentence.
+        outputs: the license that their terms put on whatever they help to make; empty if none.
     """
 
     network: str
     source: str
     terms: str
+    outputs: str = ""
 
 
 PARTICULATE = WeightsProvenance(
@@ -54,6 +56,7 @@ PARTFIELD = WeightsProvenance(
     "hf:mikaelaangel/partfield-ckpt/model_objaverse.ckpt",
     "Published by NVIDIA (arXiv 2504.11451) for NON-COMMERCIAL use only, "
     "and so is whatever is derived from it.",
+    outputs="LicenseRef-NVIDIA-NonCommercial",
 )
 
 

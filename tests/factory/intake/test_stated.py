@@ -78,6 +78,13 @@ def test_a_kind_alone_is_enough():
         ({"parts": [{**DOOR, "name": "<b>door</b>"}]}, "name is a letter"),
         ({"parts": [{**DOOR, "name": "a"}, {**DOOR, "name": "a"}]}, "2 parts are named 'a'"),
         ({"parts": [{**DOOR, "parent": "left"}]}, "parent 'left' is no part's name"),
+        (
+            {"parts": [{**DOOR, "name": "a", "parent": "b"}, {**DOOR, "name": "b", "parent": "a"}]},
+            "is carried by what it carries",
+        ),
+        ({"parts": [{**DOOR, "name": "base"}]}, "name is not base or world"),
+        ({"parts": [{**DOOR, "alternatives": [{}]}]}, "a kind, a hinge or both"),
+        ({"parts": [{**DOOR, "drawn": 1e30}]}, "$.parts[0].drawn"),
         ({"parts": [{**DOOR, "range": [1, 0]}]}, "range is [lower, upper]"),
         ({"parts": [{**DOOR, "drawn": "shut"}]}, "$.parts[0].drawn"),
         ({"parts": [{"kind": "drawer", "hinge": "left"}]}, "a drawer slides"),
