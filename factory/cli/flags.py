@@ -32,8 +32,7 @@ class InputFlags:
     """How inputs are loaded, and who says what moves."""
 
     articulator: str = "auto"
-    """Who says what moves: auto, annotated, geometric, seams, particulate or
-    rigid."""
+    """Who says what moves: auto, stated, annotated, geometric, seams, particulate, vlm or rigid."""
     checkpoint: str | None = None
     """Weights for particulate, which auto then asks alone: a file, or
     hf:owner/repository/file@commit."""
@@ -44,6 +43,11 @@ class InputFlags:
     """Points that particulate labels per sample."""
     samples: int | None = None
     """Samples that particulate reads; the one that agrees most with the others is taken."""
+    vlm_url: str | None = None
+    """With --articulator vlm: an endpoint of OpenAI's chat-completions protocol, such as
+    http://localhost:8000/v1; pictures of inputs go there. Its key: ASSET_FACTORY_VLM_KEY."""
+    vlm_model: str | None = None
+    """The model's name there."""
     up: str = "auto"
     """Axis of the input that points up: x, y, z, -x, -y, -z, or auto (glTF: y; all others: z)."""
     height: float | None = None
@@ -116,6 +120,7 @@ class OfPassed(OfRegistry):
 
 def input_config(flags: InputFlags) -> BuildConfig:
     """Return the configuration that flags ask for. Raises ConfigError: a bad flag."""
+    from ..articulate.asking.endpoint import require_endpoint
     from ..articulate.settings import require_usable
     from ..intake.orientation import parse_up
 
@@ -135,7 +140,12 @@ def input_config(flags: InputFlags) -> BuildConfig:
     }
     particulate = replace(config.particulate, **given)
     require_usable(particulate, needed=flags.articulator == "particulate")
-    return replace(config, articulator=flags.articulator, intake=intake, particulate=particulate)
+    vlm = replace(config.vlm, url=flags.vlm_url or config.vlm.url)
+    vlm = replace(vlm, model=flags.vlm_model or vlm.model)
+    require_endpoint(vlm, needed=flags.articulator == "vlm")
+    return replace(
+        config, articulator=flags.articulator, intake=intake, particulate=particulate, vlm=vlm
+    )
 
 
 def simulators_named(names: str) -> tuple[str, ...]:

@@ -48,13 +48,20 @@ class StatedArticulator:
     Args:
         stated: what a sidecar says.
         guess: who is asked for parts that are stated without a place.
+        proposer: who stated them.
     """
 
     name = NAME
 
-    def __init__(self, stated: Stated, guess: Articulator | None = None) -> None:
+    def __init__(
+        self,
+        stated: Stated,
+        guess: Articulator | None = None,
+        proposer: Proposer = Proposer.SIDECAR,
+    ) -> None:
         self.stated = stated
         self.guess = guess
+        self._proposer = proposer
 
     def articulate(self, mesh: Mesh) -> Articulation:
         """Return the likeliest hypothesis of ``mesh`` [m], z up."""
@@ -78,7 +85,7 @@ class StatedArticulator:
         placed = _placed(mesh, self.stated)
         chosen = list(islice(_with_cut(_choices(placed)), MOST_HYPOTHESES))
         cut = cut_along(mesh, [_to_cut(ways) for ways in chosen])
-        return tuple(Hypothesis.of(_articulation(cut, placed, ways)) for ways in chosen)
+        return tuple(Hypothesis.of(self._articulation(cut, placed, ways)) for ways in chosen)
 
     def _filled(self, mesh: Mesh, wanted: Counter[PartKind]) -> tuple[Hypothesis, ...]:
         """Return what is placed, beside what the guess has of what is stated without a place."""
@@ -100,9 +107,43 @@ class StatedArticulator:
                 continue
             for ways in islice(_with_cut(_choices(each.placed)), MOST_HYPOTHESES):
                 cut = cut_along(each.guess.mesh, [_to_cut(ways)])
-                filled = _articulation(cut, each.placed, ways, each.proposals(cut))
+                filled = self._articulation(cut, each.placed, ways, each.proposals(cut))
                 made.append(Hypothesis.of(replace(filled, weights=each.guess.weights)))
         return tuple(made[:MOST_HYPOTHESES])
+
+    def _articulation(
+        self,
+        cut: CutMesh,
+        placed: Sequence[Placed],
+        ways: Sequence[StatedWay],
+        guessed: Sequence[Proposal] = (),
+    ) -> Articulation:
+        """Return what is placed, and beside it what was guessed, on a mesh cut for both."""
+        hosts = _hosts(placed, ways)
+        owner = _owners(cut, placed, ways, hosts)
+        movers = [way.mover for way in ways]
+        proposals = [
+            Proposal(
+                mover.kind,
+                owner == number,
+                _from_closed(each.stated, mover.motion),
+                proposer=self._proposer,
+                panel=mover.panel if each.stated.drawn is None else None,
+                handle=mover.handle if each.stated.drawn is None else None,
+            )
+            for number, (each, mover) in enumerate(zip(placed, movers, strict=True), start=1)
+        ]
+        stated = {
+            proposal.source.id: each.stated
+            for proposal, each in zip(proposals, placed, strict=True)
+        }
+        for proposal in guessed:
+            left = proposal.faces & (owner == 0)
+            proposals.append(replace(proposal, faces=left))
+            owner[left] = len(proposals)
+        hosts += [0] * len(guessed)
+        made = _named(assembled(cut.mesh, owner, proposals, NAME, hosts), stated)
+        return _closed(made, stated)
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> StatedArticulator:
@@ -170,39 +211,6 @@ def _choices(placed: Sequence[Placed]) -> Iterator[tuple[StatedWay, ...]]:
     choices = islice(product(*ways), 4096)
     for choice in sorted(choices, key=sum):
         yield tuple(each.ways[way] for each, way in zip(placed, choice, strict=True))
-
-
-def _articulation(
-    cut: CutMesh,
-    placed: Sequence[Placed],
-    ways: Sequence[StatedWay],
-    guessed: Sequence[Proposal] = (),
-) -> Articulation:
-    """Return what is placed, and beside it what was guessed, on a mesh that was cut for both."""
-    hosts = _hosts(placed, ways)
-    owner = _owners(cut, placed, ways, hosts)
-    movers = [way.mover for way in ways]
-    proposals = [
-        Proposal(
-            mover.kind,
-            owner == number,
-            _from_closed(each.stated, mover.motion),
-            proposer=Proposer.SIDECAR,
-            panel=mover.panel if each.stated.drawn is None else None,
-            handle=mover.handle if each.stated.drawn is None else None,
-        )
-        for number, (each, mover) in enumerate(zip(placed, movers, strict=True), start=1)
-    ]
-    stated = {
-        proposal.source.id: each.stated for proposal, each in zip(proposals, placed, strict=True)
-    }
-    for proposal in guessed:
-        left = proposal.faces & (owner == 0)
-        proposals.append(replace(proposal, faces=left))
-        owner[left] = len(proposals)
-    hosts += [0] * len(guessed)
-    made = _named(assembled(cut.mesh, owner, proposals, NAME, hosts), stated)
-    return _closed(made, stated)
 
 
 def _from_closed(part: StatedPart, motion: Motion) -> Motion:

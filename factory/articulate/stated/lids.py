@@ -62,9 +62,11 @@ def _bounds(part: StatedBox) -> Region:
     """Return the edges of a lid's box beyond which there is more of the mesh above its seam."""
     relief = part.front.relief
     raster = relief.raster
-    low, high = part.panel.rectangle.low, part.panel.rectangle.high
+    low = part.panel.rectangle.low
+    high = part.panel.rectangle.high
     first_row, last_row, first, last = relief.box
-    off_rows, off_columns = OFF * (last_row - first_row), OFF * (last - first)
+    off_rows = OFF * (last_row - first_row)
+    off_columns = OFF * (last - first)
     above = relief.seen[low[0] + 1 :]
     right, up, _ = raster.side.frame
     planes = []

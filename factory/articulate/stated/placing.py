@@ -25,7 +25,7 @@ from .controls import control_opening
 from .lids import hinged_inside, lid_openings
 from .snapping import LEAST_OFF, OFF, StatedFrame, snap
 from .tilting import tilted
-from .wholes import Pieces, StatedWay
+from .wholes import SeenPieces, StatedWay
 
 #: Boxes of two panels of one side may share so much of the smaller one.
 MOST_SHARED = 0.25
@@ -66,7 +66,7 @@ def place_parts(mesh: Mesh, parts: Sequence[StatedPart]) -> list[Placed]:
     Raises:
         InputRejected: ``stated_part_not_found``: a box shows nothing, or two take the same place.
     """
-    pieces = Pieces(mesh)
+    pieces = SeenPieces(mesh)
     found: dict[int, Placed] = {}
     for above, turn in ((False, np.eye(3)), (True, FROM_ABOVE)):
         views = {
@@ -94,7 +94,7 @@ def place_parts(mesh: Mesh, parts: Sequence[StatedPart]) -> list[Placed]:
 def _boxed(
     mesh: Mesh,
     fronts: Mapping[Side, Front],
-    pieces: Pieces,
+    pieces: SeenPieces,
     part: StatedPart,
     place: int,
     view: StatedView,

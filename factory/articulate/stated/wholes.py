@@ -42,7 +42,7 @@ class StatedWay:
         return replace(self, mover=self.mover.turned(rotation))
 
 
-class Pieces:
+class SeenPieces:
     """The pieces of a mesh, seen from its sides.
 
     Args:

@@ -77,7 +77,9 @@ def test_an_asset_carries_the_terms_of_weights_to_every_export(bound, tmp_path, 
 
 def test_a_gate_refuses_what_such_weights_made(bound, tmp_path):
     config = replace(BuildConfig(), articulator="geometric", simulators=())
-    gated = replace(config, intake=replace(config.intake, allowed_licenses=("Apache-2.0", "unknown")))
+    gated = replace(
+        config, intake=replace(config.intake, allowed_licenses=("Apache-2.0", "unknown"))
+    )
     entry = build_asset(FRIDGE, tmp_path / "out", gated).entry
     assert (entry.status, entry.reason) == ("rejected", "license_disallowed")
     assert BOUND in entry.message
