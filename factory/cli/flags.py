@@ -34,8 +34,8 @@ class InputFlags:
     articulator: str = "auto"
     """Who says what moves: auto, stated, annotated, geometric, seams, particulate, vlm or rigid."""
     checkpoint: str | None = None
-    """Weights for particulate, which auto then asks alone: a file, or
-    hf:owner/repository/file@commit."""
+    """Weights for particulate, which auto then asks alone: a file,
+    hf:owner/repository/file@commit, or paper: those published, which are fetched."""
     features: str | None = None
     """Weights of its feature extractor, if it needs one: a file, or
     hf:owner/repository/file@commit."""
@@ -138,7 +138,7 @@ def input_config(flags: InputFlags) -> BuildConfig:
     given: dict[str, Any] = {
         name: getattr(flags, name) for name in asked if getattr(flags, name) is not None
     }
-    particulate = replace(config.particulate, **given)
+    particulate = replace(config.particulate, **{**given, **_published(flags)})
     require_usable(particulate, needed=flags.articulator == "particulate")
     vlm = replace(config.vlm, url=flags.vlm_url or config.vlm.url)
     vlm = replace(vlm, model=flags.vlm_model or vlm.model)
@@ -146,6 +146,19 @@ def input_config(flags: InputFlags) -> BuildConfig:
     return replace(
         config, articulator=flags.articulator, intake=intake, particulate=particulate, vlm=vlm
     )
+
+
+def _published(flags: InputFlags) -> dict[str, str]:
+    """Return settings for the published weights, if asked for; say their terms before a fetch."""
+    from ..models.weights.sources import PAPER, PARTFIELD, PARTICULATE
+
+    if flags.checkpoint != PAPER:
+        return {}
+    named = {"checkpoint": PARTICULATE.source, "features": flags.features or PARTFIELD.source}
+    for weights in (PARTICULATE, PARTFIELD):
+        if weights.source in named.values():
+            complain(f"factory: {weights.source}: {weights.terms}")
+    return named
 
 
 def simulators_named(names: str) -> tuple[str, ...]:

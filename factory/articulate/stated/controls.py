@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ...articulation import JointKind
@@ -15,6 +17,7 @@ from ..seams.fronts import thickness
 from ..seams.knobs import knobs_on
 from ..seams.placing import TURN, OpeningPart, box_before
 from .boxed import StatedBox, slices_of
+from .snapping import AT_OUTLINE
 
 #: How far a button is pressed [m].
 BUTTON_TRAVEL_M = 0.004
@@ -30,14 +33,24 @@ _ENDS = {
 }
 
 
-def control_opening(part: StatedBox) -> OpeningPart:
-    """Return what is turned or pressed: the knob that is seen in a box, or all that stands off.
-
-    A wheel turns about the middle of what stands off, a lever about the edge where it is hinged, a
-    cap that is seen from beside about the upright.
+def control_openings(part: StatedBox) -> list[OpeningPart]:
+    """Return what is turned or pressed, as :func:`_control` finds it; a lever one way or the other.
 
     Raises:
         InputRejected: ``stated_part_not_found``: no lever is hinged so.
+    """
+    found = _control(part)
+    if found.kind is not PartKind.LEVER:
+        return [found]
+    back = replace(found, motion=replace(found.motion, axis=-found.motion.axis))
+    return [found, back]
+
+
+def _control(part: StatedBox) -> OpeningPart:
+    """Return the knob that is seen in a box, or all that stands off.
+
+    A wheel turns about the middle of what stands off, a lever about the edge where it is hinged, a
+    cap that is seen from beside about the upright.
     """
     kind = part.kind
     if kind is PartKind.CAP and part.view.side is not Side.TOP:
@@ -65,6 +78,10 @@ def control_opening(part: StatedBox) -> OpeningPart:
         share = np.array(_ENDS[part.stated.hinge][::-1])
         height, across = low + share * (high - low)
     origin = across * right + height * up + back * away
+    # What is drawn to the outline has its thinnest ends too.
+    ends = np.array(part.view.box).reshape(2, 2)[:, ::-1]
+    low = np.where(ends[0] <= AT_OUTLINE, -np.inf, low)
+    high = np.where(ends[1] >= 1.0 - AT_OUTLINE, np.inf, high)
     region = box_before(raster.side, low, high, back)
     if _depth_is_bounded(part):
         region = Region(region.normals[:-1], region.offsets[:-1])

@@ -21,7 +21,7 @@ from ..seams.placing import OpeningPart, panel_mover
 from ..seams.rectangles import Rectangle
 from ..seams.relief import reliefs_of
 from .boxed import MOST_WAYS, NOT_FOUND, USUAL, StatedBox, boxed_in
-from .controls import control_opening
+from .controls import control_openings
 from .lids import hinged_inside, lid_openings
 from .snapping import LEAST_OFF, OFF, StatedFrame, snap
 from .tilting import tilted
@@ -139,7 +139,7 @@ def _openings(
     if part.kind in (PartKind.LID, PartKind.SCREEN) and not above:
         made = lid_openings(fronts, part)
     elif not part.is_panel:
-        made = [control_opening(part)]
+        made = control_openings(part)
     else:
         wanted = _wanted_ways(part, _WAYS_ABOVE if above else _WAYS)
         if len(wanted) > 1:

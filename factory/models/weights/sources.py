@@ -23,6 +23,8 @@ _ADDRESS = re.compile(
     rf"{HUB}(?P<repository>[^/@#]+/[^/@#]+)/(?P<file>[^@#]+)"
     r"(?:@(?P<revision>[0-9a-f]{40}))?(?:#(?P<sha256>[0-9a-f]{64}))?"
 )
+PAPER = "paper"
+"""The name of the published weights of Particulate and of the features that they ask for."""
 SHIPPED = "shipped"
 """The name of the weights that come with the package."""
 
