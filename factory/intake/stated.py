@@ -140,7 +140,7 @@ class StatedPart(Struct, frozen=True, forbid_unknown_fields=True):
     range: tuple[Amount, Amount] | None = None
     parent: str | None = None
     count: Annotated[int, Meta(ge=1, le=MOST_PARTS)] = 1
-    drawn: Amount | Literal["open"] | None = None
+    drawn: Annotated[float, Meta(gt=0.0, le=10_000.0)] | Literal["open"] | None = None
     alternatives: tuple[StatedAlternative, ...] = ()
     also: tuple[StatedView, ...] = ()
 
@@ -299,8 +299,12 @@ def _faults_of(part: StatedPart) -> Iterator[str]:
         yield "count is for parts without a box or a name"
     if part.kind is StatedKind.DRAWER and part.hinge is not None:
         yield SLIDES
-    if part.range is not None and not part.range[0] < part.range[1]:
+    if part.range is not None and not part.range[0] <= 0.0 <= part.range[1]:
+        yield "range is [lower, upper] with lower <= 0 <= upper, since 0 is as drawn"
+    if part.range is not None and part.range[0] == part.range[1]:
         yield "range is [lower, upper] with lower < upper"
+    if part.range is not None and part.drawn is not None and part.range[0] == 0.0:
+        yield "range starts below 0 where a part is drawn open: it is closed there"
 
 
 def schema() -> dict[str, Any]:

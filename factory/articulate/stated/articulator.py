@@ -139,6 +139,9 @@ class StatedArticulator:
         }
         for proposal in guessed:
             left = proposal.faces & (owner == 0)
+            if not left.any():
+                sentence = f"a {proposal.kind} that is expected lies where stated parts are"
+                raise InputRejected(NOT_FOUND, sentence)
             proposals.append(replace(proposal, faces=left))
             owner[left] = len(proposals)
         hosts += [0] * len(guessed)
@@ -215,7 +218,7 @@ def _choices(placed: Sequence[Placed]) -> Iterator[tuple[StatedWay, ...]]:
 
 def _from_closed(part: StatedPart, motion: Motion) -> Motion:
     """Return a motion whose lower limit is the closed pose of a part that is drawn open."""
-    if part.drawn is None:
+    if part.drawn is None or part.range is not None:
         return motion
     by = motion.upper if part.drawn == "open" else float(part.drawn) / stated_unit(motion)
     return replace(motion, lower=-by, upper=max(motion.upper - by, 0.0))
@@ -281,6 +284,8 @@ def _owners(
             found = why if within.any() else "no surface of the mesh is in its box"
             raise InputRejected(NOT_FOUND, f"{placed[index].label}: {found}")
         owner[own] = index + 1
+    if not (owner == 0).any():
+        raise InputRejected(NOT_FOUND, "stated parts take all of the mesh: want a body beside them")
     return owner
 
 

@@ -18,6 +18,8 @@ from ..seams.rectangles import Rectangle
 NOT_FOUND = "stated_part_not_found"
 #: Of a stated box so much must show the mesh.
 LEAST_SHOWN = 0.3
+#: A box is at least so wide and so high [pixels].
+THINNEST = 2
 #: Ways to open that are tried for one part, where nobody says which.
 MOST_WAYS = 2
 
@@ -95,6 +97,12 @@ def boxed_in(front: Front, part: StatedPart, place: int, box: Rectangle) -> Stat
     Raises:
         InputRejected: ``stated_part_not_found``: the box hardly shows the mesh.
     """
+    if box.size.min() < THINNEST:
+        raise InputRejected(
+            NOT_FOUND,
+            f"{label_of(part, place)}: its box on the {part.side} is thinner than "
+            f"{THINNEST * front.relief.raster.pixel * 1000.0:.3g} mm: too thin to be seen",
+        )
     shown = front.relief.seen[slices_of(box)]
     share = float(shown.mean()) if shown.size else 0.0
     if share < LEAST_SHOWN or part.view is None:

@@ -78,7 +78,10 @@ class SeenPieces:
         shown = outlines.shown(low, high)
         enough = OWN
         if mover.panel is not None:
-            own = own_pieces(outlines, mover.panel, OFF / 2.0 * float((high - low).max()))
+            margin = OFF / 2.0 * float((high - low).max())
+            # What hangs in the air before a panel is another part's: a cistern's lever.
+            own = own_pieces(outlines, mover.panel, margin)
+            own &= outlines.high[:, 2] >= mover.panel.front - margin
         elif part.is_panel or mover.kind is PartKind.SCREEN:
             own = self._share_within(mover.region) >= ABOVE
         else:

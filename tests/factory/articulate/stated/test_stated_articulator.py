@@ -4,16 +4,18 @@ from contextlib import suppress
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from manifold3d import CrossSection, Manifold
 from one_piece import doors, drawers, fridge, mesh_of
 
+from asset_factory.factory.articulate.locate import located
 from asset_factory.factory.articulate.seams.articulator import SeamsArticulator
-from asset_factory.factory.articulate.stated import StatedArticulator
+from asset_factory.factory.articulate.stated import StatedArticulator, placing
 from asset_factory.factory.articulation import JointKind, rotation_about
-from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.intake.stated import stated_from
+from asset_factory.factory.errors import ConfigError, InputRejected
+from asset_factory.factory.geometry.crossings import Side
+from asset_factory.factory.intake.stated import Hinge, StatedKind, stated_from
 
 #: A pixel of a side's picture, and a groove's half [m].
 FINE = 0.02
@@ -124,18 +126,46 @@ def test_nothing_opens_where_that_is_said():
     assert made.movable_joints == ()
 
 
-@settings(max_examples=10, deadline=None)
-@given(st.tuples(*[st.floats(0.0, 1.0)] * 4))
-def test_any_box_is_an_articulation_or_a_sentence(corners):
-    x0, x1 = sorted(corners[:2])
-    y0, y1 = sorted(corners[2:])
-    if x0 == x1 or y0 == y1:
-        return
-    part = {"kind": "door", "side": "right", "box": [x0, y0, x1, y1]}
-    with suppress(InputRejected):
-        made = articulated(doors(), part)[0]
-        assert len(made.parts) == 2
-        assert len(made.parts[0].faces) + len(made.parts[1].faces) == len(made.mesh.faces)
+@pytest.fixture(scope="module")
+def seen_once():
+    """Has the sides of a mesh looked at once, whatever is stated on them."""
+    known = {}
+    look = placing.fronts_of
+
+    def kept(reliefs):
+        key = reliefs[Side.FRONT].height.tobytes()
+        return known.setdefault(key, look(reliefs))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(placing, "fronts_of", kept)
+        yield
+
+
+EDGES = st.sampled_from([0.0, 0.001, 0.05, 0.1, 0.48, 0.52, 0.9, 0.996, 1.0])
+PARTS = st.fixed_dictionaries(
+    {
+        "kind": st.sampled_from([each.value for each in StatedKind]),
+        "side": st.sampled_from(["front", "back", "left", "top"]),
+        "box": st.tuples(EDGES, EDGES, EDGES, EDGES),
+    },
+    optional={
+        "hinge": st.sampled_from([each.value for each in Hinge]),
+        "drawn": st.sampled_from(["open", 30]),
+        "range": st.sampled_from([(-30, 0), (-10, 90)]),
+        "also": st.just([{"side": "top", "box": [0.1, 0.0, 0.9, 0.6]}]),
+        "alternatives": st.just([{"kind": "knob"}]),
+    },
+)
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
+@given(st.lists(PARTS, min_size=1, max_size=3))
+def test_whatever_is_stated_is_an_articulation_or_a_sentence(seen_once, parts):
+    with suppress(InputRejected, ConfigError):
+        for made in articulated(doors(), *parts):
+            assert sum(len(part.faces) for part in made.parts) == len(made.mesh.faces)
+            assert all(len(part.faces) for part in made.parts)
+            located(made)
 
 
 def test_a_part_has_the_name_and_carries_what_was_stated():
