@@ -7,6 +7,7 @@ import os
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from http import HTTPStatus
 from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
@@ -29,9 +30,6 @@ MOST_BYTES = 1024 * 1024
 #: How often an endpoint that is busy or gone is asked, and the longest wait in between [s].
 TRIES = 3
 LONGEST_PAUSE_S = 30.0
-TOO_MANY = 429
-BAD_REQUEST = 400
-SERVER_FAULT = 500
 #: Letters of an endpoint's own words that a sentence quotes.
 _QUOTED = 200
 
@@ -121,11 +119,17 @@ def ask(config: VlmConfig, messages: Sequence[dict[str, Any]]) -> Reply:
                 said = answer[:_QUOTED].decode("utf-8", "replace")
                 said = " ".join((said.replace(key, "***") if key else said).split())
                 why = f"HTTP {status}: {said}"
-                if status < BAD_REQUEST:
+                if status < HTTPStatus.BAD_REQUEST:
                     return _reply(answer)
-                if status == BAD_REQUEST and body.pop("response_format", None) is not None:
+                if (
+                    status == HTTPStatus.BAD_REQUEST
+                    and body.pop("response_format", None) is not None
+                ):
                     continue
-                if status != TOO_MANY and status < SERVER_FAULT:
+                if (
+                    status != HTTPStatus.TOO_MANY_REQUESTS
+                    and status < HTTPStatus.INTERNAL_SERVER_ERROR
+                ):
                     raise ConfigError(f"{config.url}: {why}")
             if number + 1 < TRIES:
                 time.sleep(min(pause, LONGEST_PAUSE_S))

@@ -10,7 +10,7 @@ from ...geometry.components import connected_components
 from ...geometry.crossings import Side
 from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, IntArray, Mesh
-from ...part import OpensBy, PartKind
+from ...part import PartKind
 from ..seams.cutting import Region
 from ..seams.pieces import OWN, WHOLE, PieceOutlines, own_pieces
 from ..seams.placing import OpeningPart
@@ -95,7 +95,7 @@ class SeenPieces:
             own &= self._share_within(mover.region) >= ABOVE
         if shown[own].sum() < enough or own.all():
             return StatedWay(mover)
-        return StatedWay(_as_thick(mover, outlines, shown * own), np.flatnonzero(own))
+        return StatedWay(mover, np.flatnonzero(own))
 
     def nearest(self, side: Side, corners: FloatArray, reach: FloatArray) -> FloatArray | None:
         """Return the outline of the piece that a rectangle means, low and high [m], shape [2, 2].
@@ -124,12 +124,3 @@ class SeenPieces:
         whole = np.bincount(self.of_faces, weights=self._areas)
         inner = np.bincount(self.of_faces, weights=self._areas * within, minlength=len(whole))
         return np.asarray(inner / np.maximum(whole, 1e-12))
-
-
-def _as_thick(mover: OpeningPart, outlines: PieceOutlines, shown: FloatArray) -> OpeningPart:
-    """Return a panel that turns, as thick as the piece that shows most of it."""
-    panel = mover.panel
-    if panel is None or panel.opens is OpensBy.OUT:
-        return mover
-    thickness = float(outlines.high[int(shown.argmax()), 2]) - panel.front
-    return replace(mover, panel=replace(panel, thickness=thickness)) if thickness > 0 else mover
