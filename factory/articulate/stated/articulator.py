@@ -199,7 +199,7 @@ def _with_cut(chosen: Iterable[tuple[StatedWay, ...]]) -> Iterator[tuple[StatedW
     for ways in chosen:
         yield ways
         if any(len(way.pieces) for way in ways):
-            yield tuple(StatedWay(way.mover) for way in ways)
+            yield tuple(StatedWay(way.cut or way.mover) for way in ways)
 
 
 def _to_cut(ways: Sequence[StatedWay]) -> tuple[OpeningPart, ...]:

@@ -75,43 +75,62 @@ def place_parts(mesh: Mesh, parts: Sequence[StatedPart]) -> list[Placed]:
             if part.view is not None and (part.view.side is Side.TOP) is above
         }
         if views:
-            fronts = fronts_of(reliefs_of(mesh.turned(turn), pieces.of_faces))
-            boxed = [
-                _boxed(mesh, fronts, pieces, parts[place], place, view)
-                for place, view in views.items()
+            fronts = fronts_of(reliefs_of(mesh.turned(turn)))
+            seams = [
+                _boxed(mesh, fronts, parts[place], place, view) for place, view in views.items()
             ]
-            _refuse_shared(boxed)
-            for each in boxed:
-                said = [each, *(replace(each, stated=other) for other in each.stated.others)]
-                movers = [
-                    way.turned(turn.T) for one in said for way in _openings(fronts, one, boxed)
+            _refuse_shared(seams)
+            outlines = [_outlined(mesh, pieces, each) for each in seams]
+            for cut, whole in zip(seams, outlines, strict=True):
+                ways = [
+                    pieces.way(_as_stated(mover.turned(turn.T), whole, mesh), whole)
+                    for mover in _all_openings(fronts, whole, outlines)
                 ]
-                ways = tuple(pieces.way(_as_stated(way, each, mesh), each) for way in movers)
-                found[each.place] = Placed(each.stated, each.label, ways, pieces.of_faces)
+                if any(len(way.pieces) for way in ways):
+                    movers = _all_openings(fronts, cut, seams)
+                    ways = [
+                        replace(way, cut=_as_stated(mover.turned(turn.T), cut, mesh))
+                        for way, mover in zip(ways, movers, strict=True)
+                    ]
+                found[cut.place] = Placed(cut.stated, cut.label, tuple(ways), pieces.of_faces)
     return [found[place] for place in sorted(found)]
+
+
+def _all_openings(
+    fronts: Mapping[Side, Front], part: StatedBox, boxed: Sequence[StatedBox]
+) -> list[OpeningPart]:
+    """Return the ways in which a part may open as stated, and then by its alternatives."""
+    said = [part, *(replace(part, stated=other) for other in part.stated.others)]
+    return [way for each in said for way in _openings(fronts, each, boxed)]
 
 
 def _boxed(
     mesh: Mesh,
     fronts: Mapping[Side, Front],
-    pieces: SeenPieces,
     part: StatedPart,
     place: int,
     view: StatedView,
 ) -> StatedBox:
-    """Return a part with what its box means: the outline of a piece, else a rectangle of seams."""
+    """Return a part with the rectangle of seams that its box means."""
     front = fronts[Side.FRONT if view.side is Side.TOP else view.side]
     frame = StatedFrame.of(mesh, view.side)
+    return boxed_in(front, part, place, snap(front, frame, view.box))
+
+
+def _outlined(mesh: Mesh, pieces: SeenPieces, part: StatedBox) -> StatedBox:
+    """Return a part in the outline of the piece that its box means; as it is if there is none."""
+    front = part.front
+    frame = StatedFrame.of(mesh, part.view.side)
     raster = front.relief.raster
     reach = np.maximum(OFF * frame.size, LEAST_OFF * raster.pixel)
-    outline = pieces.nearest(view.side, frame.place(view.box), reach)
+    outline = pieces.nearest(part.view.side, frame.place(part.view.box), reach)
     if outline is None:
-        return boxed_in(front, part, place, snap(front, frame, view.box))
+        return part
     low, high = np.rint((outline - raster.low) / raster.pixel).astype(np.int64)[:, ::-1]
     limit = np.array(front.relief.shape) - 1
     nothing = np.zeros(4)
     box = Rectangle(np.clip(low, 0, limit), np.clip(high, 0, limit), nothing, nothing)
-    return boxed_in(front, part, place, box)
+    return boxed_in(front, part.stated, part.place, box)
 
 
 def _refuse_shared(boxed: Sequence[StatedBox]) -> None:

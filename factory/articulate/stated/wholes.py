@@ -32,14 +32,17 @@ class StatedWay:
     Attributes:
         mover: the part.
         pieces: that it is made of, ascending; none where it is cut out of what is in its region.
+        cut: the part as it would be cut out, where it is made of pieces.
     """
 
     mover: OpeningPart
     pieces: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    cut: OpeningPart | None = None
 
     def turned(self, rotation: FloatArray) -> StatedWay:
         """Return the same of an object turned about the origin by ``rotation``, shape [3, 3]."""
-        return replace(self, mover=self.mover.turned(rotation))
+        cut = None if self.cut is None else self.cut.turned(rotation)
+        return replace(self, mover=self.mover.turned(rotation), cut=cut)
 
 
 class SeenPieces:
@@ -113,7 +116,7 @@ class SeenPieces:
         outlines = self.seen_from(side)
         boxes = np.stack([outlines.low[:, :2], outlines.high[:, :2]], axis=1)
         off = (np.abs(boxes - corners) / reach).max(axis=(1, 2))
-        off = np.where(outlines.shown(*corners) >= OWN / 2.0, off, np.inf)
+        off = np.where(outlines.shown(*corners) >= OWN, off, np.inf)
         best = int(off.argmin())
         return np.asarray(boxes[best]) if off[best] <= 1.0 else None
 
