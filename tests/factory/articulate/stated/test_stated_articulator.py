@@ -288,8 +288,8 @@ def test_a_piece_that_a_box_means_is_the_part_and_nothing_is_cut():
     assert len(made.parts[0].faces) + len(made.parts[1].faces) == len(made.mesh.faces)
     assert box_of(made, 1) == pytest.approx(np.array([[0.03, -0.01, 0.05], [0.47, 0.01, 0.45]]))
     assert made.joints[0].origin[0] == pytest.approx(0.03, abs=FINE / 4.0)
-    # Else it is as thick as panels are, and the rest of the piece stays.
-    assert box_of(cut, 1)[1][1] < 0.009
+    # Where the piece is not it, all that is in the region of its box is.
+    assert box_of(cut, 1)[1][1] > 0.015
 
 
 def test_a_wheel_turns_about_its_hub_and_a_lever_about_its_edge():
