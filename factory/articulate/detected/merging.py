@@ -8,18 +8,17 @@ from dataclasses import replace
 import numpy as np
 
 from ...geometry.crossings import Side, side_facing
-from ...intake.stated import Hinge, StatedPart
+from ...intake.stated import Hinge, StatedKind, StatedPart
 from ...mesh import FloatArray
 from ...models.detector.canvas import CANVAS, LONGEST, WAYS, PanelWay, Sort, shares_of
 from ...models.detector.decode import Found
-from ...part import PartKind
 from ..seams.fronts import OPPOSITE
 
 #: Sorts that close an upright side, and what they are called.
 _PANELS = {
-    Sort.DOOR: (PartKind.DOOR, (PanelWay.LEFT, PanelWay.RIGHT)),
-    Sort.FLAP: (PartKind.FLAP, (PanelWay.BOTTOM, PanelWay.TOP)),
-    Sort.DRAWER: (PartKind.DRAWER, (PanelWay.OUT,)),
+    Sort.DOOR: (StatedKind.DOOR, (PanelWay.LEFT, PanelWay.RIGHT)),
+    Sort.FLAP: (StatedKind.FLAP, (PanelWay.BOTTOM, PanelWay.TOP)),
+    Sort.DRAWER: (StatedKind.DRAWER, (PanelWay.OUT,)),
 }
 _EDGES = {
     PanelWay.LEFT: Hinge.LEFT,
@@ -114,9 +113,9 @@ def _lid(lids: Sequence[Found], sizes: FloatArray) -> StatedPart:
     upright = [each for each in lids if each.side is not Side.TOP]
     if not upright:
         above = max(lids, key=lambda each: each.score)
-        return StatedPart(PartKind.LID, above.side, _box(above, sizes), hinge)
+        return StatedPart(StatedKind.LID, above.side, _box(above, sizes), hinge)
     best = max(upright, key=lambda each: each.score)
-    return StatedPart(PartKind.LID, best.side, _box(best, sizes), hinge)
+    return StatedPart(StatedKind.LID, best.side, _box(best, sizes), hinge)
 
 
 def _box(found: Found, sizes: FloatArray) -> tuple[float, float, float, float]:
