@@ -47,6 +47,13 @@ def test_a_box_drawn_off_goes_to_the_seam_it_means(off):
     assert made.joints[0].axis == pytest.approx([0.0, -1.0, 0.0], abs=1e-9)
 
 
+def test_edges_of_something_thin_do_not_meet_at_one_seam():
+    part = {"kind": "drawer", "side": "front", "box": [0.05, 0.66, 0.95, 0.69]}
+    (made, *_) = articulated(drawers(), part)
+    low, high = box_of(made, 1)
+    assert high[2] - low[2] == pytest.approx(0.027, abs=FINE / 2.0)
+
+
 def test_a_door_is_hinged_where_it_is_said():
     part = {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1]}
     for hinge, x, sign in (("left", 0.0, -1.0), ("right", 0.6, 1.0)):
