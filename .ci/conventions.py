@@ -37,6 +37,7 @@ CLOCKS_IN = (
     "factory/runtime/clock.py",
     "factory/runtime/store.py",
     "learn/datasets/__main__.py",
+    "learn/detector/train.py",
     "learn/samples/",
     "learn/train/",
     "sim_checks/processes/",

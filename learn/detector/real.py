@@ -156,13 +156,17 @@ def _rows(entry: Mapping[str, Any], front: Side) -> list[_Row]:
     if side not in sides or side is Side.TOP or not (slides or hinges):
         return _ignored(entry, sides)
     if slides:
-        sort, way = Sort.DRAWER, WAYS.index(PanelWay.OUT)
+        sort = Sort.DRAWER
+        way = WAYS.index(PanelWay.OUT)
     elif abs(float(axis @ normal)) > 0.9:
-        sort, way = Sort.CONTROL, WAYS.index(PanelWay.OTHER)
+        sort = Sort.CONTROL
+        way = WAYS.index(PanelWay.OTHER)
     elif abs(axis[2]) > 0.9:
-        sort, way = Sort.DOOR, _edge(entry, side, hinges)
+        sort = Sort.DOOR
+        way = _edge(entry, side, hinges)
     else:
-        sort, way = Sort.FLAP, _upright_edge(entry, hinges)
+        sort = Sort.FLAP
+        way = _upright_edge(entry, hinges)
     return [(SIDES.index(side), _on(side, entry), sort, way, False)]
 
 
@@ -235,7 +239,8 @@ def _lid_way(direction: FloatArray | None, side: Side) -> int:
         return EITHER
     right, up, away = side.frame
     far = up if side is Side.TOP else away
-    sideways, depth = float(direction @ right), float(direction @ far)
+    sideways = float(direction @ right)
+    depth = float(direction @ far)
     if abs(sideways) > abs(depth):
         return WAYS.index(PanelWay.RIGHT if sideways > 0.0 else PanelWay.LEFT)
     return WAYS.index(PanelWay.TOP if depth > 0.0 else PanelWay.BOTTOM)

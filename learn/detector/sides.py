@@ -228,7 +228,8 @@ def _lid_ways(joint: Joint, center: FloatArray, counts: list[int]) -> dict[int, 
             continue
         right, up, away = side.frame
         far = up if side is Side.TOP else away
-        sideways, depth = float(across @ right), float(across @ far)
+        sideways = float(across @ right)
+        depth = float(across @ far)
         if abs(sideways) > abs(depth):
             ways[view] = PanelWay.RIGHT if sideways > 0.0 else PanelWay.LEFT
         else:

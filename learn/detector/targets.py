@@ -22,7 +22,7 @@ OTHER = SORTS.index(SORTS[-1])
 
 
 @dataclass(frozen=True, eq=False)
-class Targets:
+class CellTargets:
     """Truth by cell of 4 pixels, [n, 5, 64, 64] unless said.
 
     Attributes:
@@ -42,7 +42,7 @@ class Targets:
     weight: Tensor
 
 
-def targets_of(shown: Shown) -> Targets:
+def targets_of(shown: Shown) -> CellTargets:
     """Return the truth of every cell; where parts overlap it is that of the smallest."""
     table = shown.table
     count, most = table.shape[:2]
@@ -55,7 +55,8 @@ def targets_of(shown: Shown) -> Targets:
     view_numbers = torch.arange(views, device=table.device)
     for number in range(most):
         row = table[:, number]
-        low, high = row[:, 1:3], row[:, 3:5]
+        low = row[:, 1:3]
+        high = row[:, 3:5]
         grown = ((LEAST - (high - low)) / 2.0).clamp(min=0.0)
         low, high = low - grown, high + grown
         across = (center >= low[:, :1]) & (center <= high[:, :1])
@@ -77,11 +78,12 @@ def targets_of(shown: Shown) -> Targets:
     def column(k: int) -> Tensor:
         return table[..., k].gather(1, index).view(owner.shape)
 
-    x, y = center[None, None, None, :], center[None, None, :, None]
+    x = center[None, None, None, :]
+    y = center[None, None, :, None]
     edges = torch.stack([x - column(1), y - column(2), column(3) - x, column(4) - y], 2)
     cells = functional.one_hot(torch.where(there, owner, most).flatten(1), most + 1).sum(1)
     size = cells.gather(1, index).view(owner.shape).clamp(min=1).float()
-    return Targets(
+    return CellTargets(
         torch.where(there, column(6).long(), -1),
         ignored & ~there,
         edges,
@@ -91,7 +93,7 @@ def targets_of(shown: Shown) -> Targets:
     )
 
 
-def loss_of(answers: DenseAnswers, targets: Targets) -> tuple[Tensor, dict[str, Tensor]]:
+def loss_of(answers: DenseAnswers, targets: CellTargets) -> tuple[Tensor, dict[str, Tensor]]:
     """Return how far answers are from the truth, and its terms."""
     there = (targets.sort >= 0) & ~targets.ignored
     weight = targets.weight * there

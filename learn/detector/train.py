@@ -36,7 +36,8 @@ RATES = (5e-4, 1e-3)
 #: Share of the time in which rates rise.
 WARMING = 0.05
 #: Of a batch, real objects and objects of descriptions; the rest is made.
-REAL, DESCRIBED = 0.2, 0.08
+REAL = 0.2
+DESCRIBED = 0.08
 #: Weights that are kept follow those that learn by this share a step.
 FOLLOW = 0.998
 SAID_EVERY_S = 20.0
@@ -147,7 +148,9 @@ def _fitted(
             _say(step, step - told, sums, now - said, source.pools[0].made)
             if (step - told) / (now - said) < SLOW and done > 0.1:
                 makers.stop()
-            said, sums, told = now, {}, step
+            said = now
+            sums = {}
+            told = step
             _keep(kept, options.out)
     return kept, step
 
@@ -209,7 +212,8 @@ def _loss(network: Any, source: Pools, count: int) -> tuple[Any, dict[str, Any]]
     """Return how far the network is from the truth on one batch, and the terms of that."""
     made, real, described = source.pools
     generator = source.generator
-    real_count, described_count = round(REAL * count), round(DESCRIBED * count)
+    real_count = round(REAL * count)
+    described_count = round(DESCRIBED * count)
     batch, whole = joined(
         [
             made.draw(count - real_count - described_count, generator),

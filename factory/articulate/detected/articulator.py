@@ -18,7 +18,7 @@ from ..proposal import Hypothesis
 from ..rigid import rigid_articulation
 from ..stated import StatedArticulator
 from .agreement import Agreement
-from .merging import SeenPart, seen_parts
+from .merging import DetectedPart, seen_parts
 from .pruning import keep_parts
 from .rating import CellParts, faces_seen, support_of_box
 
@@ -83,7 +83,7 @@ class DetectedArticulator:
 
     def _sure(
         self, found: Sequence[Found], mesh: Mesh, dense: Dense, least: float
-    ) -> list[SeenPart]:
+    ) -> list[DetectedPart]:
         """Return the parts that the detector is sure of alone, the surest first."""
         sure = []
         for part in seen_parts(found, mesh.extents):
@@ -113,7 +113,7 @@ class DetectedArticulator:
             kept = []
         return keep_parts(guess, kept, chances)
 
-    def _with(self, guess: Articulation, parts: Sequence[SeenPart]) -> list[Articulation]:
+    def _with(self, guess: Articulation, parts: Sequence[DetectedPart]) -> list[Articulation]:
         """Return a guess with parts beside it; the least sure is left out where they do not fit."""
         for count in range(len(parts), 0, -1):
             chosen = parts[:count]

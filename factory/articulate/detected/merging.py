@@ -36,10 +36,12 @@ _HINGE_SIDES = {
 SURE_WAY = 0.8
 #: A panel of which this much is in a likelier one is no part of its own.
 INSIDE = 0.5
+#: One that is cut short by surer ones must keep so much of itself.
+LEFT = 0.3
 
 
 @dataclass(frozen=True, eq=False)
-class SeenPart:
+class DetectedPart:
     """A part that the detector sees, on one side or on several.
 
     Attributes:
@@ -53,7 +55,7 @@ class SeenPart:
     probability: float = 1.0
 
 
-def seen_parts(found: Sequence[Found], extents: FloatArray) -> tuple[SeenPart, ...]:
+def seen_parts(found: Sequence[Found], extents: FloatArray) -> tuple[DetectedPart, ...]:
     """Return the parts that are seen, each once.
 
     Args:
@@ -61,10 +63,10 @@ def seen_parts(found: Sequence[Found], extents: FloatArray) -> tuple[SeenPart, .
         extents: of the mesh along x, y and z, in any unit, shape [3].
     """
     sizes = extents / extents.max() * LONGEST
-    parts = [SeenPart(_panel(each, sizes), (each,)) for each in _apart(found)]
+    parts = [DetectedPart(_panel(each, sizes), (each,)) for each in _apart(found)]
     lids = tuple(each for each in found if each.sort is Sort.LID)
     if lids:
-        parts.append(SeenPart(_lid(lids, sizes), lids))
+        parts.append(DetectedPart(_lid(lids, sizes), lids))
     return tuple(parts)
 
 
@@ -73,10 +75,33 @@ def _apart(found: Sequence[Found]) -> list[Found]:
     kept: list[Found] = []
     panels = [each for each in found if each.sort in _PANELS and each.side is not Side.TOP]
     for each in sorted(panels, key=lambda each: -each.score):
-        behind = _from_behind(each)
-        if all(max(_share_inside(each, k), _share_inside(behind, k)) < INSIDE for k in kept):
-            kept.append(each)
+        if any(_share_inside(_from_behind(each), other) >= INSIDE for other in kept):
+            continue
+        cut = each
+        for other in kept:
+            cut = _cut_short(cut, other)
+        if all(_share_inside(cut, other) < INSIDE for other in kept) and (
+            _area(cut) >= LEFT * _area(each)
+        ):
+            kept.append(cut)
     return kept
+
+
+def _cut_short(one: Found, other: Found) -> Found:
+    """Return a panel that ends where a surer one begins, along the axis that leaves most of it."""
+    if _share_inside(one, other) <= 0.0:
+        return one
+    choices = []
+    for axis in (0, 1):
+        for end, edge in ((axis + 2, other.box[axis]), (axis, other.box[axis + 2])):
+            box = one.box.copy()
+            box[end] = np.clip(edge, box[axis], box[axis + 2])
+            choices.append(replace(one, box=box))
+    return max(choices, key=_area)
+
+
+def _area(found: Found) -> float:
+    return float(np.prod(found.box[2:] - found.box[:2]))
 
 
 def _from_behind(found: Found) -> Found:
@@ -93,8 +118,7 @@ def _share_inside(one: Found, other: Found) -> float:
     low = np.maximum(one.box[:2], other.box[:2])
     high = np.minimum(one.box[2:], other.box[2:])
     inner = float(np.prod(np.maximum(high - low, 0.0)))
-    areas = [float(np.prod(each.box[2:] - each.box[:2])) for each in (one, other)]
-    return inner / max(min(areas), 1.0)
+    return inner / max(min(_area(one), _area(other)), 1.0)
 
 
 def _panel(found: Found, sizes: FloatArray) -> StatedPart:

@@ -12,8 +12,8 @@ from .canvas import SIDES, SORTS, WAYS, PanelWay, Sort
 
 #: Boxes that share more than this of their union are one.
 SAME = 0.45
-#: Peaks that are looked at on one side.
-MOST_PEAKS = 400
+#: Parts that are told of one side.
+MOST_PARTS = 100
 #: Distance between two cells [pixels].
 STRIDE = 4
 
@@ -72,20 +72,20 @@ def _on_side(dense: Dense, view: int, least: float) -> list[Found]:
     share = share_of(dense.sort[view])
     score = np.sqrt(share.max(axis=0) * share_of(dense.quality[view]))
     rows, columns = np.nonzero(score >= least)
-    order = np.argsort(-score[rows, columns], kind="stable")[:MOST_PEAKS]
-    rows, columns = rows[order], columns[order]
+    left = np.argsort(-score[rows, columns], kind="stable")
     boxes = _boxes(dense.edges[view], rows, columns)
     found: list[Found] = []
-    kept: list[FloatArray] = []
-    for row, column, box in zip(rows, columns, boxes, strict=True):
-        if kept and float(overlaps(box, np.array(kept)).max()) > SAME:
-            continue
-        kept.append(box)
+    while len(left) and len(found) < MOST_PARTS:
+        best = left[0]
+        left = left[overlaps(boxes[best], boxes[left]) <= SAME]
+        left = left[left != best]
+        row = rows[best]
+        column = columns[best]
         ways = np.exp(dense.way[view, :, row, column])
         found.append(
             Found(
                 SIDES[view],
-                box,
+                boxes[best],
                 SORTS[int(share[:, row, column].argmax())],
                 float(score[row, column]),
                 share[:, row, column],

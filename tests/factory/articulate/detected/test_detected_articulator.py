@@ -1,0 +1,121 @@
+"""What others propose and the detector sees goes on moving; what it alone sees is added."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+pytest.importorskip("torch")
+
+from asset_factory.factory.articulate.detected import (
+    DetectedArticulator,
+    load_agreement,
+)
+from asset_factory.factory.articulate.detected.pruning import keep_parts
+from asset_factory.factory.articulate.rigid import rigid_articulation
+from asset_factory.factory.articulation import (
+    Articulation,
+    Joint,
+    JointKind,
+    Part,
+    Weights,
+)
+from asset_factory.factory.part import PartKind, Proposer
+from asset_factory.learn.detector.still import make_still
+from asset_factory.learn.objects import make_object
+
+WEIGHTS = (Weights("detector.safetensors", "0" * 64, "Apache-2.0"),)
+
+
+class Says:
+    """An articulator that always says the same."""
+
+    name = "auto"
+
+    def __init__(self, said):
+        self.said = said
+
+    def articulate(self, mesh):
+        return self.said
+
+
+def detected(said):
+    return DetectedArticulator(Says(said), load_agreement(), WEIGHTS).hypotheses(said.mesh)
+
+
+def unmoving(kind, seed):
+    return rigid_articulation(make_object(kind, seed).mesh, "auto", ())
+
+
+def with_part(articulation, faces, confidence=0.5):
+    """Return the articulation with some of its body's faces as a part that slides to the back."""
+    base = articulation.parts[0]
+    parts = [replace(base, faces=np.setdiff1d(base.faces, faces)), *articulation.parts[1:]]
+    parts.append(Part("part_0", faces, confidence, kind=PartKind.PART))
+    joint = Joint(
+        "part_0_slide", JointKind.PRISMATIC, 0, len(parts) - 1, np.array([0.0, 1.0, 0.0]),
+        np.zeros(3), 0.0, 0.1, confidence=confidence,
+    )  # fmt: skip
+    return replace(articulation, parts=tuple(parts), joints=(*articulation.joints, joint))
+
+
+def test_doors_that_nobody_proposes_are_added_and_say_who_saw_them():
+    made = detected(unmoving("fridge", 4))[0].articulation
+    doors = [part for part in made.parts if part.kind is PartKind.DOOR]
+    assert len(doors) == len(make_object("fridge", 4).movable_joints)
+    assert {part.source.proposer for part in doors} == {Proposer.DETECTOR}
+    assert all(0.5 <= part.confidence <= 1.0 for part in doors)
+    assert all(abs(joint.axis[2]) > 0.99 for joint in made.joints)
+    assert made.weights == WEIGHTS
+
+
+def test_what_it_does_not_see_stays_fixed_and_what_it_sees_moves():
+    truth = make_object("fridge", 3)
+    proposed = Articulation(
+        truth.mesh,
+        tuple(replace(part, confidence=0.6) for part in truth.parts),
+        truth.joints,
+        "auto",
+    )
+    base = proposed.parts[0]
+    middles = truth.mesh.vertices[truth.mesh.faces[base.faces]].mean(axis=1)
+    rear = base.faces[middles[:, 1] > np.quantile(middles[:, 1], 0.8)]
+    made = detected(with_part(proposed, rear))[0].articulation
+    assert [part.name for part in made.parts] == [part.name for part in proposed.parts]
+    assert len(made.mesh.faces) == len(truth.mesh.faces)
+
+
+def test_a_table_stays_shut_and_says_why():
+    table = make_still("still_table", np.random.default_rng(4))
+    (only,) = detected(rigid_articulation(table.mesh, "auto", ()))
+    assert not only.articulation.movable_joints
+    assert only.articulation.notes
+
+
+def test_parts_that_are_fixed_leave_their_faces_and_children_to_what_holds_them():
+    faces = np.arange(4)
+    mesh = make_object("chest", 1).mesh
+    rest = np.arange(4, len(mesh.faces))
+    parts = (
+        Part("base", rest), Part("door", faces[:2]), Part("knob", faces[2:3]),
+        Part("other", faces[3:]),
+    )  # fmt: skip
+    axis = np.array([0.0, 0.0, 1.0])
+    joints = tuple(
+        Joint(f"j{child}", JointKind.REVOLUTE, parent, child, axis, np.zeros(3), 0.0, 1.0)
+        for child, parent in ((1, 0), (2, 1), (3, 0))
+    )
+    whole = Articulation(mesh, parts, joints, "auto")
+    kept = keep_parts(whole, {2, 3}, {3: 0.75})
+    assert [part.name for part in kept.parts] == ["base", "knob", "other"]
+    assert [joint.parent for joint in kept.joints] == [0, 0]
+    assert kept.parts[0].faces.tolist() == sorted([0, 1, *rest.tolist()])
+    assert kept.parts[2].confidence == 0.75
+    assert kept.joints[1].confidence == 0.75
+
+
+def test_agreement_rises_with_what_is_seen_and_with_confidence():
+    agreement = load_agreement()
+    assert agreement.of_alone(0.9) > agreement.least > agreement.of_alone(0.0)
+    assert agreement.of_proposed(0.6, 0.5) > agreement.least > agreement.of_proposed(0.0, 0.5)
+    assert agreement.of_proposed(0.2, 0.9) > agreement.of_proposed(0.2, 0.3)
