@@ -19,8 +19,8 @@ from typing import Annotated, Any, Literal
 from msgspec import Meta, Struct, ValidationError, convert
 
 from ..errors import ConfigError
-from ..geometry.crossings import Side
 from ..part import PartKind
+from ..views.raster import Side
 from .files import InputFiles
 from .reads import ABSENT
 from .sidecar import bad_sidecar, read_beside

@@ -10,11 +10,12 @@ from scipy import ndimage
 
 from asset_factory.factory.articulate.seams.relief import BEHIND, Relief, lab_of
 from asset_factory.factory.articulation import Articulation
-from asset_factory.factory.geometry.crossings import Raster, Side, crossings
-from asset_factory.factory.geometry.elevations import PIXELS, Elevation, nearest
 from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.geometry.triangles import doubled_normals
 from asset_factory.factory.mesh import FloatArray, IntArray
+from asset_factory.factory.views.crossings import crossings
+from asset_factory.factory.views.raster import PIXELS, Raster, Side
+from asset_factory.factory.views.view import Elevation, nearest
 
 from .decorations import Decorations
 

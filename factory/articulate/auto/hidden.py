@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...geometry.crossings import Side
-from ...geometry.elevations import elevation
 from ...geometry.triangles import face_areas
 from ...mesh import IntArray, Mesh
 from ...part import Proposer
+from ...views.raster import Side
+from ...views.view import elevation
 from ..proposal import Proposal
 
 #: What has at most this share of a mesh's area, and shows at most this share of its own, through

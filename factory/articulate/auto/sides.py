@@ -7,11 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...geometry.crossings import BoolArray, Crossings, Raster, Side, crossings
-from ...geometry.elevations import PIXELS, Elevation, nearest
 from ...geometry.triangles import face_areas
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import BoolArray, FloatArray, IntArray, Mesh
 from ...part import OpensBy, Panel
+from ...views.crossings import Crossings, crossings
+from ...views.raster import PIXELS, Raster, Side
+from ...views.view import Elevation, nearest
 from ..proposal import Proposal
 from ..seams.cutting import CutMesh, cut_around, inside, uncut
 from ..seams.hypotheses import hypotheses_of_mesh

@@ -7,9 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...geometry.crossings import BoolArray
-from ...geometry.elevations import PIXELS
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
+from ...views.raster import PIXELS
 from .dividing import divided
 from .handles import Face, Protrusion
 from .rectangles import SHORTEST, Lines, Rectangle

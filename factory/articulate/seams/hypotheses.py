@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...geometry.crossings import Side
 from ...mesh import IntArray, Mesh
+from ...views.raster import Side
 from .appliances import appliance_door
 from .candidates import is_among
 from .company import without_control_panels

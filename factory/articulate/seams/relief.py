@@ -8,9 +8,9 @@ import numpy as np
 from scipy import ndimage
 
 from ...geometry.colors import linear_of
-from ...geometry.crossings import BoolArray, Raster, Side
-from ...geometry.elevations import PIXELS, elevation
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import BoolArray, FloatArray, IntArray, Mesh
+from ...views.raster import PIXELS, Raster, Side
+from ...views.view import elevation
 
 #: Nothing lies so far behind everything [pixels]; an outline is a step as high as that.
 BEHIND = 24.0

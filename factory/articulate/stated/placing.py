@@ -9,10 +9,10 @@ import numpy as np
 
 from ...articulation import JointKind, rotation_about
 from ...errors import InputRejected
-from ...geometry.crossings import Side
 from ...intake.stated import Hinge, StatedPart, StatedView
 from ...mesh import Mesh
 from ...part import OpensBy, PartKind
+from ...views.raster import Side
 from ..proposal import Motion
 from ..seams.cutting import Region
 from ..seams.fronts import AROUND, OPPOSITE, Front, fronts_of

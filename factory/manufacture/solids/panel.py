@@ -8,11 +8,11 @@ import numpy as np
 from scipy import ndimage
 
 from ...articulation import Joint, JointKind
-from ...geometry.crossings import BoolArray, Raster, Side
-from ...geometry.elevations import PIXELS, Elevation, elevation
 from ...geometry.triangles import doubled_normals
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import BoolArray, FloatArray, IntArray, Mesh
 from ...part import Panel
+from ...views.raster import PIXELS, Raster, Side
+from ...views.view import Elevation, elevation
 from .box import Box
 
 #: A part that fills less of its rectangle is no panel.

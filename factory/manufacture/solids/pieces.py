@@ -15,8 +15,7 @@ from scipy import ndimage
 from scipy.spatial import ConvexHull, QhullError
 
 from ...asset import Hull
-from ...geometry.crossings import BoolArray
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from .box import Box
 from .lattice import Lattice, Span

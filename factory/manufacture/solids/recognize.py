@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind
-from ...geometry.crossings import BoolArray, Side, side_facing
 from ...geometry.posing import face_parts
 from ...geometry.triangles import doubled_normals
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
+from ...views.raster import Side, side_facing
 from ..poses import joints_above
 from .box import Box
 from .bump import Bump, find_bump

@@ -8,8 +8,7 @@ import numpy as np
 from scipy import ndimage
 
 from ...asset import Hull
-from ...geometry.crossings import BoolArray
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from .panel import FlatPanel, PartView, smoothed
 from .pieces import MOST_CORNERS

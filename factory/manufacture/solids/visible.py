@@ -9,10 +9,9 @@ import numpy as np
 from ...articulation import Articulation
 from ...asset import Hull
 from ...geometry.colors import linear_of
-from ...geometry.crossings import BoolArray
 from ...geometry.rows import distinct_rows
 from ...geometry.triangles import areas_of
-from ...mesh import FloatArray, IntArray, Material, Mesh
+from ...mesh import BoolArray, FloatArray, IntArray, Material, Mesh
 from ..decompose.outside import outside
 from .box import Box
 from .drawer import WALL_M

@@ -9,8 +9,8 @@ import numpy as np
 from ...articulation import Articulation, Joint
 from ...asset import Hull, InnerSurface
 from ...config import SolidsConfig
-from ...geometry.crossings import BoolArray, Side
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
+from ...views.raster import Side
 from ..poses import held_by
 from .box import Box
 from .bump import Bump

@@ -25,7 +25,7 @@ from asset_factory.factory.articulate.seams.lids import Lid
 from asset_factory.factory.articulate.seams.panels import STRICT
 from asset_factory.factory.articulate.seams.rectangles import BOTTOM, TOP, Lines, Rectangle
 from asset_factory.factory.articulate.seams.relief import reliefs_of
-from asset_factory.factory.geometry.crossings import Side
+from asset_factory.factory.views.raster import Side
 
 
 def test_slivers_are_no_doors() -> None:

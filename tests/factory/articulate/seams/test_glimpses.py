@@ -17,8 +17,8 @@ from asset_factory.factory.articulate.seams.motions import openings_of
 from asset_factory.factory.articulate.seams.rectangles import Rectangle
 from asset_factory.factory.articulate.seams.relief import Relief, reliefs_of
 from asset_factory.factory.articulate.seams.sight import SQUARE, Sight
-from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.part import OpensBy
+from asset_factory.factory.views.raster import Side
 
 #: First row and column of the two doors, and those after the last, in squares.
 DOORS = (((10, 12), (90, 42)), ((10, 43), (90, 73)))

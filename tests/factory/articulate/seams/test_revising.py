@@ -15,8 +15,8 @@ from asset_factory.factory.articulate.seams.rectangles import Rectangle
 from asset_factory.factory.articulate.seams.relief import reliefs_of
 from asset_factory.factory.articulate.seams.revising import revised
 from asset_factory.factory.articulate.seams.sight import SQUARE, Sight
-from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.part import OpensBy
+from asset_factory.factory.views.raster import Side
 
 
 def rectangle(low: tuple[int, int], high: tuple[int, int]) -> Rectangle:

@@ -23,7 +23,7 @@ from asset_factory.factory.articulate.seams.sight import (
     shipped_weights,
     sight_of,
 )
-from asset_factory.factory.geometry.crossings import Side
+from asset_factory.factory.views.raster import Side
 from asset_factory.learn.elevations.pictures import pictures_of
 from asset_factory.learn.objects import make_object
 

@@ -9,9 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 
-from asset_factory.factory.geometry.crossings import Raster, Side, crossings
-from asset_factory.factory.geometry.elevations import elevation
 from asset_factory.factory.mesh import Material, Mesh, Texture
+from asset_factory.factory.views.crossings import crossings
+from asset_factory.factory.views.raster import Raster, Side
+from asset_factory.factory.views.view import elevation
 
 
 def mesh_of(shape: trimesh.Trimesh) -> Mesh:

@@ -7,9 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from asset_factory.factory.geometry import crossings as module
-from asset_factory.factory.geometry.crossings import Raster, Side, crossings
 from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.views import crossings as module
+from asset_factory.factory.views.crossings import crossings
+from asset_factory.factory.views.raster import Raster, Side
 
 #: Few values, so that pixels and depths are equal often.
 pairs = st.lists(st.tuples(st.integers(0, 5), st.sampled_from([-0.0, 0.0, 0.25, 0.5])))

@@ -1,4 +1,4 @@
-"""Orthographic pictures of an object's sides: depth, faces, normals and colours."""
+"""What is seen of a mesh from one side: depth, faces, parts, normals and colours."""
 
 from __future__ import annotations
 
@@ -9,13 +9,11 @@ from functools import cached_property, lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from ..mesh import FloatArray, IntArray, Material, Mesh, Texture
-from .colors import srgb_of
-from .crossings import BoolArray, Crossings, Raster, Side, crossings
-from .triangles import doubled_normals
-
-#: Along the longest extent of an object.
-PIXELS = 320
+from ..geometry.colors import srgb_of
+from ..geometry.triangles import doubled_normals
+from ..mesh import BoolArray, FloatArray, IntArray, Material, Mesh, Texture
+from .crossings import Crossings, crossings
+from .raster import PIXELS, Raster, Side
 
 
 @dataclass(frozen=True)
