@@ -16,8 +16,8 @@ from .crossings import Crossings, crossings
 from .raster import PIXELS, Raster, Side
 
 
-@dataclass(frozen=True)
-class Elevation:
+@dataclass(frozen=True, eq=False)
+class View:
     """What is seen of a mesh from one side; arrays have shape [rows, columns], row 0 lowest.
 
     Attributes:
@@ -26,6 +26,7 @@ class Elevation:
         face: the nearest triangle; -1 where there is none.
         depth: from the nearest point of the mesh [m]; infinite where there is none.
         weights: of the triangle's corners, shape [rows, columns, 3].
+        owner: the part of every triangle, shape [face_count].
     """
 
     mesh: Mesh
@@ -33,11 +34,27 @@ class Elevation:
     face: IntArray
     depth: FloatArray
     weights: FloatArray
+    owner: IntArray
 
     @property
+    def side(self) -> Side:
+        """Return the side that is looked at."""
+        return self.raster.side
+
+    @cached_property
     def seen(self) -> BoolArray:
         """Return where there is anything."""
         return self.face >= 0
+
+    @cached_property
+    def away(self) -> FloatArray:
+        """Return the depth in the side's own frame [m]; infinite where there is nothing."""
+        return self.depth + self.raster.near
+
+    @cached_property
+    def part(self) -> IntArray:
+        """Return which part is seen; -1: nothing."""
+        return np.where(self.seen, self.owner[self.face], -1)
 
     @cached_property
     def normal(self) -> FloatArray:
@@ -71,18 +88,19 @@ class Elevation:
         return np.asarray(image[rows, columns] / 255.0 * plain)
 
 
-def elevation(mesh: Mesh, side: Side, pixels: int = PIXELS) -> Elevation:
+def elevation(mesh: Mesh, side: Side, pixels: int = PIXELS, owner: IntArray | None = None) -> View:
     """Look at a mesh from one side.
 
     Args:
         mesh: with at least one triangle.
         side: from where.
         pixels: along the longest extent of the mesh.
+        owner: the part of every triangle, shape [face_count]; one by default.
     """
-    return nearest(mesh, crossings(mesh, Raster.around(mesh, side, pixels)))
+    return nearest(mesh, crossings(mesh, Raster.around(mesh, side, pixels)), owner)
 
 
-def nearest(mesh: Mesh, crossed: Crossings) -> Elevation:
+def nearest(mesh: Mesh, crossed: Crossings, owner: IntArray | None = None) -> View:
     """Return what is seen of a mesh whose crossings are known."""
     raster = crossed.raster
     shape = (raster.rows, raster.columns)
@@ -94,7 +112,28 @@ def nearest(mesh: Mesh, crossed: Crossings) -> Elevation:
     face.ravel()[pixel] = crossed.face[first]
     depth.ravel()[pixel] = crossed.depth[first]
     weights.reshape(-1, 3)[pixel] = crossed.weights[first]
-    return Elevation(mesh, raster, face, depth, weights)
+    whole = np.zeros(len(mesh.faces), dtype=np.int64) if owner is None else owner
+    return View(mesh, raster, face, depth, weights, whole)
+
+
+class Views:
+    """The six sides of one mesh; each is looked at once, when it is first asked for.
+
+    Args:
+        mesh: with at least one triangle.
+        owner: the part of every triangle, shape [face_count]; one by default.
+    """
+
+    def __init__(self, mesh: Mesh, owner: IntArray | None = None) -> None:
+        self.mesh = mesh
+        self.owner = np.zeros(len(mesh.faces), dtype=np.int64) if owner is None else owner
+        self._known: dict[Side, View] = {}
+
+    def __getitem__(self, side: Side) -> View:
+        """Return what is seen from a side."""
+        if side not in self._known:
+            self._known[side] = elevation(self.mesh, side, owner=self.owner)
+        return self._known[side]
 
 
 @lru_cache(maxsize=2)

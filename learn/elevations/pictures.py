@@ -15,7 +15,7 @@ from asset_factory.factory.geometry.triangles import doubled_normals
 from asset_factory.factory.mesh import FloatArray, IntArray
 from asset_factory.factory.views.crossings import crossings
 from asset_factory.factory.views.raster import PIXELS, Raster, Side
-from asset_factory.factory.views.view import Elevation, nearest
+from asset_factory.factory.views.view import View, nearest
 
 from .decorations import Decorations
 
@@ -92,7 +92,7 @@ def _picture(
     articulation: Articulation, side: Side, looks: Looks, rng: np.random.Generator
 ) -> Picture:
     mesh = articulation.mesh
-    shown, owner = _shown(articulation, side)
+    shown = _shown(articulation, side)
     seen = np.asarray(
         ndimage.binary_closing(np.pad(shown.seen, 3), np.ones((3, 3), dtype=np.bool_))[3:-3, 3:-3]
     )
@@ -103,7 +103,7 @@ def _picture(
     closed = ndimage.grey_closing(np.maximum(raw, lowest - BEHIND), size=(GAP, GAP))
     solid = shown.seen & (closed - np.maximum(raw, lowest - BEHIND) < 1.0)
     where = ndimage.distance_transform_edt(~solid, return_distances=False, return_indices=True)
-    part = owner[np.maximum(shown.face, 0)][tuple(where)]
+    part = shown.part[tuple(where)]
     height = _smooth(closed[tuple(where)], looks.blurred[0])
     border = _border(part)
     height = height - _engraved(border, looks, rng) + _bumps(height.shape, looks, rng)
@@ -124,8 +124,8 @@ def _picture(
     return Picture(relief, np.where(seen, part, -1))
 
 
-def _shown(articulation: Articulation, side: Side) -> tuple[Elevation, IntArray]:
-    """Return the faces of an object's solids that look towards a side, and their parts."""
+def _shown(articulation: Articulation, side: Side) -> View:
+    """Look from a side at the faces of an object's solids that face it."""
     mesh = articulation.mesh
     corners = mesh.vertices[mesh.faces]
     normals = doubled_normals(corners)
@@ -138,7 +138,7 @@ def _shown(articulation: Articulation, side: Side) -> tuple[Elevation, IntArray]
         face_material=mesh.face_material[toward],
     )
     raster = Raster.around(mesh, side, PIXELS)
-    return nearest(facing, crossings(facing, raster)), face_parts(articulation)[toward]
+    return nearest(facing, crossings(facing, raster), face_parts(articulation)[toward])
 
 
 def _smooth(values: FloatArray, sigma: float) -> FloatArray:

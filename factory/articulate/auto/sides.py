@@ -11,11 +11,11 @@ from ...geometry.triangles import face_areas
 from ...mesh import BoolArray, FloatArray, IntArray, Mesh
 from ...part import OpensBy, Panel
 from ...views.crossings import Crossings, crossings
-from ...views.raster import PIXELS, Raster, Side
-from ...views.view import Elevation, nearest
+from ...views.raster import Side
+from ...views.view import View, Views
 from ..proposal import Proposal
 from ..seams.cutting import CutMesh, cut_around, inside, uncut
-from ..seams.hypotheses import hypotheses_of_mesh
+from ..seams.hypotheses import hypotheses_of_views
 from ..seams.placing import OpeningPart
 from .partition import INSIDE
 from .trust import log_odds
@@ -51,11 +51,13 @@ class Sightings:
         cut: the mesh; triangles are divided only where a panel is a part of a piece.
         pieces: of every face of the cut mesh, shape [face_count].
         found: what opens, over the cut mesh.
+        views: of the cut mesh.
     """
 
     cut: CutMesh
     pieces: IntArray
     found: tuple[Proposal, ...]
+    views: Views
 
     @property
     def mesh(self) -> Mesh:
@@ -124,20 +126,19 @@ def _in_line(one: FloatArray, other: FloatArray, reach: FloatArray) -> bool:
     return bool(level and -reach[apart] <= gap[apart] <= 2.0 * reach[apart])
 
 
-def sightings(mesh: Mesh, pieces: IntArray) -> tuple[Sightings, ...]:
+def sightings(views: Views) -> tuple[Sightings, ...]:
     """Return what the sides of a mesh of several pieces show, the likeliest hypothesis first.
 
     Args:
-        mesh: metres, z up.
-        pieces: of every face, shape [face_count].
+        views: of the mesh (metres, z up), whose parts are its pieces.
     """
     panels = [
         [seen for mover in movers if (seen := _SidePanel.of(mover)) is not None]
-        for movers in hypotheses_of_mesh(mesh, pieces)
+        for movers in hypotheses_of_views(views)
     ]
     sides = {each.side for some in panels for each in some}
-    outlines = {side: _Outlines.of(mesh, pieces, side) for side in sides}
-    return tuple(_sighted(mesh, pieces, outlines, some) for some in panels)
+    outlines = {side: _Outlines.of(views, side) for side in sides}
+    return tuple(_sighted(views, outlines, some) for some in panels)
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,13 +160,11 @@ class _SidePanel:
 
 
 def _sighted(
-    mesh: Mesh,
-    pieces: IntArray,
-    outlines: Mapping[Side, _Outlines],
-    panels: Sequence[_SidePanel],
+    views: Views, outlines: Mapping[Side, _Outlines], panels: Sequence[_SidePanel]
 ) -> Sightings:
+    pieces = views.owner
     owners = [_panel_pieces(outlines[each.side], each.panel) for each in panels]
-    cut = uncut(mesh)
+    cut = uncut(views.mesh)
     for each, (own, whole) in zip(panels, owners, strict=True):
         if len(own) and not whole:
             cut = cut_around(cut, each.mover.region)
@@ -177,7 +176,8 @@ def _sighted(
             faces &= inside(cut.mesh, each.mover.region)
         if faces.any() and areas[faces].sum() <= MOST * areas.sum():
             found.append(_proposal(each.mover, faces))
-    return Sightings(cut, pieces[cut.source], tuple(found))
+    seen = views if cut.mesh is views.mesh else Views(cut.mesh)
+    return Sightings(cut, pieces[cut.source], tuple(found), seen)
 
 
 def _proposal(mover: OpeningPart, faces: BoolArray) -> Proposal:
@@ -194,24 +194,23 @@ class _Outlines:
     """Boxes of a mesh's pieces and what is seen of them, in one side's frame.
 
     Attributes:
-        picture: of the side.
-        seen: piece of every pixel, shape [rows, columns]; -1: nothing.
+        view: of the side; its parts are the pieces.
         through: from the first surface to the last [m], shape [rows, columns].
         solid: share of that way that is inside of the mesh, shape [rows, columns].
         low, high: of each piece [m], shape [piece_count, 3].
     """
 
-    picture: Elevation
-    seen: IntArray
+    view: View
     through: FloatArray
     solid: FloatArray
     low: FloatArray
     high: FloatArray
 
     @classmethod
-    def of(cls, mesh: Mesh, pieces: IntArray, side: Side) -> _Outlines:
-        crossed = crossings(mesh, Raster.around(mesh, side, PIXELS))
-        picture = nearest(mesh, crossed)
+    def of(cls, views: Views, side: Side) -> _Outlines:
+        mesh = views.mesh
+        pieces = views.owner
+        view = views[side]
         local = mesh.vertices @ side.frame.T
         count = int(pieces.max()) + 1
         low = np.full((count, 3), np.inf)
@@ -219,8 +218,7 @@ class _Outlines:
         for corner in range(3):
             np.minimum.at(low, pieces, local[mesh.faces[:, corner]])
             np.maximum.at(high, pieces, local[mesh.faces[:, corner]])
-        seen = np.where(picture.seen, pieces[picture.face], -1)
-        return cls(picture, seen, *_through(crossed), low, high)
+        return cls(view, *_through(crossings(mesh, view.raster)), low, high)
 
     def within(self, low: FloatArray, high: FloatArray) -> FloatArray:
         """Return the share of each piece's outline within a rectangle [m], shape [piece_count]."""
@@ -230,29 +228,19 @@ class _Outlines:
 
     def shown(self, low: FloatArray, high: FloatArray) -> FloatArray:
         """Return the share of a rectangle [m] that shows each piece, shape [piece_count]."""
-        seen = self.seen[self._window(low, high)]
+        seen = self.view.part[self.view.raster.window(low, high)]
         counts = np.bincount(seen[seen >= 0], minlength=len(self.low))
         return np.asarray(counts / max(seen.size, 1))
 
     def behind(self, low: FloatArray, high: FloatArray) -> tuple[float, float]:
         """Measure how deep the mesh is behind a rectangle [m], and how much of that is inside."""
-        window = self._window(low, high)
-        seen = self.seen[window] >= 0
+        window = self.view.raster.window(low, high)
+        seen = self.view.seen[window]
         if not seen.any():
             return 0.0, 0.0
         return float(np.median(self.through[window][seen])), float(
             np.median(self.solid[window][seen])
         )
-
-    def _window(self, low: FloatArray, high: FloatArray) -> tuple[slice, slice]:
-        raster = self.picture.raster
-        first = np.ceil((low - raster.low) / raster.pixel).astype(np.int64)
-        last = np.floor((high - raster.low) / raster.pixel).astype(np.int64)
-        columns, rows = (
-            slice(max(int(start), 0), int(stop) + 1)
-            for start, stop in zip(first, last, strict=True)
-        )
-        return rows, columns
 
 
 def _through(crossed: Crossings) -> tuple[FloatArray, FloatArray]:
@@ -294,7 +282,7 @@ def _panel_pieces(outlines: _Outlines, panel: Panel) -> tuple[IntArray, bool]:
     deep, filled = outlines.behind(low, high)
     if deep < DEEP * (high - low).min():
         return nothing, True
-    margin = MARGIN * outlines.picture.raster.pixel
+    margin = MARGIN * outlines.view.raster.pixel
     inside_it = outlines.within(low - margin, high + margin) >= WHOLE
     begins = outlines.low[:, 2] <= panel.front + (panel.thickness or 0.0)
     slides = panel.opens is OpensBy.OUT

@@ -13,6 +13,7 @@ from ...intake.stated import Hinge, StatedPart, StatedView
 from ...mesh import Mesh
 from ...part import OpensBy, PartKind
 from ...views.raster import Side
+from ...views.view import Views
 from ..proposal import Motion
 from ..seams.cutting import Region
 from ..seams.fronts import AROUND, OPPOSITE, Front, fronts_of
@@ -118,7 +119,7 @@ def place_parts(mesh: Mesh, parts: Sequence[StatedPart]) -> list[Placed]:
         }
         if views:
             turned = mesh.turned(turn)
-            fronts = fronts_of(reliefs_of(turned))
+            fronts = fronts_of(reliefs_of(Views(turned)))
             boxed = [
                 _boxed(turned, fronts, parts[place], place, view) for place, view in views.items()
             ]

@@ -213,7 +213,7 @@ def _material(work: Workpiece, part: int, materials: list[Material]) -> int:
 
 def _color(work: Workpiece, part: int) -> tuple[float, float, float, float]:
     """Return the mean colour of what is seen of a part from all sides, linear."""
-    seen = [view.picture.color[view.part == part] for view in work.views.values()]
+    seen = [view.color[view.part == part] for view in work.views.values()]
     pixels = np.concatenate(seen)
     if not len(pixels):
         return (0.7, 0.7, 0.7, 1.0)
