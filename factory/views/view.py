@@ -12,7 +12,7 @@ import numpy.typing as npt
 from ..geometry.colors import srgb_of
 from ..geometry.triangles import doubled_normals
 from ..mesh import BoolArray, FloatArray, IntArray, Material, Mesh, Texture
-from .crossings import Crossings, crossings
+from .crossings import Crossings, nearest_crossings
 from .raster import PIXELS, Raster, Side
 
 
@@ -97,7 +97,7 @@ def elevation(mesh: Mesh, side: Side, pixels: int = PIXELS, owner: IntArray | No
         pixels: along the longest extent of the mesh.
         owner: the part of every triangle, shape [face_count]; one by default.
     """
-    return nearest(mesh, crossings(mesh, Raster.around(mesh, side, pixels)), owner)
+    return nearest(mesh, nearest_crossings(mesh, Raster.around(mesh, side, pixels)), owner)
 
 
 def nearest(mesh: Mesh, crossed: Crossings, owner: IntArray | None = None) -> View:

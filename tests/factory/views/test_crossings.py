@@ -28,6 +28,15 @@ def test_crossings_are_ordered_by_pixel_depth_and_place(
     )
 
 
+@given(pairs)
+def test_the_nearest_are_the_first_in_that_order(found: list[tuple[int, float]]) -> None:
+    pixel = np.array([pair[0] for pair in found], dtype=np.int64)
+    depth = np.array([pair[1] for pair in found], dtype=np.float64)
+    order = module._nearest_first(pixel, depth)
+    first = order[np.flatnonzero(np.diff(pixel[order], prepend=-1))]
+    assert module._nearest_only(pixel, depth).tolist() == first.tolist()
+
+
 def test_how_many_pairs_are_looked_at_in_one_go_changes_nothing(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
