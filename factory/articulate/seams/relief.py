@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy import ndimage
@@ -50,7 +51,7 @@ class Relief:
         """Return the rows and columns."""
         return self.raster.rows, self.raster.columns
 
-    @property
+    @cached_property
     def box(self) -> tuple[int, int, int, int]:
         """Return first and last row, first and last column of what is seen.
 
