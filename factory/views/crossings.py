@@ -111,7 +111,8 @@ def _crossed(
     for k in range(3):
         for corner in {(k + 1) % 3, (k + 2) % 3} - set(off):
             off[corner] = (x[corner].take(owner) - column, y[corner].take(owner) - row)
-        one, other = off[(k + 1) % 3], off[(k + 2) % 3]
+        one = off[(k + 1) % 3]
+        other = off[(k + 2) % 3]
         with np.errstate(divide="ignore", invalid="ignore"):
             # Of each corner, twice the area that the pixel spans with the other two.
             share = (one[0] * other[1] - one[1] * other[0]) / area.take(owner)
