@@ -35,11 +35,6 @@ class Crossings:
     inward: BoolArray
     weights: FloatArray
 
-    @property
-    def first(self) -> IntArray:
-        """Return the indices of the nearest crossing of each pixel that has any."""
-        return np.flatnonzero(np.diff(self.pixel, prepend=-1))
-
 
 def crossings(mesh: Mesh, raster: Raster) -> Crossings:
     """Cross a mesh with a raster's rays; time and memory grow with the pixels that are covered."""

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from ..geometry.colors import srgb_of
 from ..geometry.triangles import doubled_normals
 from ..mesh import BoolArray, FloatArray, IntArray, Material, Mesh, Texture
-from .crossings import Crossings, nearest_crossings
+from .crossings import nearest_crossings
 from .raster import PIXELS, Raster, Side
 
 
@@ -97,21 +97,19 @@ def elevation(mesh: Mesh, side: Side, pixels: int = PIXELS, owner: IntArray | No
         pixels: along the longest extent of the mesh.
         owner: the part of every triangle, shape [face_count]; one by default.
     """
-    return nearest(mesh, nearest_crossings(mesh, Raster.around(mesh, side, pixels)), owner)
+    return view_through(mesh, Raster.around(mesh, side, pixels), owner)
 
 
-def nearest(mesh: Mesh, crossed: Crossings, owner: IntArray | None = None) -> View:
-    """Return what is seen of a mesh whose crossings are known."""
-    raster = crossed.raster
+def view_through(mesh: Mesh, raster: Raster, owner: IntArray | None = None) -> View:
+    """Look at a mesh through the pixels of a raster; arguments as for :func:`elevation`."""
+    met = nearest_crossings(mesh, raster)
     shape = (raster.rows, raster.columns)
-    first = crossed.first
-    pixel = crossed.pixel[first]
     face = np.full(shape, -1, dtype=np.int64)
     depth = np.full(shape, np.inf)
     weights = np.zeros((*shape, 3))
-    face.ravel()[pixel] = crossed.face[first]
-    depth.ravel()[pixel] = crossed.depth[first]
-    weights.reshape(-1, 3)[pixel] = crossed.weights[first]
+    face.ravel()[met.pixel] = met.face
+    depth.ravel()[met.pixel] = met.depth
+    weights.reshape(-1, 3)[met.pixel] = met.weights
     whole = np.zeros(len(mesh.faces), dtype=np.int64) if owner is None else owner
     return View(mesh, raster, face, depth, weights, whole)
 

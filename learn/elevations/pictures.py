@@ -13,9 +13,8 @@ from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.geometry.triangles import doubled_normals
 from asset_factory.factory.mesh import FloatArray, IntArray
-from asset_factory.factory.views.crossings import crossings
 from asset_factory.factory.views.raster import PIXELS, Raster, Side
-from asset_factory.factory.views.view import View, nearest
+from asset_factory.factory.views.view import View, view_through
 
 from .decorations import Decorations
 
@@ -137,8 +136,7 @@ def _shown(articulation: Articulation, side: Side) -> View:
         corner_normals=None,
         face_material=mesh.face_material[toward],
     )
-    raster = Raster.around(mesh, side, PIXELS)
-    return nearest(facing, crossings(facing, raster), face_parts(articulation)[toward])
+    return view_through(facing, Raster.around(mesh, side, PIXELS), face_parts(articulation)[toward])
 
 
 def _smooth(values: FloatArray, sigma: float) -> FloatArray:
