@@ -1,1 +1,1 @@
-"""What is seen of a mesh: one view of one side, and every place where its rays cross the mesh."""
+"""The renderer: views of a mesh's sides, and every place where their rays cross the mesh."""

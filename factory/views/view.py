@@ -1,4 +1,4 @@
-"""What is seen of a mesh from one side: depth, faces, parts, normals and colours."""
+"""Views of a mesh's sides: depth, faces, parts, normals and colours."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from .raster import PIXELS, Raster, Side
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """What is seen of a mesh from one side; arrays have shape [rows, columns], row 0 lowest.
+    """One side of a mesh in a picture; arrays have shape [rows, columns], row 0 lowest.
 
     Attributes:
         mesh: that is looked at.
         raster: where its pixels lie.
-        face: the nearest triangle; -1 where there is none.
-        depth: from the nearest point of the mesh [m]; infinite where there is none.
+        face: the nearest triangle; -1: none.
+        depth: behind the nearest point of the mesh [m]; infinite without a triangle.
         weights: of the triangle's corners, shape [rows, columns, 3].
         owner: the part of every triangle, shape [face_count].
     """
@@ -43,17 +43,17 @@ class View:
 
     @cached_property
     def seen(self) -> BoolArray:
-        """Return where there is anything."""
+        """Return which pixels show the mesh."""
         return self.face >= 0
 
     @cached_property
     def away(self) -> FloatArray:
-        """Return the depth in the side's own frame [m]; infinite where there is nothing."""
+        """Return the depth in the side's own frame [m]; infinite where no mesh is."""
         return self.depth + self.raster.near
 
     @cached_property
     def part(self) -> IntArray:
-        """Return which part is seen; -1: nothing."""
+        """Return the part that every pixel shows; -1: none."""
         return np.where(self.seen, self.owner[self.face], -1)
 
     @cached_property
@@ -128,7 +128,7 @@ class Views:
         self._known: dict[Side, View] = {}
 
     def __getitem__(self, side: Side) -> View:
-        """Return what is seen from a side."""
+        """Return the view of a side."""
         if side not in self._known:
             self._known[side] = elevation(self.mesh, side, owner=self.owner)
         return self._known[side]
