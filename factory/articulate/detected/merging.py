@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...geometry.crossings import Side, side_facing
 from ...intake.stated import Hinge, StatedPart
 from ...mesh import FloatArray
 from ...models.detector.canvas import CANVAS, LONGEST, WAYS, Sort, Way, shares_of
 from ...models.detector.decode import Found
 from ...part import PartKind
+from ...views.raster import Side, side_facing
 from ..seams.fronts import OPPOSITE
 
 #: Sorts that close an upright side, and what they are called.

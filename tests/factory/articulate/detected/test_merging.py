@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from asset_factory.factory.articulate.detected.merging import stated_parts
-from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.intake.stated import Hinge
 from asset_factory.factory.models.detector.canvas import CANVAS, LONGEST, SORTS, WAYS, Sort, Way
 from asset_factory.factory.models.detector.decode import Found
 from asset_factory.factory.part import PartKind
+from asset_factory.factory.views.raster import Side
 
 TALL = np.array([0.5, 0.5, 1.0])
 
