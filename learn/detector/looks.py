@@ -24,7 +24,7 @@ VIEWS = len(SIDES)
 
 
 @dataclass(frozen=True, eq=False)
-class Batch:
+class ObjectBatch:
     """Objects to learn from.
 
     Attributes:
@@ -61,7 +61,7 @@ class Shown:
     front: Tensor
 
 
-def show(batch: Batch, textures: Tensor, generator: Any) -> Shown:
+def show(batch: ObjectBatch, textures: Tensor, generator: Any) -> Shown:
     """Return a batch as some image-to-3D tool would make it.
 
     Args:
@@ -124,7 +124,7 @@ class Drawing:
         return 0.6 * field[:, 0]
 
 
-def _placed(batch: Batch, draw: Drawing) -> tuple[Tensor, ...]:
+def _placed(batch: ObjectBatch, draw: Drawing) -> tuple[Tensor, ...]:
     """Return objects stretched, mirrored and turned by quarters, with their tables."""
     count = len(batch.color)
     stretch = torch.exp(draw.uniform(-0.3, 0.3, count, 3))

@@ -48,7 +48,7 @@ class Packed:
         front: number of the side that is its front.
         held_out: not trained on.
         real: an artist's surface, not ours.
-        color, depth, part: see :class:`~asset_factory.learn.detector.looks.Batch`.
+        color, depth, part: see :class:`~asset_factory.learn.detector.looks.ObjectBatch`.
         table: of what moves, [n, 10].
     """
 

@@ -20,8 +20,8 @@ from asset_factory.factory.models.detector.canvas import (
     SIDES,
     SORTS,
     WAYS,
+    PanelWay,
     Sort,
-    Way,
     look_at,
 )
 from asset_factory.factory.views.raster import Side, side_facing
@@ -139,9 +139,9 @@ def _rows(entry: Mapping[str, Any], front: Side) -> list[_Row]:
     if side not in sides or side is Side.TOP or not (slides or hinges):
         return _ignored(entry, sides)
     if slides:
-        sort, way = Sort.DRAWER, WAYS.index(Way.OUT)
+        sort, way = Sort.DRAWER, WAYS.index(PanelWay.OUT)
     elif abs(float(axis @ normal)) > 0.9:
-        sort, way = Sort.CONTROL, WAYS.index(Way.OTHER)
+        sort, way = Sort.CONTROL, WAYS.index(PanelWay.OTHER)
     elif abs(axis[2]) > 0.9:
         sort, way = Sort.DOOR, _edge(entry, side, hinges)
     else:
@@ -155,7 +155,7 @@ def _upright_edge(entry: Mapping[str, Any], hinges: Sequence[Mapping[str, float]
     low = {spot["z"] < middle for spot in hinges if "z" in spot}
     if len(low) != 1:
         return EITHER
-    return WAYS.index(Way.BOTTOM if low.pop() else Way.TOP)
+    return WAYS.index(PanelWay.BOTTOM if low.pop() else PanelWay.TOP)
 
 
 def _ignored(entry: Mapping[str, Any], sides: Sequence[Side]) -> list[_Row]:
@@ -170,7 +170,7 @@ def _edge(entry: Mapping[str, Any], side: Side, hinges: Sequence[Mapping[str, fl
     if len(left) != 1:
         return EITHER
     mirrored = float(side.frame[0].sum()) < 0.0
-    return WAYS.index(Way.LEFT if next(iter(left)) != mirrored else Way.RIGHT)
+    return WAYS.index(PanelWay.LEFT if next(iter(left)) != mirrored else PanelWay.RIGHT)
 
 
 def _lid_rows(
@@ -220,8 +220,8 @@ def _lid_way(direction: FloatArray | None, side: Side) -> int:
     far = up if side is Side.TOP else away
     sideways, depth = float(direction @ right), float(direction @ far)
     if abs(sideways) > abs(depth):
-        return WAYS.index(Way.RIGHT if sideways > 0.0 else Way.LEFT)
-    return WAYS.index(Way.TOP if depth > 0.0 else Way.BOTTOM)
+        return WAYS.index(PanelWay.RIGHT if sideways > 0.0 else PanelWay.LEFT)
+    return WAYS.index(PanelWay.TOP if depth > 0.0 else PanelWay.BOTTOM)
 
 
 def _on_canvas(rows: Sequence[_Row], mesh: Mesh) -> Instances:

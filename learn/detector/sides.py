@@ -19,8 +19,8 @@ from asset_factory.factory.models.detector.canvas import (
     SORTS,
     WAYS,
     Canvases,
+    PanelWay,
     Sort,
-    Way,
     place_of,
     stored_depth,
 )
@@ -100,7 +100,7 @@ class _Meaning:
     """What a joint's part is, and on which sides it counts."""
 
     sort: Sort
-    ways: Mapping[int, Way]
+    ways: Mapping[int, PanelWay]
 
 
 def labelled_sides(
@@ -143,7 +143,7 @@ def _row(
     wide, high = box[2:] - box[:2]
     known = meaning is not None and view in meaning.ways
     sort = meaning.sort if meaning is not None else Sort.OTHER
-    way = meaning.ways[view] if meaning is not None and known else Way.OTHER
+    way = meaning.ways[view] if meaning is not None and known else PanelWay.OTHER
     panel = sort not in (Sort.CONTROL, Sort.OTHER)
     if panel:
         filled = float(mask.sum()) / max(wide * high, 1.0)
@@ -194,7 +194,7 @@ def _meanings(articulation: Articulation, pictures: _Pictures) -> dict[int, _Mea
         name = articulation.parts[joint.child].name
         words = set(name.replace("-", "_").split("_"))
         if words & CONTROLS:
-            found[joint.child] = _Meaning(Sort.CONTROL, {int(np.argmax(counts)): Way.OTHER})
+            found[joint.child] = _Meaning(Sort.CONTROL, {int(np.argmax(counts)): PanelWay.OTHER})
             continue
         level = joint.kind is JointKind.REVOLUTE and abs(float(joint.axis[2])) < 0.2
         covers = counts[-1] >= OVER * top_seen
@@ -208,14 +208,16 @@ def _meanings(articulation: Articulation, pictures: _Pictures) -> dict[int, _Mea
         side = UPRIGHT[view]
         way = _way(part[view] == joint.child + 1, view, rasters[side], joint)
         if counts[view] and way is not None:
-            sort = {Way.OUT: Sort.DRAWER, Way.BOTTOM: Sort.FLAP, Way.TOP: Sort.FLAP}.get(
-                way, Sort.DOOR
-            )
+            sort = {
+                PanelWay.OUT: Sort.DRAWER,
+                PanelWay.BOTTOM: Sort.FLAP,
+                PanelWay.TOP: Sort.FLAP,
+            }.get(way, Sort.DOOR)
             found[joint.child] = _Meaning(sort, {view: way})
     return found
 
 
-def _lid_ways(joint: Joint, center: FloatArray, counts: list[int]) -> dict[int, Way]:
+def _lid_ways(joint: Joint, center: FloatArray, counts: list[int]) -> dict[int, PanelWay]:
     """Return by side where a lid is hinged: at its left, right, far or near edge."""
     across = joint.origin - center
     across = across - (across @ joint.axis) * joint.axis
@@ -228,17 +230,17 @@ def _lid_ways(joint: Joint, center: FloatArray, counts: list[int]) -> dict[int, 
         far = up if side is Side.TOP else away
         sideways, depth = float(across @ right), float(across @ far)
         if abs(sideways) > abs(depth):
-            ways[view] = Way.RIGHT if sideways > 0.0 else Way.LEFT
+            ways[view] = PanelWay.RIGHT if sideways > 0.0 else PanelWay.LEFT
         else:
-            ways[view] = Way.TOP if depth > 0.0 else Way.BOTTOM
+            ways[view] = PanelWay.TOP if depth > 0.0 else PanelWay.BOTTOM
     return ways
 
 
-def _way(mask: BoolArray, view: int, raster: Raster, joint: Joint) -> Way | None:
+def _way(mask: BoolArray, view: int, raster: Raster, joint: Joint) -> PanelWay | None:
     """Return how a panel opens as seen on its side; ``None``: as none does."""
     right, up, away = raster.side.frame
     if joint.kind is JointKind.PRISMATIC:
-        return Way.OUT if float(joint.axis @ away) < -0.9 else None
+        return PanelWay.OUT if float(joint.axis @ away) < -0.9 else None
     if joint.kind is not JointKind.REVOLUTE or not mask.any():
         return None
     left, bottom, end, top = _box(mask)
@@ -248,9 +250,9 @@ def _way(mask: BoolArray, view: int, raster: Raster, joint: Joint) -> Way | None
     across = (column - left) / max(end - left, 1.0)
     height = (row - bottom) / max(top - bottom, 1.0)
     if abs(float(joint.axis @ up)) > 0.9 and not 0.3 < across < 0.7:
-        return Way.LEFT if across < 0.5 else Way.RIGHT
+        return PanelWay.LEFT if across < 0.5 else PanelWay.RIGHT
     if abs(float(joint.axis @ right)) > 0.9 and not 0.3 < height < 0.7:
-        return Way.BOTTOM if height < 0.5 else Way.TOP
+        return PanelWay.BOTTOM if height < 0.5 else PanelWay.TOP
     return None
 
 

@@ -13,7 +13,7 @@ import torch  # noqa: TID253 - this module is only imported to train
 
 from asset_factory.factory.models.detector.canvas import CANVAS, SIDES
 
-from .looks import Batch
+from .looks import ObjectBatch
 
 #: Rows of a table; objects with more are left out.
 MOST = 48
@@ -27,7 +27,7 @@ SLOTS = 96
 
 
 @dataclass(frozen=True)
-class Truth:
+class WholeTruth:
     """What is known of one object as a whole."""
 
     kind: int
@@ -54,7 +54,7 @@ class Pool:
         self.whole = torch.zeros((size, 4), dtype=torch.long, device=device)
         self.made = 0
 
-    def add(self, color: Any, depth: Any, part: Any, table: Any, truth: Truth) -> None:
+    def add(self, color: Any, depth: Any, part: Any, table: Any, truth: WholeTruth) -> None:
         """Put an object in the place of the oldest; one with too many rows is left out."""
         if len(table) > MOST:
             return
@@ -69,27 +69,27 @@ class Pool:
         self.whole[at].copy_(torch.tensor(whole))
         self.made += 1
 
-    def draw(self, count: int, generator: Any) -> tuple[Batch, Any]:
+    def draw(self, count: int, generator: Any) -> tuple[ObjectBatch, Any]:
         """Return so many objects and what is known of each as a whole, [n, 4]."""
         filled = min(self.made, self.size)
         chosen = torch.randint(filled, (count,), generator=generator, device=self.device)
         return self.take(chosen)
 
-    def take(self, chosen: Any) -> tuple[Batch, Any]:
+    def take(self, chosen: Any) -> tuple[ObjectBatch, Any]:
         """Return the objects at these places."""
         whole = self.whole[chosen]
-        batch = Batch(
+        batch = ObjectBatch(
             self.color[chosen], self.depth[chosen], self.part[chosen], self.table[chosen],
             whole[:, 3] > 0, whole[:, 2],
         )  # fmt: skip
         return batch, whole
 
 
-def joined(batches: list[tuple[Batch, Any]]) -> tuple[Batch, Any]:
+def joined(batches: list[tuple[ObjectBatch, Any]]) -> tuple[ObjectBatch, Any]:
     """Return several batches as one."""
     names = ("color", "depth", "part", "table", "real", "front")
     parts = {name: torch.cat([getattr(each, name) for each, _ in batches]) for name in names}
-    return Batch(**parts), torch.cat([whole for _, whole in batches])
+    return ObjectBatch(**parts), torch.cat([whole for _, whole in batches])
 
 
 class Makers:
@@ -156,4 +156,4 @@ def make_into(name: str, free: Any, ready: Any, seed: int, number: int) -> None:
         part[:] = sides.part
         table = sides.instances.table()
         moving = table[(table[:, 9] == 0.0) & (table[:, 6] < 4)]
-        ready.put((slot, table, Truth(kind_number(kind), bool(len(moving)), 0, False)))
+        ready.put((slot, table, WholeTruth(kind_number(kind), bool(len(moving)), 0, False)))

@@ -9,7 +9,7 @@ import torch  # noqa: TID253 - this module is only imported to train
 from torch.nn import functional  # noqa: TID253
 
 from asset_factory.factory.models.detector.canvas import CANVAS, SIDES, SORTS
-from asset_factory.factory.models.detector.network import STRIDE, Answers
+from asset_factory.factory.models.detector.network import STRIDE, DenseAnswers
 
 from .looks import Shown
 
@@ -91,7 +91,7 @@ def targets_of(shown: Shown) -> Targets:
     )
 
 
-def loss_of(answers: Answers, targets: Targets) -> tuple[Tensor, dict[str, Tensor]]:
+def loss_of(answers: DenseAnswers, targets: Targets) -> tuple[Tensor, dict[str, Tensor]]:
     """Return how far answers are from the truth, and its terms."""
     there = (targets.sort >= 0) & ~targets.ignored
     weight = targets.weight * there

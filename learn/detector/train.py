@@ -28,7 +28,7 @@ from .evaluate import evaluate, printed
 from .kinds import kind_number
 from .looks import show
 from .pack import Packed, read_pack, read_textures
-from .stream import Makers, Pool, Truth, joined
+from .stream import Makers, Pool, WholeTruth, joined
 from .targets import loss_of, targets_of
 
 #: Rates of learning: of what was trained before, and of the rest.
@@ -79,7 +79,7 @@ def train(options: Any) -> None:
         makers.collect(MOST_COLLECTED)
         time.sleep(0.05)
     say(f"{made.made} objects made after {time.monotonic() - start:.0f} s")
-    source = Source(
+    source = Pools(
         (made, real, described),
         torch.from_numpy(read_textures(options.pack)).to(device),
         torch.Generator(device).manual_seed(options.seed),
@@ -94,7 +94,7 @@ def train(options: Any) -> None:
 
 
 @dataclass(frozen=True, eq=False)
-class Source:
+class Pools:
     """Where batches come from.
 
     Attributes:
@@ -119,7 +119,7 @@ def _begun(options: Any) -> Any:
 
 
 def _fitted(
-    network: Any, source: Source, makers: Makers, end: float, options: Any
+    network: Any, source: Pools, makers: Makers, end: float, options: Any
 ) -> tuple[Any, int]:
     """Return the weights that followed those that learned until ``end``, and the steps taken."""
     kept = copy.deepcopy(network).eval()
@@ -175,7 +175,7 @@ def _packed(path: Path, device: Any) -> tuple[Pool, Pool, Pool]:
     ):
         pool = Pool(len(chosen), device)
         for each in chosen:
-            truth = Truth(each.kind, each.opens, each.front, each.real)
+            truth = WholeTruth(each.kind, each.opens, each.front, each.real)
             pool.add(each.color, each.depth, each.part, _seen_through(each), truth)
         pools.append(pool)
     return pools[0], pools[1], pools[2]
@@ -205,7 +205,7 @@ def _begin(network: Any, weights: dict[str, Any]) -> None:
     network.backbone.load_state_dict(own)
 
 
-def _loss(network: Any, source: Source, count: int) -> tuple[Any, dict[str, Any]]:
+def _loss(network: Any, source: Pools, count: int) -> tuple[Any, dict[str, Any]]:
     """Return how far the network is from the truth on one batch, and the terms of that."""
     made, real, described = source.pools
     generator = source.generator

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...intake.stated import Hinge, StatedPart
 from ...mesh import FloatArray
-from ...models.detector.canvas import CANVAS, LONGEST, WAYS, Sort, Way, shares_of
+from ...models.detector.canvas import CANVAS, LONGEST, WAYS, PanelWay, Sort, shares_of
 from ...models.detector.decode import Found
 from ...part import PartKind
 from ...views.raster import Side, side_facing
@@ -17,15 +17,15 @@ from ..seams.fronts import OPPOSITE
 
 #: Sorts that close an upright side, and what they are called.
 _PANELS = {
-    Sort.DOOR: (PartKind.DOOR, (Way.LEFT, Way.RIGHT)),
-    Sort.FLAP: (PartKind.FLAP, (Way.BOTTOM, Way.TOP)),
-    Sort.DRAWER: (PartKind.DRAWER, (Way.OUT,)),
+    Sort.DOOR: (PartKind.DOOR, (PanelWay.LEFT, PanelWay.RIGHT)),
+    Sort.FLAP: (PartKind.FLAP, (PanelWay.BOTTOM, PanelWay.TOP)),
+    Sort.DRAWER: (PartKind.DRAWER, (PanelWay.OUT,)),
 }
 _EDGES = {
-    Way.LEFT: Hinge.LEFT,
-    Way.RIGHT: Hinge.RIGHT,
-    Way.BOTTOM: Hinge.BOTTOM,
-    Way.TOP: Hinge.TOP,
+    PanelWay.LEFT: Hinge.LEFT,
+    PanelWay.RIGHT: Hinge.RIGHT,
+    PanelWay.BOTTOM: Hinge.BOTTOM,
+    PanelWay.TOP: Hinge.TOP,
 }
 _HINGE_SIDES = {
     Side.FRONT: Hinge.FRONT,
@@ -106,7 +106,7 @@ def _lid(lids: Sequence[Found], sizes: FloatArray) -> StatedPart:
         right, up, away = each.side.frame
         far = up if each.side is Side.TOP else away
         for way, toward in (
-            (Way.LEFT, -right), (Way.RIGHT, right), (Way.TOP, far), (Way.BOTTOM, -far),
+            (PanelWay.LEFT, -right), (PanelWay.RIGHT, right), (PanelWay.TOP, far), (PanelWay.BOTTOM, -far),
         ):  # fmt: skip
             direction += each.score * float(each.ways[WAYS.index(way)]) * toward
     hinge_side = side_facing(direction) if float(np.linalg.norm(direction)) > 0.0 else Side.BACK

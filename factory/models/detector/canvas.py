@@ -34,7 +34,7 @@ class Sort(StrEnum):
     OTHER = "other"
 
 
-class Way(StrEnum):
+class PanelWay(StrEnum):
     """How a part opens, as seen on its side; of a lid, ``top`` is away from the viewer."""
 
     LEFT = "left"
@@ -46,7 +46,7 @@ class Way(StrEnum):
 
 
 SORTS = tuple(Sort)
-WAYS = tuple(Way)
+WAYS = tuple(PanelWay)
 
 
 @dataclass(frozen=True, eq=False)

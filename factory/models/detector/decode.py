@@ -8,7 +8,7 @@ import numpy as np
 
 from ...mesh import FloatArray, IntArray
 from ...views.raster import Side
-from .canvas import SIDES, SORTS, WAYS, Sort, Way
+from .canvas import SIDES, SORTS, WAYS, PanelWay, Sort
 
 #: Boxes that share more than this of their union are one.
 SAME = 0.45
@@ -20,7 +20,7 @@ STRIDE = 4
 
 @dataclass(frozen=True, eq=False)
 class Dense:
-    """What the network says of one object, as arrays [5, ..., 64, 64]; see ``Answers``.
+    """What the network says of one object, as arrays [5, ..., 64, 64]; see ``DenseAnswers``.
 
     Attributes:
         sort, way, quality: log-odds.
@@ -58,7 +58,7 @@ class Found:
     opened: float
 
     @property
-    def way(self) -> Way:
+    def way(self) -> PanelWay:
         """Return the likeliest way to open."""
         return WAYS[int(self.ways.argmax())]
 

@@ -14,7 +14,7 @@ from .canvas import CANVAS, DEPTH_STEPS, LONGEST, NOTHING, SIDES, SORTS, WAYS
 Tensor = Any
 #: Channels of what the network is given.
 CUES = 9
-#: Answers stand on every so many pixels.
+#: DenseAnswers stand on every so many pixels.
 STRIDE = 4
 #: Length of a dent or a bump that counts as one [pixels], and the highest that is told apart.
 DENT = 9
@@ -38,7 +38,7 @@ _LAYERS = 3
 
 
 @dataclass(frozen=True, eq=False)
-class Answers:
+class DenseAnswers:
     """What the network says; dense ones per stride of 4 pixels, [n, 5, ..., 64, 64].
 
     Attributes:
@@ -143,7 +143,7 @@ class Detector(nn.Module):  # type: ignore[misc]
             self.answer.bias[: len(SORTS)] = -4.0
             self.answer.bias[len(SORTS) : len(SORTS) + 4] = 3.0
 
-    def forward(self, cues: Tensor) -> Answers:
+    def forward(self, cues: Tensor) -> DenseAnswers:
         """Return what is seen; ``cues`` [n, 5, CUES, 256, 256]."""
         count, views = cues.shape[:2]
         levels = self.backbone(cues.flatten(0, 1))
@@ -160,7 +160,7 @@ class Detector(nn.Module):  # type: ignore[misc]
         sort, edges, way, quality, opened = dense.split((len(SORTS), 4, len(WAYS), 1, 1), 2)
         sides = tokens.mean(2)
         whole = self.whole(sides.mean(1))
-        return Answers(
+        return DenseAnswers(
             sort,
             edges.float().clamp(-1.0, 6.0).exp(),
             way,

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from asset_factory.factory.models.detector.canvas import CANVAS, SIDES, SORTS, WAYS, Sort, Way
+from asset_factory.factory.models.detector.canvas import CANVAS, SIDES, SORTS, WAYS, PanelWay, Sort
 from asset_factory.learn.detector.drawn import drawn_sides
 from asset_factory.learn.detector.kinds import kind_number
 from asset_factory.learn.detector.sides import labelled_sides
@@ -15,10 +15,10 @@ from asset_factory.learn.objects import make_object
 torch = pytest.importorskip("torch")
 
 from asset_factory.factory.models.detector.kinds import KINDS  # noqa: E402
-from asset_factory.factory.models.detector.network import Answers, Detector  # noqa: E402
+from asset_factory.factory.models.detector.network import DenseAnswers, Detector  # noqa: E402
 from asset_factory.learn.detector.looks import show  # noqa: E402
 from asset_factory.learn.detector.pack import read_pack, read_textures, write_pack  # noqa: E402
-from asset_factory.learn.detector.stream import Pool, Truth  # noqa: E402
+from asset_factory.learn.detector.stream import Pool, WholeTruth  # noqa: E402
 from asset_factory.learn.detector.targets import loss_of, targets_of  # noqa: E402
 
 FRONT, TOP = 0, SIDES.index("top")
@@ -36,10 +36,10 @@ def test_doors_are_labelled_on_the_side_where_they_are_and_lids_on_all():
     chest = rows_of(labelled_sides(make_object("chest", 1)), Sort.LID)
     assert sorted(chest[:, 0]) == [0, 1, 2, 3, 4]
     ways = {SIDES[int(row[0])].value: WAYS[int(row[7])] for row in chest}
-    assert ways["front"] is Way.TOP
-    assert ways["back"] is Way.BOTTOM
-    assert ways["right"] is Way.RIGHT
-    assert ways["left"] is Way.LEFT
+    assert ways["front"] is PanelWay.TOP
+    assert ways["back"] is PanelWay.BOTTOM
+    assert ways["right"] is PanelWay.RIGHT
+    assert ways["left"] is PanelWay.LEFT
 
 
 def test_an_open_lid_is_said_to_be_open():
@@ -63,7 +63,7 @@ def shown():
     pool = Pool(4, torch.device("cpu"))
     for seed in range(4):
         kind, sides = "dresser", labelled_sides(make_object("dresser", seed))
-        truth = Truth(kind_number(kind), True, FRONT, False)
+        truth = WholeTruth(kind_number(kind), True, FRONT, False)
         pool.add(
             sides.canvases.color, sides.canvases.depth, sides.part, sides.instances.table(), truth
         )
@@ -92,7 +92,7 @@ def test_boxes_follow_objects_that_are_stretched_mirrored_and_turned(shown):
 def test_tops_turn_with_their_objects():
     chest = labelled_sides(make_object("chest", 1))
     pool = Pool(8, torch.device("cpu"))
-    truth = Truth(kind_number("chest"), True, FRONT, False)
+    truth = WholeTruth(kind_number("chest"), True, FRONT, False)
     for _ in range(8):
         pool.add(
             chest.canvases.color, chest.canvases.depth, chest.part, chest.instances.table(), truth
@@ -101,7 +101,7 @@ def test_tops_turn_with_their_objects():
     textures = torch.full((1, 3, 8, 8), 128, dtype=torch.uint8)
     made = show(batch, textures, torch.Generator().manual_seed(0))
     # Where the front is, seen from above, and the edge away from it, where the hinge is.
-    hinge = {0: Way.TOP, 1: Way.LEFT, 2: Way.BOTTOM, 3: Way.RIGHT}
+    hinge = {0: PanelWay.TOP, 1: PanelWay.LEFT, 2: PanelWay.BOTTOM, 3: PanelWay.RIGHT}
     for number in range(8):
         above = made.table[number]
         above = above[(above[:, 0] == TOP) & (above[:, 6] == SORTS.index(Sort.LID))]
@@ -121,7 +121,7 @@ def test_answers_that_say_the_truth_cost_less(shown):
     def cost(scale):
         edges = targets.edges.clamp(min=0.1) * scale
         quality = torch.full(there.shape, 8.0 if scale == 1.0 else 0.0)
-        said = Answers(sort, edges, way, quality, targets.opened, whole, whole, whole)
+        said = DenseAnswers(sort, edges, way, quality, targets.opened, whole, whole, whole)
         return float(loss_of(said, targets)[0])
 
     assert cost(1.0) < 0.2
@@ -166,7 +166,7 @@ def test_a_pack_keeps_objects_and_labels(tmp_path):
     assert packed.real
     (row,) = packed.table
     assert SORTS[int(row[6])] is Sort.DOOR
-    assert WAYS[int(row[7])] is Way.LEFT
+    assert WAYS[int(row[7])] is PanelWay.LEFT
     assert row[2] == pytest.approx(CANVAS / 2, abs=2.0)
     assert (packed.depth[FRONT] >= 0).any()
     assert read_textures(tmp_path / "pack.zip").shape == (1, 3, 128, 128)

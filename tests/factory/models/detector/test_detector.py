@@ -11,8 +11,8 @@ from asset_factory.factory.models.detector.canvas import (
     NOTHING,
     SORTS,
     WAYS,
+    PanelWay,
     Sort,
-    Way,
     look_at,
     shares_of,
 )
@@ -82,15 +82,15 @@ def test_shares_of_a_whole_side_are_nought_to_one():
 
 def test_each_box_is_found_once_with_its_sort_and_way():
     said = [
-        (0, (40.0, 40.0, 120.0, 200.0), Sort.DOOR, Way.LEFT),
-        (0, (124.0, 40.0, 200.0, 200.0), Sort.DRAWER, Way.OUT),
-        (4, (20.0, 20.0, 220.0, 220.0), Sort.LID, Way.TOP),
+        (0, (40.0, 40.0, 120.0, 200.0), Sort.DOOR, PanelWay.LEFT),
+        (0, (124.0, 40.0, 200.0, 200.0), Sort.DRAWER, PanelWay.OUT),
+        (4, (20.0, 20.0, 220.0, 220.0), Sort.LID, PanelWay.TOP),
     ]
     found = found_parts(dense_with(said), 0.5)
     assert [(part.side, part.sort, part.way) for part in found] == [
-        (Side.FRONT, Sort.DOOR, Way.LEFT),
-        (Side.FRONT, Sort.DRAWER, Way.OUT),
-        (Side.TOP, Sort.LID, Way.TOP),
+        (Side.FRONT, Sort.DOOR, PanelWay.LEFT),
+        (Side.FRONT, Sort.DRAWER, PanelWay.OUT),
+        (Side.TOP, Sort.LID, PanelWay.TOP),
     ]
     for part, (_, box, _, _) in zip(found, said, strict=True):
         assert overlaps(part.box, np.array([box]))[0] > 0.98
