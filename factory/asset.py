@@ -9,7 +9,7 @@ import numpy as np
 
 from .articulation import Articulation
 from .errors import InvalidAsset
-from .mesh import FloatArray, IntArray, read_only
+from .mesh import FloatArray, IntArray, cross, read_only
 from .part import Handle
 
 
@@ -40,14 +40,14 @@ class Hull:
         """Return the enclosed volume [m3], by the divergence theorem."""
         corners = (self.vertices - self.vertices.mean(axis=0))[self.faces]
         return float(
-            np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6.0
+            np.einsum("ij,ij->i", corners[:, 0], cross(corners[:, 1], corners[:, 2])).sum() / 6.0
         )
 
     @cached_property
     def planes(self) -> FloatArray:
         """Return outward unit normals and offsets, ``n . x <= d`` inside, [plane_count, 4]."""
         a, b, c = (self.vertices[self.faces[:, i]] for i in range(3))
-        normals = np.cross(b - a, c - a)
+        normals = cross(b - a, c - a)
         length = np.linalg.norm(normals, axis=1)
         kept = length > 1e-12 * max(1e-12, float(length.max()))
         normals = normals[kept] / length[kept, None]

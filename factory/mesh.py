@@ -11,6 +11,7 @@ import numpy.typing as npt
 FloatArray = npt.NDArray[np.float64]
 Float32Array = npt.NDArray[np.float32]
 IntArray = npt.NDArray[np.int64]
+BoolArray = npt.NDArray[np.bool_]
 
 
 def read_only(array: npt.ArrayLike, dtype: npt.DTypeLike = np.float64) -> npt.NDArray[np.generic]:
@@ -18,6 +19,22 @@ def read_only(array: npt.ArrayLike, dtype: npt.DTypeLike = np.float64) -> npt.ND
     copy = np.array(array, dtype=dtype, order="C", copy=True)
     copy.setflags(write=False)
     return copy
+
+
+def cross(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Return the cross products of rows, shape [n, 3], as ``np.cross`` does, several times faster.
+
+    Args:
+        first: shape [n, 3].
+        second: shape [n, 3].
+    """
+    x, y, z = first.T
+    u, v, w = second.T
+    products = np.empty(first.shape, dtype=np.result_type(first, second))
+    np.subtract(y * w, z * v, out=products[:, 0])
+    np.subtract(z * u, x * w, out=products[:, 1])
+    np.subtract(x * v, y * u, out=products[:, 2])
+    return products
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from ..articulation import Articulation, Joint, JointKind, Part
-from ..geometry.crossings import Side, side_facing
 from ..geometry.triangles import doubled_normals
 from ..mesh import FloatArray, Mesh
 from ..part import OpensBy, Panel, PartKind, PartSource, Proposer
+from ..views.raster import Side, side_facing
 from .proposal import Motion, proposal_id
 
 #: What is narrower than this share of the object's longest side is a button or a lever, no panel.

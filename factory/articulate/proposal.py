@@ -9,8 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..articulation import Articulation, Joint, JointKind
-from ..geometry.crossings import BoolArray
-from ..mesh import FloatArray, read_only
+from ..mesh import BoolArray, FloatArray, read_only
 from ..part import Handle, Panel, PartKind, PartSource, Proposer
 
 #: Digits of a metre or a radian, and of a proposal's digest, that its id depends on.

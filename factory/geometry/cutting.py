@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..mesh import FloatArray, IntArray
-from .crossings import BoolArray
+from ..mesh import BoolArray, FloatArray, IntArray
 from .triangles import FOLLOWING, ends_of
 
 #: Corners 0 to 2 are a triangle's own, 3 to 5 lie on its edges 0-1, 1-2 and 2-0; -1: no piece. By

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from ..mesh import FloatArray, Mesh
+from ..mesh import FloatArray, Mesh, cross
 
 #: The corner after each of a triangle's three.
 FOLLOWING = [1, 2, 0]
@@ -18,7 +18,7 @@ def doubled_normals(corners: FloatArray) -> FloatArray:
         corners: positions [m], shape [n, 3, 3].
     """
     first = corners[:, 0]
-    return np.asarray(np.cross(corners[:, 1] - first, corners[:, 2] - first))
+    return cross(corners[:, 1] - first, corners[:, 2] - first)
 
 
 def areas_of(corners: FloatArray) -> FloatArray:
@@ -62,7 +62,7 @@ def meet_box(corners: FloatArray, low: FloatArray, high: FloatArray) -> npt.NDAr
     local = corners - (low + high) / 2.0
     edges = local[:, FOLLOWING] - local
     least, most = ends_of(local)
-    normals = np.cross(edges[:, 0], edges[:, 1])
+    normals = cross(edges[:, 0], edges[:, 1])
     offsets = np.abs(np.einsum("nk,nk->n", normals, local[:, 0]))
     across = np.cross(np.eye(3), edges[:, :, None]).reshape(-1, 9, 3)
     heights = np.einsum("nak,nck->nca", across, local)

@@ -20,8 +20,8 @@ from msgspec import Meta, Struct, ValidationError, convert
 from msgspec.structs import replace
 
 from ..errors import ConfigError
-from ..geometry.crossings import Side
 from ..part import PartKind
+from ..views.raster import Side
 from .files import InputFiles
 from .reads import ABSENT
 from .sidecar import bad_sidecar, read_beside

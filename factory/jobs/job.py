@@ -30,6 +30,7 @@ from ..report.summary import JobState
 from ..runtime.layout import CACHE, CLAIMS
 from .budget import Budget
 from .executor import Call, Executor
+from .local import LocalExecutor
 from .log import Log
 from .probe import KnownReads, Probe, known_of
 from .signals import undisturbed
@@ -228,6 +229,7 @@ class Job:
                 "cache": self._output / CACHE,
                 "until": until,
                 "address": network(),
+                "engines": _engines(self._executor),
             }
             yield Call(str(probe.source), arguments)
 
@@ -291,3 +293,8 @@ class Job:
     def _release_all(self) -> None:
         while self._begun:
             self._begun.popitem()[1].claim.release()
+
+
+def _engines(executor: Executor) -> int:
+    """Return how many simulators each worker may run at once; of those on other machines, one."""
+    return executor.engines if isinstance(executor, LocalExecutor) else 1

@@ -8,7 +8,13 @@ from queue import SimpleQueue
 from threading import Event, Thread
 from typing import Generic, TypeVar
 
-from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcome, WarmChild
+from asset_factory.sim_checks.processes.isolation import (
+    Failure,
+    Limits,
+    Outcome,
+    WarmChild,
+    processors,
+)
 
 from .executor import AHEAD, Call
 
@@ -33,6 +39,11 @@ class LocalExecutor:
     retries: int = 1
     calls: int = 50
     resident_bytes: int = 2 * 1024**3
+
+    @property
+    def engines(self) -> int:
+        """Return how many simulators each worker may run at once: what processors are left."""
+        return max(1, processors() // self.workers)
 
     def run(
         self, function: Callable[..., T], calls: Iterable[Call], limits: Limits

@@ -16,7 +16,7 @@ from ..models.service import Address, asking
 from ..models.weights.sources import weights_at
 from ..registry.product import Product
 
-_JUDGES: dict[CheckConfig, Judge] = {}
+_JUDGES: dict[tuple[CheckConfig, int], Judge] = {}
 
 
 def build_here(
@@ -28,6 +28,7 @@ def build_here(
     address: Address | None,
     place: Path | None = None,
     weights: Mapping[str, Path] | None = None,
+    engines: int = 1,
 ) -> Product | None:
     """Make one input in this process, which somebody else may kill.
 
@@ -40,6 +41,7 @@ def build_here(
         address: of the job's network, if it has one.
         place: where the input lies for whoever registers it, if that is elsewhere.
         weights: where checkpoints lie on this machine, if not where the configuration says.
+        engines: simulators that may run at once; verdicts do not depend on it.
 
     Returns:
         What is to be registered; ``None`` if it was too late to begin.
@@ -49,13 +51,13 @@ def build_here(
     shutil.rmtree(staging, ignore_errors=True)
     staging.mkdir(parents=True)
     with asking(address), weights_at(weights or {}):
-        return make_asset(source, staging, config, cache, _judge(config.checks), place)
+        return make_asset(source, staging, config, cache, _judge(config.checks, engines), place)
 
 
-def _judge(config: CheckConfig) -> Judge:
+def _judge(config: CheckConfig, engines: int) -> Judge:
     """Return this process's validator with those thresholds; its children end with the process."""
-    if config not in _JUDGES:
+    if (config, engines) not in _JUDGES:
         while _JUDGES:
             _JUDGES.popitem()[1].close()
-        _JUDGES[config] = Judge(config)
-    return _JUDGES[config]
+        _JUDGES[config, engines] = Judge(config, engines)
+    return _JUDGES[config, engines]

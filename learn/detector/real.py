@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from asset_factory.factory.config import IntakeConfig
-from asset_factory.factory.geometry.crossings import Side, side_facing
 from asset_factory.factory.intake.load import load
 from asset_factory.factory.mesh import FloatArray, Mesh
 from asset_factory.factory.models.detector.canvas import (
@@ -26,6 +25,7 @@ from asset_factory.factory.models.detector.canvas import (
     Sort,
     look_at,
 )
+from asset_factory.factory.views.raster import Side, side_facing
 
 from .sides import Instances, LabelledSides
 

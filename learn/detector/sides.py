@@ -9,10 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
-from asset_factory.factory.geometry.crossings import BoolArray, Raster, Side
-from asset_factory.factory.geometry.elevations import elevation
 from asset_factory.factory.geometry.posing import face_parts, posed
-from asset_factory.factory.mesh import FloatArray, IntArray
+from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray
 from asset_factory.factory.models.detector.canvas import (
     CANVAS,
     LONGEST,
@@ -26,6 +24,8 @@ from asset_factory.factory.models.detector.canvas import (
     place_of,
     stored_depth,
 )
+from asset_factory.factory.views.raster import Raster, Side
+from asset_factory.factory.views.view import elevation
 
 #: A part that turns as a panel fills so much of its box; a lid covers so much of what is seen from
 #: above.

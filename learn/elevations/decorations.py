@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import ndimage
 
-from asset_factory.factory.geometry.crossings import BoolArray
-from asset_factory.factory.mesh import FloatArray, IntArray
+from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray
 
 #: How often an object has each of them.
 PLANKED = 0.35

@@ -10,11 +10,11 @@ from scipy import ndimage
 
 from asset_factory.factory.articulate.seams.relief import BEHIND, Relief, lab_of
 from asset_factory.factory.articulation import Articulation
-from asset_factory.factory.geometry.crossings import Raster, Side, crossings
-from asset_factory.factory.geometry.elevations import PIXELS, Elevation, nearest
 from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.geometry.triangles import doubled_normals
 from asset_factory.factory.mesh import FloatArray, IntArray
+from asset_factory.factory.views.raster import PIXELS, Raster, Side
+from asset_factory.factory.views.view import View, view_through
 
 from .decorations import Decorations
 
@@ -91,7 +91,7 @@ def _picture(
     articulation: Articulation, side: Side, looks: Looks, rng: np.random.Generator
 ) -> Picture:
     mesh = articulation.mesh
-    shown, owner = _shown(articulation, side)
+    shown = _shown(articulation, side)
     seen = np.asarray(
         ndimage.binary_closing(np.pad(shown.seen, 3), np.ones((3, 3), dtype=np.bool_))[3:-3, 3:-3]
     )
@@ -102,7 +102,7 @@ def _picture(
     closed = ndimage.grey_closing(np.maximum(raw, lowest - BEHIND), size=(GAP, GAP))
     solid = shown.seen & (closed - np.maximum(raw, lowest - BEHIND) < 1.0)
     where = ndimage.distance_transform_edt(~solid, return_distances=False, return_indices=True)
-    part = owner[np.maximum(shown.face, 0)][tuple(where)]
+    part = shown.part[tuple(where)]
     height = _smooth(closed[tuple(where)], looks.blurred[0])
     border = _border(part)
     height = height - _engraved(border, looks, rng) + _bumps(height.shape, looks, rng)
@@ -123,8 +123,8 @@ def _picture(
     return Picture(relief, np.where(seen, part, -1))
 
 
-def _shown(articulation: Articulation, side: Side) -> tuple[Elevation, IntArray]:
-    """Return the faces of an object's solids that look towards a side, and their parts."""
+def _shown(articulation: Articulation, side: Side) -> View:
+    """Look from a side at the faces of an object's solids that face it."""
     mesh = articulation.mesh
     corners = mesh.vertices[mesh.faces]
     normals = doubled_normals(corners)
@@ -136,8 +136,7 @@ def _shown(articulation: Articulation, side: Side) -> tuple[Elevation, IntArray]
         corner_normals=None,
         face_material=mesh.face_material[toward],
     )
-    raster = Raster.around(mesh, side, PIXELS)
-    return nearest(facing, crossings(facing, raster)), face_parts(articulation)[toward]
+    return view_through(facing, Raster.around(mesh, side, PIXELS), face_parts(articulation)[toward])
 
 
 def _smooth(values: FloatArray, sigma: float) -> FloatArray:

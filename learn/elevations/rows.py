@@ -14,9 +14,9 @@ from asset_factory.factory.articulate.seams.handles import cleared
 from asset_factory.factory.articulate.seams.layouts import described
 from asset_factory.factory.articulate.seams.rectangles import Rectangle
 from asset_factory.factory.articulation import Articulation
-from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.mesh import FloatArray
 from asset_factory.factory.part import OpensBy
+from asset_factory.factory.views.raster import Side
 
 from .pictures import Picture, pictures_of
 from .truths import TruePanel, truth_of

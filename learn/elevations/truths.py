@@ -8,8 +8,8 @@ import numpy as np
 
 from asset_factory.factory.articulate.seams.rectangles import Rectangle
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
-from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.part import OpensBy
+from asset_factory.factory.views.raster import Side
 
 from .pictures import Picture
 

@@ -11,9 +11,9 @@ import numpy as np
 
 from asset_factory.factory.articulate.seams.sight import CUES, GRID, SQUARE, cues_of
 from asset_factory.factory.articulation import Articulation, JointKind
-from asset_factory.factory.geometry.crossings import BoolArray, Side
-from asset_factory.factory.mesh import FloatArray, IntArray
+from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray
 from asset_factory.factory.part import OpensBy
+from asset_factory.factory.views.raster import Side
 
 from .pictures import Picture, pictures_of
 from .truths import OVER, TruePanel, truth_of

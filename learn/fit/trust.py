@@ -20,6 +20,7 @@ from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import FloatArray
 from asset_factory.factory.models.perceptron import Perceptron
 from asset_factory.factory.models.shipped import Arrays
+from asset_factory.factory.views.view import Views
 
 from ..datasets.objects import described
 from ..evaluate.physical import physical
@@ -129,7 +130,7 @@ def tried(articulator: AutoArticulator, objects: Iterable[Articulation]) -> Iter
 def sighted(objects: Iterable[Articulation]) -> Iterator[TrustTrial]:
     """Yield what the sides of each object show, which the articulator adds to its proposals."""
     for truth in objects:
-        for seen in sightings(truth.mesh, connected_components(truth.mesh))[:1]:
+        for seen in sightings(Views(truth.mesh, connected_components(truth.mesh)))[:1]:
             over = on_mesh(truth, seen.mesh)
             areas = face_areas(seen.mesh)
             right = [is_right(each, over, areas) for each in seen.found]
@@ -185,7 +186,8 @@ def best_threshold(
     for least in LEAST:
         trusting = replace(articulator, trust=Trust(network, float(least)))
         values = [
-            physical(t.truth, trusting.decide(t.truth.mesh, t.proposals)).values for t in trials
+            physical(t.truth, trusting.decide(Views(t.truth.mesh), t.proposals)).values
+            for t in trials
         ]
         scores.append(np.mean([v["part_miou"] + v["articulated_iou"] for v in values]))
     return float(LEAST[np.flatnonzero(np.array(scores) >= max(scores) - NEARLY)[-1]])

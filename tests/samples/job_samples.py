@@ -54,6 +54,7 @@ def pretend(
     cache: Path,
     until: float | None,
     address: object,
+    engines: int,
 ) -> Product | None:
     """In place of a build: the input's name tells the outcome; every time is noted beside it."""
     if until is not None and time.time() > until:

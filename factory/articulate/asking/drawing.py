@@ -7,9 +7,9 @@ import numpy.typing as npt
 from scipy import ndimage
 
 from ...articulation import rotation_about
-from ...geometry.crossings import BoolArray, Side
-from ...geometry.elevations import Elevation, elevation
-from ...mesh import FloatArray, Mesh
+from ...mesh import BoolArray, FloatArray, Mesh
+from ...views.raster import Side
+from ...views.view import View, elevation
 
 Picture = npt.NDArray[np.uint8]
 
@@ -56,14 +56,14 @@ def drawn_oblique(mesh: Mesh, width: int, height: int) -> Picture:
     return colored
 
 
-def _lit(seen: Elevation) -> FloatArray:
+def _lit(seen: View) -> FloatArray:
     """Return how much light each pixel gets, 0 to 1, whichever way round its triangle is."""
     normal = seen.normal
     toward = np.where(normal[..., 2:] > 0.0, -normal, normal)
     return np.asarray(np.clip(toward @ (LIGHT / np.linalg.norm(LIGHT)), 0.0, 1.0))
 
 
-def _lines(seen: Elevation, extent: float) -> FloatArray:
+def _lines(seen: View, extent: float) -> FloatArray:
     """Return how dark the line through each pixel is: steps, grooves, creases and outlines."""
     depth = np.where(seen.seen, seen.depth, float(seen.depth[seen.seen].max(initial=0.0)) + extent)
     normal = seen.normal

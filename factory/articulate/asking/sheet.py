@@ -5,8 +5,8 @@ from __future__ import annotations
 import io
 from typing import TYPE_CHECKING
 
-from ...geometry.crossings import Side
 from ...mesh import Mesh
+from ...views.raster import Side
 from .drawing import Picture, drawn_oblique, drawn_side
 
 if TYPE_CHECKING:

@@ -18,6 +18,7 @@ from ...mesh import FloatArray, IntArray, Mesh
 from ...models.particulate.inference import Network
 from ...models.weights.sources import SHIPPED
 from ...part import Proposer
+from ...views.view import Views
 from ..annotated import annotated_articulator, annotation_of
 from ..articulator import Articulator
 from ..assembly import assembled
@@ -87,21 +88,22 @@ class AutoArticulator:
         if origin.is_generated:
             return seam_hypotheses(mesh, least, self.name)
         proposals = self.proposals(mesh, face_areas(mesh))
-        own = self.decide(mesh, proposals)
+        views = Views(mesh, connected_components(mesh))
+        own = self.decide(views, proposals)
         sure = [each for each in self._rated(proposals) if each.rated >= least]
         ruled = [each.faces for each in sure if each.proposer is Proposer.RULES]
         fuller = []
         full = []
-        for shown in sightings(mesh, connected_components(mesh)):
+        for shown in sightings(views):
             carried = shown.carried(proposals)
             panels = shown.beyond(
                 [each for each in self._rated(shown.found) if each.rated >= SURE_SIGHT], ruled
             )
             beside = shown.beside(panels, ruled) if ruled else panels
             if beside:
-                fuller.append(self.decide(shown.mesh, (*carried, *beside)))
+                fuller.append(self.decide(shown.views, (*carried, *beside)))
             if len(panels) > len(beside):
-                full.append(self.decide(shown.mesh, (*carried, *panels)))
+                full.append(self.decide(shown.views, (*carried, *panels)))
         seams = seam_hypotheses(mesh, least, self.name) if origin.one_piece else ()
         every = (*fuller, own, *full, *[each.articulation for each in seams])
         made = [each for each in every if each.movable_joints] or [own]
@@ -124,13 +126,19 @@ class AutoArticulator:
             for each, chance in zip(proposals, chances, strict=True)
         ]
 
-    def decide(self, mesh: Mesh, proposals: Sequence[Proposal]) -> Articulation:
-        """Return the articulation of the proposals that can be trusted and be there together."""
+    def decide(self, views: Views, proposals: Sequence[Proposal]) -> Articulation:
+        """Return the articulation of the proposals that can be trusted and be there together.
+
+        Args:
+            views: of the mesh.
+            proposals: about its faces.
+        """
+        mesh = views.mesh
         rated = self._rated(proposals)
         rated.sort(key=lambda proposal: -proposal.rated)
         if any(proposal.proposer is Proposer.SIDES for proposal in rated):
             rated.sort(key=lambda proposal: BELIEVED.index(proposal.proposer))
-        rated = without_hidden(mesh, rated)
+        rated = without_hidden(views, rated)
         least = self._least(rated)
         sure = [proposal for proposal in rated if proposal.rated >= least]
         left = [proposal for proposal in rated if proposal.rated < least]

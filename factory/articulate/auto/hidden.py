@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...geometry.crossings import Side
-from ...geometry.elevations import elevation
 from ...geometry.triangles import face_areas
 from ...mesh import IntArray, Mesh
 from ...part import Proposer
+from ...views.raster import Side
+from ...views.view import Views
 from ..proposal import Proposal
 
 #: What has at most this share of a mesh's area, and shows at most this share of its own, through
@@ -22,11 +22,12 @@ FLAT = 0.1
 MIDDLE = 0.2
 
 
-def without_hidden(mesh: Mesh, rated: list[Proposal]) -> list[Proposal]:
+def without_hidden(views: Views, rated: list[Proposal]) -> list[Proposal]:
     """Drop the network's little pieces that no side shows: runners, shelf pins.
 
     Nothing can take hold of those, and they bar what really moves. The racks of an oven stay.
     """
+    mesh = views.mesh
     areas = face_areas(mesh)
     small = [
         each.proposer is Proposer.NETWORK
@@ -38,9 +39,9 @@ def without_hidden(mesh: Mesh, rated: list[Proposal]) -> list[Proposal]:
         return rated
     shown = np.zeros(len(areas))
     for side in Side:
-        picture = elevation(mesh, side)
-        pixels = np.bincount(picture.face[picture.seen], minlength=len(areas))
-        shown += pixels * picture.raster.pixel**2
+        view = views[side]
+        pixels = np.bincount(view.face[view.seen], minlength=len(areas))
+        shown += pixels * view.raster.pixel**2
     return [
         each
         for each, little in zip(rated, small, strict=True)

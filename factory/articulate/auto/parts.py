@@ -10,7 +10,7 @@ from ...mesh import FloatArray, read_only
 from ...models.particulate.surface import BoolArray
 from ..evidence import Guess
 from ..proposal import Motion
-from .views import SeenPart, View
+from .views import NetworkView, SeenPart
 
 #: Parts of two views are the same if they share so much of the area that both cover.
 SAME = 0.6
@@ -54,7 +54,7 @@ class _Seen:
     part: SeenPart
 
 
-def agreed_parts(views: tuple[View, ...], areas: FloatArray) -> tuple[LearnedPart, ...]:
+def agreed_parts(views: tuple[NetworkView, ...], areas: FloatArray) -> tuple[LearnedPart, ...]:
     """Return parts that move in some view, surest first; a view's part is in one at most.
 
     Args:

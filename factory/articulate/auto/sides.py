@@ -7,13 +7,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...geometry.crossings import BoolArray, Side
 from ...geometry.triangles import face_areas
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import BoolArray, FloatArray, IntArray, Mesh
 from ...part import Panel
+from ...views.raster import Side
+from ...views.view import Views
 from ..proposal import Proposal
 from ..seams.cutting import CutMesh, cut_around, inside, uncut
-from ..seams.hypotheses import hypotheses_of_mesh
+from ..seams.hypotheses import hypotheses_of_views
 from ..seams.pieces import OWN, PieceOutlines, own_pieces
 from ..seams.placing import OpeningPart
 from .partition import INSIDE
@@ -43,11 +44,13 @@ class Sightings:
         cut: the mesh; triangles are divided only where a panel is a part of a piece.
         pieces: of every face of the cut mesh, shape [face_count].
         found: what opens, over the cut mesh.
+        views: of the cut mesh.
     """
 
     cut: CutMesh
     pieces: IntArray
     found: tuple[Proposal, ...]
+    views: Views
 
     @property
     def mesh(self) -> Mesh:
@@ -116,20 +119,19 @@ def _in_line(one: FloatArray, other: FloatArray, reach: FloatArray) -> bool:
     return bool(level and -reach[apart] <= gap[apart] <= 2.0 * reach[apart])
 
 
-def sightings(mesh: Mesh, pieces: IntArray) -> tuple[Sightings, ...]:
+def sightings(views: Views) -> tuple[Sightings, ...]:
     """Return what the sides of a mesh of several pieces show, the likeliest hypothesis first.
 
     Args:
-        mesh: metres, z up.
-        pieces: of every face, shape [face_count].
+        views: of the mesh (metres, z up), whose parts are its pieces.
     """
     panels = [
         [seen for mover in movers if (seen := _SidePanel.of(mover)) is not None]
-        for movers in hypotheses_of_mesh(mesh, pieces)
+        for movers in hypotheses_of_views(views)
     ]
     sides = {each.side for some in panels for each in some}
-    outlines = {side: PieceOutlines.of(mesh, pieces, side) for side in sides}
-    return tuple(_sighted(mesh, pieces, outlines, some) for some in panels)
+    outlines = {side: PieceOutlines.of(views, side) for side in sides}
+    return tuple(_sighted(views, outlines, some) for some in panels)
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,13 +153,11 @@ class _SidePanel:
 
 
 def _sighted(
-    mesh: Mesh,
-    pieces: IntArray,
-    outlines: Mapping[Side, PieceOutlines],
-    panels: Sequence[_SidePanel],
+    views: Views, outlines: Mapping[Side, PieceOutlines], panels: Sequence[_SidePanel]
 ) -> Sightings:
+    pieces = views.owner
     owners = [_panel_pieces(outlines[each.side], each.panel) for each in panels]
-    cut = uncut(mesh)
+    cut = uncut(views.mesh)
     for each, (own, whole) in zip(panels, owners, strict=True):
         if len(own) and not whole:
             cut = cut_around(cut, each.mover.region)
@@ -169,7 +169,8 @@ def _sighted(
             faces &= inside(cut.mesh, each.mover.region)
         if faces.any() and areas[faces].sum() <= MOST * areas.sum():
             found.append(_proposal(each.mover, faces))
-    return Sightings(cut, pieces[cut.source], tuple(found))
+    seen = views if cut.mesh is views.mesh else Views(cut.mesh)
+    return Sightings(cut, pieces[cut.source], tuple(found), seen)
 
 
 def _proposal(mover: OpeningPart, faces: BoolArray) -> Proposal:
@@ -194,7 +195,7 @@ def _panel_pieces(outlines: PieceOutlines, panel: Panel) -> tuple[IntArray, bool
     deep, filled = outlines.behind(low, high)
     if deep < DEEP * (high - low).min():
         return nothing, True
-    margin = MARGIN * outlines.picture.raster.pixel
+    margin = MARGIN * outlines.view.raster.pixel
     own = own_pieces(outlines, panel, margin)
     if shown[own].sum() >= OWN:
         return np.flatnonzero(own), True

@@ -48,7 +48,7 @@ class SeenPart:
 
 
 @dataclass(frozen=True)
-class View:
+class NetworkView:
     """What the network sees of the object from one side.
 
     Attributes:
@@ -64,7 +64,7 @@ class View:
 
 def look_around(
     mesh: Mesh, network: Network, config: ParticulateConfig, views: int
-) -> tuple[View, ...]:
+) -> tuple[NetworkView, ...]:
     """Return the mesh as the network sees it: levelled, then turned by quarters between views.
 
     A network that knows what it sees says the same from every side; where it does not, it guesses.
@@ -85,7 +85,9 @@ def look_around(
     )
 
 
-def _view(mesh: Mesh, network: Network, config: ParticulateConfig, yaw: float, number: int) -> View:
+def _view(
+    mesh: Mesh, network: Network, config: ParticulateConfig, yaw: float, number: int
+) -> NetworkView:
     turn = rotation_about(UP, yaw)
     found = infer(
         mesh.vertices @ turn.T,
@@ -101,7 +103,7 @@ def _view(mesh: Mesh, network: Network, config: ParticulateConfig, yaw: float, n
     parents = np.full(len(found.parts), -1)
     for parent, child in found.edges:
         parents[child] = parent
-    return View(
+    return NetworkView(
         found.face_part,
         tuple(_part(found, index, turn.T) for index in range(len(found.parts))),
         parents,

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...geometry.crossings import Side, side_facing
 from ...intake.stated import Hinge, StatedKind, StatedPart
 from ...mesh import FloatArray
 from ...models.detector.canvas import CANVAS, LONGEST, WAYS, PanelWay, Sort, shares_of
 from ...models.detector.decode import Found
+from ...views.raster import Side, side_facing
 from ..seams.fronts import OPPOSITE
 
 #: Sorts that close an upright side, and what they are called.

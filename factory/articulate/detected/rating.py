@@ -7,12 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...articulation import Articulation
-from ...geometry.crossings import BoolArray
-from ...geometry.elevations import elevation
 from ...geometry.posing import face_parts
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import BoolArray, FloatArray, IntArray, Mesh
 from ...models.detector.canvas import CANVAS, LONGEST, SIDES, place_of
 from ...models.detector.decode import STRIDE, Dense, Found, share_of
+from ...views.view import elevation
 
 #: A part that fewer cells show is not seen.
 LEAST_CELLS = 2

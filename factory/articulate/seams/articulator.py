@@ -10,11 +10,12 @@ from ...articulation import Articulation
 from ...config import BuildConfig
 from ...intake.intake import Intake
 from ...mesh import Mesh
+from ...views.view import Views
 from ..assembly import assembled
 from ..proposal import Hypothesis
 from ..rigid import rigid_articulation
 from .cutting import CutMesh, Region, cut_around, inside, uncut
-from .hypotheses import Movers, hypotheses_of_mesh
+from .hypotheses import Movers, hypotheses_of_views
 
 NAME = "seams"
 
@@ -36,7 +37,7 @@ class SeamsArticulator:
 
         All share one mesh: the given one, cut along the outlines of all their parts.
         """
-        found = hypotheses_of_mesh(mesh)
+        found = hypotheses_of_views(Views(mesh))
         if not found:
             note = "nothing on its sides looks like a door, drawer or lid"
             return (Hypothesis.of(rigid_articulation(mesh, self.name, (note,))),)

@@ -7,9 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...geometry.crossings import BoolArray
-from ...geometry.elevations import PIXELS
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
+from ...views.raster import PIXELS
 from .dividing import divided
 from .handles import Face, Protrusion
 from .rectangles import SHORTEST, Lines, Rectangle
@@ -211,11 +210,15 @@ def usable(
 
 def distinct(scene: FrontScene, rectangles: Sequence[Rectangle], order: Sequence[int]) -> list[int]:
     """Return which rectangles, in some order, are deep and unlike those before, at most 60."""
+    low = np.array([each.low for each in rectangles])
+    high = np.array([each.high for each in rectangles])
     kept: list[int] = []
     for index in order:
-        each = rectangles[index]
-        known = is_among(each, (rectangles[other] for other in kept))
-        if not known and deep(scene, each):
+        # As :func:`in_common` has it, of all kept ones at once.
+        sides = np.minimum(high[index], high[kept]) - np.maximum(low[index], low[kept])
+        shared = np.maximum(sides, 0).prod(axis=1)
+        both = (high[index] - low[index]).prod() + (high[kept] - low[kept]).prod(axis=1)
+        if not (shared / (both - shared) >= SAME).any() and deep(scene, rectangles[index]):
             kept.append(index)
         if len(kept) >= MOST:
             break

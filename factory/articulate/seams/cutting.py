@@ -6,9 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...geometry.crossings import BoolArray
 from ...geometry.triangles import ends_of
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import BoolArray, FloatArray, IntArray, Mesh
 
 #: Vertices nearer to a plane than this share of the diagonal lie on it.
 ON_PLANE = 1e-5

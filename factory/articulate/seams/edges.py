@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ...geometry.crossings import Side
 from ...mesh import FloatArray
+from ...views.raster import Side
 from .fronts import AROUND, Front
 from .groups import FrontPanel
 

@@ -8,8 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
-from ...geometry.crossings import Side
 from ...mesh import FloatArray
+from ...views.raster import Side
 from .candidates import FrontScene
 from .controls import with_strips
 from .evidence import Seams, level_seams, upright_seams

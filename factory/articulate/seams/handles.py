@@ -8,8 +8,8 @@ from enum import StrEnum
 import numpy as np
 from scipy import ndimage
 
-from ...geometry.crossings import BoolArray, Side
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
+from ...views.raster import Side
 from .relief import Relief
 
 #: Widths of what is taken off a face, as shares of the picture's shorter side: bars, then knobs.

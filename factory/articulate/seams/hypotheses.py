@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...geometry.crossings import Side
-from ...mesh import IntArray, Mesh
+from ...views.raster import Side
+from ...views.view import Views
 from .appliances import appliance_door
 from .candidates import is_among
 from .company import without_control_panels
@@ -63,19 +63,19 @@ SLOPE = 0.8
 Movers = tuple[OpeningPart, ...]
 
 
-def hypotheses_of_mesh(mesh: Mesh, pieces: IntArray | None = None) -> tuple[Movers, ...]:
+def hypotheses_of_views(views: Views) -> tuple[Movers, ...]:
     """Return what may open of a mesh (metres, z up), the likeliest first, at most four.
 
     Args:
-        mesh: metres, z up.
-        pieces: that it is made of, by face, whose borders are seams too; one by default.
+        views: of the mesh; the borders between its parts are seams too.
     """
+    mesh = views.mesh
     if mesh.extents.min() <= SHEET * mesh.extents.max():
         return ()
     straight = straightening(mesh)
     if straight is None:
-        return hypotheses_of_reliefs(reliefs_of(mesh, pieces))
-    found = hypotheses_of_reliefs(reliefs_of(mesh.turned(straight), pieces))
+        return hypotheses_of_reliefs(reliefs_of(views))
+    found = hypotheses_of_reliefs(reliefs_of(Views(mesh.turned(straight), views.owner)))
     return tuple(tuple(mover.turned(straight.T) for mover in movers) for movers in found)
 
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import ndimage
 
-from ...geometry.crossings import BoolArray, Side
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
+from ...views.raster import Side
 from .evidence import Seams
 from .fronts import AROUND, OPPOSITE, Front
 from .relief import Relief

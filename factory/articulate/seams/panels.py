@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...geometry.elevations import PIXELS
+from ...views.raster import PIXELS
 from .candidates import (
     FLAT,
     MOST_FOUND,

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry.crossings import BoolArray, Crossings, Raster, Side, crossings
-from ...geometry.elevations import PIXELS, Elevation, nearest
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import BoolArray, FloatArray
 from ...part import OpensBy, Panel
+from ...views.crossings import Crossings, crossings
+from ...views.raster import Side
+from ...views.view import View, Views
 
 #: A piece belongs to a panel if so much of its outline lies there.
 WHOLE = 0.9
@@ -26,25 +27,24 @@ class PieceOutlines:
     """Boxes of a mesh's pieces and what is seen of them, in one side's frame.
 
     Attributes:
-        picture: of the side.
-        seen: piece of every pixel, shape [rows, columns]; -1: nothing.
+        view: of the side; its parts are the pieces.
         through: from the first surface to the last [m], shape [rows, columns].
         solid: share of that way that is inside of the mesh, shape [rows, columns].
         low, high: of each piece [m], shape [piece_count, 3].
     """
 
-    picture: Elevation
-    seen: IntArray
+    view: View
     through: FloatArray
     solid: FloatArray
     low: FloatArray
     high: FloatArray
 
     @classmethod
-    def of(cls, mesh: Mesh, pieces: IntArray, side: Side) -> PieceOutlines:
-        """Look at the pieces of a mesh [m], by face, from a side."""
-        crossed = crossings(mesh, Raster.around(mesh, side, PIXELS))
-        picture = nearest(mesh, crossed)
+    def of(cls, views: Views, side: Side) -> PieceOutlines:
+        """Look from a side at a mesh [m] whose parts are its pieces."""
+        mesh = views.mesh
+        pieces = views.owner
+        view = views[side]
         local = mesh.vertices @ side.frame.T
         count = int(pieces.max()) + 1
         low = np.full((count, 3), np.inf)
@@ -52,8 +52,7 @@ class PieceOutlines:
         for corner in range(3):
             np.minimum.at(low, pieces, local[mesh.faces[:, corner]])
             np.maximum.at(high, pieces, local[mesh.faces[:, corner]])
-        seen = np.where(picture.seen, pieces[picture.face], -1)
-        return cls(picture, seen, *_through(crossed), low, high)
+        return cls(view, *_through(crossings(mesh, view.raster)), low, high)
 
     def within(self, low: FloatArray, high: FloatArray) -> FloatArray:
         """Return the share of each piece's outline within a rectangle [m], shape [piece_count]."""
@@ -63,29 +62,19 @@ class PieceOutlines:
 
     def shown(self, low: FloatArray, high: FloatArray) -> FloatArray:
         """Return the share of a rectangle [m] that shows each piece, shape [piece_count]."""
-        seen = self.seen[self._window(low, high)]
+        seen = self.view.part[self.view.raster.window(low, high)]
         counts = np.bincount(seen[seen >= 0], minlength=len(self.low))
         return np.asarray(counts / max(seen.size, 1))
 
     def behind(self, low: FloatArray, high: FloatArray) -> tuple[float, float]:
         """Measure how deep the mesh is behind a rectangle [m], and how much of that is inside."""
-        window = self._window(low, high)
-        seen = self.seen[window] >= 0
+        window = self.view.raster.window(low, high)
+        seen = self.view.seen[window]
         if not seen.any():
             return 0.0, 0.0
         return float(np.median(self.through[window][seen])), float(
             np.median(self.solid[window][seen])
         )
-
-    def _window(self, low: FloatArray, high: FloatArray) -> tuple[slice, slice]:
-        raster = self.picture.raster
-        first = np.ceil((low - raster.low) / raster.pixel).astype(np.int64)
-        last = np.floor((high - raster.low) / raster.pixel).astype(np.int64)
-        columns, rows = (
-            slice(max(int(start), 0), int(stop) + 1)
-            for start, stop in zip(first, last, strict=True)
-        )
-        return rows, columns
 
 
 def _through(crossed: Crossings) -> tuple[FloatArray, FloatArray]:

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...articulation import JointKind
-from ...geometry.crossings import BoolArray, Side
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from ...part import Handle, OpensBy, Panel, PartKind, Proposer
+from ...views.raster import Side
 from ..proposal import Motion, Proposal
 from .cutting import Region
 from .edges import seen_thickness

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy import ndimage
 
 from ...geometry.colors import linear_of
-from ...geometry.crossings import BoolArray, Raster, Side
-from ...geometry.elevations import PIXELS, elevation
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import BoolArray, FloatArray, IntArray
+from ...views.raster import Raster, Side
+from ...views.view import View, Views
 
 #: Nothing lies so far behind everything [pixels]; an outline is a step as high as that.
 BEHIND = 24.0
@@ -50,7 +51,7 @@ class Relief:
         """Return the rows and columns."""
         return self.raster.rows, self.raster.columns
 
-    @property
+    @cached_property
     def box(self) -> tuple[int, int, int, int]:
         """Return first and last row, first and last column of what is seen.
 
@@ -67,49 +68,33 @@ def _extent(counts: IntArray) -> tuple[int, int]:
     return int(large[0]), int(large[-1])
 
 
-def reliefs_of(
-    mesh: Mesh, pieces: IntArray | None = None, pixels: int = PIXELS
-) -> dict[Side, Relief]:
-    """Look at a mesh from every side but below; arguments as for :func:`relief_of`."""
-    sides = (side for side in Side if side is not Side.BOTTOM)
-    return {side: relief_of(mesh, side, pieces, pixels) for side in sides}
+def reliefs_of(views: Views) -> dict[Side, Relief]:
+    """Return every side of a mesh but the lower one."""
+    return {side: relief_of(views[side]) for side in Side if side is not Side.BOTTOM}
 
 
-def relief_of(
-    mesh: Mesh, side: Side, pieces: IntArray | None = None, pixels: int = PIXELS
-) -> Relief:
-    """Look at a mesh from one side.
-
-    Args:
-        mesh: metres, with at least one triangle.
-        side: from where.
-        pieces: that the mesh is made of, by face; one by default.
-        pixels: along the longest extent of the mesh.
-    """
-    seen_from = elevation(mesh, side, pixels)
-    seen = seen_from.seen
+def relief_of(view: View) -> Relief:
+    """Return one side of a mesh; its pieces are the view's parts."""
+    seen = view.seen
     # A pinhole of a mesh that is not quite closed is no gap between two things.
     seen_filled = (
         ndimage.binary_closing(np.pad(seen, 2), np.ones((3, 3), np.bool_))[2:-2, 2:-2] | seen
     )
-    height = -seen_from.depth / seen_from.raster.pixel
+    height = -view.depth / view.raster.pixel
     lowest = float(height[seen].min()) if seen.any() else 0.0
     nearest = ndimage.distance_transform_edt(~seen, return_distances=False, return_indices=True)
     height = height[tuple(nearest)]
-    lab = lab_of(seen_from.color)[tuple(nearest)]
-    piece = np.zeros(seen.shape, dtype=np.int64)
-    if pieces is not None:
-        piece = pieces[seen_from.face][tuple(nearest)]
+    lab = lab_of(view.color)[tuple(nearest)]
     # Whichever way round triangles are: sheets have two faces, and meshes are found inside out.
-    facing = np.abs(seen_from.normal[..., 2])[tuple(nearest)]
+    facing = np.abs(view.normal[..., 2])[tuple(nearest)]
     return Relief(
-        seen_from.raster,
+        view.raster,
         np.asarray(seen_filled),
         np.where(seen_filled, height, lowest - BEHIND),
         np.where(seen_filled, np.clip(facing, 0.0, 1.0), 0.0),
         lab,
-        piece,
-        float(np.abs(side.frame[2]) @ mesh.extents),
+        view.part[tuple(nearest)],
+        float(np.abs(view.side.frame[2]) @ view.mesh.extents),
     )
 
 

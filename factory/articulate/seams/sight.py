@@ -11,8 +11,7 @@ from functools import cache
 import numpy as np
 from scipy import ndimage
 
-from ...geometry.crossings import BoolArray
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from ...models import picture_network
 from ...models.shipped import load_shipped
 from .rectangles import Rectangle

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from ...geometry.crossings import Side
+from ...views.raster import Side
 from .edges import is_slab
 from .fronts import Front
 from .groups import OUTLINED, FrontPanel, Group, together

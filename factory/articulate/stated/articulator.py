@@ -12,12 +12,11 @@ import numpy as np
 from ...articulation import Articulation, rotation_about
 from ...config import BuildConfig
 from ...errors import InputRejected
-from ...geometry.crossings import BoolArray
 from ...geometry.posing import posed
 from ...geometry.triangles import face_areas
 from ...intake.intake import Intake
 from ...intake.stated import Stated, StatedPart
-from ...mesh import IntArray, Mesh
+from ...mesh import BoolArray, IntArray, Mesh
 from ...part import PartKind, Proposer
 from ..articulator import Articulator, make_hypotheses
 from ..assembly import JOINT_SUFFIX, assembled

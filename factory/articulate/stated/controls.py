@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from ...articulation import JointKind
-from ...geometry.crossings import BoolArray, Side
 from ...intake.stated import Hinge
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from ...part import PartKind
+from ...views.raster import Side
 from ..proposal import Motion
 from ..seams.cutting import Region
 from ..seams.fronts import thickness

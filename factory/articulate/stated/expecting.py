@@ -10,10 +10,9 @@ import numpy as np
 
 from ...articulation import Articulation, Joint
 from ...errors import InputRejected
-from ...geometry.crossings import BoolArray
 from ...geometry.triangles import face_areas
 from ...intake.stated import StatedPart
-from ...mesh import Mesh
+from ...mesh import BoolArray, Mesh
 from ...part import PartKind, Proposer
 from ..proposal import Motion, Proposal
 from ..seams.cutting import CutMesh

@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...geometry.crossings import Side
 from ...intake.stated import Hinge
 from ...mesh import FloatArray
+from ...views.raster import Side
 from ..seams.cutting import Region
 from ..seams.fronts import AROUND, OPPOSITE, Front
 from ..seams.lids import Lid

@@ -9,10 +9,11 @@ import numpy as np
 
 from ...articulation import JointKind, rotation_about
 from ...errors import InputRejected
-from ...geometry.crossings import Side
 from ...intake.stated import Hinge, StatedPart, StatedView
 from ...mesh import IntArray, Mesh
 from ...part import OpensBy, PartKind
+from ...views.raster import Side
+from ...views.view import Views
 from ..proposal import Motion
 from ..seams.cutting import Region
 from ..seams.fronts import Front, fronts_of
@@ -75,7 +76,7 @@ def place_parts(mesh: Mesh, parts: Sequence[StatedPart]) -> list[Placed]:
             if part.view is not None and (part.view.side is Side.TOP) is above
         }
         if views:
-            fronts = fronts_of(reliefs_of(mesh.turned(turn)))
+            fronts = fronts_of(reliefs_of(Views(mesh.turned(turn))))
             seams = [
                 _boxed(mesh, fronts, parts[place], place, view) for place, view in views.items()
             ]

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry.crossings import Side
 from ...intake.stated import Box
 from ...mesh import FloatArray, IntArray, Mesh
+from ...views.raster import Side
 from ..seams.fronts import Front
 from ..seams.rectangles import Lines, Rectangle
 

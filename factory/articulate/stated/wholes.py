@@ -7,10 +7,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ...geometry.components import connected_components
-from ...geometry.crossings import Side
 from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, IntArray, Mesh
 from ...part import PartKind
+from ...views.raster import Side
+from ...views.view import Views
 from ..seams.cutting import Region
 from ..seams.pieces import OWN, WHOLE, PieceOutlines, own_pieces
 from ..seams.placing import OpeningPart
@@ -59,6 +60,7 @@ class SeenPieces:
         self._mesh = mesh
         self.of_faces = connected_components(mesh)
         self._areas = face_areas(mesh)
+        self._views = Views(mesh, self.of_faces)
         self._outlines: dict[Side, PieceOutlines] = {}
 
     @property
@@ -69,7 +71,7 @@ class SeenPieces:
     def seen_from(self, side: Side) -> PieceOutlines:
         """Return what one side shows of them."""
         if side not in self._outlines:
-            self._outlines[side] = PieceOutlines.of(self._mesh, self.of_faces, side)
+            self._outlines[side] = PieceOutlines.of(self._views, side)
         return self._outlines[side]
 
     def way(self, mover: OpeningPart, part: StatedBox) -> StatedWay:
@@ -88,7 +90,7 @@ class SeenPieces:
         elif part.is_panel or mover.kind is PartKind.SCREEN:
             own = self._share_within(mover.region) >= ABOVE
         else:
-            deep = float(np.ptp(self._mesh.vertices @ outlines.picture.raster.side.frame[2]))
+            deep = float(np.ptp(self._mesh.vertices @ outlines.view.side.frame[2]))
             margin = OFF / 2.0 * float((high - low).max())
             own = outlines.within(low - margin, high + margin) >= WHOLE
             own &= outlines.high[:, 2] - outlines.low[:, 2] <= SHALLOW * deep

@@ -7,8 +7,7 @@ from scipy import ndimage
 from scipy.spatial import cKDTree
 
 from ...articulation import JointKind
-from ...geometry.crossings import BoolArray
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from .box import Box
 from .carve import surface_points

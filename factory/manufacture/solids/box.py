@@ -9,8 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...asset import Hull
-from ...geometry.crossings import BoolArray
-from ...mesh import FloatArray, read_only
+from ...mesh import BoolArray, FloatArray, read_only
 from ..decompose.convex import hull_of
 
 

@@ -8,9 +8,8 @@ from scipy import ndimage
 from ...articulation import Joint, JointKind
 from ...asset import Hull
 from ...config import SolidsConfig
-from ...geometry.crossings import BoolArray
 from ...geometry.rows import distinct_rows
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from ..decompose.outside import outside
 from .box import Box
 from .cavity import hollow

@@ -6,8 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ...geometry.crossings import BoolArray
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from .box import Box
 from .lattice import Lattice
 

@@ -6,8 +6,7 @@ import numpy as np
 
 from ...articulation import Joint, JointKind
 from ...asset import Hull
-from ...geometry.crossings import BoolArray
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from ..decompose.convex import depth_below, hull_of
 from ..separate.clip import carved, clipped, meeting
 from .box import Box

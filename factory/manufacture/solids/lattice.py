@@ -8,8 +8,9 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry.crossings import BoolArray, Raster, Side, crossings
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import BoolArray, FloatArray, IntArray, Mesh
+from ...views.crossings import crossings
+from ...views.raster import Raster, Side
 from .box import Box
 
 #: Even lines nearer to a wanted one than this share of their distance are left out.

@@ -8,9 +8,8 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry.crossings import BoolArray
 from ...geometry.rows import distinct_rows
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from .lattice import Lattice
 
 #: Filling what must stay free is so much worse than filling what is merely empty: an inside, and

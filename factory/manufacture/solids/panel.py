@@ -8,11 +8,11 @@ import numpy as np
 from scipy import ndimage
 
 from ...articulation import Joint, JointKind
-from ...geometry.crossings import BoolArray, Raster, Side
-from ...geometry.elevations import PIXELS, Elevation, elevation
 from ...geometry.triangles import doubled_normals
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import BoolArray, FloatArray, IntArray, Mesh
 from ...part import Panel
+from ...views.raster import Side
+from ...views.view import View
 from .box import Box
 
 #: A part that fills less of its rectangle is no panel.
@@ -36,38 +36,6 @@ DOOR_M = 0.022
 LID_M = 0.03
 #: Backs lie at least this far behind most of the front [m].
 SOLID_M = 0.008
-
-
-@dataclass(frozen=True)
-class PartView:
-    """A side's picture; arrays have shape [rows, columns], row 0 lowest.
-
-    Attributes:
-        side: that is looked at; its frame's axes are right ``u``, up ``v`` and away ``w``.
-        part: which part is seen; -1: nothing.
-        depth: of what is seen, along the side's ``w`` [m]; infinite where there is nothing.
-        picture: colours and normals.
-    """
-
-    side: Side
-    part: IntArray
-    depth: FloatArray
-    picture: Elevation
-
-    @property
-    def raster(self) -> Raster:
-        """Return where its pixels lie."""
-        return self.picture.raster
-
-
-def look(mesh: Mesh, face_part: IntArray, side: Side) -> PartView:
-    """Return one side's view of a mesh whose faces belong to parts, shape [face_count]."""
-    picture = elevation(mesh, side, PIXELS)
-    seen: BoolArray = picture.seen
-    part = np.where(seen, face_part[picture.face], -1)
-    return PartView(
-        side, part, np.where(seen, picture.depth + picture.raster.near, np.inf), picture
-    )
 
 
 @dataclass(frozen=True)
@@ -133,7 +101,7 @@ def opens(joint: Joint, panel: Panel) -> bool:
 
 
 def find_panel(
-    mesh: Mesh, faces: IntArray, part: int, joint: Joint, view: PartView
+    mesh: Mesh, faces: IntArray, part: int, joint: Joint, view: View
 ) -> FlatPanel | None:
     """Measure a part that is a panel, on the view that it faces.
 
@@ -171,7 +139,7 @@ def find_panel(
     return FlatPanel(part, slides, view.side, low, high, front, back, rule, frame, shared)
 
 
-def smoothed(view: PartView, seen: BoolArray) -> FloatArray:
+def smoothed(view: View, seen: BoolArray) -> FloatArray:
     """Return the depth of a part without what stands out of it, [rows, columns]; NaN: not seen.
 
     A grey closing of depth: a handle is nearer than what surrounds it.
@@ -185,14 +153,14 @@ def smoothed(view: PartView, seen: BoolArray) -> FloatArray:
     )
     inner = seen[window]
     nearest = ndimage.distance_transform_edt(~inner, return_distances=False, return_indices=True)
-    filled = view.depth[window][tuple(nearest)]
+    filled = view.away[window][tuple(nearest)]
     closed = ndimage.grey_closing(filled, size=(size, size))
     result = np.full(seen.shape, np.nan)
     result[window] = np.where(inner, closed, np.nan)
     return result
 
 
-def _rectangle(view: PartView, seen: BoolArray) -> tuple[FloatArray, FloatArray] | None:
+def _rectangle(view: View, seen: BoolArray) -> tuple[FloatArray, FloatArray] | None:
     label, count = ndimage.label(ndimage.binary_closing(seen, np.ones((5, 5), dtype=bool)))
     if not count:
         return None
@@ -208,7 +176,7 @@ def _rectangle(view: PartView, seen: BoolArray) -> tuple[FloatArray, FloatArray]
 
 
 def _rim(
-    mesh: Mesh, faces: IntArray, view: PartView, rectangle: tuple[FloatArray, FloatArray]
+    mesh: Mesh, faces: IntArray, view: View, rectangle: tuple[FloatArray, FloatArray]
 ) -> float | None:
     """Return the depth down to which nine tenths of the faces around a part's rim reach [m]."""
     corners = (mesh.vertices @ view.side.frame.T)[mesh.faces[faces]]
@@ -248,9 +216,7 @@ def _back(
     return back, rule
 
 
-def _frames(
-    view: PartView, part: int, low: FloatArray, high: FloatArray, back: float
-) -> FloatArray:
+def _frames(view: View, part: int, low: FloatArray, high: FloatArray, back: float) -> FloatArray:
     """Return how deep lies what is beyond each edge, before the panel's back; infinite: nothing."""
     step = max(BESIDE_M, 3.0 * view.raster.pixel)
     inner = 0.05 * (high - low)
@@ -267,7 +233,7 @@ def _frames(
             start[axis] = low[axis] - step
             end[axis] = low[axis] - gap
         window = view.raster.window(start, end)
-        depth = view.depth[window]
+        depth = view.away[window]
         beside = (depth < back + SOLID_M) & (view.part[window] != part)
         if beside.size and beside.mean() > 0.2:
             frames[edge] = float(np.percentile(depth[beside], 10))

@@ -15,8 +15,7 @@ from scipy import ndimage
 from scipy.spatial import ConvexHull, QhullError
 
 from ...asset import Hull
-from ...geometry.crossings import BoolArray
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from .box import Box
 from .lattice import Lattice, Span
@@ -161,14 +160,16 @@ def _foils(matter: Matter, span: Span, points: FloatArray) -> Iterator[tuple[Hul
 
 
 def _trimmed(solid: BoolArray, span: Span) -> Span | None:
-    found = ndimage.find_objects(solid[span].astype(np.int8))
-    if not found or found[0] is None:
-        return None
-    x, y, z = (
-        slice(outer.start + inner.start, outer.start + inner.stop)
-        for outer, inner in zip(span, found[0], strict=True)
-    )
-    return x, y, z
+    trimmed = list(span)
+    for axis in (0, 1, 2):
+        x, y, z = trimmed
+        across = tuple(other for other in range(3) if other != axis)
+        filled_at = np.flatnonzero(solid[x, y, z].any(axis=across))
+        if not len(filled_at):
+            return None
+        start = span[axis].start
+        trimmed[axis] = slice(start + int(filled_at[0]), start + int(filled_at[-1]) + 1)
+    return trimmed[0], trimmed[1], trimmed[2]
 
 
 def _box(lattice: Lattice, span: Span) -> Box:
@@ -286,7 +287,7 @@ def _best_cut(matter: Matter, node: _Node) -> tuple[Span, ...]:
         halves = _halves(node.span, axis, plane)
         cost = 0.0
         for half in sorted(halves, key=_cells_in, reverse=True):
-            cost += _cost(matter, nearby, half)
+            cost += _cost(matter, nearby, half, least - cost)
             if cost >= least:
                 break
         else:
@@ -318,10 +319,11 @@ def _nearby(matter: Matter, span: Span) -> _Nearby:
     return _Nearby(points, centers[inside], sizes[inside])
 
 
-def _cost(matter: Matter, nearby: _Nearby, span: Span) -> float:
+def _cost(matter: Matter, nearby: _Nearby, span: Span, most: float) -> float:
     """Estimate what is still wrong in some cells: a hull that must be cut again, and its waste.
 
-    A quick estimate: the corners of cells beside the box's own count as its own.
+    A quick estimate: the corners of cells beside the box's own count as its own. From ``most`` on
+    it may be less than that: what must stay free is not looked at then.
     """
     trimmed = _trimmed(matter.solid, span)
     if trimmed is None:
@@ -343,8 +345,15 @@ def _cost(matter: Matter, nearby: _Nearby, span: Span) -> float:
         waste = min((each for _, each in _foils(matter, trimmed, outermost)), default=own)
     else:
         size = float(hull.volume)
-        waste = max(size - FULLER * own, 0.0) + _blocked(matter, nearby, trimmed, box, hull)
-    return TIE * min(waste, size) + (size if waste > matter.trifle else 0.0)
+        waste = max(size - FULLER * own, 0.0)
+        if _weighed(waste, size, matter.trifle) < 1.01 * most:
+            waste += _blocked(matter, nearby, trimmed, box, hull)
+    return _weighed(waste, size, matter.trifle)
+
+
+def _weighed(waste: float, size: float, trifle: float) -> float:
+    """Return what waste counts: all of a hull that must be cut again, and a share of the waste."""
+    return TIE * min(waste, size) + (size if waste > trifle else 0.0)
 
 
 def _blocked(matter: Matter, nearby: _Nearby, span: Span, box: Box, hull: ConvexHull) -> float:

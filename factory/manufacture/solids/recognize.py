@@ -7,14 +7,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind
-from ...geometry.crossings import BoolArray, Side, side_facing
 from ...geometry.posing import face_parts
 from ...geometry.triangles import doubled_normals
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
+from ...views.raster import Side, side_facing
+from ...views.view import View, elevation
 from ..poses import joints_above
 from .box import Box
 from .bump import Bump, find_bump
-from .panel import FlatPanel, PartView, find_panel, look, opens
+from .panel import FlatPanel, find_panel, opens
 from .seam import CutSkin, cut
 from .skin import border
 
@@ -36,7 +37,7 @@ class Recognized:
         skin: cut along their outlines and labelled anew.
     """
 
-    views: dict[Side, PartView]
+    views: dict[Side, View]
     panels: dict[int, FlatPanel]
     skin: CutSkin
 
@@ -54,7 +55,7 @@ def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float)
     mesh = articulation.mesh
     part = face_parts(articulation)
     sides: list[Side] = [side for side in Side if side is not Side.BOTTOM]
-    views = {side: look(mesh, part, side) for side in sides}
+    views = {side: elevation(mesh, side, owner=part) for side in sides}
     panels: dict[int, FlatPanel] = {}
     for index in parts:
         joint = articulation.joints[index - 1]

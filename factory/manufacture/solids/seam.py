@@ -6,10 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry.crossings import BoolArray
 from ...geometry.cutting import cut_at_zero
 from ...geometry.triangles import areas_of, ends_of
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import BoolArray, FloatArray, IntArray, Mesh
 from .box import Box
 
 #: Corners this near to a plane lie on it [m].

@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulation import Articulation, JointKind
-from ...geometry.crossings import BoolArray, Crossings, Raster, Side, crossings, side_facing
 from ...geometry.edges import shared_edges
 from ...geometry.posing import face_parts
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import BoolArray, FloatArray, IntArray, Mesh
 from ...part import Proposer
+from ...views.crossings import Crossings, crossings
+from ...views.raster import Raster, Side, side_facing
 from .panel import opens
 
 #: A part is a patch of a skin where it shares so much of its border with other parts, of the

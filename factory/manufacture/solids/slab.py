@@ -8,10 +8,10 @@ import numpy as np
 from scipy import ndimage
 
 from ...asset import Hull
-from ...geometry.crossings import BoolArray
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
+from ...views.view import View
 from ..decompose.convex import hull_of, limit_vertices
-from .panel import FlatPanel, PartView, smoothed
+from .panel import FlatPanel, smoothed
 from .pieces import MOST_CORNERS
 
 #: What stands out of a panel's face further than this is a handle [m].
@@ -34,7 +34,7 @@ class FrontRelief:
         count: of them.
     """
 
-    view: PartView
+    view: View
     plain: FloatArray
     blobs: np.ndarray[tuple[int, ...], np.dtype[np.int32]]
     count: int
@@ -49,14 +49,14 @@ class FrontRelief:
         return np.asarray(self.blobs[self.view.raster.nearest(local)])
 
 
-def relief(view: PartView, panel: FlatPanel) -> FrontRelief:
+def relief(view: View, panel: FlatPanel) -> FrontRelief:
     """Tell a panel's face from what stands out of it."""
     seen: BoolArray = view.part == panel.part
     plain = smoothed(view, seen)
     nearest = ndimage.distance_transform_edt(~seen, return_distances=False, return_indices=True)
     wide = ndimage.binary_dilation(seen, iterations=2)
     plain = np.where(wide, plain[tuple(nearest)], np.nan)
-    proud = seen & (plain - view.depth > PROUD_M)
+    proud = seen & (plain - view.away > PROUD_M)
     blobs, count = ndimage.label(proud, np.ones((3, 3)))
     sizes = np.bincount(blobs.ravel(), minlength=count + 1)
     sizes[0] = 0

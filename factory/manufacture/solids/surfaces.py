@@ -7,8 +7,7 @@ from collections.abc import Sequence
 import manifold3d
 import numpy as np
 
-from ...geometry.crossings import BoolArray
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from .box import Box
 
 #: Corners this near to one another are one [m].

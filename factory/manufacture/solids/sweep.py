@@ -9,8 +9,7 @@ import numpy as np
 
 from ...articulation import Joint, JointKind
 from ...asset import Hull
-from ...geometry.crossings import BoolArray
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from .box import Box
 from .lattice import Lattice
 from .panel import FlatPanel

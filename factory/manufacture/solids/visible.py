@@ -9,10 +9,9 @@ import numpy as np
 from ...articulation import Articulation
 from ...asset import Hull
 from ...geometry.colors import linear_of
-from ...geometry.crossings import BoolArray
 from ...geometry.rows import distinct_rows
 from ...geometry.triangles import areas_of
-from ...mesh import FloatArray, IntArray, Material, Mesh
+from ...mesh import BoolArray, FloatArray, IntArray, Material, Mesh
 from ..decompose.outside import outside
 from .box import Box
 from .drawer import WALL_M
@@ -214,7 +213,7 @@ def _material(work: Workpiece, part: int, materials: list[Material]) -> int:
 
 def _color(work: Workpiece, part: int) -> tuple[float, float, float, float]:
     """Return the mean colour of what is seen of a part from all sides, linear."""
-    seen = [view.picture.color[view.part == part] for view in work.views.values()]
+    seen = [view.color[view.part == part] for view in work.views.values()]
     pixels = np.concatenate(seen)
     if not len(pixels):
         return (0.7, 0.7, 0.7, 1.0)

@@ -9,14 +9,15 @@ import numpy as np
 from ...articulation import Articulation, Joint
 from ...asset import Hull, InnerSurface
 from ...config import SolidsConfig
-from ...geometry.crossings import BoolArray, Side
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
+from ...views.raster import Side
+from ...views.view import View
 from ..poses import held_by
 from .box import Box
 from .bump import Bump
 from .lattice import Lattice
 from .matter import Weights
-from .panel import FlatPanel, PartView
+from .panel import FlatPanel
 from .seam import CutSkin
 
 
@@ -49,7 +50,7 @@ class Workpiece:
 
     source: Articulation
     config: SolidsConfig
-    views: dict[Side, PartView]
+    views: dict[Side, View]
     joints: list[Joint]
     panels: dict[int, FlatPanel]
     bumps: dict[int, Bump]

@@ -7,8 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...articulation import Articulation
-from ...geometry.crossings import BoolArray
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
 from ...part import Handle
 from .protrusions import (
     LOOKS_OUT,

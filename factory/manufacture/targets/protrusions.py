@@ -6,10 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry.crossings import BoolArray
 from ...geometry.edges import label_linked
 from ...geometry.rows import distinct_rows
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
 from .shape import Moving, PartShape
 
 #: Faces within this angle of the panel's normal look outwards.

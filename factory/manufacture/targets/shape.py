@@ -9,9 +9,8 @@ import numpy as np
 from trimesh.triangles import closest_point
 
 from ...articulation import Articulation, Joint, JointKind
-from ...geometry.crossings import BoolArray
 from ...geometry.triangles import doubled_normals
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
 
 #: A part whose centre is this much nearer to its axis than its rim turns on the spot, like a knob.
 KNOB_SHARE = 0.25

@@ -10,11 +10,10 @@ import numpy as np
 
 from ...articulation import Articulation
 from ...asset import Hull
-from ...geometry.crossings import BoolArray
 from ...geometry.cutting import clip_to_box
 from ...geometry.posing import face_parts
 from ...geometry.triangles import ends_of, meet_box
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
 from ..decompose.convex import depth_below
 
 #: What only touches a box is not in it [m].

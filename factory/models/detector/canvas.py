@@ -8,9 +8,9 @@ from enum import StrEnum
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry.crossings import Side
-from ...geometry.elevations import Elevation, elevation
 from ...mesh import FloatArray, Mesh
+from ...views.raster import Side
+from ...views.view import View, elevation
 
 #: The sides in the order in which a turn to the left by a quarter brings the next to the front.
 AROUND = (Side.FRONT, Side.RIGHT, Side.BACK, Side.LEFT)
@@ -75,14 +75,14 @@ def look_at(mesh: Mesh) -> Canvases:
     return Canvases(color, depth)
 
 
-def place_of(picture: Elevation) -> tuple[slice, slice]:
+def place_of(picture: View) -> tuple[slice, slice]:
     """Return the rows and columns of a canvas that a side's picture takes, in its middle."""
     raster = picture.raster
     row, column = ((CANVAS - length) // 2 for length in (raster.rows, raster.columns))
     return slice(row, row + raster.rows), slice(column, column + raster.columns)
 
 
-def stored_depth(picture: Elevation) -> npt.NDArray[np.int16]:
+def stored_depth(picture: View) -> npt.NDArray[np.int16]:
     """Return depths as they are kept, shape [rows, columns]."""
     steps = np.where(picture.seen, picture.depth, 0.0) / picture.raster.pixel * DEPTH_STEPS
     whole = np.clip(np.rint(steps), 0, np.iinfo(np.int16).max)

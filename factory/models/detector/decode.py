@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry.crossings import Side
 from ...mesh import FloatArray, IntArray
+from ...views.raster import Side
 from .canvas import SIDES, SORTS, WAYS, PanelWay, Sort
 
 #: Boxes that share more than this of their union are one.

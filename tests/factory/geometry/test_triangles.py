@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from asset_factory.factory.geometry.triangles import ends_of, face_areas
-from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.mesh import Mesh, cross
 
 SHAPES = st.tuples(st.integers(0, 5), st.just(3), st.integers(1, 3))
 
@@ -19,6 +19,14 @@ def test_ends_are_those_along_the_corners(corners: np.ndarray) -> None:
     low, high = ends_of(corners)
     assert (low == corners.min(axis=1)).all()
     assert (high == corners.max(axis=1)).all()
+
+
+@given(hnp.arrays(np.float64, st.tuples(st.integers(0, 5), st.just(2), st.just(3))))
+def test_cross_products_are_those_of_numpy_to_the_last_bit(pairs: np.ndarray) -> None:
+    with np.errstate(all="ignore"):
+        assert (
+            cross(*pairs.swapaxes(0, 1)).tobytes() == np.cross(pairs[:, 0], pairs[:, 1]).tobytes()
+        )
 
 
 def test_half_a_square_has_half_its_area() -> None:

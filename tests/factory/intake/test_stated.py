@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import ConfigError, InputRejected
-from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.intake.files import InputFiles
 from asset_factory.factory.intake.stated import (
     MOST_BYTES,
@@ -21,6 +20,7 @@ from asset_factory.factory.intake.stated import (
     stated_from,
 )
 from asset_factory.factory.part import PartKind
+from asset_factory.factory.views.raster import Side
 
 DOOR = {"kind": "door", "side": "front", "box": [0.1, 0.1, 0.9, 0.9]}
 

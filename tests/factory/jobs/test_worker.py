@@ -9,7 +9,8 @@ import pytest
 import trimesh
 from job_samples import PLAIN, job
 
-from asset_factory.factory.jobs import worker
+from asset_factory.factory.jobs import local, worker
+from asset_factory.factory.jobs.local import LocalExecutor
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.runtime.store import folder_digests
 
@@ -44,9 +45,17 @@ def test_the_order_of_builds_changes_no_byte(tmp_path: Path) -> None:
 
 
 def test_one_judge_is_kept_for_one_configuration() -> None:
-    first = worker._judge(PLAIN.checks)
-    assert worker._judge(PLAIN.checks) is first
+    first = worker._judge(PLAIN.checks, 1)
+    assert worker._judge(PLAIN.checks, 1) is first
+    assert worker._judge(PLAIN.checks, 2) is not first
     assert len(worker._JUDGES) == 1
+
+
+def test_simulators_share_what_processors_the_workers_leave(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(local, "processors", lambda: 8)
+    assert [LocalExecutor(workers).engines for workers in (1, 3, 8, 9)] == [8, 2, 1, 1]
 
 
 def test_too_late_is_not_begun(tmp_path: Path) -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from asset_factory.factory.articulate.seams.features import MOTION_NAMES, NAMES
-from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.part import OpensBy
+from asset_factory.factory.views.raster import Side
 from asset_factory.learn.elevations.pictures import pictures_of
 from asset_factory.learn.elevations.rows import rows_of
 from asset_factory.learn.elevations.truths import truth_of

@@ -10,7 +10,7 @@ from PIL import Image
 from asset_factory.factory.articulate.asking.drawing import drawn_side
 from asset_factory.factory.articulate.asking.sheet import sheet_of
 from asset_factory.factory.cli.commands import run
-from asset_factory.factory.geometry.crossings import Side
+from asset_factory.factory.views.raster import Side
 
 
 def test_a_seam_is_dark_at_its_share_of_the_side():

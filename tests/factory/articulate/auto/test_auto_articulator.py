@@ -20,6 +20,7 @@ from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.models.particulate.prediction import MotionClass, Prediction
 from asset_factory.factory.models.perceptron import linear
 from asset_factory.factory.part import Proposer
+from asset_factory.factory.views.view import Views
 from asset_factory.learn.evaluate.bodies import bodies_of
 from asset_factory.learn.objects import make_object
 
@@ -109,7 +110,7 @@ def test_what_turns_and_slides_gets_two_joints_with_a_carrier_between():
     slide = Motion(JointKind.PRISMATIC, -UP, np.zeros(3), 0.0, 0.1)
     articulator = AutoArticulator(Labeller(truth), (), BELIEVING, SHOWN, AutoConfig())
     found = articulator.decide(
-        truth.mesh, (Proposal("cap", faces, turn, {"geometric": 1.0}, slide=slide),)
+        Views(truth.mesh), (Proposal("cap", faces, turn, {"geometric": 1.0}, slide=slide),)
     )
     assert [part.name for part in found.parts] == ["base", "cap_0_carrier", "cap_0"]
     assert [len(part.faces) for part in found.parts] == [(~faces).sum(), 0, faces.sum()]
@@ -191,7 +192,7 @@ def test_where_only_the_network_sees_what_moves_one_part_must_be_surer(
     articulator = AutoArticulator(
         Labeller(truth), (), replace(BELIEVING, least=0.3), SHOWN, AutoConfig(**config)
     )
-    found = articulator.decide(truth.mesh, asked_for)
+    found = articulator.decide(Views(truth.mesh), asked_for)
     assert len(found.movable_joints) == moving
     assert moving or "want 0.45" in found.notes[0]
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from asset_factory.factory.articulate.auto.partition import share_out, shells
 from asset_factory.factory.articulate.auto.parts import agreed_parts, shared
 from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, load_trust, log_odds, signs_of
-from asset_factory.factory.articulate.auto.views import SeenPart, View
+from asset_factory.factory.articulate.auto.views import NetworkView, SeenPart
 from asset_factory.factory.articulate.proposal import Motion
 from asset_factory.factory.models.perceptron import linear
 
@@ -25,7 +25,7 @@ def mask(*faces):
 def view(labels, sign=1.0, confidence=0.9, moves=0.9, both=0.0, slide=None):
     root = SeenPart(1.0, 0.0, 0.0, 0.0, 1.0, None, None, 0.0, 0.0)
     door = SeenPart(confidence, moves, 1.0, both, 0.8, sign * UP, np.zeros(3), 0.0, 1.5, slide)
-    return View(np.array(labels), (root, door), np.array([-1, 0]))
+    return NetworkView(np.array(labels), (root, door), np.array([-1, 0]))
 
 
 def test_a_part_seen_from_every_side_is_agreed_on_and_its_axis_is_the_majoritys():

@@ -18,6 +18,7 @@ from asset_factory.factory.config import AutoConfig, BuildConfig
 from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.mesh import FloatArray, Mesh, concatenate
 from asset_factory.factory.part import PartKind, Proposer
+from asset_factory.factory.views.view import Views
 
 UP = (0.0, 0.0, 1.0)
 
@@ -30,7 +31,7 @@ class SeesNothing(AutoArticulator):
 
 
 def shown(mesh: Mesh) -> Sightings:
-    return sightings(mesh, connected_components(mesh))[0]
+    return sightings(Views(mesh, connected_components(mesh)))[0]
 
 
 def by_sides_alone(mesh: Mesh) -> tuple[Articulation, ...]:
@@ -71,7 +72,9 @@ def test_doors_of_one_piece_are_cut_apart_at_their_crease() -> None:
 
 
 def test_nothing_is_cut_out_of_what_has_an_inside() -> None:
-    assert not any(each.found for each in sightings(bookcase(), connected_components(bookcase())))
+    assert not any(
+        each.found for each in sightings(Views(bookcase(), connected_components(bookcase())))
+    )
     assert not by_sides_alone(bookcase())[0].movable_joints
 
 
@@ -89,7 +92,7 @@ def test_doors_are_cut_out_of_a_box_of_two_faced_sheets_but_not_of_shelves_in_on
     assert len(sheets.faces) == 2 * len(creased_cupboard().faces)
     assert len(shown(sheets).found) == 2
     shelves = two_faced(bookcase())
-    assert not any(each.found for each in sightings(shelves, connected_components(shelves)))
+    assert not any(each.found for each in sightings(Views(shelves, connected_components(shelves))))
 
 
 def test_proposals_are_carried_to_the_cut_mesh() -> None:
@@ -119,7 +122,7 @@ def test_a_knob_goes_with_the_plate_that_it_alone_touches() -> None:
     bare = np.isin(pieces, np.setdiff1d(pieces[seen.faces], (3, 4)))
     config = BuildConfig()
     nobody = SeesNothing(None, (), load_trust(), config.particulate, AutoConfig())  # type: ignore[arg-type]
-    found = nobody.decide(mesh, (replace(seen, faces=bare),))
+    found = nobody.decide(Views(mesh), (replace(seen, faces=bare),))
     plate, knob = sorted(set(pieces[found.parts[1].faces]))
     assert (plate, knob) in {(1, 3), (2, 4)}
 
@@ -151,7 +154,7 @@ def test_a_little_piece_that_no_side_shows_is_no_mover_by_the_networks_word_alon
         replace(seen, faces=faces, signs=word, proposer=Proposer.NETWORK)
         for faces in (hidden, knob)
     ]
-    found = nobody.decide(mesh, made)
+    found = nobody.decide(Views(mesh), made)
     (joint,) = found.movable_joints
     assert knob[found.parts[joint.child].faces].all()
 
@@ -164,4 +167,4 @@ def test_a_rack_behind_a_door_may_move_and_a_pair_of_runners_may_not() -> None:
         faces = np.arange(len(mesh.faces)) >= len(oven.faces)
         motion = Motion(JointKind.PRISMATIC, np.array([0.0, -1.0, 0.0]), np.zeros(3), 0.0, 0.3)
         said = Proposal(PartKind.PART, faces, motion, proposer=Proposer.NETWORK)
-        assert (without_hidden(mesh, [said]) == [said]) is kept
+        assert (without_hidden(Views(mesh), [said]) == [said]) is kept

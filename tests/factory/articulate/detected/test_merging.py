@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from asset_factory.factory.articulate.detected.merging import seen_parts
-from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.intake.stated import Hinge, StatedKind
 from asset_factory.factory.models.detector.canvas import (
     CANVAS,
@@ -15,6 +14,7 @@ from asset_factory.factory.models.detector.canvas import (
     Sort,
 )
 from asset_factory.factory.models.detector.decode import Found
+from asset_factory.factory.views.raster import Side
 
 TALL = np.array([0.5, 0.5, 1.0])
 

@@ -25,11 +25,12 @@ from asset_factory.factory.articulate.seams.lids import Lid
 from asset_factory.factory.articulate.seams.panels import STRICT
 from asset_factory.factory.articulate.seams.rectangles import BOTTOM, TOP, Lines, Rectangle
 from asset_factory.factory.articulate.seams.relief import reliefs_of
-from asset_factory.factory.geometry.crossings import Side
+from asset_factory.factory.views.raster import Side
+from asset_factory.factory.views.view import Views
 
 
 def test_slivers_are_no_doors() -> None:
-    scene = fronts_of(reliefs_of(one_piece.plain_box(), None))[Side.FRONT].scene
+    scene = fronts_of(reliefs_of(Views(one_piece.plain_box())))[Side.FRONT].scene
     bottom, top, left, _ = scene.relief.box
     tall = top - bottom - 20
     door, sliver = (
@@ -45,7 +46,7 @@ def test_slivers_are_no_doors() -> None:
 
 
 def test_a_front_may_show_nothing_but_pieces_between_handles() -> None:
-    scene = fronts_of(reliefs_of(one_piece.plain_box(), None))[Side.FRONT].scene
+    scene = fronts_of(reliefs_of(Views(one_piece.plain_box())))[Side.FRONT].scene
     whole = whole_side(scene)
     middle = (whole.low[0] + whole.high[0]) // 2
     pieces = (whole.with_side(TOP, int(middle)), whole.with_side(BOTTOM, int(middle)))
@@ -65,7 +66,7 @@ def test_doubtful_panels_yield_to_a_lid_unless_the_network_sees_them_or_they_are
     monkeypatch: pytest.MonkeyPatch, shown: float, shut: float, wanted: list[str]
 ) -> None:
     monkeypatch.setattr(hypotheses, "SHUT", shut)
-    seen = hypotheses._Sides.of(reliefs_of(one_piece.doors(), None))
+    seen = hypotheses._Sides.of(reliefs_of(Views(one_piece.doors())))
     assert len(seen.panels) == 2
     lid = Lid(seen.front.relief.box[1] // 2, seen.value - 2.0, 1.0, ((Side.BACK, 0.0),))
     sight = seen.front.sight
@@ -103,7 +104,7 @@ def test_several_small_panels_beat_a_large_one_that_is_worth_more_than_each() ->
 
 
 def test_what_ends_far_behind_its_middle_is_no_panel() -> None:
-    scene = fronts_of(reliefs_of(one_piece.plain_box(), None))[Side.FRONT].scene
+    scene = fronts_of(reliefs_of(Views(one_piece.plain_box())))[Side.FRONT].scene
     bottom, top, left, right = scene.relief.box
     edge = (bottom + 3 * top) // 4
     height = scene.face.height.copy()
@@ -149,7 +150,7 @@ def _lines(at: list[int], length: int) -> Lines:
 def test_a_groove_all_around_a_handle_needs_no_network(
     closed: float, pulled: bool, wanted: bool
 ) -> None:
-    front = fronts_of(reliefs_of(one_piece.plain_box(), None))[Side.FRONT]
+    front = fronts_of(reliefs_of(Views(one_piece.plain_box())))[Side.FRONT]
     front.__dict__["sight"] = replace(front.sight, panel=np.zeros_like(front.sight.panel))
     sides = np.array([closed, 1.0, 1.0, 1.0])
     rectangle = Rectangle(np.array([10, 10]), np.array([100, 80]), sides, sides)

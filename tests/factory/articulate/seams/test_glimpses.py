@@ -17,8 +17,9 @@ from asset_factory.factory.articulate.seams.motions import openings_of
 from asset_factory.factory.articulate.seams.rectangles import Rectangle
 from asset_factory.factory.articulate.seams.relief import Relief, reliefs_of
 from asset_factory.factory.articulate.seams.sight import SQUARE, Sight
-from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.part import OpensBy
+from asset_factory.factory.views.raster import Side
+from asset_factory.factory.views.view import Views
 
 #: First row and column of the two doors, and those after the last, in squares.
 DOORS = (((10, 12), (90, 42)), ((10, 43), (90, 73)))
@@ -41,7 +42,7 @@ def seen_as(relief: Relief, panel: float = 0.95, end: float = 0.95) -> Sight:
 @pytest.fixture
 def box() -> Front:
     """Of a box on which nothing is seen but what a test says."""
-    return fronts_of(reliefs_of(one_piece.plain_box(), None))[Side.FRONT]
+    return fronts_of(reliefs_of(Views(one_piece.plain_box())))[Side.FRONT]
 
 
 def with_sight(front: Front, **seen: float) -> Front:
@@ -91,7 +92,7 @@ def test_nothing_opens_where_nothing_is_there(box: Front) -> None:
 
 
 def test_where_nothing_else_is_found_it_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
-    reliefs = reliefs_of(one_piece.plain_box(), None)
+    reliefs = reliefs_of(Views(one_piece.plain_box()))
     assert hypotheses_of_reliefs(reliefs) == ()
     monkeypatch.setattr(fronts_module, "sight_of", seen_as)
     movers = hypotheses_of_reliefs(reliefs)[0]

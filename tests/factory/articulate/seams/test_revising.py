@@ -15,8 +15,9 @@ from asset_factory.factory.articulate.seams.rectangles import Rectangle
 from asset_factory.factory.articulate.seams.relief import reliefs_of
 from asset_factory.factory.articulate.seams.revising import revised
 from asset_factory.factory.articulate.seams.sight import SQUARE, Sight
-from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.part import OpensBy
+from asset_factory.factory.views.raster import Side
+from asset_factory.factory.views.view import Views
 
 
 def rectangle(low: tuple[int, int], high: tuple[int, int]) -> Rectangle:
@@ -43,7 +44,7 @@ def with_sight(front: Front, seen: list[Rectangle]) -> Front:
 @pytest.fixture(scope="module")
 def doors() -> Front:
     """Of a pair of doors with an upright bar on each."""
-    return fronts_of(reliefs_of(one_piece.doors(), None))[Side.FRONT]
+    return fronts_of(reliefs_of(Views(one_piece.doors())))[Side.FRONT]
 
 
 @pytest.fixture

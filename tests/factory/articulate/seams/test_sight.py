@@ -23,19 +23,22 @@ from asset_factory.factory.articulate.seams.sight import (
     shipped_weights,
     sight_of,
 )
-from asset_factory.factory.geometry.crossings import Side
+from asset_factory.factory.views.raster import Side
+from asset_factory.factory.views.view import Views, elevation
 from asset_factory.learn.elevations.pictures import pictures_of
 from asset_factory.learn.objects import make_object
 
 
 @pytest.fixture(scope="module")
 def fridge() -> Relief:
-    return relief_of(make_object("fridge", 1).mesh, Side.FRONT)
+    return relief_of(elevation(make_object("fridge", 1).mesh, Side.FRONT))
 
 
 def test_what_is_given_does_not_depend_on_size(fridge: Relief) -> None:
     large = make_object("fridge", 1).mesh.transformed(np.diag([3.0, 3.0, 3.0, 1.0]))
-    assert cues_of(relief_of(large, Side.FRONT)) == pytest.approx(cues_of(fridge), abs=1e-6)
+    assert cues_of(relief_of(elevation(large, Side.FRONT))) == pytest.approx(
+        cues_of(fridge), abs=1e-6
+    )
 
 
 def test_what_is_given_fits_the_grid(fridge: Relief) -> None:
@@ -95,7 +98,7 @@ def test_ends_are_as_sure_as_the_squares_along_them() -> None:
 
 
 def test_lines_on_a_panel_that_runs_on_part_nothing() -> None:
-    front = fronts_of(reliefs_of(one_piece.doors(), None))[Side.FRONT]
+    front = fronts_of(reliefs_of(Views(one_piece.doors())))[Side.FRONT]
     middle = front.relief.shape[1] // 2
     assert np.abs(front.scene.upright.at - middle).min() <= 4
     seen = front.sight
@@ -108,7 +111,7 @@ def test_lines_on_a_panel_that_runs_on_part_nothing() -> None:
 
 @pytest.mark.parametrize(("end", "count"), [(0.9, 2), (0.1, 1)])
 def test_a_panel_without_a_handle_ends_on_all_sides(end: float, count: int) -> None:
-    reliefs = reliefs_of(one_piece.doors(), None)
+    reliefs = reliefs_of(Views(one_piece.doors()))
     sides = hypotheses._Sides.of(reliefs)
     pulled, bare = (replace(panel, value=1.0) for panel in sides.panels)
     bare = replace(bare, handles=())
@@ -131,7 +134,7 @@ def _rectangle(low: tuple[int, int], high: tuple[int, int]) -> Rectangle:
 
 
 def test_what_the_network_does_not_see_is_no_panel(monkeypatch: pytest.MonkeyPatch) -> None:
-    reliefs = reliefs_of(one_piece.fridge(), None)
+    reliefs = reliefs_of(Views(one_piece.fridge()))
     found = hypotheses_of_reliefs(reliefs)[0]
     monkeypatch.setattr(Sight, "shows", lambda self, rectangle: 0.0)
     # A handle within a groove all around is a door's, whoever sees it.

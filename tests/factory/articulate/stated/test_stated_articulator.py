@@ -14,8 +14,8 @@ from asset_factory.factory.articulate.seams.articulator import SeamsArticulator
 from asset_factory.factory.articulate.stated import StatedArticulator, placing
 from asset_factory.factory.articulation import JointKind, rotation_about
 from asset_factory.factory.errors import ConfigError, InputRejected
-from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.intake.stated import Hinge, StatedKind, stated_from
+from asset_factory.factory.views.raster import Side
 
 #: A pixel of a side's picture, and a groove's half [m].
 FINE = 0.02

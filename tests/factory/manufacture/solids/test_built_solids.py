@@ -9,13 +9,13 @@ from labelled_skins import SIZE, bin_with_lid, chest, cupboard
 
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import SolidsConfig
-from asset_factory.factory.geometry.crossings import Side
-from asset_factory.factory.geometry.elevations import elevation
 from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.separate.clip import meeting
 from asset_factory.factory.manufacture.solids.build import solids
 from asset_factory.factory.manufacture.solids.panel import DOOR_M
 from asset_factory.factory.manufacture.solids.surfaces import boundary
+from asset_factory.factory.views.raster import Side
+from asset_factory.factory.views.view import elevation
 
 CONFIG = SolidsConfig()
 #: More than what makes PyBullet's joints jam [m].

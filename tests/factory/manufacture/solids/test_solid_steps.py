@@ -10,7 +10,6 @@ from labelled_skins import SIZE, box_skin, chest, cupboard
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, rotation_about
 from asset_factory.factory.config import SolidsConfig
 from asset_factory.factory.geometry import posing
-from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.solids.box import Box
 from asset_factory.factory.manufacture.solids.build import solids
@@ -27,6 +26,7 @@ from asset_factory.factory.manufacture.solids.seam import CutSkin, cut
 from asset_factory.factory.manufacture.solids.skin import skin_parts
 from asset_factory.factory.manufacture.solids.surfaces import boundary, inside_of, outside_of, plate
 from asset_factory.factory.mesh import Mesh, concatenate
+from asset_factory.factory.views.raster import Side
 
 UNIT = np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]])
 

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from asset_factory.factory.geometry.crossings import Side
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.models.detector.canvas import (
     CANVAS,
@@ -18,6 +17,7 @@ from asset_factory.factory.models.detector.canvas import (
     shares_of,
 )
 from asset_factory.factory.models.detector.decode import STRIDE, Dense, found_parts, overlaps
+from asset_factory.factory.views.raster import Side
 from asset_factory.learn.objects import make_object
 
 CELLS = CANVAS // STRIDE

@@ -1,4 +1,4 @@
-"""Orthographic pictures of an object's sides: depth, faces, normals and colours."""
+"""Views of a mesh's sides: depth, faces, parts, normals and colours."""
 
 from __future__ import annotations
 
@@ -9,25 +9,24 @@ from functools import cached_property, lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from ..mesh import FloatArray, IntArray, Material, Mesh, Texture
-from .colors import srgb_of
-from .crossings import BoolArray, Crossings, Raster, Side, crossings
-from .triangles import doubled_normals
-
-#: Along the longest extent of an object.
-PIXELS = 320
+from ..geometry.colors import srgb_of
+from ..geometry.triangles import doubled_normals
+from ..mesh import BoolArray, FloatArray, IntArray, Material, Mesh, Texture
+from .crossings import nearest_crossings
+from .raster import PIXELS, Raster, Side
 
 
-@dataclass(frozen=True)
-class Elevation:
-    """What is seen of a mesh from one side; arrays have shape [rows, columns], row 0 lowest.
+@dataclass(frozen=True, eq=False)
+class View:
+    """One side of a mesh in a picture; arrays have shape [rows, columns], row 0 lowest.
 
     Attributes:
         mesh: that is looked at.
         raster: where its pixels lie.
-        face: the nearest triangle; -1 where there is none.
-        depth: from the nearest point of the mesh [m]; infinite where there is none.
+        face: the nearest triangle; -1: none.
+        depth: behind the nearest point of the mesh [m]; infinite without a triangle.
         weights: of the triangle's corners, shape [rows, columns, 3].
+        owner: the part of every triangle, shape [face_count].
     """
 
     mesh: Mesh
@@ -35,11 +34,27 @@ class Elevation:
     face: IntArray
     depth: FloatArray
     weights: FloatArray
+    owner: IntArray
 
     @property
+    def side(self) -> Side:
+        """Return the side that is looked at."""
+        return self.raster.side
+
+    @cached_property
     def seen(self) -> BoolArray:
-        """Return where there is anything."""
+        """Return which pixels show the mesh."""
         return self.face >= 0
+
+    @cached_property
+    def away(self) -> FloatArray:
+        """Return the depth in the side's own frame [m]; infinite where no mesh is."""
+        return self.depth + self.raster.near
+
+    @cached_property
+    def part(self) -> IntArray:
+        """Return the part that every pixel shows; -1: none."""
+        return np.where(self.seen, self.owner[self.face], -1)
 
     @cached_property
     def normal(self) -> FloatArray:
@@ -73,30 +88,50 @@ class Elevation:
         return np.asarray(image[rows, columns] / 255.0 * plain)
 
 
-def elevation(mesh: Mesh, side: Side, pixels: int = PIXELS) -> Elevation:
+def elevation(mesh: Mesh, side: Side, pixels: int = PIXELS, owner: IntArray | None = None) -> View:
     """Look at a mesh from one side.
 
     Args:
         mesh: with at least one triangle.
         side: from where.
         pixels: along the longest extent of the mesh.
+        owner: the part of every triangle, shape [face_count]; one by default.
     """
-    return nearest(mesh, crossings(mesh, Raster.around(mesh, side, pixels)))
+    return view_through(mesh, Raster.around(mesh, side, pixels), owner)
 
 
-def nearest(mesh: Mesh, crossed: Crossings) -> Elevation:
-    """Return what is seen of a mesh whose crossings are known."""
-    raster = crossed.raster
+def view_through(mesh: Mesh, raster: Raster, owner: IntArray | None = None) -> View:
+    """Look at a mesh through the pixels of a raster; arguments as for :func:`elevation`."""
+    met = nearest_crossings(mesh, raster)
     shape = (raster.rows, raster.columns)
-    first = crossed.first
-    pixel = crossed.pixel[first]
     face = np.full(shape, -1, dtype=np.int64)
     depth = np.full(shape, np.inf)
     weights = np.zeros((*shape, 3))
-    face.ravel()[pixel] = crossed.face[first]
-    depth.ravel()[pixel] = crossed.depth[first]
-    weights.reshape(-1, 3)[pixel] = crossed.weights[first]
-    return Elevation(mesh, raster, face, depth, weights)
+    face.ravel()[met.pixel] = met.face
+    depth.ravel()[met.pixel] = met.depth
+    weights.reshape(-1, 3)[met.pixel] = met.weights
+    whole = np.zeros(len(mesh.faces), dtype=np.int64) if owner is None else owner
+    return View(mesh, raster, face, depth, weights, whole)
+
+
+class Views:
+    """The six sides of one mesh; each is looked at once, when it is first asked for.
+
+    Args:
+        mesh: with at least one triangle.
+        owner: the part of every triangle, shape [face_count]; one by default.
+    """
+
+    def __init__(self, mesh: Mesh, owner: IntArray | None = None) -> None:
+        self.mesh = mesh
+        self.owner = np.zeros(len(mesh.faces), dtype=np.int64) if owner is None else owner
+        self._known: dict[Side, View] = {}
+
+    def __getitem__(self, side: Side) -> View:
+        """Return the view of a side."""
+        if side not in self._known:
+            self._known[side] = elevation(self.mesh, side, owner=self.owner)
+        return self._known[side]
 
 
 @lru_cache(maxsize=2)

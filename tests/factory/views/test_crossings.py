@@ -7,9 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from asset_factory.factory.geometry import crossings as module
-from asset_factory.factory.geometry.crossings import Raster, Side, crossings
 from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.views import crossings as module
+from asset_factory.factory.views.crossings import crossings
+from asset_factory.factory.views.raster import Raster, Side
 
 #: Few values, so that pixels and depths are equal often.
 pairs = st.lists(st.tuples(st.integers(0, 5), st.sampled_from([-0.0, 0.0, 0.25, 0.5])))
@@ -25,6 +26,15 @@ def test_crossings_are_ordered_by_pixel_depth_and_place(
     assert order.tolist() == sorted(
         range(len(found)), key=lambda place: (pixel[place], depth[place], place)
     )
+
+
+@given(pairs)
+def test_the_nearest_are_the_first_in_that_order(found: list[tuple[int, float]]) -> None:
+    pixel = np.array([pair[0] for pair in found], dtype=np.int64)
+    depth = np.array([pair[1] for pair in found], dtype=np.float64)
+    order = module._nearest_first(pixel, depth)
+    first = order[np.flatnonzero(np.diff(pixel[order], prepend=-1))]
+    assert module._nearest_only(pixel, depth).tolist() == first.tolist()
 
 
 def test_how_many_pairs_are_looked_at_in_one_go_changes_nothing(
