@@ -16,7 +16,7 @@ from ...geometry.posing import posed
 from ...geometry.triangles import face_areas
 from ...intake.intake import Intake
 from ...intake.stated import Stated, StatedPart
-from ...mesh import IntArray, Mesh
+from ...mesh import FloatArray, IntArray, Mesh
 from ...part import PartKind, Proposer
 from ..articulator import Articulator, make_hypotheses
 from ..assembly import JOINT_SUFFIX, assembled
@@ -25,7 +25,7 @@ from ..rigid import rigid_articulation
 from ..seams.articulator import cut_along
 from ..seams.cutting import inside
 from ..seams.placing import OpeningPart
-from .placing import NOT_FOUND, USUAL, Placed, place_parts, stated_unit
+from .placing import NOT_FOUND, USUAL, Placed, SeenMesh, place_parts, stated_unit
 
 NAME = "stated"
 #: Whole hypotheses that are worth trying.
@@ -44,13 +44,17 @@ class StatedArticulator:
     Args:
         stated: what a sidecar says.
         guess: who is asked for parts that are stated without a place.
+        seen: the mesh that is going to be asked about, as :func:`seen_from` gives it.
     """
 
     name = NAME
 
-    def __init__(self, stated: Stated, guess: Articulator | None = None) -> None:
+    def __init__(
+        self, stated: Stated, guess: Articulator | None = None, seen: SeenMesh | None = None
+    ) -> None:
         self.stated = stated
         self.guess = guess
+        self.seen = seen
 
     def articulate(self, mesh: Mesh) -> Articulation:
         """Return the likeliest hypothesis of ``mesh`` [m], z up."""
@@ -78,7 +82,7 @@ class StatedArticulator:
                 f"parts[{bare}] ({self.stated.parts[bare].kind}): has no side and box; want them "
                 "for every part, or for none where the finding is left to the factory",
             )
-        placed = _placed(mesh, self.stated)
+        placed = _placed(self.seen or seen_from(mesh, self.stated.front), self.stated)
         chosen = list(islice(_choices(placed), MOST_HYPOTHESES))
         cut = cut_along(mesh, chosen)
         return tuple(Hypothesis.of(_articulation(cut.mesh, placed, ways)) for ways in chosen)
@@ -146,12 +150,21 @@ def _kinds(articulation: Articulation) -> Counter[PartKind]:
     return Counter(articulation.parts[joint.child].kind for joint in articulation.movable_joints)
 
 
-def _placed(mesh: Mesh, stated: Stated) -> list[Placed]:
-    """Return the stated parts, found on the mesh turned so that its front is -Y, turned back."""
-    turn = rotation_about([0.0, 0.0, 1.0], _TURNS[stated.front] * np.pi / 2.0)
+def seen_from(mesh: Mesh, front: str) -> SeenMesh:
+    """Return a mesh turned so that a stated front is -Y."""
+    return SeenMesh(mesh.turned(_turn(front)))
+
+
+def _turn(front: str) -> FloatArray:
+    return rotation_about([0.0, 0.0, 1.0], _TURNS[front] * np.pi / 2.0)
+
+
+def _placed(seen: SeenMesh, stated: Stated) -> list[Placed]:
+    """Return the stated parts, found on the turned mesh, turned back."""
+    back = _turn(stated.front).T
     return [
-        replace(each, ways=tuple(way.turned(turn.T) for way in each.ways))
-        for each in place_parts(mesh.turned(turn), stated.parts)
+        replace(each, ways=tuple(way.turned(back) for way in each.ways))
+        for each in place_parts(seen, stated.parts)
     ]
 
 
@@ -246,7 +259,7 @@ def _owners(
             why = f"other stated parts take {taken:.0f} % of its surface"
             found = why if within.any() else "no surface of the mesh is in its box"
             named = placed[index].stated.name or placed[index].stated.kind
-            raise InputRejected(NOT_FOUND, f"{named}: {found}")
+            raise InputRejected(NOT_FOUND, f"parts[{index}] ({named}): {found}")
         owner[own] = index + 1
     return owner
 

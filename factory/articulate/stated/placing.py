@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from ...articulation import JointKind, rotation_about
 from ...errors import InputRejected
 from ...geometry.crossings import Side
 from ...intake.stated import Hinge, StatedPart, StatedView
-from ...mesh import Mesh
+from ...mesh import FloatArray, Mesh
 from ...part import OpensBy, PartKind
 from ..proposal import Motion
 from ..seams.cutting import Region
@@ -60,7 +61,34 @@ _HINGE_SIDES = {
     Hinge.RIGHT: Side.RIGHT,
 }
 #: Turns the top of an object to where its front is.
-FROM_ABOVE = rotation_about([1.0, 0.0, 0.0], np.pi / 2.0)
+FROM_ABOVE: FloatArray = rotation_about([1.0, 0.0, 0.0], np.pi / 2.0)
+
+
+@dataclass(frozen=True, eq=False)
+class SeenMesh:
+    """A mesh with its sides, to be kept by who changes the boxes on them.
+
+    Attributes:
+        mesh: whose front is -Y.
+    """
+
+    mesh: Mesh
+
+    @cached_property
+    def around(self) -> dict[Side, Front]:
+        """Return its upright sides."""
+        return fronts_of(reliefs_of(self.mesh))
+
+    @cached_property
+    def above(self) -> dict[Side, Front]:
+        """Return the sides of the mesh turned so that its top is its front."""
+        return fronts_of(reliefs_of(self.mesh.turned(FROM_ABOVE)))
+
+    def look(self) -> SeenMesh:
+        """Look at its upright sides now; returns itself."""
+        for front in self.around.values():
+            _ = front.scene
+        return self
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,8 +131,8 @@ class _Boxed:
         return f"parts[{self.place}] ({self.stated.name or self.stated.kind})"
 
 
-def place_parts(mesh: Mesh, parts: Sequence[StatedPart]) -> list[Placed]:
-    """Return every stated part that has a box, found on a mesh whose front is -Y.
+def place_parts(seen: SeenMesh, parts: Sequence[StatedPart]) -> list[Placed]:
+    """Return every stated part that has a box, found on a mesh.
 
     Raises:
         InputRejected: ``stated_part_not_found``: a box shows nothing, or two take the same place.
@@ -117,15 +145,15 @@ def place_parts(mesh: Mesh, parts: Sequence[StatedPart]) -> list[Placed]:
             if part.view is not None and (part.view.side is Side.TOP) is above
         }
         if views:
-            turned = mesh.turned(turn)
-            fronts = fronts_of(reliefs_of(turned))
+            turned = seen.mesh.turned(turn)
+            fronts = seen.above if above else seen.around
             boxed = [
                 _boxed(turned, fronts, parts[place], place, view) for place, view in views.items()
             ]
             _refuse_shared(boxed)
             for each in boxed:
                 ways = [way.turned(turn.T) for way in _openings(fronts, each, boxed)]
-                stated = tuple(_as_stated(way, each.stated, mesh) for way in ways)
+                stated = tuple(_as_stated(way, each.stated, seen.mesh) for way in ways)
                 found[each.place] = Placed(each.stated, stated)
     return [found[place] for place in sorted(found)]
 

@@ -16,7 +16,7 @@ from shown_registry import bundle_in, make_registry
 
 from asset_factory.factory.report.site.alone import page_of_file
 from asset_factory.factory.report.site.render import STATIC, STATIC_FILES, grid_html
-from asset_factory.factory.report.site.server import serve
+from asset_factory.factory.report.site.server import one_page, serve
 from asset_factory.factory.report.site.site import stale, write_asset, write_index
 from asset_factory.factory.report.site.told import AssetPage
 
@@ -210,7 +210,7 @@ def test_the_viewer_is_served_to_this_machine(browser, tmp_path):
     from threading import Thread
 
     text = page_of_file(bundle_in(tmp_path / "bundle") / "asset.xml")
-    with serve(text.encode()) as server:
+    with serve(one_page(text.encode())) as server:
         thread = Thread(target=server.run)
         thread.start()
         page = browser.new_page()

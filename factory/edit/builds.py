@@ -1,0 +1,118 @@
+"""One build at a time, as a child process that can be killed."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from contextlib import suppress
+from dataclasses import dataclass
+from tempfile import TemporaryFile
+from threading import Lock, Thread
+from typing import IO
+
+#: What a build that failed said last is shown, so much of it [bytes].
+TAIL_BYTES = 2000
+
+
+@dataclass
+class BuildRun:
+    """A build, under way or ended.
+
+    Attributes:
+        process: of ``factory build``, leader of a group of its own.
+        errors: what it complains of.
+        asset: id of what it registered, or rejected; empty as long as there is none.
+        said: why there is none, once it has ended without.
+        stopped: whether it was killed.
+    """
+
+    process: subprocess.Popen[str]
+    errors: IO[bytes]
+    asset: str = ""
+    said: str = ""
+    stopped: bool = False
+
+
+class Builds:
+    """Runs ``factory build`` with the flags that a page was opened with.
+
+    Args:
+        arguments: of the command line, after ``factory``; with ``--json``.
+    """
+
+    def __init__(self, arguments: tuple[str, ...]) -> None:
+        self._arguments = arguments
+        self._lock = Lock()
+        self._run: BuildRun | None = None
+
+    @property
+    def running(self) -> bool:
+        """Tell whether there is no verdict yet of what was begun last."""
+        run = self._run
+        return run is not None and not (run.asset or run.said)
+
+    @property
+    def asset(self) -> str:
+        """Return the id of what the last build gave; empty if there is none."""
+        return self._run.asset if self._run is not None else ""
+
+    @property
+    def said(self) -> str:
+        """Return why the last build gave nothing; empty if it did."""
+        return self._run.said if self._run is not None else ""
+
+    def start(self) -> None:
+        """Begin a build; one that is under way is killed first."""
+        with self._lock:
+            self._kill()
+            errors = TemporaryFile()  # noqa: SIM115 - closed by who follows the build
+            process = subprocess.Popen(  # noqa: S603 - our own program
+                [sys.executable, "-m", "asset_factory.factory.cli", *self._arguments],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=errors,
+                text=True,
+                start_new_session=True,
+            )
+            self._run = BuildRun(process, errors)
+            Thread(target=_follow, args=(self._run,), daemon=True).start()
+
+    def stop(self) -> None:
+        """Kill what is under way; what was finished is registered."""
+        with self._lock:
+            self._kill()
+
+    def _kill(self) -> None:
+        run = self._run
+        if run is None or run.process.poll() is not None:
+            return
+        run.stopped = True
+        with suppress(ProcessLookupError, PermissionError):
+            os.killpg(run.process.pid, signal.SIGKILL)
+        run.process.wait()
+
+
+def _follow(run: BuildRun) -> None:
+    """Read the summary of a build as soon as it is printed, before its pages are drawn."""
+    printed = ""
+    if run.process.stdout is not None:
+        for line in run.process.stdout:
+            printed += line
+            if line == "}\n":
+                break
+    with suppress(ValueError, LookupError, TypeError):
+        run.asset = str(json.loads(printed)["assets"][0]["id"])
+    code = run.process.wait()
+    if not run.asset:
+        ended = f"It left with exit code {code}: {_tail(run.errors)}"
+        run.said = "It was stopped." if run.stopped else ended
+    run.errors.close()
+
+
+def _tail(errors: IO[bytes]) -> str:
+    size = errors.seek(0, os.SEEK_END)
+    errors.seek(max(0, size - TAIL_BYTES))
+    return errors.read().decode("utf-8", "replace").strip()
