@@ -54,7 +54,7 @@ def run(command: Edit) -> int:
     simulators_named(command.sim)
     config = input_config(command.loading)
     subject = subject_of(command.input, command.output, USUAL_OUTPUT)
-    place = ("--input", str(subject.mesh), "--output", str(subject.output))
+    place = ("--input", str(subject.mesh.absolute()), "--output", str(subject.output))
     flags = (*place, "--sim", command.sim, "--json", *_said(command.loading))
     try:
         with editing(subject, config, Builds(("build", *flags)), command.port) as server:

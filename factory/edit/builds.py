@@ -15,6 +15,8 @@ from typing import IO
 
 #: What a build that failed said last is shown, so much of it [bytes].
 TAIL_BYTES = 2000
+#: For the end of what a killed build prints [s].
+PATIENCE_S = 10.0
 
 
 @dataclass
@@ -27,6 +29,7 @@ class BuildRun:
         asset: id of what it registered, or rejected; empty as long as there is none.
         said: why there is none, once it has ended without.
         stopped: whether it was killed.
+        follower: reads what it prints.
     """
 
     process: subprocess.Popen[str]
@@ -34,6 +37,7 @@ class BuildRun:
     asset: str = ""
     said: str = ""
     stopped: bool = False
+    follower: Thread | None = None
 
 
 class Builds:
@@ -78,7 +82,8 @@ class Builds:
                 start_new_session=True,
             )
             self._run = BuildRun(process, errors)
-            Thread(target=_follow, args=(self._run,), daemon=True).start()
+            self._run.follower = Thread(target=_follow, args=(self._run,), daemon=True)
+            self._run.follower.start()
 
     def stop(self) -> None:
         """Kill what is under way; what was finished is registered."""
@@ -93,23 +98,33 @@ class Builds:
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(run.process.pid, signal.SIGKILL)
         run.process.wait()
+        if run.follower is not None:
+            # Its pipe closes when the last of its own children has noticed.
+            run.follower.join(PATIENCE_S)
 
 
 def _follow(run: BuildRun) -> None:
     """Read the summary of a build as soon as it is printed, before its pages are drawn."""
     printed = ""
     if run.process.stdout is not None:
-        for line in run.process.stdout:
-            printed += line
-            if line == "}\n":
-                break
-    with suppress(ValueError, LookupError, TypeError):
-        run.asset = str(json.loads(printed)["assets"][0]["id"])
+        with run.process.stdout as lines:
+            for line in lines:
+                printed += line
+                if line == "}\n":
+                    run.asset = _built(printed)
     code = run.process.wait()
     if not run.asset:
         ended = f"It left with exit code {code}: {_tail(run.errors)}"
         run.said = "It was stopped." if run.stopped else ended
     run.errors.close()
+
+
+def _built(printed: str) -> str:
+    """Return the id of the one input of a summary; empty if it has none."""
+    try:
+        return str(json.loads(printed)["assets"][0]["id"])
+    except (ValueError, LookupError, TypeError):
+        return ""
 
 
 def _tail(errors: IO[bytes]) -> str:

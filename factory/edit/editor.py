@@ -21,6 +21,7 @@ from ..runtime.store import write_whole
 from . import work
 from .builds import Builds
 from .page import STATIC_FILES, page_html, static_file
+from .pictures import SidePicture
 from .subject import Subject
 
 T = TypeVar("T")
@@ -57,7 +58,8 @@ class AskedChild:
     def end(self) -> None:
         """Kill it."""
         self._child.abandon()
-        self._child.close()
+        with self._lock:
+            self._child.close()
 
 
 class Editor:
@@ -132,7 +134,7 @@ class Editor:
             # The preview says what is wrong.
             return
 
-    def _pictures(self, front: str) -> dict[str, work.SidePicture]:
+    def _pictures(self, front: str) -> dict[str, SidePicture]:
         drawn = self._quick.ask(work.pictures_of, self._subject.mesh, self._config, front)
         return {str(picture.side): picture for picture in drawn}
 

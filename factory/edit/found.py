@@ -80,8 +80,8 @@ def _part(
     covers = (box[1] - box[0])[:2] / np.maximum(mesh.extents[:2], 1e-9)
     if kind is PartKind.LID and covers.min() > _WHOLE:
         shares = _shares(mesh, Side.FRONT, box)
-        hinge = Hinge(str(side_facing(_level(origin - box.mean(axis=0)))))
-        return StatedPart(kind, Side.FRONT, (0.0, shares[1], 1.0, 1.0), hinge)
+        behind = Hinge(str(side_facing(_level(origin - box.mean(axis=0)))))
+        return StatedPart(kind, Side.FRONT, (0.0, shares[1], 1.0, 1.0), behind)
     side = _side(mesh, box, joint, axis, kind)
     hinge = _hinge(side, box, axis, origin) if kind in _HINGED else None
     return StatedPart(kind, side, _shares(mesh, side, box), hinge)
@@ -115,7 +115,7 @@ def _hinge(side: Side, box: FloatArray, axis: FloatArray, origin: FloatArray) ->
 
 
 def _level(direction: FloatArray) -> FloatArray:
-    return direction * np.array([1.0, 1.0, 0.0])
+    return np.asarray(direction * np.array([1.0, 1.0, 0.0]))
 
 
 def _shares(mesh: Mesh, side: Side, box: FloatArray) -> Box:

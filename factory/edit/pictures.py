@@ -70,4 +70,4 @@ def _shaded(seen: Elevation) -> FloatArray:
         bend = np.roll(depth, 1, axis) - 2.0 * depth + np.roll(depth, -1, axis)
         step |= np.abs(bend) > limit
     shaded[step & seen.seen] *= 0.35
-    return np.clip(shaded, 0.0, 1.0)
+    return np.asarray(np.clip(shaded, 0.0, 1.0))

@@ -11,7 +11,6 @@ from msgspec import structs, to_builtins
 
 from asset_factory.sim_checks import Status
 
-from ..articulate.rigid import rigid_articulation
 from ..articulate.stage import hypotheses_of
 from ..articulate.stated import StatedArticulator
 from ..articulate.stated.articulator import seen_from
@@ -28,7 +27,7 @@ from ..intake.stated import Stated
 from ..part import PartKind
 from ..registry import Registry
 from ..registry.registry import read_manifest
-from ..report.site.told import AssetPage, asset_page
+from ..report.site.told import AssetPage, about, asset_page
 from ..runtime.layout import MODEL
 from .found import found_parts
 from .pictures import SidePicture, side_pictures
@@ -97,16 +96,19 @@ def preview(mesh: Path, config: BuildConfig, stated: Stated) -> bytes:
         InputRejected: a stated part is not found.
     """
     intake = _loaded(mesh, config)
+    seen = _seen(mesh, config, stated.front)
     named = [
         structs.replace(part, name=part.name or PREVIEW_NAME.format(place))
         for place, part in enumerate(stated.parts)
     ]
-    stated = structs.replace(stated, parts=tuple(named))
-    seen = _seen(mesh, config, stated.front)
-    if stated.parts:
+    if not named:
+        return glb_of(scene_of_mesh(intake.name, intake.mesh))
+    told = structs.replace(stated, parts=tuple(named))
+    try:
+        made = StatedArticulator(told, seen=seen).articulate(intake.mesh)
+    except InputRejected:
+        # Whoever reads why knows its parts by their own names.
         made = StatedArticulator(stated, seen=seen).articulate(intake.mesh)
-    else:
-        made = rigid_articulation(intake.mesh, "stated", ())
     return glb_of(scene_of_articulation(intake.name, made))
 
 
@@ -146,7 +148,7 @@ def verdict_of(output: Path, asset_id: str) -> ShownVerdict:
         "passed": entry.status is Status.PASSED,
         "reason": entry.reason,
         "message": entry.message,
-        "about": f"{entry.parts} parts, {entry.joints} joints, {entry.hulls} hulls",
+        "about": about(entry),
         "groups": groups,
         "repairs": [repair.sentence for repair in page.repairs],
         "shown": _shown(page),

@@ -22,7 +22,7 @@ export class Stage {
     if (this.viewer) this.viewer.replace(model);
     else {
       this.viewer = new Viewer(this.canvas, model, TOWARD[front]);
-      new Grab(this.viewer, {
+      this.grab = new Grab(this.viewer, {
         moved: (joint, value) => this.pose(new Map([[joint.name, value]])),
         chose: (joint) => this.hears.chose(joint),
       });

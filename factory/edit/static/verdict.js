@@ -49,9 +49,16 @@ export class Verdict {
       make("p", { class: "dim" }, make("code", {}, told.id), ` ${told.about}`),
     ];
     if (told.message) parts.push(make("p", {}, make("code", {}, told.reason), ` ${told.message}`));
-    const findings = told.groups.filter((group) => group.error || told.passed);
-    parts.push(...findings.slice(0, 8).map((group) => this.group(group, told)));
-    if (told.repairs.length) parts.push(make("p", { class: "dim" }, told.repairs.join(" ")));
+    const [errors, warnings] = [true, false].map((error) => told.groups.filter((group) => group.error === error));
+    parts.push(...errors.slice(0, 8).map((group) => this.group(group, told)));
+    if (warnings.length) {
+      const title = `${warnings.length} warning${warnings.length === 1 ? "" : "s"}`;
+      parts.push(make("details", {}, make("summary", {}, title), ...warnings.map((group) => this.group(group, told))));
+    }
+    if (told.repairs.length) {
+      const list = make("ul", {}, ...told.repairs.map((each) => make("li", {}, each)));
+      parts.push(make("details", {}, make("summary", {}, `${told.repairs.length} repair${told.repairs.length === 1 ? "" : "s"}`), list));
+    }
     this.show(...parts);
     const model = await fetch("built.glb");
     this.hears.built(told, model.ok ? await model.arrayBuffer() : null);
@@ -66,7 +73,7 @@ export class Verdict {
     // The first reason is said above already.
     const rest = code === told.reason ? lines.slice(findings[0][1] >= 0 ? 0 : 1) : lines;
     if (!rest.length) return "";
-    return make("details", { class: error ? "hard" : "soft", ...(error ? { open: "" } : {}) }, make("summary", {}, make("code", {}, code)), make("p", { class: "dim" }, meaning), ...rest);
+    return make("div", { class: error ? "found hard" : "found" }, make("code", {}, code), make("p", { class: "dim" }, meaning), ...rest);
   }
 
   show(...parts) {
