@@ -64,6 +64,7 @@ class Page {
       find("#as-text").open = true;
     }
     document.body.classList.add("ready");
+    performance.mark("ready");
     if (this.statement.parts.length) this.preview();
     else if (!state.text) this.guess();
     window.factory = { page: this };

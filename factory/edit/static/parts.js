@@ -34,12 +34,14 @@ export class Parts {
   draw(chosen, sentence, jointOf) {
     const focused = this.list.contains(document.activeElement) ? document.activeElement.dataset.focus : null;
     this.sliders.clear();
-    const wrong = new Set(placesIn(sentence));
+    const wrong = placesIn(sentence);
+    const told = wrong.includes(chosen) ? chosen : wrong.at(-1);
     this.list.replaceChildren(...this.statement.parts.map((part, index) => {
       const row = this.row(part, index, index === chosen);
       const joint = jointOf(index);
       if (joint && index === chosen) row.append(this.slider(index, joint));
-      if (wrong.has(index)) row.append(make("p", { class: "wrong" }, sentence));
+      row.classList.toggle("refused", wrong.includes(index));
+      if (index === told) row.append(make("p", { class: "wrong" }, sentence));
       return row;
     }));
     if (focused) this.list.querySelector(`[data-focus="${focused}"]`)?.focus({ preventScroll: true });

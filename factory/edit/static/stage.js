@@ -16,6 +16,7 @@ export class Stage {
   /** Show a GLB; what was open stays open by as large a share. `told`: of a build. */
   show(buffer, front, told = null) {
     const shares = this.shares();
+    const opened = this.model?.free.length;
     const model = new Model(buffer);
     this.told = told;
     this.bodies = told && model.hulls.length ? new Bodies(model, told.ignored) : null;
@@ -26,8 +27,11 @@ export class Stage {
         moved: (joint, value) => this.pose(new Map([[joint.name, value]])),
         chose: (joint) => this.hears.chose(joint),
       });
+      this.viewer.controls.addEventListener("start", () => { this.looked = true; });
     }
     this.model = model;
+    // What has just come to open is in sight when it is, unless somebody looks elsewhere.
+    if (!opened && !this.looked) this.viewer.reset();
     this.viewer.shown.hulls = false;
     this.slider.disabled = !model.free.length;
     this.pose(new Map(model.free.map((joint) => [joint.name, joint.at(shares.get(joint.name) ?? this.share)])));

@@ -6,17 +6,19 @@ Slow, and it needs Chromium: ``make site-test``.
 from __future__ import annotations
 
 import json
+from contextlib import contextmanager
 from threading import Thread
 
 import pytest
 from browser import CONTRAST, LAPTOP, PHONE, until
 from edited_mesh import write_oven
+from shown_registry import make_registry
 
 from asset_factory.factory.cli.commands import run
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.edit.builds import Builds
 from asset_factory.factory.edit.editor import editing
-from asset_factory.factory.edit.subject import subject_of
+from asset_factory.factory.edit.subject import Subject, subject_of
 from asset_factory.factory.registry import Registry
 
 pytestmark = pytest.mark.browser
@@ -39,12 +41,9 @@ def rejected(tmp_path, capsys):
     return folder
 
 
-@pytest.fixture
-def page(browser, rejected):
-    """Its page; afterwards nothing may have been complained of on the console."""
-    subject = subject_of(rejected, None, rejected)
-    place = ("--input", str(subject.mesh), "--output", str(subject.output))
-    builds = Builds(("build", *place, *BUILD, "--json"))
+@contextmanager
+def opened(browser, subject, builds):
+    """A page; afterwards nothing may have been complained of on the console."""
     said = []
     with editing(subject, BuildConfig(), builds) as server:
         thread = Thread(target=server.run)
@@ -63,6 +62,14 @@ def page(browser, rejected):
         thread.join()
     # What the reader refuses, the browser calls an error of its own.
     assert [each for each in said if "422" not in each] == []
+
+
+@pytest.fixture
+def page(browser, rejected):
+    subject = subject_of(rejected, None, rejected)
+    place = ("--input", str(subject.mesh), "--output", str(subject.output))
+    with opened(browser, subject, Builds(("build", *place, *BUILD, "--json"))) as page:
+        yield page
 
 
 def draw(page, left, lower, right, upper):
@@ -145,6 +152,28 @@ def refuse_and_undo(page, flap):
     page.keyboard.press("]")
     page.keyboard.press("3")
     assert page.locator("#thumbs [aria-pressed=true]").inner_text() == "right"
+
+
+def test_what_fails_shows_where_it_hits(browser, tmp_path):
+    class Done(Builds):
+        running = False
+        asset = "hitting-2"
+
+        def start(self):
+            pass
+
+    registry = make_registry(tmp_path / "out")
+    subject = Subject(write_oven(tmp_path), registry.root)
+    with opened(browser, subject, Done(())) as page:
+        page.keyboard.press("n")
+        page.keyboard.press("Control+Enter")
+        page.wait_for_selector("#verdict p.verdict.rejected")
+        until(page, "factory.page.shown === 'built'")
+        page.keyboard.press("o")
+        page.get_by_role("button", name="Show").first.click()
+        stage = "factory.page.stage"
+        until(page, f"Math.abs({stage}.model.values.get('hinge') - 0.8) < 1e-6")
+        until(page, f"{stage}.viewer.marks.children.length >= 1")
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
