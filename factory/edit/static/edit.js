@@ -54,6 +54,7 @@ class Page {
     find("#facts").replaceChildren(
       make("span", {}, `Saved as ${state.sidecar} beside it`), make("span", {}, `registered in ${state.output}`),
     );
+    this.turned = this.front;
     await this.sides.load(this.front);
     this.stage.show(this.plain, this.front);
     this.shown = "stated";
@@ -80,13 +81,16 @@ class Page {
     this.chosen = Math.min(this.chosen, this.statement.parts.length - 1);
     this.sentence = "";
     this.shows("stated");
+    if (this.turned !== this.front) {
+      this.turned = this.front;
+      this.sides.load(this.front);
+      this.stage.turn(this.front);
+    }
     this.refresh();
     this.preview();
-    if (this.turned !== this.front) this.sides.load(this.front);
   }
 
   refresh() {
-    this.turned = this.front;
     const { statement, sides } = this;
     sides.chosen = this.chosen;
     sides.draw();
@@ -240,7 +244,7 @@ class Page {
     on("#save", () => this.save());
     on("#build", () => this.build());
     on("#add", () => this.addHere());
-    on("#view", () => this.stage.viewer.reset());
+    on("#view", () => this.stage.reset());
     for (const button of document.querySelectorAll("[data-shows]")) button.addEventListener("click", () => this.shows(button.dataset.shows));
     this.text.addEventListener("input", () => this.read());
     this.text.addEventListener("blur", () => this.refresh());
@@ -298,7 +302,7 @@ class Page {
       u: () => this.statement.undo(),
       y: () => this.statement.redo(),
       o: () => this.stage.glide(this.stage.share > 0.5 ? 0 : 1),
-      v: () => this.stage.viewer.reset(),
+      v: () => this.stage.reset(),
       delete: () => this.remove(this.chosen),
       backspace: () => this.remove(this.chosen),
       escape: () => this.choose(-1),

@@ -16,7 +16,6 @@ export class Stage {
   /** Show a GLB; what was open stays open by as large a share. `told`: of a build. */
   show(buffer, front, told = null) {
     const shares = this.shares();
-    const opened = this.model?.free.length;
     const model = new Model(buffer);
     this.told = told;
     this.bodies = told && model.hulls.length ? new Bodies(model, told.ignored) : null;
@@ -30,8 +29,8 @@ export class Stage {
       this.viewer.controls.addEventListener("start", () => { this.looked = true; });
     }
     this.model = model;
-    // What has just come to open is in sight when it is, unless somebody looks elsewhere.
-    if (!opened && !this.looked) this.viewer.reset();
+    // What opens is in sight when it does, unless somebody looks elsewhere.
+    if (!this.looked) this.viewer.reset();
     this.viewer.shown.hulls = false;
     this.slider.disabled = !model.free.length;
     this.pose(new Map(model.free.map((joint) => [joint.name, joint.at(shares.get(joint.name) ?? this.share)])));
@@ -41,6 +40,12 @@ export class Stage {
   turn(front) {
     this.viewer.front = TOWARD[front];
     this.viewer.frame();
+    this.viewer.reset();
+  }
+
+  /** Look at all of it again. */
+  reset() {
+    this.looked = false;
     this.viewer.reset();
   }
 

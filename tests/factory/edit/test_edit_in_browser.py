@@ -152,6 +152,9 @@ def refuse_and_undo(page, flap):
     page.keyboard.press("]")
     page.keyboard.press("3")
     assert page.locator("#thumbs [aria-pressed=true]").inner_text() == "right"
+    page.click("#as-text summary")
+    page.fill("#text", json.dumps({"front": "x", "parts": []}))
+    until(page, "factory.page.sides.image.src.endsWith('sides/x/right.png')")
 
 
 def test_what_fails_shows_where_it_hits(browser, tmp_path):
