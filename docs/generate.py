@@ -1,4 +1,4 @@
-"""Tables in the docs that the code itself knows, written between marks.
+"""What of the docs the code itself knows: tables between marks, and files.
 
 python docs/generate.py            write them anew
 python docs/generate.py --check    exit code 1 where a page is not as the code would write it
@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import inspect
+import json
 import re
 import sys
 import textwrap
@@ -24,6 +25,7 @@ from asset_factory.envs.tasks.catalog import TASKS
 from asset_factory.factory.articulate.catalog import ARTICULATORS
 from asset_factory.factory.cli.commands import COMMANDS, OPTIONS
 from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.intake import stated
 from asset_factory.factory.reasons import TABLES
 from asset_factory.learn.train.settings import TrainConfig
 from asset_factory.sim_checks import Finding
@@ -39,9 +41,12 @@ def main() -> int:
     """Write or check every page; returns the exit code."""
     check = "--check" in sys.argv[1:]
     stale = []
-    for page in sorted((*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"))):
-        text = page.read_text(encoding="utf-8")
+    pages = sorted((*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")))
+    for page in (*pages, *(ROOT / name for name in FILES)):
+        text = page.read_text(encoding="utf-8") if page.is_file() else ""
+        writer = FILES.get(page.relative_to(ROOT).as_posix())
         new = MARKED.sub(lambda found: f"{found[1]}{WRITERS[found[2]]()}{found[3]}", text)
+        new = new if writer is None else writer()
         if new != text:
             stale.append(page.relative_to(ROOT))
             if not check:
@@ -196,6 +201,18 @@ def tasks() -> str:
     return table(("task", "class"), rows)
 
 
+def parts_schema() -> str:
+    """Return the JSON schema of stated parts, each property with what its class says of it."""
+    schema = stated.schema()
+    for name, form in schema["$defs"].items():
+        form["description"] = " ".join(form["description"].partition("\n")[0].split())
+        for key, value in form.get("properties", {}).items():
+            meaning = _cell(attributes(getattr(stated, name))[key])
+            form["properties"][key] = {"description": meaning, **value}
+    dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
+    return json.dumps({**dialect, **schema}, indent=1) + "\n"
+
+
 def results() -> str:
     """Return every file of results as a table with what made it and what it means."""
     files = [tomllib.loads(each.read_text(encoding="utf-8")) for each in RESULTS.glob("*.toml")]
@@ -235,6 +252,9 @@ WRITERS: Mapping[str, Callable[[], str]] = {
     "tasks": tasks,
     "results": results,
 }
+
+#: Files that are written whole.
+FILES: Mapping[str, Callable[[], str]] = {"docs/parts.schema.json": parts_schema}
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -122,11 +122,13 @@ class Weights:
         digest: SHA-256 of it.
         license: under which terms they, and what is made with them, may be used; ``None`` if
             unknown.
+        outputs: the license that they put on whatever they help to make; ``None``: none.
     """
 
     file: str
     digest: str
     license: str | None
+    outputs: str | None = None
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from asset_factory.sim_checks.judge import Judge
 
 from .articulate.proposal import Hypothesis
 from .articulate.standing import standing_hypotheses
+from .articulate.terms import with_terms
 from .config import BuildConfig
 from .errors import InputRejected, Unjudged
 from .export.bundle import with_manifest_of
@@ -57,6 +58,7 @@ def make_asset(
         with stages.clock.stage("load"):
             intake = origin.load()
         intake, likeliest_first = standing_hypotheses(intake, origin, stages)
+        intake = with_terms(intake, likeliest_first, config.intake.allowed_licenses)
         drafts = _drafts(likeliest_first, intake, staging, judge, stages)
         draft, others = best_of(drafts)
         rounds = Rounds(draft.articulation, intake, staging, judge, stages)

@@ -269,6 +269,27 @@ class RepairConfig:
 
 
 @dataclass(frozen=True)
+class VlmConfig:
+    """A vision-language model that is asked what opens, by ``articulator = "vlm"``.
+
+    Attributes:
+        url: of an endpoint that speaks OpenAI's chat-completions protocol, without that word, such
+            as ``http://localhost:8000/v1``. Pictures of inputs and their file names go there.
+        model: its name there.
+        wait_s: longest wait for an answer [s].
+        most_tokens: of an answer.
+        answers: folder where answers are kept; empty: ``asset-factory/answers`` in the user's
+            cache.
+    """
+
+    url: str = ""
+    model: str = ""
+    wait_s: float = field(default=120.0, metadata={LIMIT: True})
+    most_tokens: int = 4096
+    answers: str = field(default="", metadata={LIMIT: True})
+
+
+@dataclass(frozen=True)
 class ReadingsConfig:
     """How an input that can be read in several ways becomes one asset.
 
@@ -289,7 +310,7 @@ class BuildConfig:
     Attributes:
         articulator: ``auto`` (what came with the input, else ``particulate`` with a checkpoint of
             one's own, else the shipped network and the rules of shape together), ``annotated``,
-            ``geometric``, ``seams``, ``particulate``, ``rigid``.
+            ``geometric``, ``seams``, ``particulate``, ``vlm``, ``rigid``.
         simulators: who judges.
         formats: what an asset is written in, besides URDF and MJCF: ``sdf``, ``usd``, ``glb``.
         asset_wall_s: longest a single input may take, repairs included [s].
@@ -313,4 +334,5 @@ class BuildConfig:
     inertia: InertiaConfig = field(default_factory=InertiaConfig)
     checks: CheckConfig = field(default_factory=CheckConfig)
     repair: RepairConfig = field(default_factory=RepairConfig)
+    vlm: VlmConfig = field(default_factory=VlmConfig)
     readings: ReadingsConfig = field(default_factory=ReadingsConfig)

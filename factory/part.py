@@ -57,6 +57,7 @@ class Proposer(StrEnum):
     RULES = "rules"
     SIDES = "sides"
     NETWORK = "network"
+    VLM = "vlm"
 
 
 @dataclass(frozen=True)

@@ -25,6 +25,7 @@ INPUT: Mapping[str, str] = {
     "bad_sidecar": "the sidecar beside it cannot be used",
     "bad_annotation": "the `pred.npz` beside it, or its joints, cannot be used",
     "stated_part_not_found": "a part that its sidecar states is not where it says [of its area]",
+    "bad_answer": "the model that was asked what opens did not answer in the form, twice",
     "no_annotation": "`annotated` was asked for, and no joints came with it",
     "not_a_tree": "its joints form no kinematic tree",
     "no_limits": "a slide without limits",
@@ -56,13 +57,18 @@ SOFT: Mapping[str, str] = {
     "articulation_note": "what was assumed or guessed of parts and joints",
 }
 
+#: Nobody could say; another run asks again.
+UNJUDGED: Mapping[str, str] = {
+    "model_unavailable": "the model that was to be asked what opens gave no answer",
+}
+
 #: Tables of the page, in order: heading, codes.
 TABLES: Mapping[str, Mapping[str, str]] = {
     "The input could not become an asset": INPUT,
     "The object cannot be trained on, or evaluated": DATASET,
     "The asset was made and did not pass": judge.HARD,
     "The description could not be read": judge.UNREADABLE,
-    "Nobody could say (status `unjudged`, exit code 3)": judge.UNJUDGED,
+    "Nobody could say (status `unjudged`, exit code 3)": {**judge.UNJUDGED, **UNJUDGED},
     "Worth knowing, no reason to reject": {**judge.SOFT, **SOFT},
 }
 

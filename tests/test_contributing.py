@@ -94,6 +94,20 @@ def test_an_articulator(monkeypatch):
     assert [joint.name for joint in chosen.articulate(mesh).movable_joints] == ["lid_hinge"]
 
 
+def test_a_proposer(monkeypatch):
+    entry = articulators.ArticulatorEntry
+    line = example("A proposer", monkeypatch, ArticulatorEntry=entry).LINE
+    table = {**articulators.ARTICULATORS, line.name: line}
+    monkeypatch.setattr(articulators, "ARTICULATORS", table)
+    mesh = box()
+    faces = np.arange(len(mesh.faces))
+    intake = Intake("my_chest", mesh, faces, np.eye(4), Provenance("my_chest.obj", "0"))
+    chosen = articulators.choose(intake, BuildConfig(articulator="by_name"))
+    (joint,) = chosen.articulate(mesh).movable_joints
+    assert joint.name == "lid_0_hinge"
+    assert joint.origin[1:] == pytest.approx([0.2, 0.24], abs=0.01)
+
+
 def test_a_decomposition(monkeypatch):
     line = example("A decomposition", monkeypatch).LINE
     monkeypatch.setattr(methods, "METHODS", (line, *methods.METHODS))

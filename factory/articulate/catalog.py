@@ -45,6 +45,11 @@ ARTICULATORS: Mapping[str, ArticulatorEntry] = MappingProxyType(
                 "seams", "seams", "seams and handles on the sides of one-piece meshes"
             ),
             ArticulatorEntry("particulate", "particulate", "a trained network", True),
+            ArticulatorEntry(
+                "vlm",
+                "asking.articulator",
+                "what came with the input, else a vision-language model",
+            ),
             ArticulatorEntry("rigid", "rigid", "one part, no joints"),
         )
     }

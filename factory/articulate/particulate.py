@@ -233,4 +233,5 @@ def load_articulator(config: ParticulateConfig) -> ParticulateArticulator:
 
 def _weights(checkpoint: str) -> Weights:
     file = fetch(checkpoint)
-    return Weights(file.name, digest_file(file), describe(file).terms)
+    told = describe(file)
+    return Weights(file.name, digest_file(file), told.terms, told.outputs or None)

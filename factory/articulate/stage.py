@@ -38,7 +38,7 @@ ARTICULATE = Stage(
     "articulate",
     # Articulators are imported by their names.
     code=("asset_factory.factory.articulate", "asset_factory.factory.models"),
-    settings=("articulator", "particulate", "auto"),
+    settings=("articulator", "particulate", "auto", "vlm"),
     libraries=("numpy", "scipy", "trimesh", "torch"),
     data=tuple(
         f"weights/{name}.safetensors" for name in ("trust", "evidence", "rectangles", "seams")

@@ -32,11 +32,10 @@ class InputFlags:
     """How inputs are loaded, and who says what moves."""
 
     articulator: str = "auto"
-    """Who says what moves: auto, annotated, geometric, seams, particulate or
-    rigid."""
+    """Who says what moves: auto, stated, annotated, geometric, seams, particulate, vlm or rigid."""
     checkpoint: str | None = None
-    """Weights for particulate, which auto then asks alone: a file, or
-    hf:owner/repository/file@commit."""
+    """Weights for particulate, which auto then asks alone: a file,
+    hf:owner/repository/file@commit, or paper: those published, which are fetched."""
     features: str | None = None
     """Weights of its feature extractor, if it needs one: a file, or
     hf:owner/repository/file@commit."""
@@ -44,6 +43,11 @@ class InputFlags:
     """Points that particulate labels per sample."""
     samples: int | None = None
     """Samples that particulate reads; the one that agrees most with the others is taken."""
+    vlm_url: str | None = None
+    """With --articulator vlm: an endpoint of OpenAI's chat-completions protocol, such as
+    http://localhost:8000/v1; pictures of inputs go there. Its key: ASSET_FACTORY_VLM_KEY."""
+    vlm_model: str | None = None
+    """The model's name there."""
     up: str = "auto"
     """Axis of the input that points up: x, y, z, -x, -y, -z, or auto (glTF: y; all others: z)."""
     height: float | None = None
@@ -116,6 +120,7 @@ class OfPassed(OfRegistry):
 
 def input_config(flags: InputFlags) -> BuildConfig:
     """Return the configuration that flags ask for. Raises ConfigError: a bad flag."""
+    from ..articulate.asking.endpoint import require_endpoint
     from ..articulate.settings import require_usable
     from ..intake.orientation import parse_up
 
@@ -133,9 +138,27 @@ def input_config(flags: InputFlags) -> BuildConfig:
     given: dict[str, Any] = {
         name: getattr(flags, name) for name in asked if getattr(flags, name) is not None
     }
-    particulate = replace(config.particulate, **given)
+    particulate = replace(config.particulate, **{**given, **_published(flags)})
     require_usable(particulate, needed=flags.articulator == "particulate")
-    return replace(config, articulator=flags.articulator, intake=intake, particulate=particulate)
+    vlm = replace(config.vlm, url=flags.vlm_url or config.vlm.url)
+    vlm = replace(vlm, model=flags.vlm_model or vlm.model)
+    require_endpoint(vlm, needed=flags.articulator == "vlm")
+    return replace(
+        config, articulator=flags.articulator, intake=intake, particulate=particulate, vlm=vlm
+    )
+
+
+def _published(flags: InputFlags) -> dict[str, str]:
+    """Return settings for the published weights, if asked for; say their terms before a fetch."""
+    from ..models.weights.sources import PAPER, PARTFIELD, PARTICULATE
+
+    if flags.checkpoint != PAPER:
+        return {}
+    named = {"checkpoint": PARTICULATE.source, "features": flags.features or PARTFIELD.source}
+    for weights in (PARTICULATE, PARTFIELD):
+        if weights.source in named.values():
+            complain(f"factory: {weights.source}: {weights.terms}")
+    return named
 
 
 def simulators_named(names: str) -> tuple[str, ...]:

@@ -15,7 +15,7 @@ from asset_factory.sim_checks.processes.isolation import Limits, WarmChild, prel
 
 from ..config import BuildConfig
 from ..errors import AssetFactoryError, ConfigError
-from ..intake.stated import MOST_BYTES, OPENING_KINDS, Hinge, Stated, decoded, form_of, stated_from
+from ..intake.stated import MOST_BYTES, Hinge, Stated, StatedKind, decoded, form_of, stated_from
 from ..report.site.server import NOT_FOUND, PageRequest, PageResponse, PageServer, serve
 from ..runtime.store import write_whole
 from . import work
@@ -173,7 +173,7 @@ class Editor:
             "sentence": sentence,
             "found": self._opened.found,
             "asset": self._subject.asset.name if self._subject.asset else "",
-            "kinds": OPENING_KINDS,
+            "kinds": tuple(StatedKind),
             "hinges": tuple(Hinge),
             "fronts": FRONTS,
         }

@@ -10,7 +10,7 @@ from msgspec import structs
 from ..articulate.stated.snapping import StatedFrame
 from ..display.scene import SceneGraph, SceneJoint
 from ..geometry.crossings import Side, side_facing
-from ..intake.stated import NAME, Box, Hinge, Stated, StatedPart
+from ..intake.stated import NAME, Box, Hinge, Stated, StatedKind, StatedPart
 from ..mesh import FloatArray, Mesh
 from ..part import PartKind
 
@@ -81,10 +81,10 @@ def _part(
     if kind is PartKind.LID and covers.min() > _WHOLE:
         shares = _shares(mesh, Side.FRONT, box)
         behind = Hinge(str(side_facing(_level(origin - box.mean(axis=0)))))
-        return StatedPart(kind, Side.FRONT, (0.0, shares[1], 1.0, 1.0), behind)
+        return StatedPart(StatedKind(kind), Side.FRONT, (0.0, shares[1], 1.0, 1.0), behind)
     side = _side(mesh, box, joint, axis, kind)
     hinge = _hinge(side, box, axis, origin) if kind in _HINGED else None
-    return StatedPart(kind, side, _shares(mesh, side, box), hinge)
+    return StatedPart(StatedKind(kind), side, _shares(mesh, side, box), hinge)
 
 
 def _side(mesh: Mesh, box: FloatArray, joint: SceneJoint, axis: FloatArray, kind: PartKind) -> Side:

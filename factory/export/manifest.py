@@ -230,6 +230,9 @@ class Manifest:
         fields = asdict(self)
         if not self.invented:
             del fields["invented"]
+        for weights in fields["provenance"]["weights"]:
+            if weights["outputs"] is None:
+                del weights["outputs"]
         return json.dumps(fields, indent=2, allow_nan=False) + "\n"
 
     @classmethod

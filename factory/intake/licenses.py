@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fnmatch import fnmatchcase
 
 from ..errors import InputRejected
@@ -27,6 +27,18 @@ def is_allowed(license: str | None, allowed: Sequence[str]) -> bool:
     return stated.casefold() in names or (
         bool(parts) and all(_matches(part, names) for part in parts)
     )
+
+
+def combined(license: str | None, others: Iterable[str]) -> str | None:
+    """Return the terms of what is under several licenses at once, ``;`` between them.
+
+    Args:
+        license: of an input; ``None`` where nobody says.
+        others: that come in addition; none: the first one stays as it is.
+    """
+    stated = [part.strip() for part in (license or UNKNOWN).split(";")]
+    added = sorted(set(others) - set(stated))
+    return "; ".join([*stated, *added]) if added else license
 
 
 def _matches(stated: str, names: Sequence[str]) -> bool:

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct, ValidationError, convert
+from msgspec.structs import replace
 
 from ..errors import ConfigError
 from ..geometry.crossings import Side
@@ -27,8 +28,13 @@ from .sidecar import bad_sidecar, read_beside
 
 MOST_BYTES = 256 * 1024
 MOST_PARTS = 128
+SLIDES = "a drawer slides, so that it has no hinge"
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_.-]{0,63}")
 
+#: Names that no stated part may have.
+RESERVED = ("base", "world")
+#: Degrees or millimetres that a part moves.
+Amount = Annotated[float, Meta(ge=-10_000.0, le=10_000.0)]
 Share = Annotated[float, Meta(ge=0.0, le=1.0)]
 #: Left, lower, right and upper edge, in shares of a side's picture: x to the right, y up.
 Box = tuple[Share, Share, Share, Share]
@@ -43,6 +49,36 @@ class Hinge(StrEnum):
     BOTTOM = "bottom"
     FRONT = "front"
     BACK = "back"
+
+
+class StatedKind(StrEnum):
+    """What somebody may say that opens: the kinds of parts, and everyday words for some."""
+
+    DOOR = "door"
+    DRAWER = "drawer"
+    FLAP = "flap"
+    LID = "lid"
+    SEAT = "seat"
+    SCREEN = "screen"
+    RACK = "rack"
+    KNOB = "knob"
+    BUTTON = "button"
+    LEVER = "lever"
+    CAP = "cap"
+    WHEEL = "wheel"
+    SAIL = "sail"
+    TURNTABLE = "turntable"
+
+    @property
+    def part(self) -> PartKind:
+        """Return the kind of the part."""
+        return _EVERYDAY.get(self) or PartKind(self.value)
+
+
+_EVERYDAY: Mapping[StatedKind, PartKind] = {
+    StatedKind.SEAT: PartKind.LID,
+    StatedKind.SAIL: PartKind.WHEEL,
+}
 
 
 class StatedView(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
@@ -69,8 +105,14 @@ class StatedAlternative(Struct, frozen=True, forbid_unknown_fields=True, omit_de
         hinge: where else it may be hinged; ``None``: wherever fits.
     """
 
-    kind: PartKind | None = None
+    kind: StatedKind | None = None
     hinge: Hinge | None = None
+
+    def __post_init__(self) -> None:
+        if self.kind is None and self.hinge is None:
+            raise ValueError("an alternative has a kind, a hinge or both")
+        if self.kind is StatedKind.DRAWER and self.hinge is not None:
+            raise ValueError(SLIDES)
 
 
 class StatedPart(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
@@ -90,15 +132,15 @@ class StatedPart(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=
         also: where further sides show it, which bounds its depth.
     """
 
-    kind: PartKind
+    kind: StatedKind
     side: Side | None = None
     box: Box | None = None
     hinge: Hinge | None = None
     name: str | None = None
-    range: tuple[float, float] | None = None
+    range: tuple[Amount, Amount] | None = None
     parent: str | None = None
     count: Annotated[int, Meta(ge=1, le=MOST_PARTS)] = 1
-    drawn: float | Literal["open"] | None = None
+    drawn: Annotated[float, Meta(gt=0.0, le=10_000.0)] | Literal["open"] | None = None
     alternatives: tuple[StatedAlternative, ...] = ()
     also: tuple[StatedView, ...] = ()
 
@@ -112,6 +154,14 @@ class StatedPart(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=
         if self.side is None or self.box is None:
             return None
         return StatedView(self.side, self.box)
+
+    @property
+    def others(self) -> tuple[StatedPart, ...]:
+        """Return the part as each of its alternatives has it."""
+        return tuple(
+            replace(self, kind=other.kind or self.kind, hinge=other.hinge, alternatives=())
+            for other in self.alternatives
+        )
 
 
 class Stated(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
@@ -139,16 +189,20 @@ class Stated(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True
         for name in sorted(set(names)):
             if names.count(name) > 1:
                 raise ValueError(f"{names.count(name)} parts are named {name!r}, want one each")
+        parents = {part.name: part.parent for part in self.parts if part.name is not None}
         for part in self.parts:
             if part.parent is not None and part.parent not in names:
                 near = _meant(part.parent, names)
                 raise ValueError(f"parent {part.parent[:64]!r} is no part's name{near}")
+            above = part.parent
+            for _ in parents:
+                above = parents.get(above or "")
+            if above is not None:
+                raise ValueError(f"parent {above!r} is carried by what it carries")
 
 
-#: Kinds that open.
-OPENING_KINDS = tuple(kind for kind in PartKind if kind not in (PartKind.BODY, PartKind.PART))
 _CHOICES: Mapping[str, tuple[str, ...]] = {
-    "kind": OPENING_KINDS,
+    "kind": tuple(StatedKind),
     "side": tuple(side for side in Side if side is not Side.BOTTOM),
     "hinge": tuple(Hinge),
 }
@@ -208,17 +262,17 @@ def decoded(text: bytes, form: str = "JSON") -> object:
         raise ConfigError(f"is not {form}: {error}") from error
 
 
+def form_of(path: Path) -> str:
+    """Return in what form a file of stated parts is written, by its name."""
+    return "TOML" if path.suffix == ".toml" else "JSON"
+
+
 def _parse(path: Path, files: InputFiles) -> Stated:
     text = read_beside(path, files, MOST_BYTES)
     try:
         return stated_from(decoded(text, form_of(path)))
     except ConfigError as error:
         raise bad_sidecar(path, str(error)) from error
-
-
-def form_of(path: Path) -> str:
-    """Return in what form a file of stated parts is written, by its name."""
-    return "TOML" if path.suffix == ".toml" else "JSON"
 
 
 def _wrong_words(values: object, form: type[Struct], place: str) -> Iterator[str]:
@@ -247,18 +301,22 @@ def _faults_of(part: StatedPart) -> Iterator[str]:
     """Yield what of a part contradicts itself."""
     if part.name is not None and not NAME.fullmatch(part.name):
         yield "name is a letter and then at most 63 letters, digits, '_', '-' or '.'"
+    if part.name in RESERVED:
+        yield f"name is not {' or '.join(RESERVED)}, which are links of every asset"
     if (part.side is None) != (part.box is None):
         yield "side and box come together"
     if part.box is not None and (part.box[0] >= part.box[2] or part.box[1] >= part.box[3]):
         yield "box is [x0, y0, x1, y1] with x0 < x1 and y0 < y1"
     if part.count > 1 and (part.box is not None or part.name is not None):
         yield "count is for parts without a box or a name"
-    if part.kind is PartKind.DRAWER and part.hinge is not None:
-        yield "a drawer slides, so that it has no hinge"
-    if part.range is not None and not -math.inf < part.range[0] < part.range[1] < math.inf:
+    if part.kind is StatedKind.DRAWER and part.hinge is not None:
+        yield SLIDES
+    if part.range is not None and not part.range[0] <= 0.0 <= part.range[1]:
+        yield "range is [lower, upper] with lower <= 0 <= upper, since 0 is as drawn"
+    if part.range is not None and part.range[0] == part.range[1]:
         yield "range is [lower, upper] with lower < upper"
-    if isinstance(part.drawn, float) and not math.isfinite(part.drawn):
-        yield 'drawn is a number, degrees or millimetres, or "open"'
+    if part.range is not None and part.drawn is not None and part.range[0] == 0.0:
+        yield "range starts below 0 where a part is drawn open: it is closed there"
 
 
 def schema() -> dict[str, Any]:

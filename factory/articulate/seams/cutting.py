@@ -30,6 +30,13 @@ class Region:
         """Return the same turned about the origin; ``rotation`` has shape [3, 3]."""
         return Region(self.normals @ rotation.T, self.offsets)
 
+    def within(self, other: Region) -> Region:
+        """Return what lies inside of the planes of both."""
+        return Region(
+            np.concatenate([self.normals, other.normals]),
+            np.concatenate([self.offsets, other.offsets]),
+        )
+
     def holds(self, point: FloatArray) -> bool:
         """Return whether a point, shape [3], lies inside."""
         return bool((self.normals @ point <= self.offsets).all())

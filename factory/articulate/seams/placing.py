@@ -22,6 +22,8 @@ from .lids import Lid
 #: and of the picture [pixels].
 THICKNESS = 0.04
 LEAST_THICKNESS = 3.0
+#: A panel's outer edge is looked at so far inside of its outline [pixels].
+INSET = 4
 #: What a panel is that opens so.
 KINDS = {
     OpensBy.LEFT: PartKind.DOOR,
@@ -106,16 +108,19 @@ def box_before(side: Side, low: FloatArray, high: FloatArray, back: float) -> Re
 def rim_depth(front: Front, panel: FrontPanel) -> float:
     """Return how far behind the nearest point the outer edge of a panel lies [pixels]."""
     top, bottom, left, right = _borders(front, panel)
-    return max(float(np.median(each)) for each in (top, bottom, left, right) if len(each))
+    borders = (top, bottom, left, right)
+    return max((float(np.median(each)) for each in borders if len(each)), default=0.0)
 
 
 def _borders(front: Front, panel: FrontPanel) -> tuple[FloatArray, ...]:
     low = panel.rectangle.low
     high = panel.rectangle.high
-    inset = 4
     depth = -front.face.height
-    rows = slice(int(low[0]) + inset, max(int(high[0]) - inset + 1, int(low[0]) + inset + 1))
-    columns = slice(int(low[1]) + inset, max(int(high[1]) - inset + 1, int(low[1]) + inset + 1))
+    rows, columns = (
+        slice(int(start) + inset, int(stop) - inset + 1)
+        for start, stop in zip(low, high, strict=True)
+        for inset in (min(INSET, int(stop - start) // 2),)
+    )
     lines = (
         (depth[rows.stop - 1, columns], front.relief.seen[rows.stop - 1, columns]),
         (depth[rows.start, columns], front.relief.seen[rows.start, columns]),

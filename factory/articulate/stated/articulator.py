@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import islice, product
 
@@ -12,6 +12,7 @@ import numpy as np
 from ...articulation import Articulation, rotation_about
 from ...config import BuildConfig
 from ...errors import InputRejected
+from ...geometry.crossings import BoolArray
 from ...geometry.posing import posed
 from ...geometry.triangles import face_areas
 from ...intake.intake import Intake
@@ -23,9 +24,12 @@ from ..assembly import JOINT_SUFFIX, assembled
 from ..proposal import Hypothesis, Motion, Proposal
 from ..rigid import rigid_articulation
 from ..seams.articulator import cut_along
-from ..seams.cutting import inside
+from ..seams.cutting import CutMesh, inside
 from ..seams.placing import OpeningPart
-from .placing import NOT_FOUND, USUAL, Placed, SeenMesh, place_parts, stated_unit
+from .boxed import NOT_FOUND, USUAL, label_of
+from .expecting import count_expected, find_expected, require_some
+from .placing import Placed, SeenMesh, place_parts, stated_unit
+from .wholes import StatedWay
 
 NAME = "stated"
 #: Whole hypotheses that are worth trying.
@@ -44,17 +48,23 @@ class StatedArticulator:
     Args:
         stated: what a sidecar says.
         guess: who is asked for parts that are stated without a place.
+        proposer: who stated them.
         seen: the mesh that is going to be asked about, as :func:`seen_from` gives it.
     """
 
     name = NAME
 
     def __init__(
-        self, stated: Stated, guess: Articulator | None = None, seen: SeenMesh | None = None
+        self,
+        stated: Stated,
+        guess: Articulator | None = None,
+        proposer: Proposer = Proposer.SIDECAR,
+        seen: SeenMesh | None = None,
     ) -> None:
         self.stated = stated
         self.guess = guess
-        self.seen = seen
+        self._proposer = proposer
+        self._seen = seen
 
     def articulate(self, mesh: Mesh) -> Articulation:
         """Return the likeliest hypothesis of ``mesh`` [m], z up."""
@@ -72,20 +82,77 @@ class StatedArticulator:
         if not self.stated.opens:
             note = "its sidecar says that nothing opens"
             return (Hypothesis.of(rigid_articulation(mesh, self.name, (note,))),)
-        places = [part.view is not None for part in self.stated.parts]
-        if self.guess is not None and not any(places):
-            return _as_expected(self.guess, mesh, self.stated)
-        if not all(places):
-            bare = places.index(False)
+        wanted = count_expected(self.stated.parts)
+        if wanted:
+            return self._filled(mesh, wanted)
+        placed = _placed(self._seen or seen_from(mesh, self.stated.front), self.stated)
+        chosen = list(islice(_with_cut(_choices(placed)), MOST_HYPOTHESES))
+        cut = cut_along(mesh, [_to_cut(ways) for ways in chosen])
+        return tuple(Hypothesis.of(self._articulation(cut, placed, ways)) for ways in chosen)
+
+    def _filled(self, mesh: Mesh, wanted: Counter[PartKind]) -> tuple[Hypothesis, ...]:
+        """Return what is placed, beside what the guess has of what is stated without a place."""
+        if self.guess is None:
+            bare = [part.view is None for part in self.stated.parts].index(True)
             raise InputRejected(
                 NOT_FOUND,
-                f"parts[{bare}] ({self.stated.parts[bare].kind}): has no side and box; want them "
-                "for every part, or for none where the finding is left to the factory",
+                f"{label_of(self.stated.parts[bare], bare)}: has no side and box; want them for "
+                "every part, or an articulator that looks for it, as auto does",
             )
-        placed = _placed(self.seen or seen_from(mesh, self.stated.front), self.stated)
-        chosen = list(islice(_choices(placed), MOST_HYPOTHESES))
-        cut = cut_along(mesh, chosen)
-        return tuple(Hypothesis.of(_articulation(cut.mesh, placed, ways)) for ways in chosen)
+        guesses = [each.articulation for each in make_hypotheses(self.guess, mesh)]
+        found = [
+            find_expected(
+                guess, wanted, _placed(seen_from(guess.mesh, self.stated.front), self.stated)
+            )
+            for guess in guesses
+        ]
+        made = []
+        for each in require_some(found, wanted):
+            if each.is_whole:
+                made.append(Hypothesis.of(each.guess))
+                continue
+            for ways in islice(_with_cut(_choices(each.placed)), MOST_HYPOTHESES):
+                cut = cut_along(each.guess.mesh, [_to_cut(ways)])
+                filled = self._articulation(cut, each.placed, ways, each.proposals(cut))
+                made.append(Hypothesis.of(replace(filled, weights=each.guess.weights)))
+        return tuple(made[:MOST_HYPOTHESES])
+
+    def _articulation(
+        self,
+        cut: CutMesh,
+        placed: Sequence[Placed],
+        ways: Sequence[StatedWay],
+        guessed: Sequence[Proposal] = (),
+    ) -> Articulation:
+        """Return what is placed, and beside it what was guessed, on a mesh cut for both."""
+        hosts = _hosts(placed, ways)
+        owner = _owners(cut, placed, ways, hosts)
+        movers = [way.mover for way in ways]
+        proposals = [
+            Proposal(
+                mover.kind,
+                owner == number,
+                _from_closed(each.stated, mover.motion),
+                proposer=self._proposer,
+                panel=mover.panel if each.stated.drawn is None else None,
+                handle=mover.handle if each.stated.drawn is None else None,
+            )
+            for number, (each, mover) in enumerate(zip(placed, movers, strict=True), start=1)
+        ]
+        stated = {
+            proposal.source.id: each.stated
+            for proposal, each in zip(proposals, placed, strict=True)
+        }
+        for proposal in guessed:
+            left = proposal.faces & (owner == 0)
+            if not left.any():
+                sentence = f"a {proposal.kind} that is expected lies where stated parts are"
+                raise InputRejected(NOT_FOUND, sentence)
+            proposals.append(replace(proposal, faces=left))
+            owner[left] = len(proposals)
+        hosts += [0] * len(guessed)
+        made = _named(assembled(cut.mesh, owner, proposals, NAME, hosts), stated)
+        return _closed(made, stated)
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> StatedArticulator:
@@ -121,35 +188,6 @@ def _refuse_other_size(mesh: Mesh, stated: Stated) -> None:
         )
 
 
-def _as_expected(guess: Articulator, mesh: Mesh, stated: Stated) -> tuple[Hypothesis, ...]:
-    """Return those hypotheses that have as many parts of each kind as are expected.
-
-    Raises:
-        InputRejected: ``stated_part_not_found``: none has.
-    """
-    found = make_hypotheses(guess, mesh)
-    wanted: Counter[PartKind] = Counter()
-    for part in stated.parts:
-        wanted[part.kind] += part.count
-    counted = [_kinds(each.articulation) for each in found]
-    fit = [each for each, kinds in zip(found, counted, strict=True) if kinds == wanted]
-    if fit:
-        return tuple(fit)
-    nearest = max(counted, key=lambda kinds: (kinds & wanted).total() - (kinds - wanted).total())
-    sentences = [f"found {nearest[kind]} of {wanted[kind]} {kind}s" for kind in wanted | nearest]
-    raise InputRejected(
-        NOT_FOUND,
-        f"{', '.join(sentences)}; state a side and a box for each",
-        value=float((nearest & wanted).total()),
-        unit="parts",
-        limit=float(wanted.total()),
-    )
-
-
-def _kinds(articulation: Articulation) -> Counter[PartKind]:
-    return Counter(articulation.parts[joint.child].kind for joint in articulation.movable_joints)
-
-
 def seen_from(mesh: Mesh, front: str) -> SeenMesh:
     """Return a mesh turned so that a stated front is -Y."""
     return SeenMesh(mesh.turned(_turn(front)))
@@ -168,7 +206,23 @@ def _placed(seen: SeenMesh, stated: Stated) -> list[Placed]:
     ]
 
 
-def _choices(placed: Sequence[Placed]) -> Iterator[tuple[OpeningPart, ...]]:
+def _with_cut(chosen: Iterable[tuple[StatedWay, ...]]) -> Iterator[tuple[StatedWay, ...]]:
+    """Yield each choice, and after one with parts that are whole pieces the same cut out.
+
+    A piece may be only a front that was set before what it opens, or hold more than what opens.
+    """
+    for ways in chosen:
+        yield ways
+        if any(len(way.pieces) for way in ways):
+            yield tuple(StatedWay(way.cut or way.mover) for way in ways)
+
+
+def _to_cut(ways: Sequence[StatedWay]) -> tuple[OpeningPart, ...]:
+    """Return those parts that are cut out of the mesh."""
+    return tuple(way.mover for way in ways if not len(way.pieces))
+
+
+def _choices(placed: Sequence[Placed]) -> Iterator[tuple[StatedWay, ...]]:
     """Yield one way for each part, those with the fewest unlikely ways first."""
     ways = [range(len(each.ways)) for each in placed]
     # Two ways for each of many parts are too many to sort; the unlikely ones are not tried anyway.
@@ -177,32 +231,9 @@ def _choices(placed: Sequence[Placed]) -> Iterator[tuple[OpeningPart, ...]]:
         yield tuple(each.ways[way] for each, way in zip(placed, choice, strict=True))
 
 
-def _articulation(
-    mesh: Mesh, placed: Sequence[Placed], ways: Sequence[OpeningPart]
-) -> Articulation:
-    hosts = _hosts(placed, ways)
-    owner = _owners(mesh, placed, ways, hosts)
-    proposals = [
-        Proposal(
-            way.kind,
-            owner == number,
-            _from_closed(each.stated, way.motion),
-            proposer=Proposer.SIDECAR,
-            panel=way.panel if each.stated.drawn is None else None,
-            handle=way.handle if each.stated.drawn is None else None,
-        )
-        for number, (each, way) in enumerate(zip(placed, ways, strict=True), start=1)
-    ]
-    stated = {
-        proposal.source.id: each.stated for proposal, each in zip(proposals, placed, strict=True)
-    }
-    made = _named(assembled(mesh, owner, proposals, NAME, hosts), stated)
-    return _closed(made, stated)
-
-
 def _from_closed(part: StatedPart, motion: Motion) -> Motion:
     """Return a motion whose lower limit is the closed pose of a part that is drawn open."""
-    if part.drawn is None:
+    if part.drawn is None or part.range is not None:
         return motion
     by = motion.upper if part.drawn == "open" else float(part.drawn) / stated_unit(motion)
     return replace(motion, lower=-by, upper=max(motion.upper - by, 0.0))
@@ -214,42 +245,50 @@ def _closed(made: Articulation, stated: Mapping[str, StatedPart]) -> Articulatio
         joint.name: joint.lower
         for joint in made.joints
         if (source := made.parts[joint.child].source) is not None
+        and source.id in stated
         and stated[source.id].drawn is not None
     }
     return posed(made, drawn) if drawn else made
 
 
-def _hosts(placed: Sequence[Placed], ways: Sequence[OpeningPart]) -> list[int]:
+def _hosts(placed: Sequence[Placed], ways: Sequence[StatedWay]) -> list[int]:
     """Return the part that carries each, 0 for the body: as stated, else the panel under it."""
     numbers = {each.stated.name: number for number, each in enumerate(placed, start=1)}
     hosts = []
     for each, way in zip(placed, ways, strict=True):
         if each.stated.parent is not None:
-            hosts.append(numbers.get(each.stated.parent, 0))
+            if each.stated.parent not in numbers:
+                raise InputRejected(
+                    NOT_FOUND,
+                    f"{each.label}: its parent {each.stated.parent} has no side and box; want them",
+                )
+            hosts.append(numbers[each.stated.parent])
             continue
         under = [
             number
             for number, (other, below) in enumerate(zip(placed, ways, strict=True), start=1)
-            if each.stated.kind not in USUAL
-            and other.stated.kind in USUAL
-            and below.region.holds(way.motion.origin)
+            if way.mover.kind not in USUAL
+            and below.mover.kind in USUAL
+            and below.mover.region.holds(way.mover.motion.origin)
         ]
         hosts.append(under[0] if under else 0)
     return hosts
 
 
 def _owners(
-    mesh: Mesh, placed: Sequence[Placed], ways: Sequence[OpeningPart], hosts: Sequence[int]
+    cut: CutMesh, placed: Sequence[Placed], ways: Sequence[StatedWay], hosts: Sequence[int]
 ) -> IntArray:
     """Return the part of each face, 0 for the body; what is carried claims its faces first.
 
     Raises:
         InputRejected: ``stated_part_not_found``: a part gets nothing, or hardly any of its own.
     """
+    mesh = cut.mesh
     owner = np.zeros(len(mesh.faces), dtype=np.int64)
     areas = face_areas(mesh)
+    within_each = [_faces_of(cut, each, way) for each, way in zip(placed, ways, strict=True)]
     for index in sorted(range(len(ways)), key=lambda index: (hosts[index] == 0, index)):
-        within = inside(mesh, ways[index].region)
+        within = within_each[index]
         own = within & (owner == 0)
         carried = [number for number, host in enumerate(hosts, start=1) if host == index + 1]
         claimed = float(areas[within].sum())
@@ -258,20 +297,38 @@ def _owners(
             taken = 100.0 * (1.0 - kept / claimed) if claimed else 100.0
             why = f"other stated parts take {taken:.0f} % of its surface"
             found = why if within.any() else "no surface of the mesh is in its box"
-            named = placed[index].stated.name or placed[index].stated.kind
-            raise InputRejected(NOT_FOUND, f"parts[{index}] ({named}): {found}")
+            raise InputRejected(NOT_FOUND, f"{placed[index].label}: {found}")
         owner[own] = index + 1
+    if not (owner == 0).any():
+        raise InputRejected(NOT_FOUND, "stated parts take all of the mesh: want a body beside them")
     return owner
 
 
+def _faces_of(cut: CutMesh, placed: Placed, way: StatedWay) -> BoolArray:
+    """Return which faces are in a part's region, or of its pieces, shape [face_count]."""
+    if len(way.pieces):
+        return np.isin(placed.piece_of[cut.source], way.pieces)
+    return inside(cut.mesh, way.mover.region)
+
+
 def _named(made: Articulation, stated: Mapping[str, StatedPart]) -> Articulation:
-    """Return an articulation whose parts are called as stated, by the id of their proposal."""
+    """Return an articulation whose parts are called as stated, by the id of their proposal.
+
+    A part without a stated name gets a number that no stated name has.
+    """
+    given = {part.name for part in stated.values()}
+    count: Counter[str] = Counter()
     parts = []
-    joints = []
     for part in made.parts:
-        name = stated[part.source.id].name if part.source is not None else None
-        parts.append(replace(part, name=name or part.name))
-    for joint in made.joints:
-        suffix = JOINT_SUFFIX[joint.kind]
-        joints.append(replace(joint, name=f"{parts[joint.child].name}_{suffix}"))
+        said = None if part.source is None else stated.get(part.source.id)
+        name = part.name if said is None or said.name is None else said.name
+        if part.kind is not PartKind.BODY and (said is None or said.name is None):
+            while (name := f"{part.kind}_{count[part.kind]}") in given:
+                count[part.kind] += 1
+            count[part.kind] += 1
+        parts.append(replace(part, name=name))
+    joints = [
+        replace(joint, name=f"{parts[joint.child].name}_{JOINT_SUFFIX[joint.kind]}")
+        for joint in made.joints
+    ]
     return replace(made, parts=tuple(parts), joints=tuple(joints))

@@ -3,16 +3,16 @@
 /** Keys of kinds. */
 export const KEYS = {
   door: "d", drawer: "w", flap: "f", lid: "l", knob: "k", button: "b", lever: "e", wheel: "h",
-  screen: "s", rack: "r", cap: "c", turntable: "t",
+  screen: "s", rack: "r", cap: "c", turntable: "t", seat: "a", sail: "i",
 };
 const EDGES = ["left", "right", "top", "bottom"];
 const AROUND = ["front", "back", "left", "right"];
-const HINGES = { door: EDGES, flap: EDGES, screen: EDGES };
+const HINGES = { door: EDGES, flap: EDGES, lever: EDGES, lid: AROUND, seat: AROUND };
 
 /** Where a part may be hinged. */
 export function hingesOf(part) {
-  if (part.kind === "lid" || (part.side === "top" && HINGES[part.kind])) return AROUND;
-  return HINGES[part.kind] ?? [];
+  const hinges = HINGES[part.kind] ?? [];
+  return part.side === "top" && hinges.length ? AROUND : hinges;
 }
 
 /** The edge of its box at which a hinge is drawn; none for one that the side does not show. */

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...asset import Hull
 from ...mesh import FloatArray
-from .clip import carved, cut_apart, meeting
+from .clip import carved, cut_apart, depth_at, meeting
 
 #: For each piece more a cut must lose less, by this share.
 PIECE_SHARE = 0.25
@@ -127,6 +127,12 @@ def hull_depth(
     """
     near = near_pairs(a, b, pose, margin)
     return max([-margin, *(meeting(a[i], b[j], pose).depth for i, j in near)])
+
+
+def are_near(a: Sequence[Hull], b: Sequence[Hull], pose: FloatArray, margin: float) -> bool:
+    """Tell whether any two hulls of two parts are nearer than ``margin`` [m], or overlap."""
+    near = near_pairs(a, b, pose, margin)
+    return any(depth_at(a[i], b[j], pose) > -margin for i, j in near)
 
 
 def _all_apart(

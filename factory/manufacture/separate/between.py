@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from ...articulation import Articulation
 from ...mesh import FloatArray
 from ..poses import joints_between, relative_poses
-from .along import Sides, hull_depth
+from .along import Sides, are_near
 from .budget import SeenSurface
 from .hung import reach_m
 
@@ -69,9 +69,10 @@ def cut_between(
     poses = list(way)
     for _ in range(MOST_LOOKS):
         hulls = found or after
-        missed = [pose for pose in between if hull_depth(*hulls, pose, LEAST_M) > -LEAST_M]
+        missed = [pose for pose in between if are_near(*hulls, pose, LEAST_M)]
         if not missed:
             break
-        poses += missed
+        # Where nearly all of a long way is missed, as that of a wheel, some of it shows the rest.
+        poses += missed[:: -(-len(missed) // len(way))]
         found = cut(*before, poses)
     return found

@@ -65,6 +65,14 @@ class HullMeeting:
         return float(self.reaches[0])
 
 
+def depth_at(a: Hull, b: Hull, pose: FloatArray) -> float:
+    """Return an upper bound of how deep two hulls lie in one another [m], the second moved."""
+    points_b = b.vertices @ pose[:3, :3].T + pose[:3, 3]
+    directions = np.vstack([a.planes[:, :3], -b.planes[:, :3] @ pose[:3, :3].T])
+    ends = (a.vertices @ directions.T).max(axis=0)
+    return float((ends - (points_b @ directions.T).min(axis=0)).min())
+
+
 def meeting(
     a: Hull,
     b: Hull,

@@ -32,6 +32,7 @@ class WeightsInfo:
         dtypes: in which types, sorted.
         terms: under which they stand, by their own statement; else what is known of the network's
             published weights.
+        outputs: the license that these put on whatever they help to make; empty if none.
     """
 
     file: Path
@@ -41,6 +42,7 @@ class WeightsInfo:
     parameters: int
     dtypes: tuple[str, ...]
     terms: str
+    outputs: str
 
 
 def open_checkpoint(file: Path) -> Checkpoint:
@@ -119,6 +121,7 @@ def describe(file: Path) -> WeightsInfo:
     checkpoint = open_checkpoint(file)
     with naming(file):
         provenance, details = _identify(checkpoint.shapes)
+    own = checkpoint.metadata.get("terms")
     return WeightsInfo(
         file=file,
         network=provenance.network,
@@ -126,7 +129,8 @@ def describe(file: Path) -> WeightsInfo:
         tensors=len(checkpoint.tensors),
         parameters=parameter_count(checkpoint.shapes),
         dtypes=tuple(sorted({tensor.dtype for tensor in checkpoint.tensors.values()})),
-        terms=checkpoint.metadata.get("terms") or f"{UNSTATED} {provenance.terms}",
+        terms=own or f"{UNSTATED} {provenance.terms}",
+        outputs=checkpoint.metadata.get("outputs", "" if own else provenance.outputs),
     )
 
 

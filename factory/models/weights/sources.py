@@ -23,6 +23,8 @@ _ADDRESS = re.compile(
     rf"{HUB}(?P<repository>[^/@#]+/[^/@#]+)/(?P<file>[^@#]+)"
     r"(?:@(?P<revision>[0-9a-f]{40}))?(?:#(?P<sha256>[0-9a-f]{64}))?"
 )
+PAPER = "paper"
+"""The name of the published weights of Particulate and of the features that they ask for."""
 SHIPPED = "shipped"
 """The name of the weights that come with the package."""
 
@@ -36,11 +38,13 @@ class WeightsProvenance:
         source: the published file, as :data:`ADDRESS`; without a digest, for none could be taken
             where this was written: :func:`fetch` says what a user can pin.
         terms: of the published weights, one sentence.
+        outputs: the license that their terms put on whatever they help to make; empty if none.
     """
 
     network: str
     source: str
     terms: str
+    outputs: str = ""
 
 
 PARTICULATE = WeightsProvenance(
@@ -54,6 +58,7 @@ PARTFIELD = WeightsProvenance(
     "hf:mikaelaangel/partfield-ckpt/model_objaverse.ckpt",
     "Published by NVIDIA (arXiv 2504.11451) for NON-COMMERCIAL use only, "
     "and so is whatever is derived from it.",
+    outputs="LicenseRef-NVIDIA-NonCommercial",
 )
 
 

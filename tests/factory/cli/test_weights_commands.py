@@ -10,6 +10,7 @@ from tiny_model import TINY, random_cloud, tiny_model
 from weight_rule import weights
 
 from asset_factory.factory.cli.commands import run
+from asset_factory.factory.cli.flags import InputFlags, input_config
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.network.shape import expected_tensors
 from asset_factory.factory.models.partfield.shape import UNUSED, PartFieldShape
@@ -240,6 +241,21 @@ def test_a_failed_download_is_one_sentence(monkeypatch):
     stand_in_hub(monkeypatch, download)
     with pytest.raises(ConfigError, match=r"download failed: the hub cannot be reached$"):
         fetch(PARTICULATE.source)
+
+
+def test_published_weights_have_a_name_and_their_terms_are_said_before_a_fetch(monkeypatch, capsys):
+    said = []
+
+    def download(repo_id, filename, revision):
+        said.append((repo_id, capsys.readouterr().err))
+        raise DownloadError("the hub cannot be reached")
+
+    stand_in_hub(monkeypatch, download)
+    with pytest.raises(ConfigError, match="cannot be reached"):
+        input_config(InputFlags(checkpoint="paper"))
+    assert said[0][0] == "rayli/Particulate"
+    assert "CC-BY-4.0" in said[0][1]
+    assert "NON-COMMERCIAL" in said[0][1]
 
 
 def test_without_the_hubs_library_the_remedy_is_named(monkeypatch):

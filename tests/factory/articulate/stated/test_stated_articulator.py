@@ -4,16 +4,18 @@ from contextlib import suppress
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from manifold3d import Manifold
+from manifold3d import CrossSection, Manifold
 from one_piece import doors, drawers, fridge, mesh_of
 
+from asset_factory.factory.articulate.locate import located
 from asset_factory.factory.articulate.seams.articulator import SeamsArticulator
-from asset_factory.factory.articulate.stated import StatedArticulator
+from asset_factory.factory.articulate.stated import StatedArticulator, placing
 from asset_factory.factory.articulation import JointKind, rotation_about
-from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.intake.stated import stated_from
+from asset_factory.factory.errors import ConfigError, InputRejected
+from asset_factory.factory.geometry.crossings import Side
+from asset_factory.factory.intake.stated import Hinge, StatedKind, stated_from
 
 #: A pixel of a side's picture, and a groove's half [m].
 FINE = 0.02
@@ -22,6 +24,10 @@ FINE = 0.02
 def articulated(mesh, *parts, **stated):
     made = StatedArticulator(stated_from({"parts": list(parts), **stated})).hypotheses(mesh)
     return tuple(each.articulation for each in made)
+
+
+def block(low, high):
+    return Manifold.cube(np.subtract(high, low).tolist()).translate(low)
 
 
 def box_of(articulation, part):
@@ -120,18 +126,46 @@ def test_nothing_opens_where_that_is_said():
     assert made.movable_joints == ()
 
 
-@settings(max_examples=10, deadline=None)
-@given(st.tuples(*[st.floats(0.0, 1.0)] * 4))
-def test_any_box_is_an_articulation_or_a_sentence(corners):
-    x0, x1 = sorted(corners[:2])
-    y0, y1 = sorted(corners[2:])
-    if x0 == x1 or y0 == y1:
-        return
-    part = {"kind": "door", "side": "right", "box": [x0, y0, x1, y1]}
-    with suppress(InputRejected):
-        made = articulated(doors(), part)[0]
-        assert len(made.parts) == 2
-        assert len(made.parts[0].faces) + len(made.parts[1].faces) == len(made.mesh.faces)
+@pytest.fixture(scope="module")
+def seen_once():
+    """Has the sides of a mesh looked at once, whatever is stated on them."""
+    known = {}
+    look = placing.fronts_of
+
+    def kept(reliefs):
+        key = reliefs[Side.FRONT].height.tobytes()
+        return known.setdefault(key, look(reliefs))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(placing, "fronts_of", kept)
+        yield
+
+
+EDGES = st.sampled_from([0.0, 0.001, 0.05, 0.1, 0.48, 0.52, 0.9, 0.996, 1.0])
+PARTS = st.fixed_dictionaries(
+    {
+        "kind": st.sampled_from([each.value for each in StatedKind]),
+        "side": st.sampled_from(["front", "back", "left", "top"]),
+        "box": st.tuples(EDGES, EDGES, EDGES, EDGES),
+    },
+    optional={
+        "hinge": st.sampled_from([each.value for each in Hinge]),
+        "drawn": st.sampled_from(["open", 30]),
+        "range": st.sampled_from([(-30, 0), (-10, 90)]),
+        "also": st.just([{"side": "top", "box": [0.1, 0.0, 0.9, 0.6]}]),
+        "alternatives": st.just([{"kind": "knob"}]),
+    },
+)
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
+@given(st.lists(PARTS, min_size=1, max_size=3))
+def test_whatever_is_stated_is_an_articulation_or_a_sentence(seen_once, parts):
+    with suppress(InputRejected, ConfigError):
+        for made in articulated(doors(), *parts):
+            assert sum(len(part.faces) for part in made.parts) == len(made.mesh.faces)
+            assert all(len(part.faces) for part in made.parts)
+            located(made)
 
 
 def test_a_part_has_the_name_and_carries_what_was_stated():
@@ -192,7 +226,101 @@ def test_a_lid_that_is_drawn_open_is_closed_first(degrees):
     assert made.joints[0].upper >= np.radians(degrees) - 1e-9
 
 
-def test_a_part_without_a_place_beside_placed_ones_is_not_dropped():
-    door = {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1]}
+def test_a_part_without_a_place_is_looked_for_beside_placed_ones():
+    placed = {"kind": "drawer", "side": "front", "box": [0.05, 0.378, 0.95, 0.667], "name": "mid"}
+    stated = stated_from({"parts": [placed, {"kind": "drawer", "count": 2}]})
+    made = StatedArticulator(stated, Guess()).articulate(drawers())
+    assert [part.name for part in made.parts] == ["base", "mid", "drawer_0", "drawer_1"]
+    assert [part.source.proposer for part in made.parts[1:]] == ["sidecar", "sides", "sides"]
+    assert sum(len(part.faces) for part in made.parts) == len(made.mesh.faces)
+    stated = stated_from({"parts": [placed, {"kind": "drawer", "count": 3}]})
+    with pytest.raises(InputRejected, match="found 2 of 3 drawers"):
+        StatedArticulator(stated, Guess()).articulate(drawers())
     with pytest.raises(InputRejected, match=r"parts\[1\] \(drawer\): has no side and box"):
-        articulated(fridge(), door, {"kind": "drawer"})
+        StatedArticulator(stated).articulate(drawers())
+
+
+def test_alternatives_are_tried_after_what_is_stated():
+    part = {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1], "hinge": "left"}
+    others = [{"hinge": "right"}, {"kind": "drawer"}]
+    made = articulated(fridge(), {**part, "alternatives": others})
+    assert [each.parts[1].kind for each in made] == ["door", "door", "drawer"]
+    assert made[0].joints[0].origin[0] == pytest.approx(0.0, abs=FINE)
+    assert made[1].joints[0].origin[0] == pytest.approx(0.6, abs=FINE)
+    assert made[2].joints[0].kind is JointKind.PRISMATIC
+
+
+def test_a_lid_ends_where_another_begins():
+    lids = [block([x, 0.0, 0.61], [x + 0.49, 0.5, 0.71]) for x in (0.0, 0.51)]
+    post = block([0.1, 0.1, 0.59], [0.9, 0.4, 0.62])
+    mesh = mesh_of(block([0.0, 0.0, 0.0], [1.0, 0.5, 0.6]) + post + lids[0] + lids[1], 0.05)
+    seam = 0.6 / 0.71
+    left = {"kind": "lid", "side": "front", "box": [0.0, seam, 0.52, 1.0], "hinge": "left"}
+    right = {"kind": "lid", "side": "front", "box": [0.48, seam, 1.0, 1.0], "hinge": "back"}
+    made = articulated(mesh, left, right)[0]
+    assert box_of(made, 1)[1][0] == pytest.approx(0.5, abs=FINE)
+    assert box_of(made, 2)[0][0] == pytest.approx(0.5, abs=FINE)
+    assert made.joints[0].origin[0] == pytest.approx(0.0, abs=FINE)
+    assert abs(made.joints[0].axis[1]) == pytest.approx(1.0)
+    assert made.joints[1].origin[1] == pytest.approx(0.5, abs=FINE)
+
+
+def test_a_sloping_lid_is_parallel_to_what_is_seen_of_it():
+    side = [[0.0, 0.0], [0.6, 0.0], [0.6, 0.5], [0.0, 0.3]]
+    desk = CrossSection([side]).extrude(0.8)
+    pose = np.array([[0.0, 0.0, 1.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]])
+    mesh = mesh_of(desk.transform(pose), 0.05)
+    lid = {"kind": "lid", "side": "top", "box": [0.0, 0.0, 1.0, 1.0], "hinge": "back"}
+    made = articulated(mesh, lid)[0]
+    assert made.joints[0].origin[1:] == pytest.approx([0.6, 0.5], abs=FINE)
+    assert abs(made.joints[0].axis[0]) == pytest.approx(1.0)
+    # All along the slope the body begins as far below it: at its front the lid is no thicker.
+    assert 0.2 < box_of(made, 1)[0][2] < 0.31
+    assert box_of(made, 0)[1][2] > 0.4
+
+
+def test_a_piece_that_a_box_means_is_the_part_and_nothing_is_cut():
+    body = block([0.0, 0.02, 0.0], [0.5, 0.4, 1.0])
+    fronts = [block([0.03, -0.01, z], [0.47, 0.01, z + 0.4]) for z in (0.05, 0.55)]
+    mesh = mesh_of(body + fronts[0] + fronts[1], 0.05)
+    part = {"kind": "door", "side": "front", "box": [0.09, 0.02, 0.97, 0.42], "hinge": "left"}
+    made, cut = articulated(mesh, part)
+    assert len(made.parts[0].faces) + len(made.parts[1].faces) == len(made.mesh.faces)
+    assert box_of(made, 1) == pytest.approx(np.array([[0.03, -0.01, 0.05], [0.47, 0.01, 0.45]]))
+    assert made.joints[0].origin[0] == pytest.approx(0.03, abs=FINE / 4.0)
+    # Else it is as thick as panels are, and the rest of the piece stays.
+    assert box_of(cut, 1)[1][1] < 0.009
+
+
+def test_a_wheel_turns_about_its_hub_and_a_lever_about_its_edge():
+    whole = (
+        block([-0.2, 0.1, 0.0], [0.2, 0.5, 1.0])
+        + block([-0.05, -0.05, 0.75], [0.05, 0.15, 0.85])
+        + block([-0.05, -0.07, 0.75], [0.05, -0.03, 1.25])
+        + block([-0.05, -0.07, 0.75], [0.65, -0.03, 0.85])
+    )
+    mesh = mesh_of(whole, 0.05)
+    width, height = 0.2 + 0.65, 1.25
+    sail = [0.15 / width, 0.75 / height, 1.0, 1.0]
+    made = articulated(mesh, {"kind": "sail", "side": "front", "box": sail})[0]
+    assert (made.parts[1].kind, made.joints[0].kind) == ("wheel", JointKind.CONTINUOUS)
+    assert abs(made.joints[0].axis[1]) == pytest.approx(1.0)
+    assert box_of(made, 1)[1][1] < 0.1
+    lever = {"kind": "lever", "side": "front", "box": [0.15 / width, 0.6, 1.0, 0.68]}
+    made = articulated(mesh, {**lever, "hinge": "left"})[0]
+    assert made.joints[0].kind is JointKind.REVOLUTE
+    assert made.joints[0].origin[0] == pytest.approx(-0.05, abs=FINE)
+
+
+def test_a_stated_name_is_no_other_parts():
+    left = {"kind": "door", "side": "front", "box": [0.03, 0.03, 0.5, 0.97], "hinge": "left"}
+    right = {"kind": "door", "side": "front", "box": [0.5, 0.03, 0.97, 0.97], "hinge": "right"}
+    (made,) = articulated(doors(), left, {**right, "name": "door_0"})
+    assert [part.name for part in made.parts] == ["base", "door_1", "door_0"]
+
+
+def test_a_lid_and_a_door_that_share_their_surface_are_refused():
+    lid = {"kind": "lid", "side": "front", "box": [0, 0.3, 1, 1]}
+    door = {"kind": "door", "side": "right", "box": [0.1, 0.4, 0.9, 0.9]}
+    with pytest.raises(InputRejected, match=r"parts\[1\] \(door\): other stated parts take"):
+        articulated(fridge(), lid, door)

@@ -1,0 +1,1 @@
+"""Questions to somebody who sees: a sheet of pictures, an instruction, and an answer's form."""

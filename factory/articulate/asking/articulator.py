@@ -1,0 +1,148 @@
+"""The articulator that asks a vision-language model what opens, and finds it on the mesh."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+from dataclasses import replace
+from typing import Any
+from urllib.parse import urlsplit
+
+from ...articulation import Articulation
+from ...config import BuildConfig, VlmConfig
+from ...errors import ConfigError, InputRejected
+from ...intake.intake import Intake
+from ...intake.stated import stated_from
+from ...mesh import Mesh
+from ...part import Proposer
+from ..annotated import annotated_articulator, annotation_of
+from ..articulator import Articulator
+from ..proposal import Hypothesis
+from ..stated import StatedArticulator
+from .answers import KeptAnswer, answer_path, keep_answer, kept_answer
+from .endpoint import Reply, ask, require_endpoint
+from .instruction import instruction_for
+from .question import Question
+from .sheet import sheet_of
+
+NAME = "vlm"
+#: How often a model is asked about one input: again with what was wrong.
+QUESTIONS = 2
+#: Longer answers are not read [letters].
+LONGEST = 64 * 1024
+_FENCED = re.compile(r"\s*```(?:json)?\s*(.*?)\s*```\s*", re.DOTALL)
+
+
+class VlmArticulator:
+    """Asks a model once, once more with what was wrong, and never again about the same pictures.
+
+    Args:
+        input_name: of the input's file, which is told.
+        config: which model, and where.
+    """
+
+    name = NAME
+
+    def __init__(self, input_name: str, config: VlmConfig) -> None:
+        self._input_name = input_name
+        self._config = config
+
+    def articulate(self, mesh: Mesh) -> Articulation:
+        """Return the likeliest hypothesis of ``mesh`` [m], z up."""
+        return self.hypotheses(mesh)[0].articulation
+
+    def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
+        """Return the articulations that fit the model's answer, the likeliest first.
+
+        Raises:
+            InputRejected: ``bad_answer``, ``stated_part_not_found``: of the last answer.
+            Unjudged: ``model_unavailable``.
+            ConfigError: the endpoint refuses the key, the model or the question.
+        """
+        question = Question(sheet_of(mesh), instruction_for(self._input_name))
+        path = answer_path(self._config, question)
+        kept = kept_answer(path)
+        if kept is not None:
+            return self._noted(_found(kept.text, mesh), kept)
+        messages = [_first_message(question)]
+        read = written = 0
+        for number in range(QUESTIONS):
+            reply = ask(self._config, messages)
+            read, written = read + reply.tokens[0], written + reply.tokens[1]
+            try:
+                found = _found(reply.text, mesh)
+            except InputRejected as fault:
+                if number + 1 == QUESTIONS:
+                    raise
+                messages += _corrections(reply, fault)
+                continue
+            kept = KeptAnswer(reply.text, read, written)
+            keep_answer(path, kept)
+            return self._noted(found, kept)
+        raise AssertionError("unreachable")
+
+    def _noted(self, found: tuple[Hypothesis, ...], kept: KeptAnswer) -> tuple[Hypothesis, ...]:
+        """Return hypotheses that say who proposed them, and what that cost."""
+        host = urlsplit(self._config.url).hostname
+        note = (
+            f"{self._config.model} at {host} said what opens: "
+            f"{kept.read} tokens read, {kept.written} written"
+        )
+        trees = [
+            replace(each.articulation, articulator=NAME, notes=(*each.articulation.notes, note))
+            for each in found
+        ]
+        return tuple(
+            replace(each, articulation=tree) for each, tree in zip(found, trees, strict=True)
+        )
+
+
+def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
+    """Return who is asked for one input: a person's word and joints that came with it are believed.
+
+    Raises:
+        ConfigError: no model is named, or no endpoint.
+    """
+    if intake.stated is not None:
+        return StatedArticulator(intake.stated)
+    annotation = annotation_of(intake)
+    if annotation is not None:
+        return annotated_articulator(intake, annotation)
+    require_endpoint(config.vlm, needed=True)
+    return VlmArticulator(intake.provenance.input, config.vlm)
+
+
+def _found(text: str, mesh: Mesh) -> tuple[Hypothesis, ...]:
+    """Return the articulations that an answer states.
+
+    Raises:
+        InputRejected: ``bad_answer``: not in the form; ``stated_part_not_found``.
+    """
+    fenced = _FENCED.fullmatch(text[:LONGEST])
+    try:
+        stated = stated_from(json.loads(fenced[1] if fenced else text[:LONGEST]))
+    except (ConfigError, ValueError, RecursionError) as fault:
+        raise InputRejected(
+            "bad_answer", f"the model's answer is not in the form: {fault}"
+        ) from fault
+    return StatedArticulator(stated, proposer=Proposer.VLM).hypotheses(mesh)
+
+
+def _first_message(question: Question) -> dict[str, Any]:
+    picture = base64.b64encode(question.sheet).decode()
+    url = {"url": f"data:image/png;base64,{picture}", "detail": "high"}
+    return {
+        "role": "user",
+        "content": [
+            {"type": "text", "text": question.instruction},
+            {"type": "image_url", "image_url": url},
+        ],
+    }
+
+
+def _corrections(reply: Reply, fault: InputRejected) -> list[dict[str, Any]]:
+    """Return an answer that cannot be used and what is wrong with it, as messages."""
+    wrong = f"That cannot be used: {fault.message}. Answer with the corrected JSON object alone."
+    said = reply.text[:LONGEST] or "(nothing)"
+    return [{"role": "assistant", "content": said}, {"role": "user", "content": wrong}]

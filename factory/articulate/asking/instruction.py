@@ -1,0 +1,46 @@
+"""What somebody is told who looks at the sheet: how to say what opens."""
+
+from __future__ import annotations
+
+from ...intake.stated import Hinge, StatedKind
+
+_TEXT = """\
+You see one object, from a file named {name!r}: its front large, coloured and shaded, an oblique
+view, and below its left, right, back and top, each coloured and shaded. Left and right are those of
+somebody who stands before the front. Over each side lies a grid of tenths: x runs from 0 at the
+left end of the object on that side to 1 at its right end, y from 0 at the bottom to 1 at the top
+(on TOP the back is up). Dark lines are steps in depth, grooves and creases.
+
+Say which parts of the real object would open, slide or turn, as one JSON object:
+
+{{"parts": [{{"kind": ..., "side": ..., "box": [left, bottom, right, top], "hinge": ...}}, ...]}}
+
+- kind: one of {kinds}.
+- side: the side that shows it: front, back, left, right or top.
+- box: its outline there, to a hundredth: the part that moves with its frame, not its handle alone.
+  Follow the dark lines. Boxes of two parts of one side do not overlap.
+- hinge: one of {hinges}. Of a door, a flap or a lever the
+  edge of its box where it is hinged; of a lid the edge of the object. Leave it out for what slides
+  or turns about its middle, and where nothing shows it.
+- A lid on top: the box on an upright side whose lower edge is the seam; all above it opens. A
+  hatch, a seat or a sloping lid that is best seen from above: side top.
+- "also": [{{"side": ..., "box": [...]}}] where a second side bounds how deep it is: for a seat
+  before a tank, a wheel between forks.
+- "drawn": degrees or millimetres that it stands open in these pictures, or "open".
+- "alternatives": [{{"kind": ...}}, {{"hinge": ...}}] where it may be otherwise.
+- Knobs and wheels only if they turn on the real object. No hinges, no handles, no feet as parts of
+  their own.
+- If nothing opens: {{"opens": false}}.
+
+Example, a fridge with two doors hinged on its right: {{"parts": [
+{{"kind": "door", "side": "front", "box": [0.0, 0.64, 1.0, 1.0], "hinge": "right"}},
+{{"kind": "door", "side": "front", "box": [0.0, 0.08, 1.0, 0.63], "hinge": "right"}}]}}
+
+Answer with the JSON object alone.
+"""
+
+
+def instruction_for(name: str) -> str:
+    """Return the instruction for a mesh file's name."""
+    shown = "".join(letter if letter.isprintable() else " " for letter in name)[:80]
+    return _TEXT.format(name=shown, kinds=", ".join(StatedKind), hinges=", ".join(Hinge))

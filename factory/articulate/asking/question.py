@@ -1,0 +1,46 @@
+"""All that somebody is shown and told of one input."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...config import BuildConfig
+from ...errors import InputRejected
+from ...intake.intake import Intake
+from ...intake.source import Source
+from .instruction import instruction_for
+from .sheet import sheet_of
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is asked about one input.
+
+    Attributes:
+        sheet: a PNG of its sides.
+        instruction: how to answer.
+        rejected: why there is nothing to ask; empty otherwise.
+    """
+
+    sheet: bytes = b""
+    instruction: str = ""
+    rejected: str = ""
+
+
+def question_of(intake: Intake) -> Question:
+    """Return the question about a loaded input."""
+    return Question(sheet_of(intake.mesh), instruction_for(intake.provenance.input))
+
+
+def question_about(source: Path, config: BuildConfig) -> Question:
+    """Return the question about one input.
+
+    Args:
+        source: a mesh file.
+        config: how to load it.
+    """
+    try:
+        return question_of(Source(source, config).load())
+    except InputRejected as rejection:
+        return Question(rejected=f"{rejection.code}: {rejection.message}")

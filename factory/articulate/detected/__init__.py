@@ -1,0 +1,1 @@
+"""Parts that a trained network sees on the sides of an object."""

@@ -1,0 +1,125 @@
+"""A stated part with the rectangle of seams that its box means."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...errors import InputRejected
+from ...intake.stated import StatedPart, StatedView
+from ...mesh import FloatArray
+from ...part import OpensBy, PartKind
+from ..seams.fronts import Front
+from ..seams.groups import FrontPanel
+from ..seams.rectangles import Rectangle
+
+NOT_FOUND = "stated_part_not_found"
+#: Of a stated box so much must show the mesh.
+LEAST_SHOWN = 0.3
+#: A box is at least so wide and so high [pixels].
+THINNEST = 2
+#: Ways to open that are tried for one part, where nobody says which.
+MOST_WAYS = 2
+
+#: How a panel of a kind opens where nobody says; these kinds are panels.
+USUAL: Mapping[PartKind, tuple[OpensBy, ...]] = {
+    PartKind.DOOR: (OpensBy.LEFT, OpensBy.RIGHT),
+    PartKind.FLAP: (OpensBy.BOTTOM, OpensBy.TOP),
+    PartKind.DRAWER: (OpensBy.OUT,),
+    PartKind.RACK: (OpensBy.OUT,),
+    PartKind.LID: (OpensBy.TOP, OpensBy.BOTTOM, OpensBy.LEFT, OpensBy.RIGHT),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class StatedBox:
+    """A stated part and its place on a side.
+
+    Attributes:
+        stated: as somebody said it.
+        place: in the list of parts.
+        view: where it is seen.
+        front: the side of the turned mesh that shows it.
+        panel: its rectangle and handles there.
+    """
+
+    stated: StatedPart
+    place: int
+    view: StatedView
+    front: Front
+    panel: FrontPanel
+
+    @property
+    def kind(self) -> PartKind:
+        """Return what it is."""
+        return self.stated.kind.part
+
+    @property
+    def is_panel(self) -> bool:
+        """Tell whether it closes an opening."""
+        return self.kind in USUAL
+
+    @property
+    def corners(self) -> FloatArray:
+        """Return its rectangle: right and up [m], low and high, shape [2, 2]."""
+        raster = self.front.relief.raster
+        rectangle = np.stack([self.panel.rectangle.low, self.panel.rectangle.high])
+        return np.asarray(raster.low + rectangle[:, ::-1] * raster.pixel)
+
+    @property
+    def label(self) -> str:
+        """Return how messages call it."""
+        return label_of(self.stated, self.place)
+
+    def opposed(self, edges: Iterable[str], what: str = "there") -> InputRejected:
+        """Return the rejection of a hinge that this part cannot have."""
+        wanted = ", ".join(edges)
+        sentence = f"is hinged at its {self.stated.hinge}, want one of {wanted} {what}"
+        return InputRejected(NOT_FOUND, f"{self.label}: {sentence}")
+
+
+def label_of(part: StatedPart, place: int) -> str:
+    """Return how messages call the part at a place of the list."""
+    return f"parts[{place}] ({part.name or part.kind})"
+
+
+def boxed_in(front: Front, part: StatedPart, place: int, box: Rectangle) -> StatedBox:
+    """Return a stated part with the rectangle that its box means.
+
+    Args:
+        front: the side that shows it.
+        part: that is stated, with a place.
+        place: in the list of parts.
+        box: that rectangle.
+
+    Raises:
+        InputRejected: ``stated_part_not_found``: the box hardly shows the mesh.
+    """
+    if box.size.min() < THINNEST:
+        raise InputRejected(
+            NOT_FOUND,
+            f"{label_of(part, place)}: its box on the {part.side} is thinner than "
+            f"{THINNEST * front.relief.raster.pixel * 1000.0:.3g} mm: too thin to be seen",
+        )
+    shown = front.relief.seen[slices_of(box)]
+    share = float(shown.mean()) if shown.size else 0.0
+    if share < LEAST_SHOWN or part.view is None:
+        raise InputRejected(
+            NOT_FOUND,
+            f"{label_of(part, place)}: its box on the {part.side} shows the mesh on "
+            f"{100 * share:.0f} % of its area, want {100 * LEAST_SHOWN:.0f} %; boxes are [left, "
+            "lower, right, upper] in shares of that side's picture",
+            value=share,
+            unit="of its area",
+            limit=LEAST_SHOWN,
+        )
+    panel = FrontPanel(box, front.scene.handles_in(box), 1.0)
+    return StatedBox(part, place, part.view, front, panel)
+
+
+def slices_of(box: Rectangle) -> tuple[slice, slice]:
+    """Return the rows and columns of a rectangle."""
+    rows, columns = zip(box.low, box.high + 1, strict=True)
+    return slice(*rows), slice(*columns)

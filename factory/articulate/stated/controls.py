@@ -1,0 +1,152 @@
+"""Stated parts that close nothing: knobs, buttons, levers, wheels, caps."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ...articulation import JointKind
+from ...geometry.crossings import BoolArray, Side
+from ...intake.stated import Hinge
+from ...mesh import FloatArray
+from ...part import PartKind
+from ..proposal import Motion
+from ..seams.cutting import Region
+from ..seams.fronts import thickness
+from ..seams.knobs import knobs_on
+from ..seams.placing import TURN, OpeningPart, box_before
+from .boxed import StatedBox, slices_of
+from .snapping import AT_OUTLINE
+
+#: How far a button is pressed [m].
+BUTTON_TRAVEL_M = 0.004
+#: Of what a box shows so much stands off from what carries it.
+LEAST_STANDING = 0.1
+_UP = np.array([0.0, 0.0, 1.0])
+#: Where on its box, across and up, a lever turns that is hinged so.
+_ENDS = {
+    Hinge.LEFT: (0.0, 0.5),
+    Hinge.RIGHT: (1.0, 0.5),
+    Hinge.BOTTOM: (0.5, 0.0),
+    Hinge.TOP: (0.5, 1.0),
+}
+
+
+def control_openings(part: StatedBox) -> list[OpeningPart]:
+    """Return what is turned or pressed, as :func:`_control` finds it; a lever one way or the other.
+
+    Raises:
+        InputRejected: ``stated_part_not_found``: no lever is hinged so.
+    """
+    found = _control(part)
+    if found.kind is not PartKind.LEVER:
+        return [found]
+    back = replace(found, motion=replace(found.motion, axis=-found.motion.axis))
+    return [found, back]
+
+
+def _control(part: StatedBox) -> OpeningPart:
+    """Return the knob that is seen in a box, or all that stands off.
+
+    A wheel turns about the middle of what stands off, a lever about the edge where it is hinged, a
+    cap that is seen from beside about the upright.
+    """
+    kind = part.kind
+    if kind is PartKind.CAP and part.view.side is not Side.TOP:
+        return _cap(part)
+    relief = part.front.relief
+    raster = relief.raster
+    box = part.panel.rectangle
+    if kind is PartKind.KNOB:
+        for knob in knobs_on(relief, part.front.face):
+            if box.holds(raster.pixels(knob.motion.origin)[:2]):
+                return knob
+    right, up, away = raster.side.frame
+    carrier, standing = _standing(part)
+    back = raster.near - (carrier + 1.0) * raster.pixel
+    low = raster.low[::-1] + (box.low - 1.0) * raster.pixel
+    high = raster.low[::-1] + (box.high + 1.0) * raster.pixel
+    height, across = (low + high) / 2.0
+    if kind is PartKind.WHEEL and standing.any():
+        rows, columns = np.nonzero(standing)
+        height = low[0] + (rows.mean() + 1.0) * raster.pixel
+        across = low[1] + (columns.mean() + 1.0) * raster.pixel
+    if kind is PartKind.LEVER and part.stated.hinge is not None:
+        if part.stated.hinge not in _ENDS:
+            raise part.opposed(_ENDS, "for a lever")
+        share = np.array(_ENDS[part.stated.hinge][::-1])
+        height, across = low + share * (high - low)
+    origin = across * right + height * up + back * away
+    # What is drawn to the outline has its thinnest ends too.
+    ends = np.array(part.view.box).reshape(2, 2)[:, ::-1]
+    low = np.where(ends[0] <= AT_OUTLINE, -np.inf, low)
+    high = np.where(ends[1] >= 1.0 - AT_OUTLINE, np.inf, high)
+    region = box_before(raster.side, low, high, back)
+    if _depth_is_bounded(part):
+        region = Region(region.normals[:-1], region.offsets[:-1])
+    return OpeningPart(kind, region, _motion(kind, away, origin), 1.0, 1.0)
+
+
+def _motion(kind: PartKind, away: FloatArray, origin: FloatArray) -> Motion:
+    if kind is PartKind.BUTTON:
+        return Motion(JointKind.PRISMATIC, away, origin, 0.0, BUTTON_TRAVEL_M)
+    if kind is PartKind.LEVER:
+        return Motion(JointKind.REVOLUTE, away, origin, 0.0, TURN)
+    return Motion.endless(away, origin)
+
+
+def _depth_is_bounded(part: StatedBox) -> bool:
+    """Tell whether another side's box says how deep a part is."""
+    away = part.front.relief.raster.side.frame[2]
+    shown = [abs(view.side.frame[:2] @ away).max() for view in part.stated.also]
+    return part.view.side is not Side.TOP and max(shown, default=0.0) > 0.5
+
+
+def _standing(part: StatedBox) -> tuple[float, BoolArray]:
+    """Return how high what carries a part is [pixels], and which pixels of its box stand off.
+
+    A wheel or a lever may hide most of what carries it: that is then the deeper one of two groups
+    of depths, or, where there is one depth only, whatever is behind the part's own thickness.
+    """
+    slices = slices_of(part.panel.rectangle)
+    seen = part.front.relief.seen[slices]
+    height = part.front.relief.height[slices]
+    carrier = float(np.median(part.front.face.height[slices]))
+    if part.kind in (PartKind.WHEEL, PartKind.LEVER):
+        deeper = height[seen & (height <= _parting(height[seen]))]
+        carrier = float(np.percentile(deeper, 95))
+    if float((height[seen] > carrier + 1.0).mean()) < LEAST_STANDING:
+        own = thickness(part.front.relief, part.front.behind)[slices][seen]
+        carrier = float(np.median(height[seen])) - float(np.percentile(own, 25))
+    return carrier, seen & (height > carrier + 1.0)
+
+
+def _parting(values: FloatArray) -> float:
+    """Return the value that parts values into the two groups that differ most (Otsu's)."""
+    ordered = np.sort(values)
+    count = np.arange(1, len(ordered))
+    total = np.cumsum(ordered)
+    below = total[:-1] / count
+    above = (total[-1] - total[:-1]) / (len(ordered) - count)
+    spread = count * (len(ordered) - count) * (above - below) ** 2
+    return float(ordered[int(spread.argmax())]) if len(spread) else float(ordered[0])
+
+
+def _cap(part: StatedBox) -> OpeningPart:
+    """Return all that is above the lower edge of a cap's box, turning about its middle."""
+    raster = part.front.relief.raster
+    box = part.panel.rectangle
+    right, up, away = raster.side.frame
+    height, across = raster.low[::-1] + box.low * raster.pixel
+    middle = raster.low[0] + float(box.low[1] + box.high[1]) / 2.0 * raster.pixel
+    rows, columns = slices_of(box)
+    nearest = float(part.front.face.height[rows, columns].max())
+    width = float(box.high[1] - box.low[1]) / 2.0
+    depth = raster.near + (width - nearest) * raster.pixel
+    origin = middle * right + height * up + depth * away
+    region = Region(
+        np.stack([-up, right, -right]),
+        np.array([-height, 2.0 * middle - across, -across]),
+    )
+    return OpeningPart(part.kind, region, Motion.endless(_UP, origin), 1.0, 1.0)

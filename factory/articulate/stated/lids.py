@@ -1,0 +1,112 @@
+"""Stated lids: what of the mesh is above a box's lower edge, and where it is hinged."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from ...geometry.crossings import Side
+from ...intake.stated import Hinge
+from ...mesh import FloatArray
+from ..seams.cutting import Region
+from ..seams.fronts import AROUND, OPPOSITE, Front
+from ..seams.lids import Lid
+from ..seams.placing import OpeningPart, lid_mover
+from .boxed import MOST_WAYS, StatedBox
+from .snapping import OFF
+
+#: Rows beside a lid's seam that show where the lid, or the body below it, ends [pixels].
+BESIDE = 8
+HINGE_SIDES = {
+    Hinge.FRONT: Side.FRONT,
+    Hinge.BACK: Side.BACK,
+    Hinge.LEFT: Side.LEFT,
+    Hinge.RIGHT: Side.RIGHT,
+}
+
+
+def lid_openings(fronts: Mapping[Side, Front], part: StatedBox) -> list[OpeningPart]:
+    """Return what is above the lower edge of a lid's box, hinged as stated or across from there.
+
+    What is beside its box, or above it, by more than a drawn edge may be off is left out: there may
+    be a second lid.
+
+    Raises:
+        InputRejected: ``stated_part_not_found``: no lid is hinged so.
+    """
+    hinge = part.stated.hinge
+    if hinge is not None and hinge not in HINGE_SIDES:
+        raise part.opposed(HINGE_SIDES, "for a lid")
+    side = part.front.relief.side
+    others = [each for each in AROUND if each not in (side, OPPOSITE[side])]
+    likely = [OPPOSITE[side], *others] if hinge is None else [HINGE_SIDES[hinge]]
+    row = int(part.panel.rectangle.low[0])
+    lid = Lid(row, 1.0, 1.0, tuple((each, 1.0) for each in likely))
+    bounds = _bounds(part)
+    found = []
+    for each in likely[:MOST_WAYS]:
+        mover = lid_mover(fronts, lid, each, 1.0, 1.0)
+        region = mover.region.within(bounds)
+        if part.stated.drawn is not None:
+            # One that stands open may lean out beyond the body that it is hinged on.
+            mover = _hung(fronts[each], mover, slice(max(row - BESIDE, 0), row))
+        elif len(bounds.offsets):
+            mover = _hung(fronts[each], mover, slice(row + 1, row + BESIDE), bounds)
+        found.append(replace(mover, region=region))
+    return found
+
+
+def _bounds(part: StatedBox) -> Region:
+    """Return the edges of a lid's box beyond which there is more of the mesh above its seam."""
+    relief = part.front.relief
+    raster = relief.raster
+    low = part.panel.rectangle.low
+    high = part.panel.rectangle.high
+    first_row, last_row, first, last = relief.box
+    off_rows = OFF * (last_row - first_row)
+    off_columns = OFF * (last - first)
+    above = relief.seen[low[0] + 1 :]
+    right, up, _ = raster.side.frame
+    planes = []
+    if above[:, : max(int(low[1] - off_columns), 0)].any():
+        planes.append((-right, -raster.low[0] - low[1] * raster.pixel))
+    if above[:, int(high[1] + off_columns) + 1 :].any():
+        planes.append((right, raster.low[0] + high[1] * raster.pixel))
+    if relief.seen[int(high[0] + off_rows) + 1 :, low[1] : high[1] + 1].any():
+        planes.append((up, raster.low[1] + high[0] * raster.pixel))
+    normals = np.array([normal for normal, _ in planes]).reshape(-1, 3)
+    return Region(normals, np.array([float(offset) for _, offset in planes]))
+
+
+def _hung(
+    front: Front, mover: OpeningPart, rows: slice, bounds: Region | None = None
+) -> OpeningPart:
+    """Return a lid hinged where some rows of the side of its hinge end, between its bounds."""
+    raster = front.relief.raster
+    right, _, away = raster.side.frame
+    across = raster.right
+    shown = front.relief.seen[rows].copy()
+    if bounds is not None:
+        for normal, offset in zip(bounds.normals, bounds.offsets, strict=True):
+            shown &= (float(normal @ right) * across <= offset) | (abs(normal @ right) < 0.5)
+    depth = -front.face.height[rows][shown]
+    if not len(depth):
+        return mover
+    at = raster.near + float(np.percentile(depth, 25)) * raster.pixel
+    origin = mover.motion.origin + (at - float(mover.motion.origin @ away)) * away
+    return hinged_at(mover, origin)
+
+
+def hinged_at(mover: OpeningPart, origin: FloatArray) -> OpeningPart:
+    """Return a part that turns about a line through a point [m], shape [3]."""
+    return replace(mover, motion=replace(mover.motion, origin=origin))
+
+
+def hinged_inside(mover: OpeningPart) -> OpeningPart:
+    """Return a part whose hinge is not beyond what it fills, as bounds from other sides have it."""
+    origin = mover.motion.origin
+    for normal, offset in zip(mover.region.normals, mover.region.offsets, strict=True):
+        origin = origin - max(float(origin @ normal) - float(offset), 0.0) * normal
+    return hinged_at(mover, origin)

@@ -1,0 +1,129 @@
+"""Stated parts of meshes of several pieces: the pieces that they are made of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ...geometry.components import connected_components
+from ...geometry.crossings import Side
+from ...geometry.triangles import face_areas
+from ...mesh import FloatArray, IntArray, Mesh
+from ...part import PartKind
+from ..seams.cutting import Region
+from ..seams.pieces import OWN, WHOLE, PieceOutlines, own_pieces
+from ..seams.placing import OpeningPart
+from .boxed import StatedBox
+from .snapping import OFF
+
+#: A piece with so much of its surface above a lid's seam is the lid's.
+ABOVE = 0.7
+#: What is turned shows so much of its box, as the pieces that it is made of: a star in a square.
+TURNED = 0.25
+LEAST_SHOWN = 0.01
+SHALLOW = 0.5
+
+
+@dataclass(frozen=True, eq=False)
+class StatedWay:
+    """One way in which a stated part may open.
+
+    Attributes:
+        mover: the part.
+        pieces: that it is made of, ascending; none where it is cut out of what is in its region.
+        cut: the part as it would be cut out, where it is made of pieces.
+    """
+
+    mover: OpeningPart
+    pieces: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    cut: OpeningPart | None = None
+
+    def turned(self, rotation: FloatArray) -> StatedWay:
+        """Return the same of an object turned about the origin by ``rotation``, shape [3, 3]."""
+        cut = None if self.cut is None else self.cut.turned(rotation)
+        return replace(self, mover=self.mover.turned(rotation), cut=cut)
+
+
+class SeenPieces:
+    """The pieces of a mesh, seen from its sides.
+
+    Args:
+        mesh: whose front is -Y [m].
+
+    Attributes:
+        of_faces: the piece of every face, shape [face_count].
+    """
+
+    def __init__(self, mesh: Mesh) -> None:
+        self._mesh = mesh
+        self.of_faces = connected_components(mesh)
+        self._areas = face_areas(mesh)
+        self._outlines: dict[Side, PieceOutlines] = {}
+
+    @property
+    def several(self) -> bool:
+        """Tell whether the mesh has more than one."""
+        return bool(self.of_faces.any())
+
+    def seen_from(self, side: Side) -> PieceOutlines:
+        """Return what one side shows of them."""
+        if side not in self._outlines:
+            self._outlines[side] = PieceOutlines.of(self._mesh, self.of_faces, side)
+        return self._outlines[side]
+
+    def way(self, mover: OpeningPart, part: StatedBox) -> StatedWay:
+        """Return a part with the pieces that it is made of, if it is some pieces."""
+        if not self.several:
+            return StatedWay(mover)
+        outlines = self.seen_from(part.view.side)
+        low, high = part.corners
+        shown = outlines.shown(low, high)
+        enough = OWN
+        if mover.panel is not None:
+            margin = OFF / 2.0 * float((high - low).max())
+            # What hangs in the air before a panel is another part's: a cistern's lever.
+            own = own_pieces(outlines, mover.panel, margin)
+            own &= outlines.high[:, 2] >= mover.panel.front - margin
+        elif part.is_panel or mover.kind is PartKind.SCREEN:
+            own = self._share_within(mover.region) >= ABOVE
+        else:
+            deep = float(np.ptp(self._mesh.vertices @ outlines.picture.raster.side.frame[2]))
+            margin = OFF / 2.0 * float((high - low).max())
+            own = outlines.within(low - margin, high + margin) >= WHOLE
+            own &= outlines.high[:, 2] - outlines.low[:, 2] <= SHALLOW * deep
+            own &= shown >= LEAST_SHOWN
+            enough = TURNED
+        if part.stated.also:
+            own &= self._share_within(mover.region) >= ABOVE
+        if shown[own].sum() < enough or own.all():
+            return StatedWay(mover)
+        return StatedWay(mover, np.flatnonzero(own))
+
+    def nearest(self, side: Side, corners: FloatArray, reach: FloatArray) -> FloatArray | None:
+        """Return the outline of the piece that a rectangle means, low and high [m], shape [2, 2].
+
+        Args:
+            side: that is looked at.
+            corners: of the rectangle: right and up [m], low and high, shape [2, 2].
+            reach: how far each edge may be off [m], right and up, shape [2].
+
+        Returns:
+            ``None`` where no piece has such an outline, or there is but one piece.
+        """
+        if not self.several:
+            return None
+        outlines = self.seen_from(side)
+        boxes = np.stack([outlines.low[:, :2], outlines.high[:, :2]], axis=1)
+        off = (np.abs(boxes - corners) / reach).max(axis=(1, 2))
+        off = np.where(outlines.shown(*corners) >= OWN, off, np.inf)
+        best = int(off.argmin())
+        return np.asarray(boxes[best]) if off[best] <= 1.0 else None
+
+    def _share_within(self, region: Region) -> FloatArray:
+        """Return the share of each piece's surface in a region, shape [piece_count]."""
+        middles = self._mesh.vertices[self._mesh.faces].mean(axis=1)
+        within = (middles @ region.normals.T <= region.offsets).all(axis=1)
+        whole = np.bincount(self.of_faces, weights=self._areas)
+        inner = np.bincount(self.of_faces, weights=self._areas * within, minlength=len(whole))
+        return np.asarray(inner / np.maximum(whole, 1e-12))

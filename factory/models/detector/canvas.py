@@ -1,0 +1,100 @@
+"""What the detector looks at: five sides of an object, on square canvases of one scale."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+import numpy.typing as npt
+
+from ...geometry.crossings import Side
+from ...geometry.elevations import Elevation, elevation
+from ...mesh import FloatArray, Mesh
+
+#: The sides in the order in which a turn to the left by a quarter brings the next to the front.
+AROUND = (Side.FRONT, Side.RIGHT, Side.BACK, Side.LEFT)
+SIDES = (*AROUND, Side.TOP)
+#: Pixels along a canvas, and along the longest extent of the object on it.
+CANVAS = 256
+LONGEST = 240
+#: Depths are kept in this share of a pixel; ``NOTHING`` where nothing is seen.
+DEPTH_STEPS = 32
+NOTHING = -1
+
+
+class Sort(StrEnum):
+    """What the detector calls a part."""
+
+    DOOR = "door"
+    DRAWER = "drawer"
+    FLAP = "flap"
+    LID = "lid"
+    CONTROL = "control"
+    OTHER = "other"
+
+
+class PanelWay(StrEnum):
+    """How a part opens, as seen on its side; of a lid, ``top`` is away from the viewer."""
+
+    LEFT = "left"
+    RIGHT = "right"
+    BOTTOM = "bottom"
+    TOP = "top"
+    OUT = "out"
+    OTHER = "other"
+
+
+SORTS = tuple(Sort)
+WAYS = tuple(PanelWay)
+
+
+@dataclass(frozen=True, eq=False)
+class Canvases:
+    """Five sides of one object; row 0 is the lowest.
+
+    Attributes:
+        color: as shown (sRGB), uint8, shape [5, 256, 256, 3].
+        depth: behind the nearest point of the side, in 1/32 of a pixel, int16, shape
+            [5, 256, 256]; -1 where nothing is seen.
+    """
+
+    color: npt.NDArray[np.uint8]
+    depth: npt.NDArray[np.int16]
+
+
+def look_at(mesh: Mesh) -> Canvases:
+    """Return the five sides of a mesh, z up, centred on their canvases."""
+    color = np.zeros((len(SIDES), CANVAS, CANVAS, 3), np.uint8)
+    depth = np.full((len(SIDES), CANVAS, CANVAS), NOTHING, np.int16)
+    for number, side in enumerate(SIDES):
+        picture = elevation(mesh, side, LONGEST)
+        rows, columns = place_of(picture)
+        color[number, rows, columns] = np.rint(255.0 * picture.color)
+        depth[number, rows, columns] = stored_depth(picture)
+    return Canvases(color, depth)
+
+
+def place_of(picture: Elevation) -> tuple[slice, slice]:
+    """Return the rows and columns of a canvas that a side's picture takes, in its middle."""
+    raster = picture.raster
+    row, column = ((CANVAS - length) // 2 for length in (raster.rows, raster.columns))
+    return slice(row, row + raster.rows), slice(column, column + raster.columns)
+
+
+def stored_depth(picture: Elevation) -> npt.NDArray[np.int16]:
+    """Return depths as they are kept, shape [rows, columns]."""
+    steps = np.where(picture.seen, picture.depth, 0.0) / picture.raster.pixel * DEPTH_STEPS
+    whole = np.clip(np.rint(steps), 0, np.iinfo(np.int16).max)
+    return np.where(picture.seen, whole, NOTHING).astype(np.int16)
+
+
+def shares_of(box: FloatArray, extents: FloatArray) -> FloatArray:
+    """Return a canvas's box in shares of the side's picture.
+
+    Args:
+        box: left, lower, right, upper edge [pixels of the canvas], shape [4].
+        extents: width and height of the side [pixels], shape [2].
+    """
+    low = (CANVAS - extents) / 2.0
+    return np.asarray((box.reshape(2, 2) - low) / extents).ravel()

@@ -1,0 +1,119 @@
+"""From the detector's dense answers to parts: boxes on sides, each with what it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...geometry.crossings import Side
+from ...mesh import FloatArray, IntArray
+from .canvas import SIDES, SORTS, WAYS, PanelWay, Sort
+
+#: Boxes that share more than this of their union are one.
+SAME = 0.45
+#: Peaks that are looked at on one side.
+MOST_PEAKS = 400
+#: Distance between two cells [pixels].
+STRIDE = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Dense:
+    """What the network says of one object, as arrays [5, ..., 64, 64]; see ``DenseAnswers``.
+
+    Attributes:
+        sort, way, quality: log-odds.
+        edges: distances to the box's edges [pixels].
+        opened: share of the range.
+    """
+
+    sort: FloatArray
+    edges: FloatArray
+    way: FloatArray
+    quality: FloatArray
+    opened: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """One part as seen on one side.
+
+    Attributes:
+        side: where.
+        box: left, lower, right, upper edge [pixels of the canvas], shape [4].
+        sort: the likeliest.
+        score: that there is such a part there, 0 to 1.
+        sorts: probability of each sort, shape [sort_count].
+        ways: probability of each way to open, shape [way_count].
+        opened: share of its range by which it stands open.
+    """
+
+    side: Side
+    box: FloatArray
+    sort: Sort
+    score: float
+    sorts: FloatArray
+    ways: FloatArray
+    opened: float
+
+    @property
+    def way(self) -> PanelWay:
+        """Return the likeliest way to open."""
+        return WAYS[int(self.ways.argmax())]
+
+
+def found_parts(dense: Dense, least: float) -> tuple[Found, ...]:
+    """Return parts with a score of at least ``least``, the surest of each side first."""
+    return tuple(each for view in range(len(SIDES)) for each in _on_side(dense, view, least))
+
+
+def _on_side(dense: Dense, view: int, least: float) -> list[Found]:
+    share = share_of(dense.sort[view])
+    score = np.sqrt(share.max(axis=0) * share_of(dense.quality[view]))
+    rows, columns = np.nonzero(score >= least)
+    order = np.argsort(-score[rows, columns], kind="stable")[:MOST_PEAKS]
+    rows, columns = rows[order], columns[order]
+    boxes = _boxes(dense.edges[view], rows, columns)
+    found: list[Found] = []
+    kept: list[FloatArray] = []
+    for row, column, box in zip(rows, columns, boxes, strict=True):
+        if kept and float(overlaps(box, np.array(kept)).max()) > SAME:
+            continue
+        kept.append(box)
+        ways = np.exp(dense.way[view, :, row, column])
+        found.append(
+            Found(
+                SIDES[view],
+                box,
+                SORTS[int(share[:, row, column].argmax())],
+                float(score[row, column]),
+                share[:, row, column],
+                ways / ways.sum(),
+                float(np.clip(dense.opened[view, row, column], 0.0, 1.0)),
+            )
+        )
+    return found
+
+
+def _boxes(edges: FloatArray, rows: IntArray, columns: IntArray) -> FloatArray:
+    """Return the boxes about cells, shape [n, 4]."""
+    x = (columns + 0.5) * STRIDE
+    y = (rows + 0.5) * STRIDE
+    left, low, right, high = edges[:, rows, columns]
+    return np.stack([x - left, y - low, x + right, y + high], axis=1)
+
+
+def overlaps(box: FloatArray, boxes: FloatArray) -> FloatArray:
+    """Return the intersection over union of a box with others, shape [n]."""
+    low = np.maximum(box[:2], boxes[:, :2])
+    high = np.minimum(box[2:], boxes[:, 2:])
+    inner = np.prod(np.maximum(high - low, 0.0), axis=1)
+    areas = np.prod(boxes[:, 2:] - boxes[:, :2], axis=1)
+    own = float(np.prod(box[2:] - box[:2]))
+    return np.asarray(inner / np.maximum(areas + own - inner, 1e-9))
+
+
+def share_of(odds: FloatArray) -> FloatArray:
+    """Return probabilities of log-odds."""
+    return np.asarray(1.0 / (1.0 + np.exp(-np.clip(odds, -30.0, 30.0))))

@@ -1,0 +1,92 @@
+"""What the detector says of a mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+import torch  # noqa: TID253 - loaded by whoever runs the network
+
+from ...mesh import FloatArray, Mesh
+from .canvas import AROUND, look_at
+from .decode import Dense, Found, found_parts
+from .kinds import KINDS
+from .network import Detector, cues_of
+
+FILE = "detector.safetensors"
+
+
+@dataclass(frozen=True, eq=False)
+class Detection:
+    """One object as the detector sees it.
+
+    Attributes:
+        dense: what is said of every cell of 4 pixels.
+        kinds: probability of each kind of object, shape [kind_count].
+        opens: probability that anything opens.
+        fronts: probability of each upright side that it is the front, shape [4].
+    """
+
+    dense: Dense
+    kinds: FloatArray
+    opens: float
+    fronts: FloatArray
+
+    def parts(self, least: float) -> tuple[Found, ...]:
+        """Return the parts that are seen with a score of at least ``least``."""
+        return found_parts(self.dense, least)
+
+    @property
+    def kind(self) -> str:
+        """Return the likeliest kind."""
+        return KINDS[int(self.kinds.argmax())]
+
+    @property
+    def front(self) -> str:
+        """Return the likeliest front."""
+        return AROUND[int(self.fronts.argmax())]
+
+
+def detect(mesh: Mesh, weights: Path | None = None) -> Detection:
+    """Return what is seen of a mesh, z up.
+
+    Args:
+        mesh: with at least one triangle.
+        weights: safetensors file; the shipped one by default.
+    """
+    network = _loaded(
+        weights or Path(str(resources.files("asset_factory") / "configs/weights" / FILE))
+    )
+    canvases = look_at(mesh)
+    with torch.no_grad():
+        cues = cues_of(torch.from_numpy(canvases.color), torch.from_numpy(canvases.depth))
+        answers = network(cues[None])
+
+    def array(values: torch.Tensor) -> FloatArray:
+        return np.asarray(values[0].float().numpy(), dtype=np.float64)
+
+    dense = Dense(*(array(getattr(answers, name)) for name in Dense.__dataclass_fields__))
+    return Detection(
+        dense,
+        _shares(array(answers.kind)),
+        float(1.0 / (1.0 + np.exp(-array(answers.opens)))),
+        _shares(array(answers.front)),
+    )
+
+
+@cache
+def _loaded(weights: Path) -> Detector:
+    from safetensors.torch import load_file
+
+    network = Detector(len(KINDS))
+    network.load_state_dict({name: each.float() for name, each in load_file(weights).items()})
+    network.eval()
+    return network
+
+
+def _shares(odds: FloatArray) -> FloatArray:
+    shares = np.exp(odds - odds.max())
+    return np.asarray(shares / shares.sum())

@@ -1,0 +1,1 @@
+"""Training of the detector that reads all sides of an object."""

@@ -1,0 +1,45 @@
+"""Which generated objects the detector learns from."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from asset_factory.factory.articulation import JointKind
+
+from ..fit.making import LIDDED, OTHER, PANELLED
+from ..objects import CATEGORIES, make_object
+from .sides import LabelledSides, labelled_sides
+from .still import STILL, make_still
+
+#: Shares of objects with panels, with lids, that stay still, others that move; the rest is of any
+#: kind.
+SHARES = (0.5, 0.2, 0.17, 0.06)
+#: Share of objects some of whose parts stand open.
+OPENED = 0.12
+
+
+def drawn_sides(rng: np.random.Generator) -> tuple[str, LabelledSides]:
+    """Return a generated object's kind and its sides."""
+    bound = rng.random()
+    ends = np.cumsum(SHARES)
+    if ends[1] <= bound < ends[2]:
+        kind = str(rng.choice(STILL))
+        return kind, labelled_sides(make_still(kind, rng))
+    kinds = CATEGORIES
+    for end, those in zip(ends, (PANELLED, LIDDED, (), OTHER), strict=True):
+        if bound < end:
+            kinds = those
+            break
+    kind = str(rng.choice(kinds))
+    made = make_object(kind, int(rng.integers(2**31)))
+    opened = {}
+    if rng.random() < OPENED:
+        chosen = [
+            joint
+            for joint in made.movable_joints
+            if joint.kind is not JointKind.CONTINUOUS and joint.upper > 0.0
+        ]
+        for joint in chosen:
+            if rng.random() < max(0.3, 1.0 / len(chosen)):
+                opened[joint.name] = float(rng.uniform(0.1, 1.0))
+    return kind, labelled_sides(made, opened)

@@ -1,0 +1,117 @@
+"""How well the detector does on labelled objects that it was not trained on."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import torch  # noqa: TID253 - this module is only imported to train
+
+from asset_factory.factory.mesh import FloatArray
+from asset_factory.factory.models.detector.canvas import SIDES, SORTS
+from asset_factory.factory.models.detector.decode import Dense, Found, found_parts, overlaps
+from asset_factory.factory.models.detector.network import cues_of
+
+from .stream import Pool
+
+#: Scores from which on parts count, and sorts that are asked for.
+FLOORS = (0.3, 0.4, 0.5, 0.6, 0.7)
+ASKED = 4
+
+
+def dense_of(answers: Any, number: int) -> Dense:
+    """Return the dense answers on one object of a batch."""
+
+    def array(values: Any) -> FloatArray:
+        return np.asarray(values[number].float().cpu().numpy(), dtype=np.float64)
+
+    return Dense(*(array(getattr(answers, name)) for name in Dense.__dataclass_fields__))
+
+
+def evaluate(network: Any, pool: Pool) -> dict[str, Any]:
+    """Return by floor how many true parts are found and how many others are told."""
+    with torch.no_grad():
+        return _figures(network, pool)
+
+
+def _figures(network: Any, pool: Pool) -> dict[str, Any]:
+    figures: dict[str, Any] = {}
+    counts = {floor: np.zeros((ASKED, 4), np.int64) for floor in FLOORS}
+    still = dict.fromkeys(FLOORS, 0)
+    fronts = kinds = opening = quiet = 0
+    for number in range(pool.made):
+        batch, whole = pool.take(torch.tensor([number], device=pool.device))
+        cues = cues_of(batch.color.flatten(0, 1), batch.depth.flatten(0, 1))[None]
+        answers = network(cues)
+        table = batch.table[0].cpu().numpy()
+        table = table[table[:, 0] >= 0]
+        fronts += int(answers.front.argmax() == whole[0, 2]) * int(whole[0, 1])
+        kinds += int(answers.kind.argmax() == whole[0, 0])
+        opening += int(whole[0, 1])
+        quiet += int((answers.opens[0] > 0) == (whole[0, 1] > 0))
+        dense = dense_of(answers, 0)
+        for floor in FLOORS:
+            found = [p for p in found_parts(dense, floor) if SORTS.index(p.sort) < ASKED]
+            if not whole[0, 1]:
+                still[floor] += int(bool(found))
+            counts[floor] += compared(found, table)
+    figures["objects"] = pool.made
+    figures["kind right"] = kinds / pool.made
+    figures["opens right"] = quiet / pool.made
+    figures["front right of those that open"] = fronts / max(opening, 1)
+    figures["of those that stay shut something is told"] = {
+        str(floor): f"{count} of {pool.made - opening}" for floor, count in still.items()
+    }
+    for floor, count in counts.items():
+        figures[f"from {floor}"] = {
+            str(SORTS[sort]): dict(
+                zip(("true", "found", "way right", "spurious"), map(int, row), strict=True)
+            )
+            for sort, row in enumerate(count)
+        }
+    return figures
+
+
+def compared(found: list[Found], table: FloatArray) -> Any:
+    """Return by sort how many are true, found, found with their way, and spurious, [4, 4]."""
+    counts = np.zeros((ASKED, 4), np.int64)
+    free = [True] * len(found)
+    for row in table:
+        if row[9] > 0 or row[6] >= ASKED:
+            continue
+        sort = int(row[6])
+        counts[sort, 0] += 1
+        fits = [
+            number
+            for number, part in enumerate(found)
+            if free[number]
+            and SIDES.index(part.side) == int(row[0])
+            and SORTS.index(part.sort) == sort
+            and float(overlaps(part.box, row[None, 1:5])[0]) >= 0.5
+        ]
+        if fits:
+            free[fits[0]] = False
+            counts[sort, 1] += 1
+            way = found[fits[0]].ways.argmax()
+            counts[sort, 2] += int(row[7] < 0 or way == int(row[7]))
+    for number, part in enumerate(found):
+        if free[number] and not _excused(part, table):
+            counts[SORTS.index(part.sort), 3] += 1
+    return counts
+
+
+def _excused(part: Found, table: FloatArray) -> bool:
+    """Tell whether a part is found where nothing is known."""
+    for row in table:
+        if row[9] > 0 and SIDES.index(part.side) == int(row[0]):
+            low = np.maximum(part.box[:2], row[1:3])
+            high = np.minimum(part.box[2:], row[3:5])
+            inner = float(np.prod(np.maximum(high - low, 0.0)))
+            if inner >= 0.5 * float(np.prod(part.box[2:] - part.box[:2])):
+                return True
+    return False
+
+
+def printed(figures: dict[str, Any]) -> str:
+    """Return figures as lines."""
+    return "\n".join(f"{name}: {value}" for name, value in figures.items())

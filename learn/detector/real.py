@@ -1,0 +1,239 @@
+"""Real meshes with their openings labelled by eye, as the detector sees them."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asset_factory.factory.config import IntakeConfig
+from asset_factory.factory.geometry.crossings import Side, side_facing
+from asset_factory.factory.intake.load import load
+from asset_factory.factory.mesh import FloatArray, Mesh
+from asset_factory.factory.models.detector.canvas import (
+    CANVAS,
+    LONGEST,
+    SIDES,
+    SORTS,
+    WAYS,
+    PanelWay,
+    Sort,
+    look_at,
+)
+
+from .sides import Instances, LabelledSides
+
+AXES = "xyz"
+#: A lid whose box is this wide covers the object from side to side.
+WIDE = 0.85
+#: The way of a part that may be hinged at either edge.
+EITHER = -1
+WHOLE = (0.0, 0.0, 1.0, 1.0)
+
+
+@dataclass(frozen=True, eq=False)
+class RealObject:
+    """One labelled mesh.
+
+    Attributes:
+        name: of its file.
+        kind: what it is, as its inventory says.
+        opens: whether anything does.
+        front: number of the side that is its front.
+        sides: how it looks, and what opens.
+    """
+
+    name: str
+    kind: str
+    opens: bool
+    front: int
+    sides: LabelledSides
+
+
+def real_objects(folder: Path) -> Iterator[RealObject]:
+    """Yield the meshes of a folder with ``INVENTORY.csv``, ``openings.json``, ``fronts.json``.
+
+    Those that nobody could tell of, or that stand open, are left out.
+    """
+    labels = json.loads((folder / "openings.json").read_text())
+    fronts = json.loads((folder / "fronts.json").read_text())
+    open_as_given = {each.split(" ")[0] for each in fronts["open_as_given"]}
+    with (folder / "INVENTORY.csv").open(newline="") as rows:
+        inventory = list(csv.DictReader(rows))
+    for row in inventory:
+        name = Path(row["file"]).stem
+        if row["opens"] not in ("yes", "no") or name in open_as_given:
+            continue
+        front = _front(fronts["front"].get(name, "-y"))
+        if front is None:
+            continue
+        mesh = load(folder / row["file"], IntakeConfig()).mesh
+        rows_of = _unknown() if row["opens"] == "yes" else []
+        if name in labels:
+            rows_of = _labelled(labels, name, front)
+        sides = LabelledSides(
+            look_at(mesh),
+            np.zeros((len(SIDES), CANVAS, CANVAS), np.uint8),
+            _on_canvas(rows_of, mesh),
+        )
+        yield RealObject(name, row["kind"], row["opens"] == "yes", SIDES.index(front), sides)
+
+
+#: A row: side, box in shares of its picture, sort, way, ignored.
+_Row = tuple[int, Sequence[float], Sort, int, bool]
+
+
+def _front(text: str) -> Side | None:
+    """Return the side that an axis as ``+x`` is the front of; ``None``: seen from above."""
+    if text == "top":
+        return None
+    direction = np.zeros(3)
+    direction[AXES.index(text[-1])] = -1.0 if text.startswith("-") else 1.0
+    return side_facing(direction)
+
+
+def _unknown() -> list[_Row]:
+    return [(view, WHOLE, Sort.OTHER, EITHER, True) for view in range(len(SIDES))]
+
+
+def _labelled(labels: Mapping[str, Any], name: str, front: Side) -> list[_Row]:
+    rows = [row for entry in labels[name] for row in _rows(entry, front)]
+    for entry in labels.get(f"{name}:optional", []):
+        for side in _sides_of(entry["plane"]):
+            rows.append((SIDES.index(side), _on(side, entry), Sort.OTHER, EITHER, True))
+    return rows
+
+
+def _sides_of(plane: str) -> tuple[Side, ...]:
+    return {
+        "xz": (Side.FRONT, Side.BACK), "yz": (Side.LEFT, Side.RIGHT), "xy": (Side.TOP,)
+    }[plane]  # fmt: skip
+
+
+def _on(side: Side, entry: Mapping[str, Any]) -> list[float]:
+    """Return an entry's box in shares of a side's picture."""
+    u0, v0, u1, v1 = entry["box"]
+    right = side.frame[0]
+    if float(right.sum()) < 0.0:
+        u0, u1 = 1.0 - u1, 1.0 - u0
+    return [u0, v0, u1, v1]
+
+
+def _rows(entry: Mapping[str, Any], front: Side) -> list[_Row]:
+    """Return what an entry means on each side; a panel is on the side where the front is."""
+    sides = _sides_of(entry["plane"])
+    axis = np.array(entry["axis"] or [0.0, 0.0, 0.0], dtype=np.float64)
+    hinges = entry.get("hinge") or []
+    normal = np.abs(sides[0].frame[2])
+    slides = entry["type"] == "prismatic"
+    if not slides and axis[2] == 0.0 and float(axis @ normal) == 0.0:
+        across = AXES[int(np.argmax(normal))]
+        if Side.TOP in sides or any(across in spot for spot in hinges):
+            return _lid_rows(entry, sides, hinges)
+    side = side_facing(axis) if slides else front
+    if side not in sides or side is Side.TOP or not (slides or hinges):
+        return _ignored(entry, sides)
+    if slides:
+        sort, way = Sort.DRAWER, WAYS.index(PanelWay.OUT)
+    elif abs(float(axis @ normal)) > 0.9:
+        sort, way = Sort.CONTROL, WAYS.index(PanelWay.OTHER)
+    elif abs(axis[2]) > 0.9:
+        sort, way = Sort.DOOR, _edge(entry, side, hinges)
+    else:
+        sort, way = Sort.FLAP, _upright_edge(entry, hinges)
+    return [(SIDES.index(side), _on(side, entry), sort, way, False)]
+
+
+def _upright_edge(entry: Mapping[str, Any], hinges: Sequence[Mapping[str, float]]) -> int:
+    """Return the number of the edge at which a flap is hinged."""
+    middle = (entry["box"][1] + entry["box"][3]) / 2.0
+    low = {spot["z"] < middle for spot in hinges if "z" in spot}
+    if len(low) != 1:
+        return EITHER
+    return WAYS.index(PanelWay.BOTTOM if low.pop() else PanelWay.TOP)
+
+
+def _ignored(entry: Mapping[str, Any], sides: Sequence[Side]) -> list[_Row]:
+    return [(SIDES.index(each), _on(each, entry), Sort.OTHER, EITHER, True) for each in sides]
+
+
+def _edge(entry: Mapping[str, Any], side: Side, hinges: Sequence[Mapping[str, float]]) -> int:
+    """Return the number of the edge at which a door is hinged as seen on its side."""
+    letter = AXES[int(np.argmax(np.abs(side.frame[0])))]
+    u0, _, u1, _ = entry["box"]
+    left = {spot[letter] < (u0 + u1) / 2.0 for spot in hinges if letter in spot}
+    if len(left) != 1:
+        return EITHER
+    mirrored = float(side.frame[0].sum()) < 0.0
+    return WAYS.index(PanelWay.LEFT if next(iter(left)) != mirrored else PanelWay.RIGHT)
+
+
+def _lid_rows(
+    entry: Mapping[str, Any], sides: Sequence[Side], hinges: Sequence[Mapping[str, float]]
+) -> list[_Row]:
+    """Return a lid on all sides on which it must be seen."""
+    direction = _hinge_direction(hinges)
+    rows: list[_Row] = []
+    box = entry["box"]
+    above = Side.TOP in sides
+    wide = box[2] - box[0] >= WIDE
+    for view, side in enumerate(SIDES):
+        way = _lid_way(direction, side)
+        if side in sides:
+            rows.append((view, _on(side, entry), Sort.LID, way, False))
+        elif above:
+            rows.append((view, WHOLE, Sort.OTHER, EITHER, True))
+        elif side is Side.TOP:
+            shown = [box[0], 0.0, box[2], 1.0]
+            if sides[0] in (Side.LEFT, Side.RIGHT):
+                shown = [0.0, box[0], 1.0, box[2]]
+            rows.append((view, shown, Sort.LID, way, not wide))
+        else:
+            rows.append((view, [0.0, box[1], 1.0, box[3]], Sort.LID, way, not wide))
+    return rows
+
+
+def _hinge_direction(hinges: Sequence[Mapping[str, float]]) -> FloatArray | None:
+    """Return where the hinge is from the middle, level; ``None`` if that is not one place."""
+    found = set()
+    for spot in hinges:
+        for letter in "xy":
+            if letter in spot and abs(spot[letter] - 0.5) > 0.15:
+                found.add((letter, spot[letter] > 0.5))
+    if len(found) != 1:
+        return None
+    letter, high = found.pop()
+    direction = np.zeros(3)
+    direction[AXES.index(letter)] = 1.0 if high else -1.0
+    return direction
+
+
+def _lid_way(direction: FloatArray | None, side: Side) -> int:
+    if direction is None:
+        return EITHER
+    right, up, away = side.frame
+    far = up if side is Side.TOP else away
+    sideways, depth = float(direction @ right), float(direction @ far)
+    if abs(sideways) > abs(depth):
+        return WAYS.index(PanelWay.RIGHT if sideways > 0.0 else PanelWay.LEFT)
+    return WAYS.index(PanelWay.TOP if depth > 0.0 else PanelWay.BOTTOM)
+
+
+def _on_canvas(rows: Sequence[_Row], mesh: Mesh) -> Instances:
+    sizes = mesh.extents / mesh.extents.max() * LONGEST
+    table = np.zeros((len(rows), 10))
+    for number, (view, box, sort, way, ignored) in enumerate(rows):
+        extents = np.abs(SIDES[view].frame[:2] @ sizes)
+        shares = np.array(box, dtype=np.float64).reshape(2, 2)
+        corners = (CANVAS - extents) / 2.0 + shares * extents
+        table[number] = [view, *corners.ravel(), 0, SORTS.index(sort), way, 0, ignored]
+    whole = np.rint(table).astype(np.int64)
+    return Instances(
+        whole[:, 0], table[:, 1:5], whole[:, 5], whole[:, 6], whole[:, 7], table[:, 8],
+        table[:, 9] > 0.0,
+    )  # fmt: skip

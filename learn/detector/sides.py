@@ -1,0 +1,267 @@
+"""The sides of a labelled object, with everything that opens on each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind
+from asset_factory.factory.geometry.crossings import BoolArray, Raster, Side
+from asset_factory.factory.geometry.elevations import elevation
+from asset_factory.factory.geometry.posing import face_parts, posed
+from asset_factory.factory.mesh import FloatArray, IntArray
+from asset_factory.factory.models.detector.canvas import (
+    CANVAS,
+    LONGEST,
+    NOTHING,
+    SIDES,
+    SORTS,
+    WAYS,
+    Canvases,
+    PanelWay,
+    Sort,
+    place_of,
+    stored_depth,
+)
+
+#: A part that turns as a panel fills so much of its box; a lid covers so much of what is seen from
+#: above.
+FILLED = 0.35
+OVER = 0.35
+#: Of a canvas: the least area of a panel, and the fewest pixels of a control.
+LEAST_PANEL = 0.002
+LEAST_CONTROL = 9
+#: Pixels of a part at either end that its box leaves out, as a share: hinges that stick out.
+STRAY = 0.01
+#: Names of parts that are pressed or turned.
+CONTROLS = frozenset(
+    {
+        "button", "dial", "dimmer", "key", "knob", "latch", "lever", "pedal", "release", "rocker",
+        "switch", "tongue", "valve",
+    }
+)  # fmt: skip
+#: A part that stands open by less than this share of its range counts as closed.
+AJAR = 0.1
+UPRIGHT = tuple(side for side in SIDES if side is not Side.TOP)
+
+
+@dataclass(frozen=True, eq=False)
+class Instances:
+    """Everything that moves, on every side where it is seen.
+
+    Attributes:
+        view: number of the side, shape [n].
+        box: left, lower, right, upper edge [pixels of the canvas], shape [n, 4].
+        part: label on that side's canvas of parts, 0 where the box alone says where, shape [n].
+        sort, way: by number, shape [n].
+        opened: how far it stands open as a share of its range, shape [n].
+        ignored: nothing is learned there, shape [n].
+    """
+
+    view: IntArray
+    box: FloatArray
+    part: IntArray
+    sort: IntArray
+    way: IntArray
+    opened: FloatArray
+    ignored: BoolArray
+
+    def table(self) -> npt.NDArray[np.float32]:
+        """Return all columns side by side, shape [n, 10]."""
+        columns = [self.view, *self.box.T, self.part, self.sort, self.way]
+        columns += [self.opened, self.ignored]
+        return np.stack(columns, axis=1).astype(np.float32).reshape(-1, 10)
+
+
+@dataclass(frozen=True, eq=False)
+class LabelledSides:
+    """Five sides of one object and the truth.
+
+    Attributes:
+        canvases: how it looks.
+        part: number of the part of every pixel plus one, 0 where nothing is seen, uint8, shape
+            [5, 256, 256].
+        instances: what moves.
+    """
+
+    canvases: Canvases
+    part: npt.NDArray[np.uint8]
+    instances: Instances
+
+
+_Pictures = tuple[Canvases, npt.NDArray[np.uint8], dict[Side, Raster]]
+
+
+@dataclass(frozen=True)
+class _Meaning:
+    """What a joint's part is, and on which sides it counts."""
+
+    sort: Sort
+    ways: Mapping[int, PanelWay]
+
+
+def labelled_sides(
+    articulation: Articulation, opened: Mapping[str, float] | None = None
+) -> LabelledSides:
+    """Return the sides of an object.
+
+    Args:
+        articulation: closed, its front towards -Y.
+        opened: shares of their ranges by which joints are opened before the object is looked at.
+    """
+    pictures = _pictures(articulation)
+    meanings = _meanings(articulation, pictures)
+    shares = dict(opened or {})
+    if shares:
+        values = {
+            joint.name: shares[joint.name] * joint.upper
+            for joint in articulation.joints
+            if joint.name in shares
+        }
+        articulation = posed(articulation, values)
+        pictures = _pictures(articulation)
+    canvases, part, _ = pictures
+    rows = []
+    for joint in articulation.movable_joints:
+        meaning = meanings.get(joint.child)
+        share = shares.get(joint.name, 0.0)
+        for view in range(len(SIDES)):
+            rows += _row(part[view] == joint.child + 1, view, joint.child, meaning, share)
+    return LabelledSides(canvases, part, _instances(rows))
+
+
+def _row(
+    mask: BoolArray, view: int, part: int, meaning: _Meaning | None, share: float
+) -> list[tuple[float, ...]]:
+    """Return the row of one part on one side, if it is seen there."""
+    if mask.sum() < LEAST_CONTROL:
+        return []
+    box = _box(mask)
+    wide, high = box[2:] - box[:2]
+    known = meaning is not None and view in meaning.ways
+    sort = meaning.sort if meaning is not None else Sort.OTHER
+    way = meaning.ways[view] if meaning is not None and known else PanelWay.OTHER
+    panel = sort not in (Sort.CONTROL, Sort.OTHER)
+    if panel:
+        filled = float(mask.sum()) / max(wide * high, 1.0)
+        large = float(mask.sum()) >= LEAST_PANEL * CANVAS**2
+        if not large or (filled < FILLED and sort is not Sort.LID) or min(wide, high) < 4:
+            known = False
+    ignored = not known and sort is not Sort.OTHER
+    opened = share if share > AJAR else 0.0
+    return [(view, *box, part + 1, SORTS.index(sort), WAYS.index(way), opened, ignored)]
+
+
+def _instances(rows: list[tuple[float, ...]]) -> Instances:
+    table = np.array(rows, dtype=np.float64).reshape(-1, 10)
+    whole = table.astype(np.int64)
+    return Instances(
+        whole[:, 0], table[:, 1:5], whole[:, 5], whole[:, 6], whole[:, 7], table[:, 8],
+        table[:, 9] > 0.0,
+    )  # fmt: skip
+
+
+def _pictures(articulation: Articulation) -> _Pictures:
+    """Return how the sides look, the parts of their pixels, and where the pixels are."""
+    shape = (len(SIDES), CANVAS, CANVAS)
+    color = np.zeros((*shape, 3), np.uint8)
+    depth = np.full(shape, NOTHING, np.int16)
+    part = np.zeros(shape, np.uint8)
+    owner = np.minimum(face_parts(articulation) + 1, 255)
+    rasters = {}
+    for number, side in enumerate(SIDES):
+        picture = elevation(articulation.mesh, side, LONGEST)
+        rows, columns = place_of(picture)
+        color[number, rows, columns] = np.rint(255.0 * picture.color)
+        depth[number, rows, columns] = stored_depth(picture)
+        part[number, rows, columns] = np.where(picture.seen, owner[np.maximum(picture.face, 0)], 0)
+        rasters[side] = picture.raster
+    return Canvases(color, depth), part, rasters
+
+
+def _meanings(articulation: Articulation, pictures: _Pictures) -> dict[int, _Meaning]:
+    """Return what each moving part of a closed object is."""
+    _, part, rasters = pictures
+    top_seen = int((part[-1] > 0).sum())
+    found = {}
+    for joint in articulation.movable_joints:
+        counts = [int((part[view] == joint.child + 1).sum()) for view in range(len(SIDES))]
+        if max(counts) == 0:
+            continue
+        name = articulation.parts[joint.child].name
+        words = set(name.replace("-", "_").split("_"))
+        if words & CONTROLS:
+            found[joint.child] = _Meaning(Sort.CONTROL, {int(np.argmax(counts)): PanelWay.OTHER})
+            continue
+        level = joint.kind is JointKind.REVOLUTE and abs(float(joint.axis[2])) < 0.2
+        covers = counts[-1] >= OVER * top_seen
+        named = bool(words & {"lid", "cover"}) and int(np.argmax(counts)) == len(SIDES) - 1
+        if level and (covers or named):
+            faces = articulation.mesh.faces[articulation.parts[joint.child].faces]
+            center = articulation.mesh.vertices[faces].mean(axis=(0, 1))
+            found[joint.child] = _Meaning(Sort.LID, _lid_ways(joint, center, counts))
+            continue
+        view = int(np.argmax(counts[:4]))
+        side = UPRIGHT[view]
+        way = _way(part[view] == joint.child + 1, view, rasters[side], joint)
+        if counts[view] and way is not None:
+            sort = {
+                PanelWay.OUT: Sort.DRAWER,
+                PanelWay.BOTTOM: Sort.FLAP,
+                PanelWay.TOP: Sort.FLAP,
+            }.get(way, Sort.DOOR)
+            found[joint.child] = _Meaning(sort, {view: way})
+    return found
+
+
+def _lid_ways(joint: Joint, center: FloatArray, counts: list[int]) -> dict[int, PanelWay]:
+    """Return by side where a lid is hinged: at its left, right, far or near edge."""
+    across = joint.origin - center
+    across = across - (across @ joint.axis) * joint.axis
+    across[2] = 0.0
+    ways = {}
+    for view, side in enumerate(SIDES):
+        if not counts[view]:
+            continue
+        right, up, away = side.frame
+        far = up if side is Side.TOP else away
+        sideways, depth = float(across @ right), float(across @ far)
+        if abs(sideways) > abs(depth):
+            ways[view] = PanelWay.RIGHT if sideways > 0.0 else PanelWay.LEFT
+        else:
+            ways[view] = PanelWay.TOP if depth > 0.0 else PanelWay.BOTTOM
+    return ways
+
+
+def _way(mask: BoolArray, view: int, raster: Raster, joint: Joint) -> PanelWay | None:
+    """Return how a panel opens as seen on its side; ``None``: as none does."""
+    right, up, away = raster.side.frame
+    if joint.kind is JointKind.PRISMATIC:
+        return PanelWay.OUT if float(joint.axis @ away) < -0.9 else None
+    if joint.kind is not JointKind.REVOLUTE or not mask.any():
+        return None
+    left, bottom, end, top = _box(mask)
+    row, column, _ = raster.pixels(joint.origin)
+    column += (CANVAS - raster.columns) // 2
+    row += (CANVAS - raster.rows) // 2
+    across = (column - left) / max(end - left, 1.0)
+    height = (row - bottom) / max(top - bottom, 1.0)
+    if abs(float(joint.axis @ up)) > 0.9 and not 0.3 < across < 0.7:
+        return PanelWay.LEFT if across < 0.5 else PanelWay.RIGHT
+    if abs(float(joint.axis @ right)) > 0.9 and not 0.3 < height < 0.7:
+        return PanelWay.BOTTOM if height < 0.5 else PanelWay.TOP
+    return None
+
+
+def _box(mask: BoolArray) -> FloatArray:
+    """Return left, lower, right and upper edge of a mask without stray pixels."""
+    ends = []
+    for axis in (1, 0):
+        share = np.cumsum(mask.sum(axis=1 - axis)) / mask.sum()
+        low = int(np.searchsorted(share, STRAY))
+        ends.append((low, int(np.searchsorted(share, 1.0 - STRAY)) + 1))
+    (left, right), (bottom, top) = ends
+    return np.array([left, bottom, right, top], dtype=np.float64)

@@ -1,0 +1,159 @@
+"""Objects made by worker processes while training runs, and the pool that it draws from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from multiprocessing import get_context
+from multiprocessing.shared_memory import SharedMemory
+from queue import Empty
+from typing import Any
+
+import numpy as np
+import torch  # noqa: TID253 - this module is only imported to train
+
+from asset_factory.factory.models.detector.canvas import CANVAS, SIDES
+
+from .looks import ObjectBatch
+
+#: Rows of a table; objects with more are left out.
+MOST = 48
+_SHAPE = (len(SIDES), CANVAS, CANVAS)
+_COLOR = int(np.prod(_SHAPE)) * 3
+_DEPTH = int(np.prod(_SHAPE)) * 2
+_PART = int(np.prod(_SHAPE))
+_BYTES = _COLOR + _DEPTH + _PART
+#: Objects that wait between the workers and the pool.
+SLOTS = 96
+
+
+@dataclass(frozen=True)
+class WholeTruth:
+    """What is known of one object as a whole."""
+
+    kind: int
+    opens: bool
+    front: int
+    real: bool
+
+
+class Pool:
+    """Objects on the training device; the oldest made way for new ones.
+
+    Args:
+        size: how many.
+        device: where.
+    """
+
+    def __init__(self, size: int, device: Any) -> None:
+        self.size = size
+        self.device = device
+        self.color = torch.zeros((size, *_SHAPE, 3), dtype=torch.uint8, device=device)
+        self.depth = torch.zeros((size, *_SHAPE), dtype=torch.int16, device=device)
+        self.part = torch.zeros((size, *_SHAPE), dtype=torch.uint8, device=device)
+        self.table = torch.full((size, MOST, 10), -1.0, device=device)
+        self.whole = torch.zeros((size, 4), dtype=torch.long, device=device)
+        self.made = 0
+
+    def add(self, color: Any, depth: Any, part: Any, table: Any, truth: WholeTruth) -> None:
+        """Put an object in the place of the oldest; one with too many rows is left out."""
+        if len(table) > MOST:
+            return
+        at = self.made % self.size
+        self.color[at].copy_(torch.from_numpy(np.array(color)))
+        self.depth[at].copy_(torch.from_numpy(np.array(depth)))
+        self.part[at].copy_(torch.from_numpy(np.array(part)))
+        rows = np.full((MOST, 10), -1.0, np.float32)
+        rows[: len(table)] = table
+        self.table[at].copy_(torch.from_numpy(rows))
+        whole = [truth.kind, int(truth.opens), truth.front, int(truth.real)]
+        self.whole[at].copy_(torch.tensor(whole))
+        self.made += 1
+
+    def draw(self, count: int, generator: Any) -> tuple[ObjectBatch, Any]:
+        """Return so many objects and what is known of each as a whole, [n, 4]."""
+        filled = min(self.made, self.size)
+        chosen = torch.randint(filled, (count,), generator=generator, device=self.device)
+        return self.take(chosen)
+
+    def take(self, chosen: Any) -> tuple[ObjectBatch, Any]:
+        """Return the objects at these places."""
+        whole = self.whole[chosen]
+        batch = ObjectBatch(
+            self.color[chosen], self.depth[chosen], self.part[chosen], self.table[chosen],
+            whole[:, 3] > 0, whole[:, 2],
+        )  # fmt: skip
+        return batch, whole
+
+
+def joined(batches: list[tuple[ObjectBatch, Any]]) -> tuple[ObjectBatch, Any]:
+    """Return several batches as one."""
+    names = ("color", "depth", "part", "table", "real", "front")
+    parts = {name: torch.cat([getattr(each, name) for each, _ in batches]) for name in names}
+    return ObjectBatch(**parts), torch.cat([whole for _, whole in batches])
+
+
+class Makers:
+    """Worker processes that make objects into a pool until they are stopped."""
+
+    def __init__(self, pool: Pool, workers: int, seed: int) -> None:
+        context = get_context("spawn")
+        self.memory = SharedMemory(create=True, size=SLOTS * _BYTES)
+        self.free = context.Queue()
+        self.ready = context.Queue()
+        self.pool = pool
+        for slot in range(SLOTS):
+            self.free.put(slot)
+        self.workers = [
+            context.Process(
+                target=make_into,
+                args=(self.memory.name, self.free, self.ready, seed, number),
+                daemon=True,
+            )
+            for number in range(workers)
+        ]
+        for worker in self.workers:
+            worker.start()
+
+    def collect(self, most: int) -> None:
+        """Put at most so many finished objects into the pool; no thread does, it would hinder."""
+        for _ in range(most):
+            try:
+                slot, table, truth = self.ready.get_nowait()
+            except Empty:
+                return
+            self.pool.add(*_views(self.memory, slot), table, truth)
+            self.free.put(slot)
+
+    def stop(self) -> None:
+        """End the workers."""
+        for worker in self.workers:
+            worker.kill()
+        self.workers = []
+
+
+def _views(memory: SharedMemory, slot: int) -> tuple[Any, Any, Any]:
+    start = slot * _BYTES
+    color = np.ndarray((*_SHAPE, 3), np.uint8, memory.buf, start)
+    depth = np.ndarray(_SHAPE, np.int16, memory.buf, start + _COLOR)
+    part = np.ndarray(_SHAPE, np.uint8, memory.buf, start + _COLOR + _DEPTH)
+    return color, depth, part
+
+
+def make_into(name: str, free: Any, ready: Any, seed: int, number: int) -> None:
+    """Make objects for ever; runs in a worker process."""
+    from .drawn import drawn_sides
+    from .kinds import kind_number
+
+    torch.set_num_threads(1)
+    memory = SharedMemory(name=name)
+    rng = np.random.default_rng([seed, number])
+    while True:
+        kind, sides = drawn_sides(rng)
+        slot = free.get()
+        color, depth, part = _views(memory, slot)
+        color[:] = sides.canvases.color
+        depth[:] = sides.canvases.depth
+        part[:] = sides.part
+        table = sides.instances.table()
+        moving = table[(table[:, 9] == 0.0) & (table[:, 6] < 4)]
+        ready.put((slot, table, WholeTruth(kind_number(kind), bool(len(moving)), 0, False)))

@@ -1,0 +1,141 @@
+"""What the network should answer, and how far from it an answer is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import torch  # noqa: TID253 - this module is only imported to train
+from torch.nn import functional  # noqa: TID253
+
+from asset_factory.factory.models.detector.canvas import CANVAS, SIDES, SORTS
+from asset_factory.factory.models.detector.network import STRIDE, DenseAnswers
+
+from .looks import Shown
+
+Tensor = Any
+CELLS = CANVAS // STRIDE
+#: Small parts are as large as this for learning [pixels].
+LEAST = 6.0
+GAMMA = 2.0
+OTHER = SORTS.index(SORTS[-1])
+
+
+@dataclass(frozen=True, eq=False)
+class Targets:
+    """Truth by cell of 4 pixels, [n, 5, 64, 64] unless said.
+
+    Attributes:
+        sort: number; -1: nothing moves there.
+        ignored: nothing is learned there.
+        edges: distances to the edges [pixels], [n, 5, 4, 64, 64].
+        way: number; -1: not known.
+        opened: as a share of its range.
+        weight: so that small parts count nearly as much as large ones.
+    """
+
+    sort: Tensor
+    ignored: Tensor
+    edges: Tensor
+    way: Tensor
+    opened: Tensor
+    weight: Tensor
+
+
+def targets_of(shown: Shown) -> Targets:
+    """Return the truth of every cell; where parts overlap it is that of the smallest."""
+    table = shown.table
+    count, most = table.shape[:2]
+    views = len(SIDES)
+    part = shown.part[..., STRIDE // 2 :: STRIDE, STRIDE // 2 :: STRIDE]
+    center = (torch.arange(CELLS, device=table.device) + 0.5) * STRIDE
+    best = torch.full((count, views, CELLS, CELLS), 1e9, device=table.device)
+    owner = torch.full((count, views, CELLS, CELLS), -1, dtype=torch.long, device=table.device)
+    ignored = torch.zeros_like(owner, dtype=torch.bool)
+    view_numbers = torch.arange(views, device=table.device)
+    for number in range(most):
+        row = table[:, number]
+        low, high = row[:, 1:3], row[:, 3:5]
+        grown = ((LEAST - (high - low)) / 2.0).clamp(min=0.0)
+        low, high = low - grown, high + grown
+        across = (center >= low[:, :1]) & (center <= high[:, :1])
+        up = (center >= low[:, 1:]) & (center <= high[:, 1:])
+        inside = (up[:, :, None] & across[:, None, :])[:, None]
+        inside = inside & (view_numbers == row[:, :1])[:, :, None, None]
+        small = (high - low).amin(1) < 3 * STRIDE
+        own = (part == row[:, 5, None, None, None]) | (row[:, 5] == 0)[:, None, None, None]
+        inside = inside & (own | small[:, None, None, None])
+        drop = (row[:, 9] > 0)[:, None, None, None]
+        ignored = ignored | (inside & drop)
+        area = ((high - low).prod(1))[:, None, None, None].expand_as(best)
+        better = inside & ~drop & (area < best)
+        best = torch.where(better, area, best)
+        owner = torch.where(better, number, owner)
+    there = owner >= 0
+    index = owner.clamp(min=0).flatten(1)
+
+    def column(k: int) -> Tensor:
+        return table[..., k].gather(1, index).view(owner.shape)
+
+    x, y = center[None, None, None, :], center[None, None, :, None]
+    edges = torch.stack([x - column(1), y - column(2), column(3) - x, column(4) - y], 2)
+    cells = functional.one_hot(torch.where(there, owner, most).flatten(1), most + 1).sum(1)
+    size = cells.gather(1, index).view(owner.shape).clamp(min=1).float()
+    return Targets(
+        torch.where(there, column(6).long(), -1),
+        ignored & ~there,
+        edges,
+        torch.where(there, column(7).long(), -1),
+        column(8),
+        torch.where(there, size.rsqrt(), 0.0),
+    )
+
+
+def loss_of(answers: DenseAnswers, targets: Targets) -> tuple[Tensor, dict[str, Tensor]]:
+    """Return how far answers are from the truth, and its terms."""
+    there = (targets.sort >= 0) & ~targets.ignored
+    weight = targets.weight * there
+    norm = weight.sum().clamp(min=1.0)
+    mean = norm / there.sum().clamp(min=1)
+    sort = answers.sort.float()
+    wanted = functional.one_hot(targets.sort.clamp(min=0), len(SORTS)).movedim(-1, 2).float()
+    wanted = wanted * there[:, :, None]
+    loss = functional.binary_cross_entropy_with_logits(sort, wanted, reduction="none")
+    share = torch.sigmoid(sort)
+    away = torch.where(wanted > 0, 1.0 - share, share)
+    balance = (
+        torch.where(there[:, :, None], weight[:, :, None], mean) * ~targets.ignored[:, :, None]
+    )
+    focal = torch.where(wanted > 0, 0.4, 0.6) * away**GAMMA * loss * balance
+    terms = {"sort": focal.sum() / norm}
+    overlap, generous = _overlap(answers.edges, targets.edges)
+    terms["box"] = (weight * (1.0 - generous)).sum() / norm
+    off = functional.smooth_l1_loss(answers.edges / 8, targets.edges / 8, reduction="none")
+    terms["edge"] = 0.3 * (weight * off.clamp(max=4.0).mean(2)).sum() / norm
+    known = weight * (targets.way >= 0) * (targets.sort != OTHER)
+    ways = functional.cross_entropy(
+        answers.way.float().movedim(2, 1), targets.way.clamp(min=0), reduction="none"
+    )
+    terms["way"] = (known * ways).sum() / known.sum().clamp(min=1.0)
+    quality = functional.binary_cross_entropy_with_logits(
+        answers.quality.float(), overlap.detach(), reduction="none"
+    )
+    terms["quality"] = (weight * quality).sum() / norm
+    opened = functional.smooth_l1_loss(answers.opened.float(), targets.opened, reduction="none")
+    terms["opened"] = (weight * opened).sum() / norm
+    return sum(terms.values()), terms
+
+
+def _overlap(one: Tensor, other: Tensor) -> tuple[Tensor, Tensor]:
+    """Return the intersection over union of boxes about each cell, and the generalised one."""
+    smaller = torch.minimum(one, other).clamp(min=0.0)
+    larger = torch.maximum(one, other)
+    inner = (smaller[:, :, 0] + smaller[:, :, 2]) * (smaller[:, :, 1] + smaller[:, :, 3])
+    areas = [
+        ((each[:, :, 0] + each[:, :, 2]) * (each[:, :, 1] + each[:, :, 3])).clamp(min=1e-3)
+        for each in (one, other)
+    ]
+    union = (areas[0] + areas[1] - inner).clamp(min=1e-3)
+    hull = (larger[:, :, 0] + larger[:, :, 2]) * (larger[:, :, 1] + larger[:, :, 3])
+    overlap = (inner / union).clamp(0.0, 1.0)
+    return overlap, overlap - (hull - union) / hull.clamp(min=1e-3)

@@ -1,0 +1,251 @@
+"""Train the detector: ``python -m asset_factory.learn.detector.train PACK OUT``.
+
+Meant for some minutes on one GPU: worker processes make objects all the while, the pool of them is
+on the GPU, and everything that varies their looks happens there.
+"""
+
+from __future__ import annotations
+
+import argparse
+import copy
+import json
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch  # noqa: TID253 - this module is only imported to train
+from safetensors.torch import load_file, save_file  # noqa: TID253
+from torch.nn import functional  # noqa: TID253
+
+from asset_factory.factory.models.detector.canvas import CANVAS
+from asset_factory.factory.models.detector.kinds import KINDS
+from asset_factory.factory.models.detector.network import Detector
+from asset_factory.factory.runtime.terminal import say
+
+from .evaluate import evaluate, printed
+from .kinds import kind_number
+from .looks import show
+from .pack import Packed, read_pack, read_textures
+from .stream import Makers, Pool, WholeTruth, joined
+from .targets import loss_of, targets_of
+
+#: Rates of learning: of what was trained before, and of the rest.
+RATES = (5e-4, 1e-3)
+#: Share of the time in which rates rise.
+WARMING = 0.05
+#: Of a batch, real objects and objects of descriptions; the rest is made.
+REAL, DESCRIBED = 0.2, 0.08
+#: Weights that are kept follow those that learn by this share a step.
+FOLLOW = 0.998
+SAID_EVERY_S = 20.0
+#: Finished objects that are taken over between two steps.
+MOST_COLLECTED = 40
+#: Below so many steps a second the makers are in the way, and are stopped.
+SLOW = 1.5
+
+
+def main() -> None:
+    """Run the command."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("pack", type=Path)
+    parser.add_argument("out", type=Path)
+    parser.add_argument("--backbone", type=Path, help="EfficientNet-Lite0, safetensors")
+    parser.add_argument("--start", type=Path, help="a checkpoint to go on from")
+    parser.add_argument("--minutes", type=float, default=7.0)
+    parser.add_argument("--batch", type=int, default=64)
+    parser.add_argument("--workers", type=int, default=15)
+    parser.add_argument("--pool", type=int, default=10_000)
+    parser.add_argument("--first", type=int, default=800, help="objects to begin with")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--device", default="cuda")
+    train(parser.parse_args())
+
+
+def train(options: Any) -> None:
+    """Train for some minutes and keep checkpoints."""
+    start = time.monotonic()
+    device = torch.device(options.device)
+    torch.backends.cuda.matmul.allow_tf32 = True
+    torch.backends.cudnn.allow_tf32 = True
+    torch.manual_seed(options.seed)
+    made = Pool(options.pool, device)
+    makers = Makers(made, options.workers, options.seed)
+    real, described, held_out = _packed(options.pack, device)
+    say(f"{real.made} real, {described.made} described, {held_out.made} held out objects")
+    network = _begun(options).to(device, memory_format=torch.channels_last)
+    while made.made < options.first:
+        makers.collect(MOST_COLLECTED)
+        time.sleep(0.05)
+    say(f"{made.made} objects made after {time.monotonic() - start:.0f} s")
+    source = Pools(
+        (made, real, described),
+        torch.from_numpy(read_textures(options.pack)).to(device),
+        torch.Generator(device).manual_seed(options.seed),
+    )
+    kept, steps = _fitted(network, source, makers, start + 60.0 * options.minutes, options)
+    makers.stop()
+    _keep(kept, options.out)
+    figures = evaluate(kept, held_out)
+    say(printed(figures))
+    seen = {"steps": steps, "batch": options.batch, "made": made.made}
+    (options.out / "figures.json").write_text(json.dumps(figures | seen, indent=1))
+
+
+@dataclass(frozen=True, eq=False)
+class Pools:
+    """Where batches come from.
+
+    Attributes:
+        pools: made, real and described objects.
+        textures: uint8, [m, 3, size, size].
+        generator: of random numbers.
+    """
+
+    pools: tuple[Pool, Pool, Pool]
+    textures: Any
+    generator: Any
+
+
+def _begun(options: Any) -> Any:
+    """Return the network before its first step."""
+    network = Detector(len(KINDS))
+    if options.backbone:
+        _begin(network, load_file(str(options.backbone)))
+    if options.start:
+        network.load_state_dict({k: v.float() for k, v in load_file(str(options.start)).items()})
+    return network
+
+
+def _fitted(
+    network: Any, source: Pools, makers: Makers, end: float, options: Any
+) -> tuple[Any, int]:
+    """Return the weights that followed those that learned until ``end``, and the steps taken."""
+    kept = copy.deepcopy(network).eval()
+    fresh = [p for name, p in network.named_parameters() if not name.startswith("backbone")]
+    groups = [{"params": network.backbone.parameters()}, {"params": fresh}]
+    optimizer = torch.optim.AdamW(groups, weight_decay=0.02)
+    begun = said = time.monotonic()
+    step = told = 0
+    sums: dict[str, Any] = {}
+    while (now := time.monotonic()) < end:
+        done = (now - begun) / (end - begun)
+        for group, rate in zip(optimizer.param_groups, RATES, strict=True):
+            group["lr"] = rate * _rate(done)
+        loss, terms = _loss(network, source, options.batch)
+        optimizer.zero_grad(set_to_none=True)
+        loss.backward()
+        torch.nn.utils.clip_grad_norm_(network.parameters(), 2.0)
+        optimizer.step()
+        _follow(kept, network, min(FOLLOW, step / (step + 50.0)))
+        for name, value in terms.items():
+            sums[name] = sums.get(name, 0.0) + value.detach()
+        makers.collect(MOST_COLLECTED)
+        step += 1
+        if now - said > SAID_EVERY_S:
+            _say(step, step - told, sums, now - said, source.pools[0].made)
+            if (step - told) / (now - said) < SLOW and done > 0.1:
+                makers.stop()
+            said, sums, told = now, {}, step
+            _keep(kept, options.out)
+    return kept, step
+
+
+def _keep(kept: Any, folder: Path) -> None:
+    """Write the weights so far; all but counts in half precision."""
+    folder.mkdir(parents=True, exist_ok=True)
+    state = {name: each.half().contiguous() for name, each in kept.state_dict().items()}
+    save_file(state, str(folder / "detector.safetensors"))
+
+
+def _rate(done: float) -> float:
+    if done < WARMING:
+        return done / WARMING
+    return 0.5 * (1.0 + float(torch.cos(torch.tensor(torch.pi * (done - WARMING) / (1 - WARMING)))))
+
+
+def _packed(path: Path, device: Any) -> tuple[Pool, Pool, Pool]:
+    packed = list(read_pack(path))
+    pools = []
+    for chosen in (
+        [each for each in packed if each.real and not each.held_out],
+        [each for each in packed if not each.real],
+        [each for each in packed if each.held_out],
+    ):
+        pool = Pool(len(chosen), device)
+        for each in chosen:
+            truth = WholeTruth(each.kind, each.opens, each.front, each.real)
+            pool.add(each.color, each.depth, each.part, _seen_through(each), truth)
+        pools.append(pool)
+    return pools[0], pools[1], pools[2]
+
+
+def _seen_through(packed: Packed) -> Any:
+    """Return an object's table; a door is seen from behind, too, where nothing is asked."""
+    table = packed.table
+    if packed.kind != kind_number("door"):
+        return table
+    behind = table[table[:, 0] < 4].copy()
+    behind[:, 0] = (behind[:, 0] + 2) % 4
+    behind[:, [1, 3]] = CANVAS - behind[:, [3, 1]]
+    behind[:, 9] = 1.0
+    return np.concatenate([table, behind])
+
+
+def _begin(network: Any, weights: dict[str, Any]) -> None:
+    """Take what the backbone learned from pictures; channels beside colours begin at nothing."""
+    own = network.backbone.state_dict()
+    for name, value in weights.items():
+        if name == "stem.conv.weight":
+            own[name][:, :3] = value
+            own[name][:, 3:] *= 0.2
+        else:
+            own[name] = value
+    network.backbone.load_state_dict(own)
+
+
+def _loss(network: Any, source: Pools, count: int) -> tuple[Any, dict[str, Any]]:
+    """Return how far the network is from the truth on one batch, and the terms of that."""
+    made, real, described = source.pools
+    generator = source.generator
+    real_count, described_count = round(REAL * count), round(DESCRIBED * count)
+    batch, whole = joined(
+        [
+            made.draw(count - real_count - described_count, generator),
+            real.draw(real_count, generator),
+            described.draw(described_count, generator),
+        ]
+    )
+    with torch.no_grad():
+        shown = show(batch, source.textures, generator)
+        targets = targets_of(shown)
+    on_gpu = batch.color.device.type == "cuda"
+    with torch.autocast(batch.color.device.type, torch.bfloat16, enabled=on_gpu):
+        answers = network(shown.cues)
+    loss, terms = loss_of(answers, targets)
+    terms["kind"] = 0.3 * functional.cross_entropy(answers.kind.float(), whole[:, 0])
+    opens = whole[:, 1].float()
+    terms["opens"] = 0.5 * functional.binary_cross_entropy_with_logits(answers.opens.float(), opens)
+    front = functional.cross_entropy(answers.front.float(), shown.front, reduction="none")
+    terms["front"] = 0.3 * (front * opens).sum() / opens.sum().clamp(min=1.0)
+    return loss + terms["kind"] + terms["opens"] + terms["front"], terms
+
+
+def _follow(kept: Any, network: Any, share: float) -> None:
+    """Move the weights that are kept towards those that learn."""
+    mine = [v for v in kept.state_dict().values() if v.dtype.is_floating_point]
+    theirs = [v for v in network.state_dict().values() if v.dtype.is_floating_point]
+    with torch.no_grad():
+        torch._foreach_mul_(mine, share)
+        torch._foreach_add_(mine, theirs, alpha=1.0 - share)
+
+
+def _say(step: int, steps: int, sums: dict[str, Any], passed: float, made: int) -> None:
+    terms = " ".join(f"{name} {float(value) / steps:.3f}" for name, value in sums.items())
+    used = torch.cuda.max_memory_allocated() / 2**30 if torch.cuda.is_available() else 0.0
+    say(f"step {step} {steps / passed:.1f}/s made {made} {used:.0f} GiB {terms}")
+
+
+if __name__ == "__main__":
+    main()

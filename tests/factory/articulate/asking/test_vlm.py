@@ -1,0 +1,178 @@
+"""A model is asked by a protocol, corrected once, paid once, and never believed unchecked."""
+
+import json
+import threading
+import time
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+
+import pytest
+from one_piece import fridge
+
+from asset_factory.factory.articulate.asking import endpoint
+from asset_factory.factory.articulate.asking.articulator import VlmArticulator
+from asset_factory.factory.articulate.asking.endpoint import require_endpoint
+from asset_factory.factory.config import VlmConfig
+from asset_factory.factory.errors import ConfigError, InputRejected, Unjudged
+
+DOOR = {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1], "hinge": "right"}
+GOOD = json.dumps({"parts": [DOOR]})
+KEY = "sk-very-secret"
+
+
+def completion(text):
+    usage = {"prompt_tokens": 1200, "completion_tokens": 34}
+    body = {"choices": [{"message": {"role": "assistant", "content": text}}], "usage": usage}
+    return 200, json.dumps(body).encode()
+
+
+class Server:
+    """Answers one request after the other as it was told; the last answer for ever."""
+
+    def __init__(self):
+        self.asked = []
+        self.answers = []
+        self.wait_s = 0.0
+        outer = self
+
+        class Handler(BaseHTTPRequestHandler):
+            def do_POST(self):
+                length = int(self.headers["Content-Length"])
+                outer.asked.append(
+                    (self.path, dict(self.headers), json.loads(self.rfile.read(length)))
+                )
+                time.sleep(outer.wait_s)
+                last = len(outer.answers) - 1
+                status, body = outer.answers[min(len(outer.asked) - 1, last)]
+                self.send_response(status)
+                self.send_header("Retry-After", "0")
+                self.send_header("Content-Length", str(len(body)))
+                self.end_headers()
+                try:
+                    self.wfile.write(body)
+                except OSError:
+                    return
+
+            def log_message(self, *arguments):
+                pass
+
+        self.http = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+        threading.Thread(target=self.http.serve_forever, daemon=True).start()
+        self.url = f"http://127.0.0.1:{self.http.server_port}/v1"
+
+
+@pytest.fixture
+def server(monkeypatch):
+    monkeypatch.setenv("ASSET_FACTORY_VLM_KEY", KEY)
+    monkeypatch.setattr(endpoint, "LONGEST_PAUSE_S", 0.0)
+    made = Server()
+    yield made
+    made.http.shutdown()
+    made.http.server_close()
+
+
+@pytest.fixture
+def ask(server, tmp_path):
+    def asked(*answers, model="eyes-1", **settings):
+        server.answers = list(answers)
+        config = VlmConfig(server.url, model, answers=str(tmp_path / "answers"), **settings)
+        return VlmArticulator("fridge.glb", config).hypotheses(fridge())
+
+    return asked
+
+
+def test_a_good_answer_is_found_on_the_mesh_and_asked_for_once(server, ask, tmp_path):
+    (made,) = ask(completion(f"```json\n{GOOD}\n```"))
+    tree = made.articulation
+    assert (tree.articulator, [part.kind for part in tree.parts]) == ("vlm", ["body", "door"])
+    assert tree.parts[1].source.proposer == "vlm"
+    assert tree.notes[-1] == ("eyes-1 at 127.0.0.1 said what opens: 1200 tokens read, 34 written")
+    path, headers, body = server.asked[0]
+    assert path == "/v1/chat/completions"
+    assert headers["Authorization"] == f"Bearer {KEY}"
+    assert (body["temperature"], body["response_format"]["type"]) == (0, "json_schema")
+    text, picture = body["messages"][0]["content"]
+    assert "fridge.glb" in text["text"]
+    assert picture["image_url"]["url"].startswith("data:image/png;base64,iVBOR")
+    again = ask(completion("never asked"))
+    assert again[0].articulation.notes == tree.notes
+    assert len(server.asked) == 1
+    for kept in (tmp_path / "answers").iterdir():
+        assert KEY not in kept.read_text()
+
+
+@pytest.mark.parametrize(
+    ("bad", "wrong"),
+    [
+        ("I see a fridge.", "not in the form"),
+        ('{"parts": [{"kind": "dor"}]}', "did you mean 'door'?"),
+        (json.dumps({"parts": [{**DOOR, "hinge": "back"}]}), "is hinged at its back"),
+        ("[" * 60_000, "not in the form"),
+        ('{"parts": [{"kind": "door", "name": "<script>"}]}', "name is a letter"),
+    ],
+)
+def test_a_bad_answer_is_asked_for_again_with_what_is_wrong(server, ask, bad, wrong):
+    (made,) = ask(completion(bad), completion(GOOD))
+    assert len(made.articulation.parts) == 2
+    assert "2400 tokens read" in made.articulation.notes[-1]
+    _, said, correction = server.asked[1][2]["messages"]
+    assert (said["role"], said["content"]) == ("assistant", bad)
+    assert wrong in correction["content"]
+
+
+@pytest.mark.parametrize(
+    "lie",
+    [
+        (200, b"not json"),
+        (200, b'{"choices": []}'),
+        (200, b"x" * 3_000_000),
+        (200, b"[" * 100_000),
+        completion(None),
+        completion("x" * 500_000),
+        completion("{}" * 3),
+    ],
+)
+def test_whoever_never_answers_in_the_form_is_asked_twice_and_kept_nowhere(
+    server, ask, tmp_path, lie
+):
+    with pytest.raises(InputRejected) as caught:
+        ask(lie)
+    assert caught.value.code == "bad_answer"
+    assert len(server.asked) == 2
+    assert len(caught.value.message) < 500
+    assert not (tmp_path / "answers").exists()
+
+
+def test_a_busy_endpoint_is_asked_again_and_a_dead_one_is_no_verdict(server, ask):
+    assert len(ask((429, b"slow down"), (503, b""), completion(GOOD))) == 1
+    with pytest.raises(Unjudged, match="no answer in 3 tries; HTTP 500: broken") as caught:
+        ask((500, b"broken"), model="eyes-2")
+    assert caught.value.finding.code == "model_unavailable"
+    server.wait_s = 0.5
+    with pytest.raises(Unjudged, match="ReadTimeout"):
+        ask(completion(GOOD), wait_s=0.1, model="eyes-2")
+
+
+def test_an_endpoint_that_knows_no_forms_is_asked_without(server, ask):
+    assert len(ask((400, b"response_format?"), completion(GOOD))) == 1
+    assert "response_format" not in server.asked[1][2]
+
+
+def test_a_refusal_names_no_key(ask):
+    with pytest.raises(ConfigError, match="HTTP 401: bad key") as caught:
+        ask((401, f"bad key {KEY}".encode()))
+    assert KEY not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("url", "model", "said"),
+    [
+        ("", "m", "--vlm-url"),
+        ("file:///etc/passwd", "m", "--vlm-url"),
+        ("http://me:secret@host/v1", "m", "holds a password"),
+        ("http://host/v1", "", "--vlm-model"),
+    ],
+)
+def test_an_endpoint_that_cannot_be_is_said_before_anything_is_asked(url, model, said):
+    require_endpoint(VlmConfig(url, model), needed=False)
+    with pytest.raises(ConfigError, match=said):
+        require_endpoint(VlmConfig(url, model), needed=True)

@@ -1,0 +1,94 @@
+"""What is seen on single sides becomes parts, each once."""
+
+import numpy as np
+import pytest
+
+from asset_factory.factory.articulate.detected.merging import stated_parts
+from asset_factory.factory.geometry.crossings import Side
+from asset_factory.factory.intake.stated import Hinge
+from asset_factory.factory.models.detector.canvas import (
+    CANVAS,
+    LONGEST,
+    SORTS,
+    WAYS,
+    PanelWay,
+    Sort,
+)
+from asset_factory.factory.models.detector.decode import Found
+from asset_factory.factory.part import PartKind
+
+TALL = np.array([0.5, 0.5, 1.0])
+
+
+def seen(side, box, sort, way, score=0.9, sure=0.95, extents=TALL):
+    """Return a part that is seen in shares of a side's picture."""
+    wide, high = np.abs(side.frame[:2] @ (extents / extents.max() * LONGEST))
+    low = (CANVAS - np.array([wide, high])) / 2.0
+    corners = (low + np.array(box).reshape(2, 2) * [wide, high]).ravel()
+    ways = np.full(len(WAYS), (1.0 - sure) / (len(WAYS) - 1))
+    ways[WAYS.index(way)] = sure
+    return Found(side, corners, sort, score, np.full(len(SORTS), 0.1), ways, 0.0)
+
+
+def test_panels_keep_their_side_box_and_hinge():
+    found = [
+        seen(Side.FRONT, [0.0, 0.6, 1.0, 1.0], Sort.DOOR, PanelWay.RIGHT),
+        seen(Side.FRONT, [0.0, 0.0, 1.0, 0.3], Sort.DRAWER, PanelWay.OUT),
+        seen(Side.LEFT, [0.1, 0.4, 0.9, 0.8], Sort.FLAP, PanelWay.BOTTOM),
+    ]
+    parts = {part.kind: part for part in stated_parts(found, TALL)}
+    assert parts[PartKind.DOOR].hinge is Hinge.RIGHT
+    assert parts[PartKind.DRAWER].hinge is None
+    assert parts[PartKind.FLAP].side is Side.LEFT
+    assert parts[PartKind.DOOR].box == pytest.approx((0.0, 0.6, 1.0, 1.0))
+
+
+def test_an_unsure_hinge_is_left_to_geometry():
+    door = seen(Side.FRONT, [0.0, 0.0, 1.0, 1.0], Sort.DOOR, PanelWay.LEFT, sure=0.4)
+    unsure = door.ways.copy()
+    unsure[WAYS.index(PanelWay.RIGHT)] = 0.35
+    (part,) = stated_parts(
+        [Found(door.side, door.box, door.sort, 0.9, door.sorts, unsure, 0.0)], TALL
+    )
+    assert part.hinge is None
+
+
+def test_a_panel_in_another_is_left_out():
+    whole = seen(Side.FRONT, [0.0, 0.0, 1.0, 1.0], Sort.DOOR, PanelWay.LEFT, score=0.9)
+    half = seen(Side.FRONT, [0.0, 0.0, 1.0, 0.5], Sort.DRAWER, PanelWay.OUT, score=0.6)
+    assert [part.kind for part in stated_parts([half, whole], TALL)] == [PartKind.DOOR]
+
+
+@pytest.mark.parametrize(("depth", "count"), [(0.05, 1), (0.5, 2)])
+def test_a_door_of_a_thin_thing_is_seen_from_behind_too(depth, count):
+    extents = np.array([0.5, depth, 1.0])
+    front = seen(Side.FRONT, [0.1, 0, 0.9, 1], Sort.DOOR, PanelWay.LEFT, 0.9, extents=extents)
+    behind = seen(Side.BACK, [0.1, 0, 0.9, 1], Sort.DOOR, PanelWay.RIGHT, 0.7, extents=extents)
+    assert len(stated_parts([behind, front], extents)) == count
+
+
+def test_a_lid_that_all_sides_show_is_one_hinged_where_most_say():
+    top = [0.0, 0.7, 1.0, 1.0]
+    found = [
+        seen(Side.FRONT, top, Sort.LID, PanelWay.TOP, 0.95),
+        seen(Side.RIGHT, top, Sort.LID, PanelWay.RIGHT, 0.8),
+        seen(Side.LEFT, top, Sort.LID, PanelWay.TOP, 0.6),
+        seen(Side.TOP, [0, 0, 1, 1], Sort.LID, PanelWay.TOP, 0.9),
+    ]
+    (lid,) = stated_parts(found, TALL)
+    assert lid.kind is PartKind.LID
+    assert lid.side is Side.FRONT
+    assert lid.hinge is Hinge.BACK
+    assert lid.box[1] == pytest.approx(0.7)
+
+
+def test_a_lid_that_only_the_top_shows_is_in_the_top():
+    (lid,) = stated_parts([seen(Side.TOP, [0.2, 0.2, 0.8, 0.8], Sort.LID, PanelWay.LEFT)], TALL)
+    assert lid.side is Side.TOP
+    assert lid.hinge is Hinge.LEFT
+
+
+def test_what_moves_otherwise_is_no_panel():
+    wheel = seen(Side.FRONT, [0.0, 0.0, 0.2, 0.1], Sort.OTHER, PanelWay.OTHER)
+    knob = seen(Side.FRONT, [0.4, 0.4, 0.5, 0.5], Sort.CONTROL, PanelWay.OTHER)
+    assert stated_parts([wheel, knob], TALL) == ()

@@ -1,0 +1,119 @@
+"""The detector: what it looks at, how its answers become parts, and what the shipped one sees."""
+
+import numpy as np
+import pytest
+
+from asset_factory.factory.geometry.crossings import Side
+from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.models.detector.canvas import (
+    CANVAS,
+    DEPTH_STEPS,
+    LONGEST,
+    NOTHING,
+    SORTS,
+    WAYS,
+    PanelWay,
+    Sort,
+    look_at,
+    shares_of,
+)
+from asset_factory.factory.models.detector.decode import STRIDE, Dense, found_parts, overlaps
+from asset_factory.learn.objects import make_object
+
+CELLS = CANVAS // STRIDE
+
+
+def box_mesh(size):
+    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * size
+    faces = [
+        (0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1),
+        (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3),
+    ]  # fmt: skip
+    return Mesh.from_triangles(corners, faces)
+
+
+def dense_with(boxes):
+    """Return answers that are sure of some boxes: view, box, sort, way."""
+    dense = Dense(
+        np.full((5, len(SORTS), CELLS, CELLS), -9.0),
+        np.ones((5, 4, CELLS, CELLS)),
+        np.zeros((5, len(WAYS), CELLS, CELLS)),
+        np.full((5, CELLS, CELLS), 3.0),
+        np.zeros((5, CELLS, CELLS)),
+    )
+    center = (np.arange(CELLS) + 0.5) * STRIDE
+    for view, (left, low, right, high), sort, way in boxes:
+        rows = np.flatnonzero((center > low) & (center < high))
+        columns = np.flatnonzero((center > left) & (center < right))
+        where = np.ix_(rows, columns)
+        dense.sort[view, SORTS.index(sort)][where] = 3.0
+        dense.way[view, WAYS.index(way)][where] = 5.0
+        x, y = np.meshgrid(center[columns], center[rows])
+        for k, edge in enumerate((x - left, y - low, right - x, high - y)):
+            dense.edges[view, k][where] = edge
+    return dense
+
+
+def test_a_box_stands_in_the_middle_of_its_canvases_at_one_scale():
+    canvases = look_at(box_mesh(np.array([0.5, 0.25, 1.0])))
+    for view, wide, high in ((0, 120, 240), (1, 60, 240), (4, 120, 60)):
+        rows, columns = np.nonzero(canvases.depth[view] != NOTHING)
+        assert np.ptp(rows) + 1 == pytest.approx(high, abs=1)
+        assert np.ptp(columns) + 1 == pytest.approx(wide, abs=1)
+        assert rows.mean() == pytest.approx(CANVAS / 2, abs=1.5)
+        assert columns.mean() == pytest.approx(CANVAS / 2, abs=1.5)
+        assert (canvases.depth[view][canvases.depth[view] != NOTHING] == 0).all()
+
+
+def test_depth_is_kept_in_shares_of_a_pixel():
+    step = Mesh.from_triangles(
+        [[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1], [1, 0.125, 0], [2, 0.125, 0], [2, 0.125, 1]],
+        [(0, 1, 2), (0, 2, 3), (4, 5, 6)],
+    )
+    depth = look_at(step).depth[0]
+    assert set(np.unique(depth)) == {NOTHING, 0, round(0.125 / 2.0 * LONGEST * DEPTH_STEPS)}
+
+
+def test_shares_of_a_whole_side_are_nought_to_one():
+    extents = np.array([120.0, 240.0])
+    low = (CANVAS - extents) / 2.0
+    assert shares_of(np.concatenate([low, low + extents]), extents) == pytest.approx([0, 0, 1, 1])
+
+
+def test_each_box_is_found_once_with_its_sort_and_way():
+    said = [
+        (0, (40.0, 40.0, 120.0, 200.0), Sort.DOOR, PanelWay.LEFT),
+        (0, (124.0, 40.0, 200.0, 200.0), Sort.DRAWER, PanelWay.OUT),
+        (4, (20.0, 20.0, 220.0, 220.0), Sort.LID, PanelWay.TOP),
+    ]
+    found = found_parts(dense_with(said), 0.5)
+    assert [(part.side, part.sort, part.way) for part in found] == [
+        (Side.FRONT, Sort.DOOR, PanelWay.LEFT),
+        (Side.FRONT, Sort.DRAWER, PanelWay.OUT),
+        (Side.TOP, Sort.LID, PanelWay.TOP),
+    ]
+    for part, (_, box, _, _) in zip(found, said, strict=True):
+        assert overlaps(part.box, np.array([box]))[0] > 0.98
+    assert found_parts(dense_with([]), 0.1) == ()
+
+
+@pytest.mark.parametrize(
+    ("kind", "seed", "sort"),
+    [("fridge", 3, Sort.DOOR), ("dresser", 3, Sort.DRAWER), ("oven", 3, Sort.FLAP)],
+)
+def test_the_shipped_weights_know_made_objects(kind, seed, sort):
+    pytest.importorskip("torch")
+    from asset_factory.factory.models.detector.detect import detect
+
+    made = make_object(kind, seed)
+    detection = detect(made.mesh)
+    assert detection.opens > 0.9
+    assert detection.front == Side.FRONT
+    assert any(part.sort is sort and part.side is Side.FRONT for part in detection.parts(0.6))
+
+
+def test_the_shipped_weights_leave_a_plain_box_shut():
+    pytest.importorskip("torch")
+    from asset_factory.factory.models.detector.detect import detect
+
+    assert not detect(box_mesh(np.array([0.5, 0.3, 0.4]))).parts(0.6)
