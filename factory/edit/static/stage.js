@@ -64,12 +64,13 @@ export class Stage {
   pose(values, place = null) {
     this.model.pose(values);
     this.hears.posed(this.model.values);
-    if (!this.bodies) {
+    clearTimeout(this.checking);
+    const { bodies, told } = this;
+    if (!bodies) {
       this.tell([], place);
       return;
     }
-    clearTimeout(this.checking);
-    this.checking = setTimeout(() => this.tell(this.bodies.contacts(this.model.values, this.told.excess), place), 30);
+    this.checking = setTimeout(() => this.tell(bodies.contacts(this.model.values, told.excess), place), 30);
     this.viewer.draw();
   }
 
