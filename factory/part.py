@@ -58,6 +58,7 @@ class Proposer(StrEnum):
     SIDES = "sides"
     NETWORK = "network"
     VLM = "vlm"
+    DETECTOR = "detector"
 
 
 @dataclass(frozen=True)

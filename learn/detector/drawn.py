@@ -6,8 +6,8 @@ import numpy as np
 
 from asset_factory.factory.articulation import JointKind
 
-from ..fit.making import LIDDED, OTHER, PANELLED
 from ..objects import CATEGORIES, make_object
+from ..objects.groups import LIDDED, OTHER, PANELLED
 from .sides import LabelledSides, labelled_sides
 from .still import STILL, make_still
 

@@ -11,7 +11,6 @@ import io
 import json
 import lzma
 import zipfile
-import zlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,15 +25,13 @@ from asset_factory.factory.runtime.terminal import say
 
 from ..datasets.objects import described
 from .kinds import kind_number
-from .real import real_objects
+from .real import is_held_out, real_objects
 from .sides import LabelledSides, labelled_sides
 
 #: Depths of real objects are kept in this many steps of the canvas's.
 COARSE = 4
 #: Pixels along a texture.
 TEXTURE = 128
-#: Of real objects every so many is held out.
-HELD_OUT = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +78,7 @@ def write_pack(path: Path, real: Path, described_objects: Path | None, textures:
     with zipfile.ZipFile(path, "w") as pack:
         for number, found in enumerate(real_objects(real)):
             note = {"kind": kind_number(found.kind), "opens": found.opens, "front": found.front}
-            note |= {"held_out": zlib.crc32(found.name.encode()) % HELD_OUT == 0, "real": True}
+            note |= {"held_out": is_held_out(found.name), "real": True}
             _add(pack, f"real_{number:04d}_{found.name}", note, found.sides)
         for number, (name, articulation) in enumerate(descriptions):
             sides = labelled_sides(closed(articulation))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -33,6 +34,8 @@ AXES = "xyz"
 WIDE = 0.85
 #: The way of a part that may be hinged at either edge.
 EITHER = -1
+#: Of the meshes of a folder every so many is kept for measuring.
+HELD_OUT = 5
 WHOLE = (0.0, 0.0, 1.0, 1.0)
 
 
@@ -45,6 +48,7 @@ class RealObject:
         kind: what it is, as its inventory says.
         opens: whether anything does.
         front: number of the side that is its front.
+        mesh: z up.
         sides: how it looks, and what opens.
     """
 
@@ -52,13 +56,23 @@ class RealObject:
     kind: str
     opens: bool
     front: int
+    mesh: Mesh
     sides: LabelledSides
 
 
-def real_objects(folder: Path) -> Iterator[RealObject]:
+def is_held_out(name: str) -> bool:
+    """Tell whether the mesh of a name is kept for measuring."""
+    return zlib.crc32(name.encode()) % HELD_OUT == 0
+
+
+def real_objects(folder: Path, held_out: bool | None = None) -> Iterator[RealObject]:
     """Yield the meshes of a folder with ``INVENTORY.csv``, ``openings.json``, ``fronts.json``.
 
     Those that nobody could tell of, or that stand open, are left out.
+
+    Args:
+        folder: of the files.
+        held_out: only those that are, or are not, kept for measuring.
     """
     labels = json.loads((folder / "openings.json").read_text())
     fronts = json.loads((folder / "fronts.json").read_text())
@@ -68,6 +82,8 @@ def real_objects(folder: Path) -> Iterator[RealObject]:
     for row in inventory:
         name = Path(row["file"]).stem
         if row["opens"] not in ("yes", "no") or name in open_as_given:
+            continue
+        if held_out is not None and is_held_out(name) is not held_out:
             continue
         front = _front(fronts["front"].get(name, "-y"))
         if front is None:
@@ -81,7 +97,8 @@ def real_objects(folder: Path) -> Iterator[RealObject]:
             np.zeros((len(SIDES), CANVAS, CANVAS), np.uint8),
             _on_canvas(rows_of, mesh),
         )
-        yield RealObject(name, row["kind"], row["opens"] == "yes", SIDES.index(front), sides)
+        opens = row["opens"] == "yes"
+        yield RealObject(name, row["kind"], opens, SIDES.index(front), mesh, sides)
 
 
 #: A row: side, box in shares of its picture, sort, way, ignored.

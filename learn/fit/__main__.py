@@ -1,5 +1,6 @@
 """Fit the small networks that the maker ships: weights, and a card beside them.
 
+    python -m asset_factory.learn.fit agreement configs/weights/agreement.safetensors --real FOLDER
     python -m asset_factory.learn.fit motions configs/weights/evidence.safetensors
     python -m asset_factory.learn.fit rectangles configs/weights/rectangles.safetensors --kept rows/
     python -m asset_factory.learn.fit sides configs/weights/seams.safetensors --kept views/
@@ -115,6 +116,24 @@ def _trust(asked: Asked) -> Fit:
     return Fit(found.stored.arrays, found.stored.metadata, what, data, figures)
 
 
+def _agreement(asked: Asked) -> Fit:
+    from asset_factory.factory.articulate.auto.articulator import load_auto
+    from asset_factory.factory.config import AutoConfig, ParticulateConfig
+
+    from ..detector.real import real_objects
+    from .agreement import fit_agreement, rate_parts, report
+
+    guess = load_auto(ParticulateConfig(), AutoConfig())
+    rated = rate_parts(guess, real_objects(asked.real, held_out=True))
+    stored = fit_agreement(rated)
+    what = (
+        "Two logistic models: how likely a part is there that rules or another network propose, "
+        "and one that only the detector sees. `factory/articulate/detected` asks them."
+    )
+    data = f"the meshes of {asked.real.name} that the detector did not learn from"
+    return Fit(stored.arrays, stored.metadata, what, data, report(rated))
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="python -m asset_factory.learn.fit",
@@ -126,7 +145,12 @@ def _parser() -> argparse.ArgumentParser:
     rectangles = commands.add_parser("rectangles", help="which are panels, and how panels open")
     sides = commands.add_parser("sides", help="the picture network of sides")
     trust = commands.add_parser("trust", help="in each source of auto")
-    named = ((motions, _motions), (rectangles, _rectangles), (sides, _sides), (trust, _trust))
+    agreement = commands.add_parser("agreement", help="between the detector and others")
+    agreement.add_argument("--real", type=Path, required=True, help="folder of labelled meshes")
+    named = (
+        (agreement, _agreement), (motions, _motions), (rectangles, _rectangles), (sides, _sides),
+        (trust, _trust),
+    )  # fmt: skip
     for command, fit in named:
         command.set_defaults(fit=fit)
         command.add_argument("output", type=Path, help="file to write, .safetensors")

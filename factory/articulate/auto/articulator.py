@@ -224,7 +224,12 @@ def _guess(config: BuildConfig) -> Articulator:
     if find_spec("torch") is None:
         return WithoutNetwork(config.auto)
     if config.particulate.checkpoint == SHIPPED:
-        return load_auto(config.particulate, config.auto)
+        from ...models.detector.detect import detector_weights
+        from ..detected import DetectedArticulator, load_agreement
+
+        guess = load_auto(config.particulate, config.auto)
+        least = config.auto.least_confidence
+        return DetectedArticulator(guess, load_agreement(), (detector_weights(),), least)
     from ..particulate import load_articulator
 
     return load_articulator(config.particulate)

@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...geometry.crossings import Side, side_facing
-from ...intake.stated import Hinge, StatedPart
+from ...intake.stated import Hinge, StatedKind, StatedPart
 from ...mesh import FloatArray
 from ...models.detector.canvas import CANVAS, LONGEST, WAYS, PanelWay, Sort, shares_of
 from ...models.detector.decode import Found
-from ...part import PartKind
 from ..seams.fronts import OPPOSITE
 
 #: Sorts that close an upright side, and what they are called.
 _PANELS = {
-    Sort.DOOR: (PartKind.DOOR, (PanelWay.LEFT, PanelWay.RIGHT)),
-    Sort.FLAP: (PartKind.FLAP, (PanelWay.BOTTOM, PanelWay.TOP)),
-    Sort.DRAWER: (PartKind.DRAWER, (PanelWay.OUT,)),
+    Sort.DOOR: (StatedKind.DOOR, (PanelWay.LEFT, PanelWay.RIGHT)),
+    Sort.FLAP: (StatedKind.FLAP, (PanelWay.BOTTOM, PanelWay.TOP)),
+    Sort.DRAWER: (StatedKind.DRAWER, (PanelWay.OUT,)),
 }
 _EDGES = {
     PanelWay.LEFT: Hinge.LEFT,
@@ -37,11 +36,24 @@ _HINGE_SIDES = {
 SURE_WAY = 0.8
 #: A panel of which this much is in a likelier one is no part of its own.
 INSIDE = 0.5
-#: An object of this depth in widths shows its panels on both sides.
-THIN = 0.35
 
 
-def stated_parts(found: Sequence[Found], extents: FloatArray) -> tuple[StatedPart, ...]:
+@dataclass(frozen=True, eq=False)
+class SeenPart:
+    """A part that the detector sees, on one side or on several.
+
+    Attributes:
+        stated: as a person would state it.
+        found: where it is seen; of a lid on every side that shows it.
+        probability: that it is there.
+    """
+
+    stated: StatedPart
+    found: tuple[Found, ...]
+    probability: float = 1.0
+
+
+def seen_parts(found: Sequence[Found], extents: FloatArray) -> tuple[SeenPart, ...]:
     """Return the parts that are seen, each once.
 
     Args:
@@ -49,29 +61,26 @@ def stated_parts(found: Sequence[Found], extents: FloatArray) -> tuple[StatedPar
         extents: of the mesh along x, y and z, in any unit, shape [3].
     """
     sizes = extents / extents.max() * LONGEST
-    parts = [_panel(each, sizes) for each in _apart(found, sizes)]
-    lids = [each for each in found if each.sort is Sort.LID]
+    parts = [SeenPart(_panel(each, sizes), (each,)) for each in _apart(found)]
+    lids = tuple(each for each in found if each.sort is Sort.LID)
     if lids:
-        parts.append(_lid(lids, sizes))
+        parts.append(SeenPart(_lid(lids, sizes), lids))
     return tuple(parts)
 
 
-def _apart(found: Sequence[Found], sizes: FloatArray) -> list[Found]:
+def _apart(found: Sequence[Found]) -> list[Found]:
     """Return the panels of upright sides that are not in one another, nor seen from behind."""
     kept: list[Found] = []
     panels = [each for each in found if each.sort in _PANELS and each.side is not Side.TOP]
     for each in sorted(panels, key=lambda each: -each.score):
-        behind = _from_behind(each, sizes)
+        behind = _from_behind(each)
         if all(max(_share_inside(each, k), _share_inside(behind, k)) < INSIDE for k in kept):
             kept.append(each)
     return kept
 
 
-def _from_behind(found: Found, sizes: FloatArray) -> Found:
-    """Return a panel as the opposite side shows it, where the object is thin; else itself."""
-    depth, width = (float(np.abs(found.side.frame[axis] @ sizes)) for axis in (2, 0))
-    if depth > THIN * width:
-        return found
+def _from_behind(found: Found) -> Found:
+    """Return a panel as the opposite side shows it: both sides of a thing often look alike."""
     left, low, right, high = found.box
     mirrored = np.array([CANVAS - right, low, CANVAS - left, high])
     return replace(found, side=OPPOSITE[found.side], box=mirrored)
@@ -105,18 +114,22 @@ def _lid(lids: Sequence[Found], sizes: FloatArray) -> StatedPart:
     for each in lids:
         right, up, away = each.side.frame
         far = up if each.side is Side.TOP else away
-        for way, toward in (
-            (PanelWay.LEFT, -right), (PanelWay.RIGHT, right), (PanelWay.TOP, far), (PanelWay.BOTTOM, -far),
-        ):  # fmt: skip
-            direction += each.score * float(each.ways[WAYS.index(way)]) * toward
+        toward = {
+            PanelWay.LEFT: -right,
+            PanelWay.RIGHT: right,
+            PanelWay.TOP: far,
+            PanelWay.BOTTOM: -far,
+        }
+        for way, where in toward.items():
+            direction += each.score * float(each.ways[WAYS.index(way)]) * where
     hinge_side = side_facing(direction) if float(np.linalg.norm(direction)) > 0.0 else Side.BACK
     hinge = _HINGE_SIDES.get(hinge_side, Hinge.BACK)
     upright = [each for each in lids if each.side is not Side.TOP]
     if not upright:
         above = max(lids, key=lambda each: each.score)
-        return StatedPart(PartKind.LID, above.side, _box(above, sizes), hinge)
+        return StatedPart(StatedKind.LID, above.side, _box(above, sizes), hinge)
     best = max(upright, key=lambda each: each.score)
-    return StatedPart(PartKind.LID, best.side, _box(best, sizes), hinge)
+    return StatedPart(StatedKind.LID, best.side, _box(best, sizes), hinge)
 
 
 def _box(found: Found, sizes: FloatArray) -> tuple[float, float, float, float]:

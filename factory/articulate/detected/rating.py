@@ -1,6 +1,8 @@
-"""How well the parts of an articulation agree with what the detector sees."""
+"""How well parts agree with what the detector sees."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -10,11 +12,56 @@ from ...geometry.elevations import elevation
 from ...geometry.posing import face_parts
 from ...mesh import FloatArray, IntArray, Mesh
 from ...models.detector.canvas import CANVAS, LONGEST, SIDES, place_of
-from ...models.detector.decode import STRIDE, Dense, share_of
+from ...models.detector.decode import STRIDE, Dense, Found, share_of
 
 #: A part that fewer cells show is not seen.
 LEAST_CELLS = 2
+#: Two parts of which one has so much of the other's cells on a side are in one place.
+SAME_PLACE = 0.3
 _CELLS = (np.arange(CANVAS // STRIDE) + 0.5) * STRIDE
+
+
+@dataclass(frozen=True, eq=False)
+class CellParts:
+    """Which part of an articulation every cell of 4 pixels shows.
+
+    Attributes:
+        owner: its number, -1 where nothing is seen, shape [5, 64, 64].
+        articulation: whose.
+    """
+
+    owner: IntArray
+    articulation: Articulation
+
+    @classmethod
+    def of(cls, articulation: Articulation, faces: IntArray) -> CellParts:
+        """Return them by the faces that cells show, as :func:`faces_seen` has them."""
+        return cls(np.append(face_parts(articulation), -1)[faces], articulation)
+
+    def shown(self, part: int) -> BoolArray:
+        """Return the cells that show a part or what it carries, shape [5, 64, 64]."""
+        return np.isin(self.owner, self.articulation.carried(part))
+
+    def support(self, part: int, dense: Dense) -> float:
+        """Return the support of a part on the side where it is highest, 0 to 1."""
+        shown = self.shown(part)
+        return max(_support_of_cells(shown[view], dense, view) for view in range(len(SIDES)))
+
+    def has_moving(self, found: Found) -> bool:
+        """Tell whether parts that move are where another is seen."""
+        view = SIDES.index(found.side)
+        box = box_cells(found.box)
+        seen = self.owner[view] >= 0
+        moving = seen & (self.owner[view] > 0)
+        if (moving & box).sum() > SAME_PLACE * max((seen & box).sum(), 1):
+            return True
+        for joint in self.articulation.joints:
+            shown = self.shown(joint.child)
+            here = shown[view].sum()
+            faces_side = here >= SAME_PLACE * shown.sum(axis=(1, 2)).max()
+            if faces_side and (shown[view] & box).sum() > SAME_PLACE * max(here, 1):
+                return True
+        return False
 
 
 def faces_seen(mesh: Mesh) -> IntArray:
@@ -29,44 +76,43 @@ def faces_seen(mesh: Mesh) -> IntArray:
     return seen
 
 
-def support_of(articulation: Articulation, seen: IntArray, dense: Dense) -> tuple[float, ...]:
-    """Return the support of the part of each joint, 0 to 1.
-
-    That is the mean over the cells that show it of the probability of its likeliest sort, times how
-    well the box that is seen there fits the part's own; on the side where that is highest.
-
-    Args:
-        articulation: at rest as it was looked at.
-        seen: faces of its mesh, as :func:`faces_seen` has them.
-        dense: what the detector says.
-    """
-    owner = np.append(face_parts(articulation), -1)[seen]
-    found = []
-    for joint in articulation.joints:
-        shown = np.isin(owner, articulation.carried(joint.child))
-        found.append(max(_on_side(shown[view], dense, view) for view in range(len(SIDES))))
-    return tuple(found)
+def box_cells(box: FloatArray) -> BoolArray:
+    """Return the cells in a box, shape [64, 64]."""
+    left, low, right, high = box
+    columns = (left < _CELLS) & (right > _CELLS)
+    rows = (low < _CELLS) & (high > _CELLS)
+    return np.asarray(rows[:, None] & columns)
 
 
-def _on_side(shown: BoolArray, dense: Dense, view: int) -> float:
+def support_of_box(found: Found, dense: Dense) -> float:
+    """Return the support of a part that the detector itself sees, 0 to 1."""
+    rows, columns = np.nonzero(box_cells(found.box))
+    if len(rows) < LEAST_CELLS:
+        return 0.0
+    return _support(dense, SIDES.index(found.side), rows, columns, found.box)
+
+
+def _support_of_cells(shown: BoolArray, dense: Dense, view: int) -> float:
     rows, columns = np.nonzero(shown)
     if len(rows) < LEAST_CELLS:
         return 0.0
-    low = np.array([columns.min(), rows.min()]) * STRIDE
-    high = (np.array([columns.max(), rows.max()]) + 1) * STRIDE
-    fits = _fit(dense.edges[view][:, rows, columns], rows, columns, low, high)
-    share = share_of(dense.sort[view][:, rows, columns])
-    return float((share * fits).mean(axis=1).max())
+    ends = (columns.min(), rows.min(), columns.max() + 1, rows.max() + 1)
+    return _support(dense, view, rows, columns, np.array(ends) * float(STRIDE))
 
 
-def _fit(
-    edges: FloatArray, rows: IntArray, columns: IntArray, low: IntArray, high: IntArray
-) -> FloatArray:
-    """Return the intersection over union of the boxes about cells with one box, shape [n]."""
-    left, bottom, right, top = edges
-    x, y = _CELLS[columns], _CELLS[rows]
-    wide = np.minimum(x + right, high[0]) - np.maximum(x - left, low[0])
-    tall = np.minimum(y + top, high[1]) - np.maximum(y - bottom, low[1])
+def _support(dense: Dense, view: int, rows: IntArray, columns: IntArray, box: FloatArray) -> float:
+    """Return how much cells of a side speak for a box.
+
+    That is the mean over them of the probability of the sort that is likeliest there, times the
+    intersection over union of the box that each cell sees with this one.
+    """
+    left, bottom, right, top = dense.edges[view][:, rows, columns]
+    x = _CELLS[columns]
+    y = _CELLS[rows]
+    wide = np.minimum(x + right, box[2]) - np.maximum(x - left, box[0])
+    tall = np.minimum(y + top, box[3]) - np.maximum(y - bottom, box[1])
     inner = np.maximum(wide, 0.0) * np.maximum(tall, 0.0)
-    union = (left + right) * (bottom + top) + float(np.prod(high - low)) - inner
-    return np.asarray(inner / np.maximum(union, 1.0))
+    area = float(np.prod(box[2:] - box[:2]))
+    union = (left + right) * (bottom + top) + area - inner
+    share = share_of(dense.sort[view][:, rows, columns])
+    return float((share * inner / np.maximum(union, 1.0)).mean(axis=1).max())

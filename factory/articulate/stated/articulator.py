@@ -27,7 +27,7 @@ from ..seams.articulator import cut_along
 from ..seams.cutting import CutMesh, inside
 from ..seams.placing import OpeningPart
 from .boxed import NOT_FOUND, USUAL, label_of
-from .expecting import count_expected, find_expected, require_some
+from .expecting import Expected, count_expected, find_expected, require_some
 from .placing import Placed, SeenMesh, place_parts, stated_unit
 from .wholes import StatedWay
 
@@ -49,6 +49,7 @@ class StatedArticulator:
         stated: what a sidecar says.
         guess: who is asked for parts that are stated without a place.
         proposer: who stated them.
+        chances: probability of each, in their order; none where a person's word counts.
         seen: the mesh that is going to be asked about, as :func:`seen_from` gives it.
     """
 
@@ -59,11 +60,13 @@ class StatedArticulator:
         stated: Stated,
         guess: Articulator | None = None,
         proposer: Proposer = Proposer.SIDECAR,
+        chances: Sequence[float] = (),
         seen: SeenMesh | None = None,
     ) -> None:
         self.stated = stated
         self.guess = guess
         self._proposer = proposer
+        self._chances = tuple(chances)
         self._seen = seen
 
     def articulate(self, mesh: Mesh) -> Articulation:
@@ -90,6 +93,26 @@ class StatedArticulator:
         cut = cut_along(mesh, [_to_cut(ways) for ways in chosen])
         return tuple(Hypothesis.of(self._articulation(cut, placed, ways)) for ways in chosen)
 
+    def beside(self, guess: Articulation) -> tuple[Hypothesis, ...]:
+        """Return the stated parts beside all that moves in a guess, the likeliest first.
+
+        Raises:
+            InputRejected: ``stated_part_not_found``.
+        """
+        if not guess.movable_joints:
+            return self.hypotheses(guess.mesh)
+        placed = _placed(seen_from(guess.mesh, self.stated.front), self.stated)
+        return self._beside(Expected(guess, placed, guess.joints))
+
+    def _beside(self, each: Expected) -> tuple[Hypothesis, ...]:
+        """Return what is placed beside what is wanted of a guess, cut from the guess's mesh."""
+        made = []
+        for ways in islice(_with_cut(_choices(each.placed)), MOST_HYPOTHESES):
+            cut = cut_along(each.guess.mesh, [_to_cut(ways)])
+            filled = self._articulation(cut, each.placed, ways, each.proposals(cut), each.hosts)
+            made.append(Hypothesis.of(replace(filled, weights=each.guess.weights)))
+        return tuple(made)
+
     def _filled(self, mesh: Mesh, wanted: Counter[PartKind]) -> tuple[Hypothesis, ...]:
         """Return what is placed, beside what the guess has of what is stated without a place."""
         if self.guess is None:
@@ -106,15 +129,9 @@ class StatedArticulator:
             )
             for guess in guesses
         ]
-        made = []
+        made: list[Hypothesis] = []
         for each in require_some(found, wanted):
-            if each.is_whole:
-                made.append(Hypothesis.of(each.guess))
-                continue
-            for ways in islice(_with_cut(_choices(each.placed)), MOST_HYPOTHESES):
-                cut = cut_along(each.guess.mesh, [_to_cut(ways)])
-                filled = self._articulation(cut, each.placed, ways, each.proposals(cut))
-                made.append(Hypothesis.of(replace(filled, weights=each.guess.weights)))
+            made += (Hypothesis.of(each.guess),) if each.is_whole else self._beside(each)
         return tuple(made[:MOST_HYPOTHESES])
 
     def _articulation(
@@ -123,11 +140,13 @@ class StatedArticulator:
         placed: Sequence[Placed],
         ways: Sequence[StatedWay],
         guessed: Sequence[Proposal] = (),
+        guessed_hosts: Sequence[int] = (),
     ) -> Articulation:
         """Return what is placed, and beside it what was guessed, on a mesh cut for both."""
         hosts = _hosts(placed, ways)
         owner = _owners(cut, placed, ways, hosts)
         movers = [way.mover for way in ways]
+        chances = self._chances or (None,) * len(placed)
         proposals = [
             Proposal(
                 mover.kind,
@@ -136,8 +155,12 @@ class StatedArticulator:
                 proposer=self._proposer,
                 panel=mover.panel if each.stated.drawn is None else None,
                 handle=mover.handle if each.stated.drawn is None else None,
+                existence=chance,
+                probability=chance,
             )
-            for number, (each, mover) in enumerate(zip(placed, movers, strict=True), start=1)
+            for number, (each, mover, chance) in enumerate(
+                zip(placed, movers, chances, strict=True), start=1
+            )
         ]
         stated = {
             proposal.source.id: each.stated
@@ -150,7 +173,7 @@ class StatedArticulator:
                 raise InputRejected(NOT_FOUND, sentence)
             proposals.append(replace(proposal, faces=left))
             owner[left] = len(proposals)
-        hosts += [0] * len(guessed)
+        hosts += [len(placed) + host if host else 0 for host in guessed_hosts]
         made = _named(assembled(cut.mesh, owner, proposals, NAME, hosts), stated)
         return _closed(made, stated)
 

@@ -48,6 +48,12 @@ class Expected:
         """Tell whether nothing is placed, and the guess has nothing but what is wanted."""
         return not self.placed and len(self.joints) == len(self.guess.movable_joints)
 
+    @property
+    def hosts(self) -> list[int]:
+        """Return the place, from 1, of what carries each wanted part; 0: the body."""
+        places = {joint.child: place for place, joint in enumerate(self.joints, start=1)}
+        return [places.get(joint.parent, 0) for joint in self.joints]
+
     def proposals(self, cut: CutMesh) -> list[Proposal]:
         """Return the wanted parts as proposals on a mesh that was cut out of the guess's."""
         made = []

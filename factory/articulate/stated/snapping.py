@@ -75,6 +75,12 @@ def snap(front: Front, frame: StatedFrame, box: Box) -> Rectangle:
                     lines[axis], stated[end, axis], reach[axis], int(start), int(stop)
                 )
                 placed[end, axis] = stated[end, axis] if at is None else at
+        if (
+            2 * np.ptp(placed[:, axis]) < np.ptp(stated[:, axis])
+            or placed[0, axis] > placed[1, axis]
+        ):
+            # Both edges of something thin found the same seam.
+            placed[:, axis] = stated[:, axis]
     sides, relief = (
         np.array(
             [

@@ -10,13 +10,16 @@ from pathlib import Path
 import numpy as np
 import torch  # noqa: TID253 - loaded by whoever runs the network
 
+from ...articulation import Weights
 from ...mesh import FloatArray, Mesh
+from ...runtime.store import digest_file
 from .canvas import AROUND, look_at
 from .decode import Dense, Found, found_parts
 from .kinds import KINDS
 from .network import Detector, cues_of
 
 FILE = "detector.safetensors"
+SHIPPED = Path(str(resources.files("asset_factory") / "configs" / "weights" / FILE))
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,16 +53,14 @@ class Detection:
         return AROUND[int(self.fronts.argmax())]
 
 
-def detect(mesh: Mesh, weights: Path | None = None) -> Detection:
+def detect(mesh: Mesh, weights: Path = SHIPPED) -> Detection:
     """Return what is seen of a mesh, z up.
 
     Args:
         mesh: with at least one triangle.
         weights: safetensors file; the shipped one by default.
     """
-    network = _loaded(
-        weights or Path(str(resources.files("asset_factory") / "configs/weights" / FILE))
-    )
+    network = _loaded(weights)
     canvases = look_at(mesh)
     with torch.no_grad():
         cues = cues_of(torch.from_numpy(canvases.color), torch.from_numpy(canvases.depth))
@@ -75,6 +76,11 @@ def detect(mesh: Mesh, weights: Path | None = None) -> Detection:
         float(1.0 / (1.0 + np.exp(-array(answers.opens)))),
         _shares(array(answers.front)),
     )
+
+
+def detector_weights(weights: Path = SHIPPED) -> Weights:
+    """Return what a manifest says of the weights."""
+    return Weights(weights.name, digest_file(weights), "Apache-2.0")
 
 
 @cache

@@ -1,0 +1,150 @@
+"""The articulator that looks: at parts that others propose, and for those that it alone sees."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...articulation import Articulation, Weights
+from ...errors import InputRejected
+from ...intake.stated import Stated
+from ...mesh import IntArray, Mesh
+from ...models.detector.decode import Dense, Found
+from ...part import PartKind, Proposer
+from ..articulator import Articulator, make_hypotheses
+from ..proposal import Hypothesis
+from ..rigid import rigid_articulation
+from ..stated import StatedArticulator
+from .agreement import Agreement
+from .merging import SeenPart, seen_parts
+from .pruning import keep_parts
+from .rating import CellParts, faces_seen, support_of_box
+
+#: Parts of a side with a lower score are not looked at.
+LEAST_SCORE = 0.5
+#: These come and go with what carries them: nobody is asked about them.
+CARRIED = frozenset({PartKind.KNOB, PartKind.BUTTON, PartKind.RACK, PartKind.TURNTABLE})
+
+
+@dataclass(frozen=True)
+class DetectedArticulator:
+    """Asks somebody else, fixes what the detector does not see, and adds what it sees beside it.
+
+    Attributes:
+        guess: who is asked.
+        agreement: how sure both must be.
+        weights: of the detector.
+        least: probability below which a part stays fixed; ``None``: the agreement's.
+    """
+
+    guess: Articulator
+    agreement: Agreement
+    weights: tuple[Weights, ...]
+    least: float | None = None
+
+    @property
+    def name(self) -> str:
+        """Return how whoever is asked is called."""
+        return self.guess.name
+
+    def articulate(self, mesh: Mesh) -> Articulation:
+        """Return the likeliest hypothesis of ``mesh`` [m], z up."""
+        return self.hypotheses(mesh)[0].articulation
+
+    def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
+        """Return what may open, the likeliest first; all that is seen together comes first."""
+        from ...models.detector.detect import detect
+
+        detection = detect(mesh)
+        least = self.agreement.least if self.least is None else self.least
+        sure = self._sure(detection.parts(LEAST_SCORE), mesh, detection.dense, least)
+        agreed = []
+        faces: dict[int, IntArray] = {}
+        for each in make_hypotheses(self.guess, mesh):
+            guess = each.articulation
+            if id(guess.mesh) not in faces:
+                faces[id(guess.mesh)] = faces_seen(guess.mesh)
+            cells = CellParts.of(guess, faces[id(guess.mesh)])
+            agreed.append(self._agreed(guess, cells, detection.dense, least))
+        first = max(agreed, key=lambda each: len(each.movable_joints) > 0)
+        cells = CellParts.of(first, faces[id(first.mesh)])
+        beside = [part for part in sure if not any(cells.has_moving(f) for f in part.found)]
+        made = [*self._with(first, beside), *agreed]
+        if len(beside) < len(sure):
+            made += self._with(rigid_articulation(mesh, self.name, ()), sure)
+        open_ = [each for each in made if each.movable_joints] or [self._still(mesh, agreed)]
+        named = [
+            replace(each, articulator=self.name, weights=(*each.weights, *self.weights))
+            for each in open_
+        ]
+        return tuple(Hypothesis.of(each) for each in _different(named))
+
+    def _sure(
+        self, found: Sequence[Found], mesh: Mesh, dense: Dense, least: float
+    ) -> list[SeenPart]:
+        """Return the parts that the detector is sure of alone, the surest first."""
+        sure = []
+        for part in seen_parts(found, mesh.extents):
+            support = max(support_of_box(each, dense) for each in part.found)
+            chance = self.agreement.of_alone(support)
+            if chance >= least:
+                sure.append(replace(part, probability=chance))
+        return sorted(sure, key=lambda part: -part.probability)
+
+    def _agreed(
+        self, guess: Articulation, cells: CellParts, dense: Dense, least: float
+    ) -> Articulation:
+        """Return a guess without the parts that the detector does not see."""
+        kept = []
+        chances = {}
+        for joint in guess.joints:
+            part = guess.parts[joint.child]
+            if part.kind in CARRIED:
+                kept.append(joint.child)
+                continue
+            confidence = 0.0 if part.confidence is None else part.confidence
+            chance = self.agreement.of_proposed(cells.support(joint.child, dense), confidence)
+            if chance >= least:
+                kept.append(joint.child)
+                chances[joint.child] = chance
+        if not chances:
+            kept = []
+        return keep_parts(guess, kept, chances)
+
+    def _with(self, guess: Articulation, parts: Sequence[SeenPart]) -> list[Articulation]:
+        """Return a guess with parts beside it; the least sure is left out where they do not fit."""
+        for count in range(len(parts), 0, -1):
+            chosen = parts[:count]
+            stated = StatedArticulator(
+                Stated(parts=tuple(each.stated for each in chosen)),
+                proposer=Proposer.DETECTOR,
+                chances=tuple(each.probability for each in chosen),
+            )
+            try:
+                return [each.articulation for each in stated.beside(guess)]
+            except InputRejected:
+                continue
+        return []
+
+    def _still(self, mesh: Mesh, agreed: Sequence[Articulation]) -> Articulation:
+        notes = agreed[0].notes or ("nothing on its sides looks like a door, drawer or lid",)
+        return rigid_articulation(mesh, self.name, notes)
+
+
+def _different(articulations: Sequence[Articulation]) -> list[Articulation]:
+    """Return those that do not move as an earlier one does."""
+    first: dict[str, Articulation] = {}
+    for each in articulations:
+        motions = [
+            (
+                j.kind,
+                np.round(j.axis, 6).tolist(),
+                np.round(j.origin, 6).tolist(),
+                round(j.upper, 6),
+            )
+            for j in each.joints
+        ]
+        first.setdefault(repr(motions), each)
+    return list(first.values())
