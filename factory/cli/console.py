@@ -132,6 +132,10 @@ def print_results(summary: Summary, output: Path) -> None:
     )
     where = f"Assets: {output / ASSETS}   reports of the others: {output / REJECTED}"
     console.print(where, soft_wrap=True, markup=False)
+    rejected = next((each.entry for each in listed if each.entry.status is Status.REJECTED), None)
+    if rejected is not None:
+        edit = f"To say what opens: factory edit {output / REJECTED / rejected.id}"
+        console.print(edit, soft_wrap=True, markup=False)
 
 
 def print_prediction(data: dict[str, Any]) -> None:

@@ -34,7 +34,7 @@ def run(command: ViewFile) -> int:
     """Serve or save the page; returns the exit code."""
     from ..jobs.pages import missing_library
     from ..report.site.alone import page_of_file
-    from ..report.site.server import serve
+    from ..report.site.server import one_page, serve
 
     if not 0 <= command.port < 2**16:
         raise ConfigError(f"--port: is {command.port}, want 0 to 65535")
@@ -50,7 +50,7 @@ def run(command: ViewFile) -> int:
         return Exit.UNJUDGED
     page = html.encode()
     if command.save is None:
-        with serve(page, command.port) as server:
+        with serve(one_page(page), command.port) as server:
             say(f"{command.file.name} is shown at {server.url} until Ctrl-C")
             server.run()
         return Exit.OK

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import io
+from dataclasses import replace
 
 import numpy as np
 
-from ..articulation import JointKind
+from ..articulation import Articulation, JointKind
 from ..asset import Asset
 from ..geometry.rows import distinct_rows
 from ..mesh import FloatArray, IntArray, Material, Mesh, Texture
@@ -24,17 +25,24 @@ def scene_of(asset: Asset, before: Asset | None = None) -> SceneGraph:
         before: what it was before repairs, whose other hulls are shown too.
     """
     articulation = asset.articulation
+    hulls = [
+        plain_surface(index, hull.vertices - articulation.link_frame(index), hull.faces)
+        for index, body in enumerate(asset.bodies)
+        for hull in body.hulls
+    ]
+    replaced = _replaced(asset, before) if before else []
+    bare = scene_of_articulation(asset.name, articulation)
+    return replace(bare, hulls=tuple(hulls), replaced=tuple(replaced))
+
+
+def scene_of_articulation(name: str, articulation: Articulation) -> SceneGraph:
+    """Return the scene of parts and joints, before anything is made of them."""
     visuals: list[SceneSurface] = []
-    hulls: list[SceneSurface] = []
     images: dict[Texture, bytes | None] = {}
     for index, part in enumerate(articulation.parts):
         frame = articulation.link_frame(index)
         if len(part.faces):
             visuals += surfaces_of(articulation.mesh.submesh(part.faces), index, frame, images)
-        hulls += [
-            plain_surface(index, hull.vertices - frame, hull.faces)
-            for hull in asset.bodies[index].hulls
-        ]
     joints = []
     for joint in articulation.joints:
         origin = np.eye(4)
@@ -55,10 +63,7 @@ def scene_of(asset: Asset, before: Asset | None = None) -> SceneGraph:
             )
         )
     names = tuple(part.name for part in articulation.parts)
-    replaced = _replaced(asset, before) if before else []
-    return SceneGraph(
-        asset.name, names, tuple(joints), tuple(visuals), tuple(hulls), tuple(replaced)
-    )
+    return SceneGraph(name, names, tuple(joints), tuple(visuals))
 
 
 def _replaced(asset: Asset, before: Asset) -> list[SceneSurface]:

@@ -81,13 +81,16 @@ def load_visual(path: Path, root: Path, limits: IntakeConfig, log: ReadLog | Non
     return _load(path, files)
 
 
-def load_mesh(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> Intake:
+def load_mesh(
+    path: Path, config: IntakeConfig, log: ReadLog | None = None, *, stated: bool = True
+) -> Intake:
     """Read one mesh file with its sidecar; turn it z up and bring it to metres. Its origin stays.
 
     Args:
         path: as in :func:`load_visual`; what it refers to lies in its folder or below.
         config: up axis, height and limits.
         log: of the files that are read.
+        stated: whether the parts that are stated beside it are read.
 
     Raises:
         InputRejected: as :func:`load_visual`, or ``bad_sidecar``, ``absurd_size``,
@@ -98,7 +101,7 @@ def load_mesh(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> I
     files = InputFiles(path.parent, config, log)
     visual = _load(path, files)
     sidecar = read_sidecar(path, files)
-    stated = read_stated(path, files)
+    parts = read_stated(path, files) if stated else None
     require_allowed(
         path.name, sidecar.license or visual.license, config.allowed_licenses, files.digest
     )
@@ -152,7 +155,7 @@ def load_mesh(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> I
         ),
         annotation_path=sidecar.annotation,
         annotation_data=files.read(sidecar.annotation) if sidecar.annotation else None,
-        stated=stated,
+        stated=parts,
     )
 
 

@@ -81,7 +81,7 @@ _EVERYDAY: Mapping[StatedKind, PartKind] = {
 }
 
 
-class StatedView(Struct, frozen=True, forbid_unknown_fields=True):
+class StatedView(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
     """Where a part is seen on one side.
 
     Attributes:
@@ -97,7 +97,7 @@ class StatedView(Struct, frozen=True, forbid_unknown_fields=True):
             raise ValueError("box is [x0, y0, x1, y1] with x0 < x1 and y0 < y1")
 
 
-class StatedAlternative(Struct, frozen=True, forbid_unknown_fields=True):
+class StatedAlternative(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
     """Another way in which a part may open.
 
     Attributes:
@@ -115,7 +115,7 @@ class StatedAlternative(Struct, frozen=True, forbid_unknown_fields=True):
             raise ValueError(SLIDES)
 
 
-class StatedPart(Struct, frozen=True, forbid_unknown_fields=True):
+class StatedPart(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
     """One part that opens; everything but its kind may be left out.
 
     Attributes:
@@ -164,7 +164,7 @@ class StatedPart(Struct, frozen=True, forbid_unknown_fields=True):
         )
 
 
-class Stated(Struct, frozen=True, forbid_unknown_fields=True):
+class Stated(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
     """All that a file states of one object.
 
     Attributes:
@@ -249,16 +249,28 @@ def stated_from(values: object) -> Stated:
         raise ConfigError(str(error)) from error
 
 
+def decoded(text: bytes, form: str = "JSON") -> object:
+    """Return what a document of stated parts holds, before it is understood.
+
+    Raises:
+        ConfigError: it is not in that form, ``JSON`` or ``TOML``.
+    """
+    try:
+        written = text.decode("utf-8")
+        return tomllib.loads(written) if form == "TOML" else json.loads(written)
+    except (ValueError, RecursionError) as error:
+        raise ConfigError(f"is not {form}: {error}") from error
+
+
+def form_of(path: Path) -> str:
+    """Return in what form a file of stated parts is written, by its name."""
+    return "TOML" if path.suffix == ".toml" else "JSON"
+
+
 def _parse(path: Path, files: InputFiles) -> Stated:
     text = read_beside(path, files, MOST_BYTES)
-    form = "TOML" if path.suffix == ".toml" else "JSON"
     try:
-        decoded = text.decode("utf-8")
-        values = tomllib.loads(decoded) if form == "TOML" else json.loads(decoded)
-    except (ValueError, RecursionError) as error:
-        raise bad_sidecar(path, f"is not {form}: {error}") from error
-    try:
-        return stated_from(values)
+        return stated_from(decoded(text, form_of(path)))
     except ConfigError as error:
         raise bad_sidecar(path, str(error)) from error
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from contextlib import suppress
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,24 @@ from ..registry.product import Product
 from ..registry.result import Result
 
 LOG_NAME = Path("logs") / "builds.jsonl"
+
+
+def input_of(output: Path, asset_id: str) -> str | None:
+    """Return the path of the input that an asset was made of last, as it was given.
+
+    Args:
+        output: the registry's folder.
+        asset_id: of the asset.
+    """
+    found = None
+    with suppress(OSError), (output / LOG_NAME).open(encoding="utf-8", errors="replace") as lines:
+        for line in lines:
+            # Few of the lines of a large registry are about one asset.
+            with suppress(ValueError, LookupError, AttributeError):
+                said = json.loads(line) if asset_id in line else {}
+                if said.get("id") == asset_id:
+                    found = str(said["input"])
+    return found
 
 
 class Log:

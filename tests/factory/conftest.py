@@ -1,6 +1,7 @@
 """What tests of several folders share."""
 
 import pytest
+from browser import CHROMIUM, SOFTWARE
 
 from asset_factory.factory.models.weights import pickled
 from asset_factory.sim_checks.processes.isolation import WarmChild
@@ -18,3 +19,14 @@ def warm_reader(monkeypatch, reading_child):
     monkeypatch.setattr(pickled, "run_isolated", reading_child.call)
     # Hostile files are stopped by this limit, and made sure of in a second child.
     monkeypatch.setattr(pickled, "_READING_S", 1)
+
+
+@pytest.fixture(scope="module")
+def browser():
+    api = pytest.importorskip("playwright.sync_api")
+    if CHROMIUM is None:
+        pytest.skip("no Chromium here; name one in CHROMIUM")
+    with api.sync_playwright() as playwright:
+        made = playwright.chromium.launch(executable_path=CHROMIUM, args=SOFTWARE)
+        yield made
+        made.close()

@@ -16,7 +16,7 @@ from ...geometry.posing import posed
 from ...geometry.triangles import face_areas
 from ...intake.intake import Intake
 from ...intake.stated import Stated, StatedPart
-from ...mesh import BoolArray, IntArray, Mesh
+from ...mesh import BoolArray, FloatArray, IntArray, Mesh
 from ...part import PartKind, Proposer
 from ..articulator import Articulator, make_hypotheses
 from ..assembly import JOINT_SUFFIX, assembled
@@ -27,7 +27,7 @@ from ..seams.cutting import CutMesh, inside
 from ..seams.placing import OpeningPart
 from .boxed import NOT_FOUND, USUAL, label_of
 from .expecting import Expected, count_expected, find_expected, require_some
-from .placing import Placed, place_parts, stated_unit
+from .placing import Placed, SeenMesh, place_parts, stated_unit
 from .wholes import StatedWay
 
 NAME = "stated"
@@ -49,6 +49,7 @@ class StatedArticulator:
         guess: who is asked for parts that are stated without a place.
         proposer: who stated them.
         chances: probability of each, in their order; none where a person's word counts.
+        seen: the mesh that is going to be asked about, as :func:`seen_from` gives it.
     """
 
     name = NAME
@@ -59,11 +60,13 @@ class StatedArticulator:
         guess: Articulator | None = None,
         proposer: Proposer = Proposer.SIDECAR,
         chances: Sequence[float] = (),
+        seen: SeenMesh | None = None,
     ) -> None:
         self.stated = stated
         self.guess = guess
         self._proposer = proposer
         self._chances = tuple(chances)
+        self._seen = seen
 
     def articulate(self, mesh: Mesh) -> Articulation:
         """Return the likeliest hypothesis of ``mesh`` [m], z up."""
@@ -84,7 +87,7 @@ class StatedArticulator:
         wanted = count_expected(self.stated.parts)
         if wanted:
             return self._filled(mesh, wanted)
-        placed = _placed(mesh, self.stated)
+        placed = _placed(self._seen or seen_from(mesh, self.stated.front), self.stated)
         chosen = list(islice(_with_cut(_choices(placed)), MOST_HYPOTHESES))
         cut = cut_along(mesh, [_to_cut(ways) for ways in chosen])
         return tuple(Hypothesis.of(self._articulation(cut, placed, ways)) for ways in chosen)
@@ -97,7 +100,7 @@ class StatedArticulator:
         """
         if not guess.movable_joints:
             return self.hypotheses(guess.mesh)
-        placed = _placed(guess.mesh, self.stated)
+        placed = _placed(seen_from(guess.mesh, self.stated.front), self.stated)
         return self._beside(Expected(guess, placed, guess.joints))
 
     def _beside(self, each: Expected) -> tuple[Hypothesis, ...]:
@@ -120,7 +123,10 @@ class StatedArticulator:
             )
         guesses = [each.articulation for each in make_hypotheses(self.guess, mesh)]
         found = [
-            find_expected(guess, wanted, _placed(guess.mesh, self.stated)) for guess in guesses
+            find_expected(
+                guess, wanted, _placed(seen_from(guess.mesh, self.stated.front), self.stated)
+            )
+            for guess in guesses
         ]
         made: list[Hypothesis] = []
         for each in require_some(found, wanted):
@@ -204,12 +210,21 @@ def _refuse_other_size(mesh: Mesh, stated: Stated) -> None:
         )
 
 
-def _placed(mesh: Mesh, stated: Stated) -> list[Placed]:
-    """Return the stated parts, found on the mesh turned so that its front is -Y, turned back."""
-    turn = rotation_about([0.0, 0.0, 1.0], _TURNS[stated.front] * np.pi / 2.0)
+def seen_from(mesh: Mesh, front: str) -> SeenMesh:
+    """Return a mesh turned so that a stated front is -Y."""
+    return SeenMesh(mesh.turned(_turn(front)))
+
+
+def _turn(front: str) -> FloatArray:
+    return rotation_about([0.0, 0.0, 1.0], _TURNS[front] * np.pi / 2.0)
+
+
+def _placed(seen: SeenMesh, stated: Stated) -> list[Placed]:
+    """Return the stated parts, found on the turned mesh, turned back."""
+    back = _turn(stated.front).T
     return [
-        replace(each, ways=tuple(way.turned(turn.T) for way in each.ways))
-        for each in place_parts(mesh.turned(turn), stated.parts)
+        replace(each, ways=tuple(way.turned(back) for way in each.ways))
+        for each in place_parts(seen, stated.parts)
     ]
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -45,6 +46,38 @@ FROM_ABOVE = rotation_about([1.0, 0.0, 0.0], np.pi / 2.0)
 
 
 @dataclass(frozen=True, eq=False)
+class SeenMesh:
+    """A mesh with its sides, to be kept by who changes the boxes on them.
+
+    Attributes:
+        mesh: whose front is -Y.
+    """
+
+    mesh: Mesh
+
+    @cached_property
+    def pieces(self) -> SeenPieces:
+        """Return the pieces that it is made of."""
+        return SeenPieces(self.mesh)
+
+    @cached_property
+    def around(self) -> dict[Side, Front]:
+        """Return its upright sides."""
+        return fronts_of(reliefs_of(Views(self.mesh)))
+
+    @cached_property
+    def above(self) -> dict[Side, Front]:
+        """Return the sides of the mesh turned so that its top is its front."""
+        return fronts_of(reliefs_of(Views(self.mesh.turned(FROM_ABOVE))))
+
+    def look(self) -> SeenMesh:
+        """Look at its upright sides now; returns itself."""
+        for front in self.around.values():
+            _ = front.scene
+        return self
+
+
+@dataclass(frozen=True, eq=False)
 class Placed:
     """A stated part that was found.
 
@@ -61,13 +94,14 @@ class Placed:
     piece_of: IntArray
 
 
-def place_parts(mesh: Mesh, parts: Sequence[StatedPart]) -> list[Placed]:
-    """Return every stated part that has a box, found on a mesh whose front is -Y.
+def place_parts(seen: SeenMesh, parts: Sequence[StatedPart]) -> list[Placed]:
+    """Return every stated part that has a box, found on a mesh.
 
     Raises:
         InputRejected: ``stated_part_not_found``: a box shows nothing, or two take the same place.
     """
-    pieces = SeenPieces(mesh)
+    mesh = seen.mesh
+    pieces = seen.pieces
     found: dict[int, Placed] = {}
     for above, turn in ((False, np.eye(3)), (True, FROM_ABOVE)):
         views = {
@@ -76,7 +110,7 @@ def place_parts(mesh: Mesh, parts: Sequence[StatedPart]) -> list[Placed]:
             if part.view is not None and (part.view.side is Side.TOP) is above
         }
         if views:
-            fronts = fronts_of(reliefs_of(Views(mesh.turned(turn))))
+            fronts = seen.above if above else seen.around
             seams = [
                 _boxed(mesh, fronts, parts[place], place, view) for place, view in views.items()
             ]

@@ -1,8 +1,8 @@
-"""One page, served to this machine's own browsers and to nobody else."""
+"""Pages, served to this machine's own browsers and to nobody else."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from http import HTTPStatus
@@ -11,14 +11,63 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from ...errors import ConfigError
 
 HOST = "127.0.0.1"
+HTML = "text/html; charset=utf-8"
+#: For a browser that says nothing more [s].
+PATIENCE_S = 30
+#: A page shows nothing to another one, and is shown in none.
+_GUARDS = {
+    "Cache-Control": "no-store",
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Resource-Policy": "same-origin",
+}
+
+
+@dataclass(frozen=True)
+class PageRequest:
+    """What a browser asks for.
+
+    Attributes:
+        method: ``GET`` or ``POST``.
+        path: as it was sent; nothing in it was resolved.
+        body: what came with it; empty of ``GET``.
+    """
+
+    method: str
+    path: str
+    body: bytes = b""
+
+
+@dataclass(frozen=True)
+class PageResponse:
+    """What it gets."""
+
+    body: bytes = b""
+    kind: str = HTML
+    status: HTTPStatus = HTTPStatus.OK
+
+
+Answer = Callable[[PageRequest], PageResponse]
+NOT_FOUND = PageResponse(status=HTTPStatus.NOT_FOUND)
+
+
+def one_page(page: bytes) -> Answer:
+    """Return who knows one page of HTML, and nothing else."""
+
+    def answer(asked: PageRequest) -> PageResponse:
+        here = asked.method == "GET" and asked.path in ("/", "/index.html")
+        return PageResponse(page) if here else NOT_FOUND
+
+    return answer
 
 
 @dataclass(frozen=True)
 class PageServer:
-    """A server that waits for its page to be asked for.
+    """A server that waits for its pages to be asked for.
 
     Attributes:
-        url: where the page is.
+        url: where the first page is.
     """
 
     url: str
@@ -35,29 +84,50 @@ class PageServer:
 
 
 @contextmanager
-def serve(page: bytes, port: int = 0) -> Iterator[PageServer]:
-    """Yield a server of one page; nothing of the file system is within its reach.
+def serve(answer: Answer, port: int = 0, most_bytes: int = 0) -> Iterator[PageServer]:
+    """Yield a server; nothing of the file system is within its reach but by its answers.
 
     Args:
-        page: HTML.
+        answer: knows what is at a path; called from several threads at once.
         port: 0: any that is free.
+        most_bytes: what a request may bring.
 
     Raises:
         ConfigError: the port is taken.
     """
 
     class Handler(BaseHTTPRequestHandler):
+        timeout = PATIENCE_S
+
         def do_GET(self) -> None:
+            self._answer(PageRequest("GET", self.path))
+
+        def do_POST(self) -> None:
+            length = self.headers.get("Content-Length", "")
+            if not (length.isascii() and length.isdigit()):
+                self._send(PageResponse(status=HTTPStatus.LENGTH_REQUIRED))
+            elif len(length) > 12 or int(length) > most_bytes:
+                self._send(PageResponse(status=HTTPStatus.REQUEST_ENTITY_TOO_LARGE))
+            else:
+                body = self.rfile.read(int(length))
+                self._answer(PageRequest("POST", self.path, body))
+
+        def _answer(self, asked: PageRequest) -> None:
             # Of another name, the request comes from a page that wants to read what is shown here.
             name = self.headers.get("Host", "").rsplit(":", 1)[0]
-            found = name in (HOST, "localhost") and self.path in ("/", "/index.html")
-            body = page if found else b""
-            self.send_response(HTTPStatus.OK if found else HTTPStatus.NOT_FOUND)
-            self.send_header("Content-Type", "text/html; charset=utf-8")
-            self.send_header("Content-Length", str(len(body)))
-            self.send_header("Cache-Control", "no-store")
+            origin = self.headers.get("Origin")
+            ours = origin is None or origin == f"http://{self.headers['Host']}"
+            self._send(answer(asked) if name in (HOST, "localhost") and ours else NOT_FOUND)
+
+        def _send(self, response: PageResponse) -> None:
+            self.send_response(response.status)
+            self.send_header("Content-Type", response.kind)
+            self.send_header("Content-Length", str(len(response.body)))
+            for name, value in _GUARDS.items():
+                self.send_header(name, value)
             self.end_headers()
-            self.wfile.write(body)
+            with suppress(ConnectionError):
+                self.wfile.write(response.body)
 
         def log_message(self, format: str, *args: object) -> None:
             """Say nothing."""

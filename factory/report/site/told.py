@@ -66,6 +66,7 @@ class AssetPage:
         places: poses and points that findings lead to.
         data: for the page's script, JSON data.
         folder: link to the asset's own folder; empty without one.
+        edit: command with which somebody says what opens; empty for what is only viewed.
         clearance: the smallest gap that was measured, negative for a depth [mm].
         fault: what the picture points at; ``None`` for one that passed.
         model: GLB of the scene.
@@ -80,6 +81,7 @@ class AssetPage:
     repairs: tuple[Repair, ...] = ()
     data: Mapping[str, Any] = field(default_factory=dict)
     folder: str = ""
+    edit: str = ""
     clearance: float | None = None
     fault: Fault | None = None
     model: bytes = field(default=b"", repr=False)
@@ -150,6 +152,7 @@ def asset_page(root: Path, entry: Entry) -> AssetPage:
         hypotheses=tuple(f.message for f in report.findings if f.code == OTHER_HYPOTHESIS),
         repairs=told.repairs,
         folder=f"../../../{place}/{entry.id}/",
+        edit=f"factory edit {root.absolute().name}/{place}/{entry.id}",
     )
     model = _model(folder)
     return with_model(page, model) if model else page

@@ -1,5 +1,6 @@
 // One asset's page: sliders, switches, the plot, and findings that jump to where they are.
 import { Bodies } from "./hulls.js";
+import { Grab } from "./grab.js";
 import { Model, unpacked } from "./model.js";
 import { sweepPlot } from "./plot.js";
 import { Viewer } from "./viewer.js";
@@ -232,5 +233,7 @@ async function start() {
   }
 }
 
+// For pages that show models of their own.
+window.factoryView = { Bodies, Grab, Model, Viewer };
 if (find("#told") && window.factoryModel) start();
-else document.body.classList.add("still");
+else if (!document.body.classList.contains("edit-page")) document.body.classList.add("still");

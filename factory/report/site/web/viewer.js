@@ -27,7 +27,8 @@ export class Viewer {
     this.overlays = { axes: [], limits: [] };
     this.marks = new Group();
     this.scene.add(this.marks);
-    this.frame(front);
+    this.front = front;
+    this.frame();
     this.reset();
     this.light();
     this.prepare();
@@ -38,9 +39,30 @@ export class Viewer {
     dark.addEventListener("change", () => this.draw());
   }
 
+  /** Show another model in place of this one, from where the camera is. */
+  replace(model) {
+    this.scene.remove(this.model.root);
+    this.model.root.traverse((item) => {
+      item.geometry?.dispose();
+      for (const material of [item.material ?? []].flat()) {
+        material.map?.dispose();
+        material.dispose();
+      }
+    });
+    this.marks.clear();
+    this.only = null;
+    this.overlays = { axes: [], limits: [] };
+    this.model = model;
+    this.scene.add(model.root);
+    this.frame();
+    this.prepare();
+    this.apply();
+    model.changed = () => this.draw();
+  }
+
   /** Look at the object from its front, closed and open in sight. */
-  frame(front) {
-    const { model } = this;
+  frame() {
+    const { front, model } = this;
     const box = new Box3();
     this.corners = [];
     for (const share of [1, 0.5, 0]) {

@@ -6,44 +6,24 @@ Slow, and it needs Chromium: ``make site-test``.
 from __future__ import annotations
 
 import json
-import os
 import shutil
 from pathlib import Path
 
 import pytest
+from browser import CONTRAST, LAPTOP, PHONE, until
 from registry_samples import PASSED
 from shown_registry import bundle_in, make_registry
 
 from asset_factory.factory.report.site.alone import page_of_file
 from asset_factory.factory.report.site.render import STATIC, STATIC_FILES, grid_html
-from asset_factory.factory.report.site.server import serve
+from asset_factory.factory.report.site.server import one_page, serve
 from asset_factory.factory.report.site.site import stale, write_asset, write_index
 from asset_factory.factory.report.site.told import AssetPage
 
 pytestmark = pytest.mark.browser
-CHROMIUM = os.environ.get("CHROMIUM") or shutil.which("chromium") or shutil.which("google-chrome")
-SOFTWARE = [
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--ignore-gpu-blocklist",
-]
-PHONE = {"width": 390, "height": 844}
-LAPTOP = {"width": 1366, "height": 800}
 #: Assets of the large grid, and what its tab may hold [bytes].
 MANY = 10_000
 MOST_MEMORY = 500_000_000
-
-
-@pytest.fixture(scope="module")
-def browser():
-    api = pytest.importorskip("playwright.sync_api")
-    if CHROMIUM is None:
-        pytest.skip("no Chromium here; name one in CHROMIUM")
-    with api.sync_playwright() as playwright:
-        made = playwright.chromium.launch(executable_path=CHROMIUM, args=SOFTWARE)
-        yield made
-        made.close()
 
 
 @pytest.fixture(scope="module")
@@ -77,15 +57,6 @@ def opened(browser):
     for context in contexts:
         context.close()
     assert said == []
-
-
-def until(page, condition):
-    """The pages allow no evaluated scripts, so that the browser cannot wait for one by itself."""
-    for _ in range(200):
-        if page.evaluate(condition):
-            return
-        page.wait_for_timeout(50)
-    raise AssertionError(condition)
 
 
 def link_positions(page):
@@ -210,7 +181,7 @@ def test_the_viewer_is_served_to_this_machine(browser, tmp_path):
     from threading import Thread
 
     text = page_of_file(bundle_in(tmp_path / "bundle") / "asset.xml")
-    with serve(text.encode()) as server:
+    with serve(one_page(text.encode())) as server:
         thread = Thread(target=server.run)
         thread.start()
         page = browser.new_page()
@@ -269,31 +240,4 @@ SEARCH = """(() => {
     const took = performance.now() - start;
     if (grid.shown.length < 1000) throw new Error(`found ${grid.shown.length}`);
     return took;
-})()"""
-#: Texts whose contrast is less than WCAG AA wants: 4.5, or 3 where they are large.
-CONTRAST = """(() => {
-    const channel = (value) => (
-        value / 255 <= 0.04045 ? value / 3294.6 : ((value / 255 + 0.055) / 1.055) ** 2.4);
-    const parse = (color) => (color.match(/[\\d.]+/g) ?? [0, 0, 0, 0]).map(Number);
-    const light = ([r, g, b]) => 0.2126 * channel(r) + 0.7152 * channel(g) + 0.0722 * channel(b);
-    const ground = (element) => {
-        for (let at = element; at; at = at.parentElement) {
-            const color = parse(getComputedStyle(at).backgroundColor);
-            if (color.length === 3 || color[3] > 0.99) return color;
-        }
-        return [255, 255, 255];
-    };
-    const wrong = [];
-    for (const element of document.querySelectorAll("body *")) {
-        const texts = [...element.childNodes].filter((node) => node.nodeType === 3);
-        if (!texts.some((node) => node.textContent.trim()) || !element.offsetParent) continue;
-        if (["SCRIPT", "STYLE", "NOSCRIPT"].includes(element.tagName)) continue;
-        const style = getComputedStyle(element);
-        const both = [light(parse(style.color)), light(ground(element))].sort((a, b) => b - a);
-        const ratio = (both[0] + 0.05) / (both[1] + 0.05);
-        const size = parseFloat(style.fontSize);
-        const large = size >= 24 || (size >= 18.66 && style.fontWeight >= 700);
-        if (ratio < (large ? 3 : 4.5)) wrong.push([element.tagName, element.className, ratio]);
-    }
-    return wrong;
 })()"""

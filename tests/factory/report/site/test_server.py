@@ -8,12 +8,12 @@ from threading import Thread
 import pytest
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.report.site.server import HOST, serve
+from asset_factory.factory.report.site.server import HOST, one_page, serve
 
 
 @pytest.fixture
 def address():
-    with serve(b"<p>here</p>") as server:
+    with serve(one_page(b"<p>here</p>")) as server:
         thread = Thread(target=server.run)
         thread.start()
         yield int(server.url.rsplit(":", 1)[1].strip("/"))
@@ -40,5 +40,5 @@ def test_a_page_from_elsewhere_cannot_read_it_under_another_name(address):
 
 
 def test_a_taken_port_is_said(address):
-    with pytest.raises(ConfigError, match="--port"), serve(b"", address):
+    with pytest.raises(ConfigError, match="--port"), serve(one_page(b""), address):
         pass
