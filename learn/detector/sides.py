@@ -14,18 +14,15 @@ from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray
 from asset_factory.factory.models.detector.canvas import (
     CANVAS,
     LONGEST,
-    NOTHING,
     SIDES,
     SORTS,
     WAYS,
     Canvases,
     PanelWay,
     Sort,
-    place_of,
-    stored_depth,
+    look_at,
 )
 from asset_factory.factory.views.raster import Raster, Side
-from asset_factory.factory.views.view import elevation
 
 #: A part that turns as a panel fills so much of its box; a lid covers so much of what is seen from
 #: above.
@@ -166,20 +163,10 @@ def _instances(rows: list[tuple[float, ...]]) -> Instances:
 
 def _pictures(articulation: Articulation) -> _Pictures:
     """Return how the sides look, the parts of their pixels, and where the pixels are."""
-    shape = (len(SIDES), CANVAS, CANVAS)
-    color = np.zeros((*shape, 3), np.uint8)
-    depth = np.full(shape, NOTHING, np.int16)
-    part = np.zeros(shape, np.uint8)
-    owner = np.minimum(face_parts(articulation) + 1, 255)
-    rasters = {}
-    for number, side in enumerate(SIDES):
-        picture = elevation(articulation.mesh, side, LONGEST)
-        rows, columns = place_of(picture)
-        color[number, rows, columns] = np.rint(255.0 * picture.color)
-        depth[number, rows, columns] = stored_depth(picture)
-        part[number, rows, columns] = np.where(picture.seen, owner[np.maximum(picture.face, 0)], 0)
-        rasters[side] = picture.raster
-    return Canvases(color, depth), part, rasters
+    canvases = look_at(articulation.mesh)
+    owner = np.append(np.minimum(face_parts(articulation) + 1, 255), 0)
+    rasters = {side: Raster.around(articulation.mesh, side, LONGEST) for side in SIDES}
+    return canvases, owner[canvases.face].astype(np.uint8), rasters
 
 
 def _meanings(articulation: Articulation, pictures: _Pictures) -> dict[int, _Meaning]:

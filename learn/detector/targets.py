@@ -8,8 +8,8 @@ from typing import Any
 import torch  # noqa: TID253 - this module is only imported to train
 from torch.nn import functional  # noqa: TID253
 
-from asset_factory.factory.models.detector.canvas import CANVAS, SIDES, SORTS
-from asset_factory.factory.models.detector.network import STRIDE, DenseAnswers
+from asset_factory.factory.models.detector.canvas import CANVAS, SIDES, SORTS, STRIDE
+from asset_factory.factory.models.detector.network import DenseAnswers
 
 from .looks import Shown
 

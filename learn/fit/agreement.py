@@ -9,17 +9,16 @@ import numpy as np
 
 from asset_factory.factory.articulate.articulator import Articulator
 from asset_factory.factory.articulate.detected.agreement import ALONE, PROPOSED, SIGNS
-from asset_factory.factory.articulate.detected.articulator import CARRIED, LEAST_SCORE
+from asset_factory.factory.articulate.detected.articulator import ASKED, LEAST_SCORE
 from asset_factory.factory.articulate.detected.merging import seen_parts
 from asset_factory.factory.articulate.detected.rating import (
     CellParts,
-    faces_seen,
     support_of_box,
 )
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.mesh import FloatArray
-from asset_factory.factory.models.detector.canvas import SIDES
-from asset_factory.factory.models.detector.decode import STRIDE, overlaps
+from asset_factory.factory.models.detector.canvas import SIDES, STRIDE, look_at
+from asset_factory.factory.models.detector.decode import overlaps
 from asset_factory.factory.models.detector.detect import detect
 from asset_factory.factory.models.perceptron import Perceptron
 from asset_factory.factory.models.shipped import Arrays
@@ -64,10 +63,10 @@ def rate_parts(guess: Articulator, objects: Iterable[RealObject]) -> Rated:
             articulation = guess.articulate(each.mesh)
         except InputRejected:
             continue
-        cells = CellParts.of(articulation, faces_seen(articulation.mesh))
+        cells = CellParts.of(articulation, look_at(articulation.mesh).cells)
         for joint in articulation.movable_joints:
             part_ = articulation.parts[joint.child]
-            if part_.kind in CARRIED:
+            if part_.kind not in ASKED:
                 continue
             boxes = list(_boxes(cells, joint.child))
             right = _right([view for view, _ in boxes], [box for _, box in boxes], truth)

@@ -10,7 +10,8 @@ import numpy as np
 from ...articulation import Articulation, Weights
 from ...errors import InputRejected
 from ...intake.stated import Stated
-from ...mesh import IntArray, Mesh
+from ...mesh import Mesh
+from ...models.detector.canvas import look_at
 from ...models.detector.decode import Dense, Found
 from ...part import PartKind, Proposer
 from ..articulator import Articulator, make_hypotheses
@@ -20,11 +21,15 @@ from ..stated import StatedArticulator
 from .agreement import Agreement
 from .merging import DetectedPart, seen_parts
 from .pruning import keep_parts
-from .rating import CellParts, faces_seen, support_of_box
+from .rating import CellParts, support_of_box
 
 #: Parts of a side with a lower score are not looked at.
 LEAST_SCORE = 0.5
-#: These come and go with what carries them: nobody is asked about them.
+#: Parts that are told of those that are seen and left fixed.
+MOST_TOLD = 4
+#: The detector is asked about these kinds of part; others open nothing that it knows.
+ASKED = frozenset({PartKind.PART, PartKind.DOOR, PartKind.DRAWER, PartKind.FLAP, PartKind.LID})
+#: These come and go with what carries them.
 CARRIED = frozenset({PartKind.KNOB, PartKind.BUTTON, PartKind.RACK, PartKind.TURNTABLE})
 
 
@@ -59,13 +64,15 @@ class DetectedArticulator:
 
         detection = detect(mesh)
         least = self.agreement.least if self.least is None else self.least
-        sure = self._sure(detection.parts(LEAST_SCORE), mesh, detection.dense, least)
+        rated = self._rated(detection.parts(LEAST_SCORE), mesh, detection.dense)
+        sure = [part for part in rated if part.probability >= least]
+        left = [part for part in rated if part.probability < least]
         agreed = []
-        faces: dict[int, IntArray] = {}
+        faces = {id(mesh): detection.faces}
         for each in make_hypotheses(self.guess, mesh):
             guess = each.articulation
             if id(guess.mesh) not in faces:
-                faces[id(guess.mesh)] = faces_seen(guess.mesh)
+                faces[id(guess.mesh)] = look_at(guess.mesh).cells
             cells = CellParts.of(guess, faces[id(guess.mesh)])
             agreed.append(self._agreed(guess, cells, detection.dense, least))
         first = max(agreed, key=lambda each: len(each.movable_joints) > 0)
@@ -75,23 +82,25 @@ class DetectedArticulator:
         if len(beside) < len(sure):
             made += self._with(rigid_articulation(mesh, self.name, ()), sure)
         open_ = [each for each in made if each.movable_joints] or [self._still(mesh, agreed)]
+        notes = tuple(_said(part, least) for part in left[:MOST_TOLD])
         named = [
-            replace(each, articulator=self.name, weights=(*each.weights, *self.weights))
+            replace(
+                each,
+                articulator=self.name,
+                notes=(*notes, *each.notes),
+                weights=(*each.weights, *self.weights),
+            )
             for each in open_
         ]
         return tuple(Hypothesis.of(each) for each in _different(named))
 
-    def _sure(
-        self, found: Sequence[Found], mesh: Mesh, dense: Dense, least: float
-    ) -> list[DetectedPart]:
-        """Return the parts that the detector is sure of alone, the surest first."""
-        sure = []
+    def _rated(self, found: Sequence[Found], mesh: Mesh, dense: Dense) -> list[DetectedPart]:
+        """Return the parts that the detector sees alone, the surest first."""
+        rated = []
         for part in seen_parts(found, mesh.extents):
             support = max(support_of_box(each, dense) for each in part.found)
-            chance = self.agreement.of_alone(support)
-            if chance >= least:
-                sure.append(replace(part, probability=chance))
-        return sorted(sure, key=lambda part: -part.probability)
+            rated.append(replace(part, probability=self.agreement.of_alone(support)))
+        return sorted(rated, key=lambda part: -part.probability)
 
     def _agreed(
         self, guess: Articulation, cells: CellParts, dense: Dense, least: float
@@ -101,7 +110,7 @@ class DetectedArticulator:
         chances = {}
         for joint in guess.joints:
             part = guess.parts[joint.child]
-            if part.kind in CARRIED:
+            if part.kind not in ASKED:
                 kept.append(joint.child)
                 continue
             confidence = 0.0 if part.confidence is None else part.confidence
@@ -109,7 +118,7 @@ class DetectedArticulator:
             if chance >= least:
                 kept.append(joint.child)
                 chances[joint.child] = chance
-        if not chances:
+        if all(guess.parts[number].kind in CARRIED for number in kept):
             kept = []
         return keep_parts(guess, kept, chances)
 
@@ -131,6 +140,14 @@ class DetectedArticulator:
     def _still(self, mesh: Mesh, agreed: Sequence[Articulation]) -> Articulation:
         notes = agreed[0].notes or ("nothing on its sides looks like a door, drawer or lid",)
         return rigid_articulation(mesh, self.name, notes)
+
+
+def _said(part: DetectedPart, least: float) -> str:
+    """Return a sentence about a part that was seen and is left fixed."""
+    return (
+        f"a {part.stated.kind} is seen on the {part.stated.side} and left fixed: it is there with "
+        f"probability {part.probability:.2f}, want {least:.2f}"
+    )
 
 
 def _different(articulations: Sequence[Articulation]) -> list[Articulation]:

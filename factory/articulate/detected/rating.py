@@ -8,13 +8,14 @@ import numpy as np
 
 from ...articulation import Articulation
 from ...geometry.posing import face_parts
-from ...mesh import BoolArray, FloatArray, IntArray, Mesh
-from ...models.detector.canvas import CANVAS, LONGEST, SIDES, place_of
-from ...models.detector.decode import STRIDE, Dense, Found, share_of
-from ...views.view import elevation
+from ...mesh import BoolArray, FloatArray, IntArray
+from ...models.detector.canvas import CANVAS, SIDES, STRIDE
+from ...models.detector.decode import Dense, Found, share_of
 
 #: A part that fewer cells show is not seen.
 LEAST_CELLS = 2
+#: Of the detector's sorts, the first ones open something: doors, drawers, flaps, lids.
+OPENING = 4
 #: Two parts of which one has so much of the other's cells on a side are in one place.
 SAME_PLACE = 0.3
 _CELLS = (np.arange(CANVAS // STRIDE) + 0.5) * STRIDE
@@ -34,7 +35,7 @@ class CellParts:
 
     @classmethod
     def of(cls, articulation: Articulation, faces: IntArray) -> CellParts:
-        """Return them by the faces that cells show, as :func:`faces_seen` has them."""
+        """Return them by the faces that cells show, shape [5, 64, 64]."""
         return cls(np.append(face_parts(articulation), -1)[faces], articulation)
 
     def shown(self, part: int) -> BoolArray:
@@ -61,18 +62,6 @@ class CellParts:
             if faces_side and (shown[view] & box).sum() > SAME_PLACE * max(here, 1):
                 return True
         return False
-
-
-def faces_seen(mesh: Mesh) -> IntArray:
-    """Return the nearest face at the middle of every cell of 4 pixels, -1 for none, [5, 64, 64]."""
-    cells = len(_CELLS)
-    seen = np.full((len(SIDES), cells, cells), -1, dtype=np.int64)
-    for number, side in enumerate(SIDES):
-        picture = elevation(mesh, side, LONGEST)
-        canvas = np.full((CANVAS, CANVAS), -1, dtype=np.int64)
-        canvas[place_of(picture)] = picture.face
-        seen[number] = canvas[STRIDE // 2 :: STRIDE, STRIDE // 2 :: STRIDE]
-    return seen
 
 
 def box_cells(box: FloatArray) -> BoolArray:
@@ -102,7 +91,7 @@ def _support_of_cells(shown: BoolArray, dense: Dense, view: int) -> float:
 def _support(dense: Dense, view: int, rows: IntArray, columns: IntArray, box: FloatArray) -> float:
     """Return how much cells of a side speak for a box.
 
-    That is the mean over them of the probability of the sort that is likeliest there, times the
+    That is the mean over them of the probability of the likeliest sort that opens, times the
     intersection over union of the box that each cell sees with this one.
     """
     left, bottom, right, top = dense.edges[view][:, rows, columns]
@@ -113,5 +102,5 @@ def _support(dense: Dense, view: int, rows: IntArray, columns: IntArray, box: Fl
     inner = np.maximum(wide, 0.0) * np.maximum(tall, 0.0)
     area = float(np.prod(box[2:] - box[:2]))
     union = (left + right) * (bottom + top) + area - inner
-    share = share_of(dense.sort[view][:, rows, columns])
+    share = share_of(dense.sort[view][:OPENING, rows, columns])
     return float((share * inner / np.maximum(union, 1.0)).mean(axis=1).max())

@@ -8,7 +8,7 @@ from enum import StrEnum
 import numpy as np
 import numpy.typing as npt
 
-from ...mesh import FloatArray, Mesh
+from ...mesh import FloatArray, IntArray, Mesh
 from ...views.raster import Side
 from ...views.view import View, elevation
 
@@ -18,6 +18,8 @@ SIDES = (*AROUND, Side.TOP)
 #: Pixels along a canvas, and along the longest extent of the object on it.
 CANVAS = 256
 LONGEST = 240
+#: Pixels along a cell, of which the network says what it shows.
+STRIDE = 4
 #: Depths are kept in this share of a pixel; ``NOTHING`` where nothing is seen.
 DEPTH_STEPS = 32
 NOTHING = -1
@@ -57,22 +59,31 @@ class Canvases:
         color: as shown (sRGB), uint8, shape [5, 256, 256, 3].
         depth: behind the nearest point of the side, in 1/32 of a pixel, int16, shape
             [5, 256, 256]; -1 where nothing is seen.
+        face: the nearest triangle, -1 for none, shape [5, 256, 256].
     """
 
     color: npt.NDArray[np.uint8]
     depth: npt.NDArray[np.int16]
+    face: IntArray
+
+    @property
+    def cells(self) -> IntArray:
+        """Return the nearest triangle at the middle of every cell of 4 pixels, [5, 64, 64]."""
+        return self.face[:, STRIDE // 2 :: STRIDE, STRIDE // 2 :: STRIDE]
 
 
 def look_at(mesh: Mesh) -> Canvases:
     """Return the five sides of a mesh, z up, centred on their canvases."""
     color = np.zeros((len(SIDES), CANVAS, CANVAS, 3), np.uint8)
     depth = np.full((len(SIDES), CANVAS, CANVAS), NOTHING, np.int16)
+    face = np.full((len(SIDES), CANVAS, CANVAS), -1, np.int64)
     for number, side in enumerate(SIDES):
         picture = elevation(mesh, side, LONGEST)
         rows, columns = place_of(picture)
         color[number, rows, columns] = np.rint(255.0 * picture.color)
         depth[number, rows, columns] = stored_depth(picture)
-    return Canvases(color, depth)
+        face[number, rows, columns] = picture.face
+    return Canvases(color, depth, face)
 
 
 def place_of(picture: View) -> tuple[slice, slice]:

@@ -8,14 +8,12 @@ import numpy as np
 
 from ...mesh import FloatArray, IntArray
 from ...views.raster import Side
-from .canvas import SIDES, SORTS, WAYS, PanelWay, Sort
+from .canvas import SIDES, SORTS, STRIDE, WAYS, PanelWay, Sort
 
 #: Boxes that share more than this of their union are one.
 SAME = 0.45
 #: Parts that are told of one side.
 MOST_PARTS = 100
-#: Distance between two cells [pixels].
-STRIDE = 4
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ import numpy as np
 import torch  # noqa: TID253 - loaded by whoever runs the network
 
 from ...articulation import Weights
-from ...mesh import FloatArray, Mesh
+from ...mesh import FloatArray, IntArray, Mesh
 from ...runtime.store import digest_file
 from .canvas import AROUND, look_at
 from .decode import Dense, Found, found_parts
@@ -28,12 +28,14 @@ class Detection:
 
     Attributes:
         dense: what is said of every cell of 4 pixels.
+        faces: the nearest triangle at the middle of every cell, -1 for none, shape [5, 64, 64].
         kinds: probability of each kind of object, shape [kind_count].
         opens: probability that anything opens.
         fronts: probability of each upright side that it is the front, shape [4].
     """
 
     dense: Dense
+    faces: IntArray
     kinds: FloatArray
     opens: float
     fronts: FloatArray
@@ -72,6 +74,7 @@ def detect(mesh: Mesh, weights: Path = SHIPPED) -> Detection:
     dense = Dense(*(array(getattr(answers, name)) for name in Dense.__dataclass_fields__))
     return Detection(
         dense,
+        canvases.cells,
         _shares(array(answers.kind)),
         float(1.0 / (1.0 + np.exp(-array(answers.opens)))),
         _shares(array(answers.front)),

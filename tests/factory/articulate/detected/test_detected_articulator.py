@@ -119,3 +119,14 @@ def test_agreement_rises_with_what_is_seen_and_with_confidence():
     assert agreement.of_alone(0.9) > agreement.least > agreement.of_alone(0.0)
     assert agreement.of_proposed(0.6, 0.5) > agreement.least > agreement.of_proposed(0.0, 0.5)
     assert agreement.of_proposed(0.2, 0.9) > agreement.of_proposed(0.2, 0.3)
+
+
+def test_what_is_seen_and_left_fixed_is_told():
+    made = make_object("fridge", 4)
+    articulator = DetectedArticulator(
+        Says(rigid_articulation(made.mesh, "auto", ())), load_agreement(), WEIGHTS, least=0.999
+    )
+    (only,) = articulator.hypotheses(made.mesh)
+    assert not only.articulation.movable_joints
+    assert "a door is seen on the front and left fixed" in only.articulation.notes[0]
+    assert "want 1.00" in only.articulation.notes[0]

@@ -10,13 +10,14 @@ from asset_factory.factory.models.detector.canvas import (
     LONGEST,
     NOTHING,
     SORTS,
+    STRIDE,
     WAYS,
     PanelWay,
     Sort,
     look_at,
     shares_of,
 )
-from asset_factory.factory.models.detector.decode import STRIDE, Dense, found_parts, overlaps
+from asset_factory.factory.models.detector.decode import Dense, found_parts, overlaps
 from asset_factory.factory.views.raster import Side
 from asset_factory.learn.objects import make_object
 
