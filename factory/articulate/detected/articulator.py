@@ -79,7 +79,7 @@ class DetectedArticulator:
         cells = CellParts.of(first, faces[id(first.mesh)])
         beside = [part for part in sure if not any(cells.has_moving(f) for f in part.found)]
         made = [*self._with(first, beside), *agreed]
-        if len(beside) < len(sure):
+        if len(sure) > len(first.movable_joints):
             made += self._with(rigid_articulation(mesh, self.name, ()), sure)
         open_ = [each for each in made if each.movable_joints] or [self._still(mesh, agreed)]
         notes = tuple(_said(part, least) for part in left[:MOST_TOLD])

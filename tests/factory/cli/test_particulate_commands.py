@@ -86,7 +86,8 @@ def test_features_are_asked_for_where_the_network_wants_them(fixtures):
 def test_without_a_checkpoint_the_shipped_network_and_the_shapes_are_asked():
     told = told_of(FRIDGE)
     assert told["articulator"] == "auto"
-    assert [each["file"] for each in told["weights"]] == ["small.safetensors"]
+    files = [each["file"] for each in told["weights"]]
+    assert files == ["small.safetensors", "detector.safetensors"]
     assert told["weights"][0]["license"].startswith("Apache-2.0")
     assert {joint["type"] for joint in told["joints"]} == {"revolute"}
 
@@ -131,7 +132,7 @@ def test_predict_refuses_more_faces_than_the_limit_with_both_numbers(capsys, tmp
         (["--checkpoint", str(FRIDGE)], "fridge.obj: not safetensors"),
         (
             ["--articulator", "guess"],
-            "there are auto, stated, annotated, geometric, seams, particulate, rigid",
+            "there are auto, stated, annotated, geometric, seams, particulate, vlm, rigid",
         ),
         (["--samples", "0"], "samples: is 0, want at least 1"),
     ],

@@ -23,6 +23,7 @@ EXPECTED = {
     "articulator": {"articulate"},
     "particulate": {"articulate"},
     "auto": {"articulate"},
+    "vlm": {"articulate"},
     "solids": {"solids"},
     "readings": set(),
     "decompose": {"decompose"},

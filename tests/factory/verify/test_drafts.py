@@ -79,7 +79,7 @@ def _reading_as(monkeypatch: pytest.MonkeyPatch, *changes: object) -> None:
     likeliest = standing.hypotheses
 
     def hypotheses(*asked: object) -> tuple[Hypothesis, ...]:
-        (right,) = likeliest(*asked)
+        right, *_ = likeliest(*asked)
         return tuple(Hypothesis.of(change(right.articulation)) for change in changes)
 
     monkeypatch.setattr(standing, "hypotheses", hypotheses)

@@ -70,7 +70,7 @@ def test_doors_that_nobody_proposes_are_added_and_say_who_saw_them():
 
 
 def test_what_it_does_not_see_stays_fixed_and_what_it_sees_moves():
-    truth = make_object("fridge", 3)
+    truth = make_object("fridge", 4)
     proposed = Articulation(
         truth.mesh,
         tuple(replace(part, confidence=0.6) for part in truth.parts),
