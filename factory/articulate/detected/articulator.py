@@ -13,7 +13,7 @@ from ...intake.stated import Stated
 from ...mesh import Mesh
 from ...models.detector.canvas import look_at
 from ...models.detector.decode import Dense, Found
-from ...part import PartKind, Proposer
+from ...part import Part, PartKind, Proposer
 from ..articulator import Articulator, make_hypotheses
 from ..proposal import Hypothesis
 from ..rigid import rigid_articulation
@@ -25,6 +25,11 @@ from .rating import CellParts, support_of_box
 
 #: Parts of a side with a lower score are not looked at.
 LEAST_SCORE = 0.5
+#: What sides and network are so sure of moves, seen or not, as does what rules of shape find:
+#: of the held-out parts none of these is wrong for want of being seen.
+BELIEVED = 0.85
+#: Kinds of object of which the detector learned too little to have a say.
+STRANGE = frozenset({"gadget", "window", "box", "door"})
 #: Parts that are told of those that are seen and left fixed.
 MOST_TOLD = 4
 #: The detector is asked about these kinds of part; others open nothing that it knows.
@@ -74,7 +79,8 @@ class DetectedArticulator:
             if id(guess.mesh) not in faces:
                 faces[id(guess.mesh)] = look_at(guess.mesh).cells
             cells = CellParts.of(guess, faces[id(guess.mesh)])
-            agreed.append(self._agreed(guess, cells, detection.dense, least))
+            strange = detection.kind in STRANGE
+            agreed.append(guess if strange else self._agreed(guess, cells, detection.dense, least))
         first = max(agreed, key=lambda each: len(each.movable_joints) > 0)
         cells = CellParts.of(first, faces[id(first.mesh)])
         beside = [part for part in sure if not any(cells.has_moving(f) for f in part.found)]
@@ -115,6 +121,8 @@ class DetectedArticulator:
                 continue
             confidence = 0.0 if part.confidence is None else part.confidence
             chance = self.agreement.of_proposed(cells.support(joint.child, dense), confidence)
+            if _is_believed(part):
+                chance = max(chance, confidence, least)
             if chance >= least:
                 kept.append(joint.child)
                 chances[joint.child] = chance
@@ -140,6 +148,12 @@ class DetectedArticulator:
     def _still(self, mesh: Mesh, agreed: Sequence[Articulation]) -> Articulation:
         notes = agreed[0].notes or ("nothing on its sides looks like a door, drawer or lid",)
         return rigid_articulation(mesh, self.name, notes)
+
+
+def _is_believed(part: Part) -> bool:
+    """Tell whether a part moves though the detector does not see it."""
+    ruled = part.source is not None and part.source.proposer is Proposer.RULES
+    return (ruled and part.kind is not PartKind.PART) or (part.confidence or 0.0) >= BELIEVED
 
 
 def _said(part: DetectedPart, least: float) -> str:
