@@ -8,24 +8,15 @@ import numpy as np
 import torch  # noqa: TID253 - this module is only imported to train
 
 from asset_factory.factory.mesh import FloatArray
-from asset_factory.factory.models.detector.canvas import SIDES, SORTS
-from asset_factory.factory.models.detector.decode import Dense, Found, found_parts, overlaps
+from asset_factory.factory.models.detector.canvas import OPENING, SIDES, SORTS
+from asset_factory.factory.models.detector.decode import Found, found_parts, overlaps, shared_areas
+from asset_factory.factory.models.detector.detect import dense_of
 from asset_factory.factory.models.detector.network import cues_of
 
 from .stream import Pool
 
-#: Scores from which on parts count, and sorts that are asked for.
+#: Scores from which on parts count.
 FLOORS = (0.3, 0.4, 0.5, 0.6, 0.7)
-ASKED = 4
-
-
-def dense_of(answers: Any, number: int) -> Dense:
-    """Return the dense answers on one object of a batch."""
-
-    def array(values: Any) -> FloatArray:
-        return np.asarray(values[number].float().cpu().numpy(), dtype=np.float64)
-
-    return Dense(*(array(getattr(answers, name)) for name in Dense.__dataclass_fields__))
 
 
 def evaluate(network: Any, pool: Pool) -> dict[str, Any]:
@@ -36,7 +27,7 @@ def evaluate(network: Any, pool: Pool) -> dict[str, Any]:
 
 def _figures(network: Any, pool: Pool) -> dict[str, Any]:
     figures: dict[str, Any] = {}
-    counts = {floor: np.zeros((ASKED, 4), np.int64) for floor in FLOORS}
+    counts = {floor: np.zeros((OPENING, 4), np.int64) for floor in FLOORS}
     still = dict.fromkeys(FLOORS, 0)
     fronts = kinds = opening = quiet = 0
     for number in range(pool.made):
@@ -49,9 +40,9 @@ def _figures(network: Any, pool: Pool) -> dict[str, Any]:
         kinds += int(answers.kind.argmax() == whole[0, 0])
         opening += int(whole[0, 1])
         quiet += int((answers.opens[0] > 0) == (whole[0, 1] > 0))
-        dense = dense_of(answers, 0)
+        dense = dense_of(answers)
         for floor in FLOORS:
-            found = [p for p in found_parts(dense, floor) if SORTS.index(p.sort) < ASKED]
+            found = [p for p in found_parts(dense, floor) if SORTS.index(p.sort) < OPENING]
             if not whole[0, 1]:
                 still[floor] += int(bool(found))
             counts[floor] += compared(found, table)
@@ -74,10 +65,10 @@ def _figures(network: Any, pool: Pool) -> dict[str, Any]:
 
 def compared(found: list[Found], table: FloatArray) -> Any:
     """Return by sort how many are true, found, found with their way, and spurious, [4, 4]."""
-    counts = np.zeros((ASKED, 4), np.int64)
+    counts = np.zeros((OPENING, 4), np.int64)
     free = [True] * len(found)
     for row in table:
-        if row[9] > 0 or row[6] >= ASKED:
+        if row[9] > 0 or row[6] >= OPENING:
             continue
         sort = int(row[6])
         counts[sort, 0] += 1
@@ -104,9 +95,7 @@ def _excused(part: Found, table: FloatArray) -> bool:
     """Tell whether a part is found where nothing is known."""
     for row in table:
         if row[9] > 0 and SIDES.index(part.side) == int(row[0]):
-            low = np.maximum(part.box[:2], row[1:3])
-            high = np.minimum(part.box[2:], row[3:5])
-            inner = float(np.prod(np.maximum(high - low, 0.0)))
+            inner = float(shared_areas(part.box, row[None, 1:5])[0])
             if inner >= 0.5 * float(np.prod(part.box[2:] - part.box[:2])):
                 return True
     return False

@@ -9,7 +9,7 @@ import torch  # noqa: TID253 - this module is only imported to train
 from torch.nn import functional  # noqa: TID253
 
 from asset_factory.factory.models.detector.canvas import CANVAS, LONGEST, SIDES
-from asset_factory.factory.models.detector.network import heights_of, stacked_cues
+from asset_factory.factory.models.detector.network import closed, heights_of, stacked_cues
 
 Tensor = Any
 #: Gaps up to so many pixels are closed, as a mesh of one piece closes them.
@@ -266,8 +266,7 @@ def _shaped(
     """Return surfaces with gaps closed, grooves, bumps and things stuck on, and brightness."""
     flat = len(height)
     keep = made[:, None, None]
-    closed = _gaps_closed(height)
-    height = torch.where(keep, closed, height)
+    height = torch.where(keep, closed(height[:, None], GAP)[:, 0], height)
     deep = draw.each(count, 0.2, 2.5) * draw.some(count, 0.8)
     wide = draw.some(count, 0.5)
     groove = border.float()[:, None]
@@ -286,11 +285,6 @@ def _shaped(
     height = _blurred((height + bumps)[:, None], sigma)[:, 0]
     lowest = torch.where(seen, height, 1e9).amin((1, 2), keepdim=True)
     return torch.where(seen, height, lowest - 4.0), light
-
-
-def _gaps_closed(height: Tensor) -> Tensor:
-    filled = functional.max_pool2d(height[:, None], GAP, 1, GAP // 2)
-    return -functional.max_pool2d(-filled, GAP, 1, GAP // 2)[:, 0]
 
 
 def _stuck(draw: Drawing, count: int) -> tuple[Tensor, Tensor]:
@@ -378,7 +372,7 @@ def _lit(
     baked = (
         1.0 + draw.each(count, -0.12, 0.12) * slope_up + draw.each(count, -0.12, 0.12) * slope_right
     )
-    sunken = (_gaps_closed(height) - height).clamp(0.0, 5.0)
+    sunken = (closed(height[:, None], GAP)[:, 0] - height).clamp(0.0, 5.0)
     baked = baked * (1.0 - draw.each(count, 0.0, 0.1) * sunken)
     light = light * baked.clamp(0.3, 1.7) * (1.0 + 0.2 * draw.some(count, 0.6) * draw.wavy(flat, 5))
     light = light * (1.0 + 0.06 * draw.some(count, 0.3) * draw.normal(*height.shape))

@@ -27,7 +27,7 @@ from asset_factory.factory.models.detector.canvas import (
 )
 from asset_factory.factory.views.raster import Side, side_facing
 
-from .sides import Instances, LabelledSides
+from .sides import Instances, LabelledSides, way_toward
 
 AXES = "xyz"
 #: A lid whose box is this wide covers the object from side to side.
@@ -204,7 +204,7 @@ def _lid_rows(
     above = Side.TOP in sides
     wide = box[2] - box[0] >= WIDE
     for view, side in enumerate(SIDES):
-        way = _lid_way(direction, side)
+        way = EITHER if direction is None else WAYS.index(way_toward(direction, side))
         if side in sides:
             rows.append((view, _on(side, entry), Sort.LID, way, False))
         elif above:
@@ -234,18 +234,6 @@ def _hinge_direction(hinges: Sequence[Mapping[str, float]]) -> FloatArray | None
     return direction
 
 
-def _lid_way(direction: FloatArray | None, side: Side) -> int:
-    if direction is None:
-        return EITHER
-    right, up, away = side.frame
-    far = up if side is Side.TOP else away
-    sideways = float(direction @ right)
-    depth = float(direction @ far)
-    if abs(sideways) > abs(depth):
-        return WAYS.index(PanelWay.RIGHT if sideways > 0.0 else PanelWay.LEFT)
-    return WAYS.index(PanelWay.TOP if depth > 0.0 else PanelWay.BOTTOM)
-
-
 def _on_canvas(rows: Sequence[_Row], mesh: Mesh) -> Instances:
     sizes = mesh.extents / mesh.extents.max() * LONGEST
     table = np.zeros((len(rows), 10))
@@ -254,8 +242,4 @@ def _on_canvas(rows: Sequence[_Row], mesh: Mesh) -> Instances:
         shares = np.array(box, dtype=np.float64).reshape(2, 2)
         corners = (CANVAS - extents) / 2.0 + shares * extents
         table[number] = [view, *corners.ravel(), 0, SORTS.index(sort), way, 0, ignored]
-    whole = np.rint(table).astype(np.int64)
-    return Instances(
-        whole[:, 0], table[:, 1:5], whole[:, 5], whole[:, 6], whole[:, 7], table[:, 8],
-        table[:, 9] > 0.0,
-    )  # fmt: skip
+    return Instances.of(table)

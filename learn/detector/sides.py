@@ -66,6 +66,15 @@ class Instances:
     opened: FloatArray
     ignored: BoolArray
 
+    @classmethod
+    def of(cls, table: FloatArray) -> Instances:
+        """Return them by rows with the columns of :meth:`table`, shape [n, 10]."""
+        whole = np.rint(table).astype(np.int64)
+        return cls(
+            whole[:, 0], table[:, 1:5], whole[:, 5], whole[:, 6], whole[:, 7], table[:, 8],
+            table[:, 9] > 0.0,
+        )  # fmt: skip
+
     def table(self) -> npt.NDArray[np.float32]:
         """Return all columns side by side, shape [n, 10]."""
         columns = [self.view, *self.box.T, self.part, self.sort, self.way]
@@ -127,7 +136,8 @@ def labelled_sides(
         share = shares.get(joint.name, 0.0)
         for view in range(len(SIDES)):
             rows += _row(part[view] == joint.child + 1, view, joint.child, meaning, share)
-    return LabelledSides(canvases, part, _instances(rows))
+    table = np.array(rows, dtype=np.float64).reshape(-1, 10)
+    return LabelledSides(canvases, part, Instances.of(table))
 
 
 def _row(
@@ -150,15 +160,6 @@ def _row(
     ignored = not known and sort is not Sort.OTHER
     opened = share if share > AJAR else 0.0
     return [(view, *box, part + 1, SORTS.index(sort), WAYS.index(way), opened, ignored)]
-
-
-def _instances(rows: list[tuple[float, ...]]) -> Instances:
-    table = np.array(rows, dtype=np.float64).reshape(-1, 10)
-    whole = table.astype(np.int64)
-    return Instances(
-        whole[:, 0], table[:, 1:5], whole[:, 5], whole[:, 6], whole[:, 7], table[:, 8],
-        table[:, 9] > 0.0,
-    )  # fmt: skip
 
 
 def _pictures(articulation: Articulation) -> _Pictures:
@@ -208,20 +209,23 @@ def _lid_ways(joint: Joint, center: FloatArray, counts: list[int]) -> dict[int, 
     """Return by side where a lid is hinged: at its left, right, far or near edge."""
     across = joint.origin - center
     across = across - (across @ joint.axis) * joint.axis
-    across[2] = 0.0
-    ways = {}
-    for view, side in enumerate(SIDES):
-        if not counts[view]:
-            continue
-        right, up, away = side.frame
-        far = up if side is Side.TOP else away
-        sideways = float(across @ right)
-        depth = float(across @ far)
-        if abs(sideways) > abs(depth):
-            ways[view] = PanelWay.RIGHT if sideways > 0.0 else PanelWay.LEFT
-        else:
-            ways[view] = PanelWay.TOP if depth > 0.0 else PanelWay.BOTTOM
-    return ways
+    return {view: way_toward(across, side) for view, side in enumerate(SIDES) if counts[view]}
+
+
+def way_toward(direction: FloatArray, side: Side) -> PanelWay:
+    """Return the edge, as a side shows it, at which a lid is hinged that is hinged over there.
+
+    Args:
+        direction: from the middle of the lid to its hinge, shape [3]; its height does not count.
+        side: that is looked at.
+    """
+    right, up, away = side.frame
+    level = direction * np.array([1.0, 1.0, 0.0])
+    sideways = float(level @ right)
+    depth = float(level @ (up if side is Side.TOP else away))
+    if abs(sideways) > abs(depth):
+        return PanelWay.RIGHT if sideways > 0.0 else PanelWay.LEFT
+    return PanelWay.TOP if depth > 0.0 else PanelWay.BOTTOM
 
 
 def _way(mask: BoolArray, view: int, raster: Raster, joint: Joint) -> PanelWay | None:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import torch  # noqa: TID253 - this module is only imported to train
 
-from asset_factory.factory.models.detector.canvas import CANVAS, SIDES
+from asset_factory.factory.models.detector.canvas import CANVAS, OPENING, SIDES
 
 from .looks import ObjectBatch
 
@@ -128,6 +128,8 @@ class Makers:
         """End the workers."""
         for worker in self.workers:
             worker.kill()
+        if self.workers:
+            self.memory.unlink()
         self.workers = []
 
 
@@ -155,5 +157,5 @@ def make_into(name: str, free: Any, ready: Any, seed: int, number: int) -> None:
         depth[:] = sides.canvases.depth
         part[:] = sides.part
         table = sides.instances.table()
-        moving = table[(table[:, 9] == 0.0) & (table[:, 6] < 4)]
+        moving = table[(table[:, 9] == 0.0) & (table[:, 6] < OPENING)]
         ready.put((slot, table, WholeTruth(kind_number(kind), bool(len(moving)), 0, False)))

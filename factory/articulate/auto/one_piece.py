@@ -12,6 +12,7 @@ from ...geometry.components import connected_components
 from ...mesh import Mesh
 from ...models.particulate.surface import Surface
 from ..proposal import Hypothesis
+from ..pruning import keep_parts
 from ..seams import SeamsArticulator
 from .trust import Trust
 
@@ -76,14 +77,9 @@ def _motions(articulation: Articulation) -> str:
 def _sure(articulation: Articulation, least: float) -> Articulation:
     """Return the same with what is not sure one with the rest."""
     parts = articulation.parts
-    chosen = [k for k in range(1, len(parts)) if (parts[k].confidence or 0.0) >= least]
-    left = np.setdiff1d(np.arange(len(parts)), chosen)
-    base = replace(parts[0], faces=np.concatenate([parts[index].faces for index in left]))
-    joints = tuple(
-        replace(articulation.joints[index - 1], child=number)
-        for number, index in enumerate(chosen, start=1)
+    return keep_parts(
+        articulation, [k for k in range(1, len(parts)) if (parts[k].confidence or 0.0) >= least]
     )
-    return replace(articulation, parts=(base, *(parts[index] for index in chosen)), joints=joints)
 
 
 def least_of(trust: Trust, asked: float | None) -> float:

@@ -16,11 +16,11 @@ from ...models.detector.decode import Dense, Found
 from ...part import Part, PartKind, Proposer
 from ..articulator import Articulator, make_hypotheses
 from ..proposal import Hypothesis
+from ..pruning import keep_parts
 from ..rigid import rigid_articulation
-from ..stated import StatedArticulator
+from ..stated.articulator import StatedArticulator, seen_from
 from .agreement import Agreement
 from .merging import DetectedPart, seen_parts
-from .pruning import keep_parts
 from .rating import CellParts, support_of_box
 
 #: Parts of a side with a lower score are not looked at.
@@ -28,7 +28,7 @@ LEAST_SCORE = 0.5
 #: What sides and network are so sure of moves, seen or not, as does what rules of shape find:
 #: of the held-out parts none of these is wrong for want of being seen.
 BELIEVED = 0.85
-#: Kinds of object of which the detector learned too little to have a say.
+#: Kinds of object of which the detector learned too little to fix anything.
 STRANGE = frozenset({"gadget", "window", "box", "door"})
 #: Parts that are told of those that are seen and left fixed.
 MOST_TOLD = 4
@@ -132,12 +132,14 @@ class DetectedArticulator:
 
     def _with(self, guess: Articulation, parts: Sequence[DetectedPart]) -> list[Articulation]:
         """Return a guess with parts beside it; the least sure is left out where they do not fit."""
+        seen = seen_from(guess.mesh, Stated().front)
         for count in range(len(parts), 0, -1):
             chosen = parts[:count]
             stated = StatedArticulator(
                 Stated(parts=tuple(each.stated for each in chosen)),
                 proposer=Proposer.DETECTOR,
                 chances=tuple(each.probability for each in chosen),
+                seen=seen,
             )
             try:
                 return [each.articulation for each in stated.beside(guess)]

@@ -10,7 +10,7 @@ import numpy as np
 from ...intake.stated import Hinge, StatedKind, StatedPart
 from ...mesh import FloatArray
 from ...models.detector.canvas import CANVAS, LONGEST, WAYS, PanelWay, Sort, shares_of
-from ...models.detector.decode import Found
+from ...models.detector.decode import Found, shared_areas
 from ...views.raster import Side, side_facing
 from ..seams.fronts import OPPOSITE
 
@@ -115,9 +115,7 @@ def _share_inside(one: Found, other: Found) -> float:
     """Return how much of the smaller of two boxes of a side is in the other."""
     if one.side is not other.side:
         return 0.0
-    low = np.maximum(one.box[:2], other.box[:2])
-    high = np.minimum(one.box[2:], other.box[2:])
-    inner = float(np.prod(np.maximum(high - low, 0.0)))
+    inner = float(shared_areas(one.box, other.box[None])[0])
     return inner / max(min(_area(one), _area(other)), 1.0)
 
 

@@ -9,13 +9,11 @@ import numpy as np
 from ...articulation import Articulation
 from ...geometry.posing import face_parts
 from ...mesh import BoolArray, FloatArray, IntArray
-from ...models.detector.canvas import CANVAS, SIDES, STRIDE
+from ...models.detector.canvas import CANVAS, OPENING, SIDES, STRIDE
 from ...models.detector.decode import Dense, Found, share_of
 
 #: A part that fewer cells show is not seen.
 LEAST_CELLS = 2
-#: Of the detector's sorts, the first ones open something: doors, drawers, flaps, lids.
-OPENING = 4
 #: Two parts of which one has so much of the other's cells on a side are in one place.
 SAME_PLACE = 0.3
 _CELLS = (np.arange(CANVAS // STRIDE) + 0.5) * STRIDE

@@ -100,7 +100,8 @@ class StatedArticulator:
         """
         if not guess.movable_joints:
             return self.hypotheses(guess.mesh)
-        placed = _placed(seen_from(guess.mesh, self.stated.front), self.stated)
+        seen = self._seen or seen_from(guess.mesh, self.stated.front)
+        placed = _placed(seen, self.stated)
         return self._beside(Expected(guess, placed, guess.joints))
 
     def _beside(self, each: Expected) -> tuple[Hypothesis, ...]:

@@ -48,6 +48,8 @@ class PanelWay(StrEnum):
 
 
 SORTS = tuple(Sort)
+#: So many of them, the first ones, open something: doors, drawers, flaps, lids.
+OPENING = 4
 WAYS = tuple(PanelWay)
 
 
@@ -79,21 +81,21 @@ def look_at(mesh: Mesh) -> Canvases:
     face = np.full((len(SIDES), CANVAS, CANVAS), -1, np.int64)
     for number, side in enumerate(SIDES):
         picture = elevation(mesh, side, LONGEST)
-        rows, columns = place_of(picture)
+        rows, columns = _place_of(picture)
         color[number, rows, columns] = np.rint(255.0 * picture.color)
-        depth[number, rows, columns] = stored_depth(picture)
+        depth[number, rows, columns] = _stored_depth(picture)
         face[number, rows, columns] = picture.face
     return Canvases(color, depth, face)
 
 
-def place_of(picture: View) -> tuple[slice, slice]:
+def _place_of(picture: View) -> tuple[slice, slice]:
     """Return the rows and columns of a canvas that a side's picture takes, in its middle."""
     raster = picture.raster
     row, column = ((CANVAS - length) // 2 for length in (raster.rows, raster.columns))
     return slice(row, row + raster.rows), slice(column, column + raster.columns)
 
 
-def stored_depth(picture: View) -> npt.NDArray[np.int16]:
+def _stored_depth(picture: View) -> npt.NDArray[np.int16]:
     """Return depths as they are kept, shape [rows, columns]."""
     steps = np.where(picture.seen, picture.depth, 0.0) / picture.raster.pixel * DEPTH_STEPS
     whole = np.clip(np.rint(steps), 0, np.iinfo(np.int16).max)

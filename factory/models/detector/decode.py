@@ -104,12 +104,17 @@ def _boxes(edges: FloatArray, rows: IntArray, columns: IntArray) -> FloatArray:
 
 def overlaps(box: FloatArray, boxes: FloatArray) -> FloatArray:
     """Return the intersection over union of a box with others, shape [n]."""
-    low = np.maximum(box[:2], boxes[:, :2])
-    high = np.minimum(box[2:], boxes[:, 2:])
-    inner = np.prod(np.maximum(high - low, 0.0), axis=1)
+    inner = shared_areas(box, boxes)
     areas = np.prod(boxes[:, 2:] - boxes[:, :2], axis=1)
     own = float(np.prod(box[2:] - box[:2]))
     return np.asarray(inner / np.maximum(areas + own - inner, 1e-9))
+
+
+def shared_areas(box: FloatArray, boxes: FloatArray) -> FloatArray:
+    """Return the areas that a box shares with others, shape [n]."""
+    low = np.maximum(box[:2], boxes[:, :2])
+    high = np.minimum(box[2:], boxes[:, 2:])
+    return np.asarray(np.prod(np.maximum(high - low, 0.0), axis=1))
 
 
 def share_of(odds: FloatArray) -> FloatArray:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cache
 from importlib import resources
 from pathlib import Path
@@ -16,7 +16,7 @@ from ...runtime.store import digest_file
 from .canvas import AROUND, look_at
 from .decode import Dense, Found, found_parts
 from .kinds import KINDS
-from .network import Detector, cues_of
+from .network import DenseAnswers, Detector, cues_of
 
 FILE = "detector.safetensors"
 SHIPPED = Path(str(resources.files("asset_factory") / "configs" / "weights" / FILE))
@@ -67,18 +67,22 @@ def detect(mesh: Mesh, weights: Path = SHIPPED) -> Detection:
     with torch.no_grad():
         cues = cues_of(torch.from_numpy(canvases.color), torch.from_numpy(canvases.depth))
         answers = network(cues[None])
-
-    def array(values: torch.Tensor) -> FloatArray:
-        return np.asarray(values[0].float().numpy(), dtype=np.float64)
-
-    dense = Dense(*(array(getattr(answers, name)) for name in Dense.__dataclass_fields__))
     return Detection(
-        dense,
+        dense_of(answers),
         canvases.cells,
-        _shares(array(answers.kind)),
-        float(1.0 / (1.0 + np.exp(-array(answers.opens)))),
-        _shares(array(answers.front)),
+        _shares(_array(answers.kind)),
+        float(1.0 / (1.0 + np.exp(-_array(answers.opens)))),
+        _shares(_array(answers.front)),
     )
+
+
+def dense_of(answers: DenseAnswers) -> Dense:
+    """Return the dense answers on the first object of a batch."""
+    return Dense(*(_array(getattr(answers, field.name)) for field in fields(Dense)))
+
+
+def _array(values: torch.Tensor) -> FloatArray:
+    return np.asarray(values[0].float().cpu().numpy(), dtype=np.float64)
 
 
 def detector_weights(weights: Path = SHIPPED) -> Weights:

@@ -98,8 +98,8 @@ def stacked_cues(color: Tensor, height: Tensor, seen: Tensor) -> Tensor:
         inner.copy_(height.narrow(axis, 2, CANVAS - 2) - height.narrow(axis, 0, CANVAS - 2))
         slopes.append((slope / 2.0).clamp(-3.0, 3.0) / 3.0)
     raised = height[:, None]
-    dents = (_closed(raised) - raised).clamp(0.0, DEEPEST) / DEEPEST
-    bumps = (raised + _closed(-raised)).clamp(0.0, DEEPEST) / DEEPEST
+    dents = (closed(raised, DENT) - raised).clamp(0.0, DEEPEST) / DEEPEST
+    bumps = (raised + closed(-raised, DENT)).clamp(0.0, DEEPEST) / DEEPEST
     low = ((height - nearest) / LONGEST).clamp(-1.5, 0.0)[:, None]
     shape = torch.stack(slopes, 1)
     return torch.cat(
@@ -107,10 +107,10 @@ def stacked_cues(color: Tensor, height: Tensor, seen: Tensor) -> Tensor:
     )
 
 
-def _closed(values: Tensor) -> Tensor:
-    """Return a picture whose dents of less than ``DENT`` are filled."""
-    filled = functional.max_pool2d(values, DENT, 1, DENT // 2)
-    return -functional.max_pool2d(-filled, DENT, 1, DENT // 2)
+def closed(values: Tensor, size: int) -> Tensor:
+    """Return pictures [n, 1, rows, columns] whose dents of less than ``size`` pixels are filled."""
+    filled = functional.max_pool2d(values, size, 1, size // 2)
+    return -functional.max_pool2d(-filled, size, 1, size // 2)
 
 
 class Detector(nn.Module):  # type: ignore[misc]

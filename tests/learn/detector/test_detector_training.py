@@ -14,8 +14,11 @@ from asset_factory.learn.objects import make_object
 
 torch = pytest.importorskip("torch")
 
+from asset_factory.factory.models.detector.decode import Found  # noqa: E402
 from asset_factory.factory.models.detector.kinds import KINDS  # noqa: E402
 from asset_factory.factory.models.detector.network import DenseAnswers, Detector  # noqa: E402
+from asset_factory.factory.views.raster import Side  # noqa: E402
+from asset_factory.learn.detector.evaluate import compared  # noqa: E402
 from asset_factory.learn.detector.looks import show  # noqa: E402
 from asset_factory.learn.detector.pack import read_pack, read_textures, write_pack  # noqa: E402
 from asset_factory.learn.detector.stream import Pool, WholeTruth  # noqa: E402
@@ -178,3 +181,30 @@ def test_drawn_objects_are_of_every_sort():
         _, sides = drawn_sides(np.random.default_rng(seed))
         sorts |= {SORTS[int(row[6])] for row in sides.instances.table()}
     assert {Sort.DOOR, Sort.DRAWER, Sort.LID, Sort.OTHER} <= sorts
+
+
+def test_what_is_told_where_nothing_is_known_is_not_held_against_it():
+    left = np.eye(6)[WAYS.index(PanelWay.LEFT)]
+
+    def found(box, sort):
+        return Found(
+            Side.FRONT,
+            np.array(box, float),
+            sort,
+            0.9,
+            np.zeros(6),
+            np.eye(6)[WAYS.index("left")],
+            0,
+        )
+
+    door = [FRONT, 10, 10, 50, 90, 1, SORTS.index(Sort.DOOR), WAYS.index(PanelWay.LEFT), 0, 0]
+    unknown = [FRONT, 100, 10, 160, 90, 2, SORTS.index(Sort.OTHER), 0, 0, 1]
+    table = np.array([door, unknown], float)
+    told = [
+        found([12, 10, 50, 88], Sort.DOOR),
+        found([105, 12, 155, 88], Sort.DRAWER),
+        found([180, 10, 220, 90], Sort.DRAWER),
+    ]
+    counts = compared(told, table)
+    assert counts[SORTS.index(Sort.DOOR)].tolist() == [1, 1, 1, 0]
+    assert counts[SORTS.index(Sort.DRAWER)].tolist() == [0, 0, 0, 1]

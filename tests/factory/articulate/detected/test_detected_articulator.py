@@ -11,7 +11,7 @@ from asset_factory.factory.articulate.detected import (
     DetectedArticulator,
     load_agreement,
 )
-from asset_factory.factory.articulate.detected.pruning import keep_parts
+from asset_factory.factory.articulate.pruning import keep_parts
 from asset_factory.factory.articulate.rigid import rigid_articulation
 from asset_factory.factory.articulation import (
     Articulation,

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 
 import numpy as np
 
-from ...articulation import Articulation
+from ..articulation import Articulation
+
+_NO_CHANCES: Mapping[int, float] = MappingProxyType({})
 
 
 def keep_parts(
-    articulation: Articulation, kept: Collection[int], chances: Mapping[int, float]
+    articulation: Articulation, kept: Collection[int], chances: Mapping[int, float] = _NO_CHANCES
 ) -> Articulation:
     """Return an articulation in which only some parts move; the others are one with their parents.
 
@@ -40,6 +43,6 @@ def keep_parts(
     for number, old in enumerate(order):
         part = articulation.parts[old]
         chance = chances.get(old, part.confidence)
-        own = np.sort(np.concatenate(faces[number]))
+        own = np.concatenate(faces[number])
         parts.append(replace(part, faces=own, confidence=chance))
     return replace(articulation, parts=tuple(parts), joints=tuple(joints))
