@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+from scipy.special import expit
 
 from ...models.perceptron import Perceptron
 from ...models.shipped import Arrays, load_shipped
@@ -57,4 +58,4 @@ def agreement_of(stored: Arrays) -> Agreement:
 
 
 def _chance(network: Perceptron, *signs: float) -> float:
-    return float(1.0 / (1.0 + np.exp(-float(network.scores(np.array(signs))[0]))))
+    return float(expit(network.scores(np.array(signs))[0]))

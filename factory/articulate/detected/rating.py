@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import expit
 
 from ...articulation import Articulation
 from ...geometry.posing import face_parts
 from ...mesh import BoolArray, FloatArray, IntArray
 from ...models.detector.canvas import CANVAS, OPENING, SIDES, STRIDE
-from ...models.detector.decode import Dense, Found, share_of
+from ...models.detector.decode import Dense, Found
 
 #: A part that fewer cells show is not seen.
 LEAST_CELLS = 2
@@ -100,5 +101,5 @@ def _support(dense: Dense, view: int, rows: IntArray, columns: IntArray, box: Fl
     inner = np.maximum(wide, 0.0) * np.maximum(tall, 0.0)
     area = float(np.prod(box[2:] - box[:2]))
     union = (left + right) * (bottom + top) + area - inner
-    share = share_of(dense.sort[view][:OPENING, rows, columns])
+    share = expit(dense.sort[view][:OPENING, rows, columns])
     return float((share * inner / np.maximum(union, 1.0)).mean(axis=1).max())

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import expit, softmax
 
 from ...mesh import FloatArray, IntArray
 from ...views.raster import Side
@@ -67,8 +68,8 @@ def found_parts(dense: Dense, least: float) -> tuple[Found, ...]:
 
 
 def _on_side(dense: Dense, view: int, least: float) -> list[Found]:
-    share = share_of(dense.sort[view])
-    score = np.sqrt(share.max(axis=0) * share_of(dense.quality[view]))
+    share = expit(dense.sort[view])
+    score = np.sqrt(share.max(axis=0) * expit(dense.quality[view]))
     rows, columns = np.nonzero(score >= least)
     left = np.argsort(-score[rows, columns], kind="stable")
     boxes = _boxes(dense.edges[view], rows, columns)
@@ -79,7 +80,6 @@ def _on_side(dense: Dense, view: int, least: float) -> list[Found]:
         left = left[left != best]
         row = rows[best]
         column = columns[best]
-        ways = np.exp(dense.way[view, :, row, column])
         found.append(
             Found(
                 SIDES[view],
@@ -87,7 +87,7 @@ def _on_side(dense: Dense, view: int, least: float) -> list[Found]:
                 SORTS[int(share[:, row, column].argmax())],
                 float(score[row, column]),
                 share[:, row, column],
-                ways / ways.sum(),
+                softmax(dense.way[view, :, row, column]),
                 float(np.clip(dense.opened[view, row, column], 0.0, 1.0)),
             )
         )
@@ -115,8 +115,3 @@ def shared_areas(box: FloatArray, boxes: FloatArray) -> FloatArray:
     low = np.maximum(box[:2], boxes[:, :2])
     high = np.minimum(box[2:], boxes[:, 2:])
     return np.asarray(np.prod(np.maximum(high - low, 0.0), axis=1))
-
-
-def share_of(odds: FloatArray) -> FloatArray:
-    """Return probabilities of log-odds."""
-    return np.asarray(1.0 / (1.0 + np.exp(-np.clip(odds, -30.0, 30.0))))

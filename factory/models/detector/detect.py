@@ -9,11 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import torch  # noqa: TID253 - loaded by whoever runs the network
+from scipy.special import expit, softmax
 
 from ...articulation import Weights
 from ...mesh import FloatArray, IntArray, Mesh
 from ...runtime.store import digest_file
-from .canvas import AROUND, look_at
+from .canvas import look_at
 from .decode import Dense, Found, found_parts
 from .kinds import KINDS
 from .network import DenseAnswers, Detector, cues_of
@@ -49,11 +50,6 @@ class Detection:
         """Return the likeliest kind."""
         return KINDS[int(self.kinds.argmax())]
 
-    @property
-    def front(self) -> str:
-        """Return the likeliest front."""
-        return AROUND[int(self.fronts.argmax())]
-
 
 def detect(mesh: Mesh, weights: Path = SHIPPED) -> Detection:
     """Return what is seen of a mesh, z up.
@@ -70,9 +66,9 @@ def detect(mesh: Mesh, weights: Path = SHIPPED) -> Detection:
     return Detection(
         dense_of(answers),
         canvases.cells,
-        _shares(_array(answers.kind)),
-        float(1.0 / (1.0 + np.exp(-_array(answers.opens)))),
-        _shares(_array(answers.front)),
+        softmax(_array(answers.kind)),
+        float(expit(_array(answers.opens))),
+        softmax(_array(answers.front)),
     )
 
 
@@ -98,8 +94,3 @@ def _loaded(weights: Path) -> Detector:
     network.load_state_dict({name: each.float() for name, each in load_file(weights).items()})
     network.eval()
     return network
-
-
-def _shares(odds: FloatArray) -> FloatArray:
-    shares = np.exp(odds - odds.max())
-    return np.asarray(shares / shares.sum())

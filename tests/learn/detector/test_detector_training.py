@@ -61,60 +61,49 @@ def test_still_things_have_nothing_that_moves(kind):
     assert (sides.part > 0).any()
 
 
+def shown_as(kind, objects, seed):
+    """Return objects as an image-to-3D tool would make them."""
+    pool = Pool(len(objects), torch.device("cpu"))
+    truth = WholeTruth(kind_number(kind), True, FRONT, False)
+    for sides in objects:
+        canvases = sides.canvases
+        pool.add(canvases.color, canvases.depth, sides.part, sides.instances.table(), truth)
+    batch, _ = pool.take(torch.arange(len(objects)))
+    textures = torch.full((2, 3, 8, 8), 128, dtype=torch.uint8)
+    return show(batch, textures, torch.Generator().manual_seed(seed))
+
+
 @pytest.fixture(scope="module")
 def shown():
-    pool = Pool(4, torch.device("cpu"))
-    for seed in range(4):
-        kind, sides = "dresser", labelled_sides(make_object("dresser", seed))
-        truth = WholeTruth(kind_number(kind), True, FRONT, False)
-        pool.add(
-            sides.canvases.color, sides.canvases.depth, sides.part, sides.instances.table(), truth
-        )
-    textures = torch.full((2, 3, 8, 8), 128, dtype=torch.uint8)
-    batch, _ = pool.take(torch.arange(4))
-    return show(batch, textures, torch.Generator().manual_seed(3))
+    return shown_as("dresser", [labelled_sides(make_object("dresser", n)) for n in range(4)], 3)
 
 
 def test_boxes_follow_objects_that_are_stretched_mirrored_and_turned(shown):
-    turned = set()
-    for number in range(len(shown.part)):
-        front = int(shown.front[number])
-        turned.add(front)
+    assert len(set(shown.front.tolist())) > 1
+    for number, front in enumerate(shown.front.tolist()):
         drawers = shown.table[number]
-        drawers = drawers[(drawers[:, 6] == SORTS.index(Sort.DRAWER)) & (drawers[:, 9] == 0)]
-        drawers = drawers[drawers[:, 0] >= 0]
+        drawn = (drawers[:, 6] == SORTS.index(Sort.DRAWER)) & (drawers[:, 9] == 0)
+        drawers = drawers[drawn & (drawers[:, 0] >= 0)]
         assert len(drawers)
         for row in drawers.numpy():
             assert int(row[0]) == front
             rows, columns = np.nonzero(shown.part[number, front].numpy() == int(row[5]))
             ends = [columns.min(), rows.min(), columns.max() + 1, rows.max() + 1]
             assert row[1:5] == pytest.approx(ends, abs=5.0)
-    assert len(turned) > 1
 
 
 def test_tops_turn_with_their_objects():
-    chest = labelled_sides(make_object("chest", 1))
-    pool = Pool(8, torch.device("cpu"))
-    truth = WholeTruth(kind_number("chest"), True, FRONT, False)
-    for _ in range(8):
-        pool.add(
-            chest.canvases.color, chest.canvases.depth, chest.part, chest.instances.table(), truth
-        )
-    batch, _ = pool.take(torch.arange(8))
-    textures = torch.full((1, 3, 8, 8), 128, dtype=torch.uint8)
-    made = show(batch, textures, torch.Generator().manual_seed(0))
+    made = shown_as("chest", [labelled_sides(make_object("chest", 1))] * 8, 0)
     # Where the front is, seen from above, and the edge away from it, where the hinge is.
     hinge = {0: PanelWay.TOP, 1: PanelWay.LEFT, 2: PanelWay.BOTTOM, 3: PanelWay.RIGHT}
-    for number in range(8):
-        above = made.table[number]
-        above = above[(above[:, 0] == TOP) & (above[:, 6] == SORTS.index(Sort.LID))]
+    for number, table in enumerate(made.table):
+        above = table[(table[:, 0] == TOP) & (table[:, 6] == SORTS.index(Sort.LID))]
         assert WAYS[int(above[0, 7])] is hinge[int(made.front[number])]
 
 
 def test_answers_that_say_the_truth_cost_less(shown):
     targets = targets_of(shown)
     there = (targets.sort >= 0) & ~targets.ignored
-    assert there.any()
     sort = torch.full((*there.shape[:2], len(SORTS), *there.shape[2:]), -8.0)
     sort = sort.scatter(2, targets.sort.clamp(min=0)[:, :, None], 8.0)
     sort = torch.where(there[:, :, None], sort, -8.0)
@@ -187,15 +176,7 @@ def test_what_is_told_where_nothing_is_known_is_not_held_against_it():
     left = np.eye(6)[WAYS.index(PanelWay.LEFT)]
 
     def found(box, sort):
-        return Found(
-            Side.FRONT,
-            np.array(box, float),
-            sort,
-            0.9,
-            np.zeros(6),
-            np.eye(6)[WAYS.index("left")],
-            0,
-        )
+        return Found(Side.FRONT, np.array(box, float), sort, 0.9, np.zeros(6), left, 0.0)
 
     door = [FRONT, 10, 10, 50, 90, 1, SORTS.index(Sort.DOOR), WAYS.index(PanelWay.LEFT), 0, 0]
     unknown = [FRONT, 100, 10, 160, 90, 2, SORTS.index(Sort.OTHER), 0, 0, 1]
