@@ -34,7 +34,7 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "tests" / "samples"))
+sys.path[:0] = [str(ROOT / "tests" / "samples"), str(ROOT / "benchmarks" / "libraries")]
 
 import fuzz_trial  # noqa: E402 - the attacks live with the tests
 from fuzz_cases import Case, seeds  # noqa: E402

@@ -17,6 +17,7 @@ import time
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from functools import cache
 from itertools import islice
 from pathlib import Path
@@ -24,14 +25,14 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "samples"))
 
-from fuzz_cases import Case, real_seeds, seeds  # noqa: E402 - the attacks live with the tests
+from fuzz_cases import Case, seeds  # noqa: E402 - the attacks live with the tests
 from fuzz_hostile import MESH_PAGES  # noqa: E402
-from fuzz_hostile_mjcf import MJCF_PAGES  # noqa: E402
 from fuzz_hostile_texts import TEXT_PAGES  # noqa: E402
 from fuzz_hostile_usd import USD_PAGES  # noqa: E402
 from fuzz_hostile_weights import WEIGHT_PAGES  # noqa: E402
 from fuzz_mutations import mutated  # noqa: E402
-from fuzz_trial import Trial, shrunk, try_case  # noqa: E402
+from fuzz_trial import Trial, try_case  # noqa: E402
+from hostile_mjcf import MJCF_PAGES  # noqa: E402
 
 from asset_factory.sim_checks.processes.isolation import Limits, WarmChild  # noqa: E402
 
@@ -113,6 +114,53 @@ def _save(trial: Trial, numbers: Sequence[int], options: argparse.Namespace) -> 
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(content)
     (folder / "why.txt").write_text(f"{trial.broke}\n{trial.detail}\n", encoding="utf-8")
+
+
+def real_seeds(folder: Path, most_bytes: int = 2_000_000, most: int = 40) -> dict[str, Case]:
+    """Files of a folder that are complete in themselves, as more seeds by kind and number."""
+    found = {}
+    for suffix in ("glb", "stl", "ply", "off", "obj"):
+        paths = (
+            path
+            for path in sorted(folder.rglob(f"*.{suffix}"))
+            if 0 < path.stat().st_size < most_bytes
+        )
+        for number, path in enumerate(list(paths)[:most]):
+            name = f"{suffix}_real{number}"
+            found[name] = Case(
+                name, suffix, "load", path.name, {path.name: path.read_bytes()}, target=path.name
+            )
+    return found
+
+
+def shrunk(case: Case, most: int = 200) -> Case:
+    """A case that fails alike with as little in its damaged file as some tries find.
+
+    Run in this process.
+    """
+    target = case.target or case.entry
+    wanted = _symptom(try_case(case))
+    best = case
+    size = len(case.files[target]) // 2
+    tries = 0
+    while size and tries < most:
+        data = best.files[target]
+        at = 0
+        while at < len(data) and tries < most:
+            smaller = replace(best, files={**best.files, target: data[:at] + data[at + size :]})
+            tries += 1
+            if _symptom(try_case(smaller)) == wanted:
+                best = smaller
+                data = smaller.files[target]
+            else:
+                at += size
+        size //= 2
+    return best
+
+
+def _symptom(trial: Trial) -> tuple[str, str, tuple[str, ...]]:
+    last = (trial.detail.strip().splitlines() or [""])[-1]
+    return trial.verdict, last.partition(":")[0], trial.broke
 
 
 def main() -> int:

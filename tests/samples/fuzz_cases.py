@@ -277,21 +277,4 @@ def seeds() -> dict[str, Case]:
     return found
 
 
-def real_seeds(folder: Path, most_bytes: int = 2_000_000, most: int = 40) -> dict[str, Case]:
-    """Files of a folder that are complete in themselves, as more seeds by kind and number."""
-    found = {}
-    for suffix in ("glb", "stl", "ply", "off", "obj"):
-        paths = (
-            path
-            for path in sorted(folder.rglob(f"*.{suffix}"))
-            if 0 < path.stat().st_size < most_bytes
-        )
-        for number, path in enumerate(list(paths)[:most]):
-            name = f"{suffix}_real{number}"
-            found[name] = Case(
-                name, suffix, "load", path.name, {path.name: path.read_bytes()}, target=path.name
-            )
-    return found
-
-
-__all__ = ["OUTSIDE", "Case", "cube", "png", "real_seeds", "seeds"]
+__all__ = ["OUTSIDE", "Case", "cube", "png", "seeds"]

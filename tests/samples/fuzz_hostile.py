@@ -54,6 +54,13 @@ def links(suffix: str) -> dict[str, str]:
     }
 
 
+def _case(
+    kind: str, name: str, entry: str, files: dict[str, bytes], *rest: Any, **options: Any
+) -> Case:
+    """An input of files in a folder, to be loaded."""
+    return Case(f"{kind}-{name}", kind, "load", entry, files, *rest, **options)
+
+
 def _single(name: str, entry: str, data: bytes, **options: Any) -> Case:
     return Case(name, entry.rsplit(".", 1)[-1], "load", entry, {entry: data}, **options)
 
@@ -74,28 +81,14 @@ def _references() -> Iterator[Case]:
         )
         obj = seeds()["obj"].files
         text = obj["cube.obj"].replace(b"cube.mtl", library.encode())
-        yield Case(
-            f"obj-library-{number}",
-            "obj",
-            "load",
-            "cube.obj",
-            {**obj, "cube.obj": text},
-            links("mtl"),
-        )
+        yield _case("obj", f"library-{number}", "cube.obj", {**obj, "cube.obj": text}, links("mtl"))
         text = obj["cube.mtl"].replace(b"wood.png", picture.encode())
-        yield Case(
-            f"mtl-picture-{number}",
-            "mtl",
-            "load",
-            "cube.obj",
-            {**obj, "cube.mtl": text},
-            links("png"),
-        )
+        yield _case("mtl", f"picture-{number}", "cube.obj", {**obj, "cube.mtl": text}, links("png"))
         ply = seeds()["ply_ascii"].files["cube.ply"].replace(b"wood.png", picture.encode())
         yield _single(f"ply-picture-{number}", "cube.ply", ply, links=links("png"))
         toml = b"annotation = " + json.dumps(reference.replace("{0}", "npz")).encode()
         files = {**annotated(packed(prediction())), "cube.toml": toml}
-        yield Case(f"toml-annotation-{number}", "toml", "load", "cube.glb", files, links("npz"))
+        yield _case("toml", f"annotation-{number}", "cube.glb", files, links("npz"))
         dae = (
             seeds()["dae"]
             .files["cube.dae"]
@@ -109,16 +102,13 @@ def _references() -> Iterator[Case]:
         )
         yield _single(f"dae-picture-{number}", "cube.dae", dae, links=links("png"))
     cube = {"cube.glb": pack_glb(*gltf_parts())}
-    yield Case(
-        "link-sidecar", "names", "load", "cube.glb", cube, {"cube.toml": "@OUTSIDE@/secret.toml"}
-    )
-    yield Case("loop-sidecar", "names", "load", "cube.glb", cube, {"cube.toml": "cube.toml"})
-    yield Case("loop-input", "names", "load", "cube.glb", {}, {"cube.glb": "cube.glb"})
+    yield _case("names", "link-sidecar", "cube.glb", cube, {"cube.toml": "@OUTSIDE@/secret.toml"})
+    yield _case("names", "loop-sidecar", "cube.glb", cube, {"cube.toml": "cube.toml"})
+    yield _case("names", "loop-input", "cube.glb", {}, {"cube.glb": "cube.glb"})
     # Nobody named this one: it is found in the folder.
-    yield Case(
-        "link-found",
+    yield _case(
         "names",
-        "load",
+        "link-found",
         "cube.glb",
         cube,
         {"other.glb": "@OUTSIDE@/secret.png", "o.xml": "@OUTSIDE@/secret.xml"},
@@ -274,20 +264,18 @@ def _texts() -> Iterator[Case]:
     mtl = b"".join(b"newmtl m%d\nKd 1 0 0\n" % k for k in range(50_000))
     for times in (1, 20_000):
         files = {"a.obj": b"mtllib a.mtl\n" * times + triangle + b"f 1 2 3\n", "a.mtl": mtl}
-        yield Case(f"obj-libraries-{times}", "obj", "load", "a.obj", files, least="loaded")
+        yield _case("obj", f"libraries-{times}", "a.obj", files, least="loaded")
     files = {"a.obj": b"mtllib a.mtl\n" + triangle + b"f 1 2 3\n", "p.png": png((64, 64))}
-    yield Case(
-        "mtl-maps",
+    yield _case(
         "mtl",
-        "load",
+        "maps",
         "a.obj",
         {**files, "a.mtl": b"newmtl m\n" + b"map_Kd p.png\n" * 200_000},
         least="loaded",
     )
-    yield Case(
-        "mtl-itself",
+    yield _case(
         "mtl",
-        "load",
+        "itself",
         "a.obj",
         {**files, "a.mtl": b"newmtl m\nmap_Kd a.mtl\nmap_Kd a.obj\n"},
         least="loaded",
@@ -422,28 +410,16 @@ def _pictures() -> Iterator[Case]:
     }
     for name, data in found.items():
         yield _single(f"glb-picture-{name}", "cube.glb", pack_glb(*gltf_parts(image=data or b"\0")))
-        yield Case(
-            f"obj-picture-{name}",
-            "png",
-            "load",
-            "cube.obj",
-            {**seeds()["obj"].files, "wood.png": data},
+        yield _case(
+            "png", f"obj-picture-{name}", "cube.obj", {**seeds()["obj"].files, "wood.png": data}
         )
         urdf = seeds()["urdf"].files
         plain = urdf["cube.mtl"].replace(b"map_Kd", b"#")
-        yield Case(
-            f"urdf-picture-{name}",
-            "urdf",
-            "load",
-            "box.urdf",
-            {**urdf, "wood.png": data, "cube.mtl": plain},
+        yield _case(
+            "urdf", f"picture-{name}", "box.urdf", {**urdf, "wood.png": data, "cube.mtl": plain}
         )
-        yield Case(
-            f"mjcf-picture-{name}",
-            "mjcf",
-            "load",
-            "box.xml",
-            {**seeds()["mjcf"].files, "wood.png": data},
+        yield _case(
+            "mjcf", f"picture-{name}", "box.xml", {**seeds()["mjcf"].files, "wood.png": data}
         )
 
 
@@ -468,13 +444,11 @@ def _names() -> Iterator[Case]:
         "a" + "/b" * 500 + "/x.glb",
         "\u202ebgl.glb",
     ):
-        yield Case(f"name-{name!a:.40}", "names", "load", name, {name: cube}, least="loaded")
+        yield _case("names", f"{name!a:.40}", name, {name: cube}, least="loaded")
     comment = b"<!--" + b"x" * 30_000_000 + b"--><mujoco/>"
-    yield Case(
-        "name-comment", "names", "load", "a.glb", {"a.glb": cube, "a.xml": comment}, least="loaded"
-    )
-    yield Case("name-folder", "names", "load", "a.glb", {"a.glb/x": b""})
-    yield Case("name-missing", "names", "load", f"{'m' * 400}.glb", {"x": b""})
+    yield _case("names", "comment", "a.glb", {"a.glb": cube, "a.xml": comment}, least="loaded")
+    yield _case("names", "folder", "a.glb", {"a.glb/x": b""})
+    yield _case("names", "missing", f"{'m' * 400}.glb", {"x": b""})
 
 
 def _sidecars() -> Iterator[Case]:
@@ -506,12 +480,10 @@ def _sidecars() -> Iterator[Case]:
         "license": b"license = '" + b"x" * 60_000 + b"'",
     }
     for name, text in texts.items():
-        yield Case(
-            f"toml-{name}", "toml", "load", "cube.glb", {"cube.glb": cube, "cube.toml": text}
-        )
+        yield _case("toml", f"{name}", "cube.glb", {"cube.glb": cube, "cube.toml": text})
         urdf = seeds()["urdf"].files
-        yield Case(f"toml-urdf-{name}", "toml", "load", "box.urdf", {**urdf, "box.toml": text})
-    yield Case("toml-folder", "toml", "load", "cube.glb", {"cube.glb": cube, "cube.toml/x": b""})
+        yield _case("toml", f"urdf-{name}", "box.urdf", {**urdf, "box.toml": text})
+    yield _case("toml", "folder", "cube.glb", {"cube.glb": cube, "cube.toml/x": b""})
 
 
 MESH_PAGES = {

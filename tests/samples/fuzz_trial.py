@@ -11,7 +11,7 @@ import time
 import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from multiprocessing import forkserver
 from pathlib import Path
@@ -331,33 +331,3 @@ def _status(key: str) -> int:
         if line.startswith(f"{key}:"):
             return int(line.split()[1]) * 1024
     return 0
-
-
-def shrunk(case: Case, most: int = 200) -> Case:
-    """A case that fails alike with as little in its damaged file as some tries find.
-
-    Run in this process.
-    """
-    target = case.target or case.entry
-    wanted = _symptom(try_case(case))
-    best = case
-    size = len(case.files[target]) // 2
-    tries = 0
-    while size and tries < most:
-        data = best.files[target]
-        at = 0
-        while at < len(data) and tries < most:
-            smaller = replace(best, files={**best.files, target: data[:at] + data[at + size :]})
-            tries += 1
-            if _symptom(try_case(smaller)) == wanted:
-                best = smaller
-                data = smaller.files[target]
-            else:
-                at += size
-        size //= 2
-    return best
-
-
-def _symptom(trial: Trial) -> tuple[str, str, tuple[str, ...]]:
-    last = (trial.detail.strip().splitlines() or [""])[-1]
-    return trial.verdict, last.partition(":")[0], trial.broke

@@ -1,4 +1,4 @@
-"""Readers of mesh libraries beside ours, for benchmarks/mesh_readers.py, and how far two agree."""
+"""Readers of mesh libraries beside ours, for mesh_readers.py, and how far two agree."""
 
 from __future__ import annotations
 
