@@ -1,4 +1,4 @@
-"""One broken thing, one code: the static lint."""
+"""The static lint where the fault corpus, one broken thing for each code, does not look."""
 
 from __future__ import annotations
 
@@ -33,10 +33,6 @@ def inertia(
     return lambda item: with_link(item, "drawer", inertia=value)
 
 
-def moved(shape: DescribedShape, offset: tuple[float, float, float]) -> DescribedShape:
-    return replace(shape, vertices=shape.vertices + np.array(offset))
-
-
 def drawer_collisions(
     change: Callable[[tuple[DescribedShape, ...]], tuple[DescribedShape, ...]],
 ) -> Break:
@@ -47,27 +43,10 @@ def drawer_collisions(
     return broken
 
 
-def flat(shapes: tuple[DescribedShape, ...]) -> tuple[DescribedShape, ...]:
-    plane = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]])
-    return (*shapes, DescribedShape("plane", "mesh", plane, np.array([[0, 1, 2], [1, 3, 2]])))
-
-
 def hollow(shapes: tuple[DescribedShape, ...]) -> tuple[DescribedShape, ...]:
     vertices = np.vstack([shape.vertices for shape in shapes])
     faces = np.vstack([shape.faces + 8 * i for i, shape in enumerate(shapes)])
     return (DescribedShape("drawer.obj", "mesh", vertices, faces),)
-
-
-def ball(shapes: tuple[DescribedShape, ...]) -> tuple[DescribedShape, ...]:
-    generator = np.random.default_rng(0)
-    points = generator.normal(size=(200, 3))
-    points *= 0.05 / np.linalg.norm(points, axis=1)[:, None]
-    return (
-        *shapes,
-        DescribedShape(
-            "ball", "mesh", points + np.array([0, -0.1, 0.2]), np.arange(198).reshape(-1, 3)
-        ),
-    )
 
 
 def scaled(shape: DescribedShape, factor: float) -> DescribedShape:
@@ -91,37 +70,11 @@ def test_a_sound_cabinet_has_no_findings() -> None:
 @pytest.mark.parametrize(
     ("broken", "code", "severity"),
     [
-        (lambda d: replace(d, joints=d.joints[:1]), "not_a_tree", HARD),
-        (
-            lambda d: replace(d, joints=tuple(replace(j, name="same") for j in d.joints)),
-            "duplicate_name",
-            HARD,
-        ),
-        (lambda d: with_joint(d, "hinge", kind="planar"), "unknown_joint_type", HARD),
-        (lambda d: with_joint(d, "hinge", lower=1.0, upper=0.0), "limits_not_ordered", HARD),
-        (lambda d: with_joint(d, "hinge", lower=None, upper=None), "missing_limits", HARD),
-        (lambda d: with_joint(d, "hinge", upper=float("inf")), "limits_not_finite", HARD),
-        (lambda d: with_joint(d, "hinge", lower=0.2), "zero_outside_limits", SOFT),
-        (lambda d: with_joint(d, "hinge", axis=np.zeros(3)), "zero_axis", HARD),
-        (lambda d: with_joint(d, "hinge", axis=np.array([0.0, 0.0, 2.0])), "axis_not_unit", HARD),
         (lambda d: with_joint(d, "hinge", axis=np.array([0.0, 0.0, 1.005])), "axis_not_unit", SOFT),
-        (lambda d: with_joint(d, "hinge", damping=-1.0), "invalid_dynamics", HARD),
-        (lambda d: with_link(d, "drawer", inertia=None), "missing_inertia", HARD),
-        (lambda d: with_link(d, "carcass", inertia=None), "missing_inertia", SOFT),
-        (lambda d: with_link(d, "drawer", collisions=()), "no_collision", HARD),
-        (inertia(mass=0.0), "mass_not_positive", HARD),
         (inertia(mass=float("nan")), "inertia_not_finite", HARD),
         (inertia(moments=(0.0, 0.01, 0.01)), "inertia_not_positive", HARD),
-        (inertia(moments=(0.001, 0.001, 0.02)), "inertia_triangle", HARD),
-        (inertia(moments=(0.6, 0.6, 0.6)), "inertia_implausible", SOFT),
-        (inertia(moments=(10.0, 10.0, 10.0)), "inertia_impossible", HARD),
         (inertia(mass=1e300), "inertia_not_finite", HARD),
         (inertia(mass=1e-300, moments=(1e-5, 1e-5, 1e-5)), "inertia_impossible", HARD),
-        (inertia(at=2.0), "center_outside", HARD),
-        (inertia(mass=0.001, moments=(1e-6, 1e-6, 1e-6)), "density_implausible", SOFT),
-        (drawer_collisions(flat), "degenerate_collision", HARD),
-        (drawer_collisions(hollow), "nonconvex_collision", SOFT),
-        (drawer_collisions(ball), "many_hull_vertices", SOFT),
         (
             drawer_collisions(lambda s: (*s, scaled(fine_ball(5000), 0.05))),
             "many_hull_vertices",
@@ -135,22 +88,11 @@ def test_a_sound_cabinet_has_no_findings() -> None:
             "degenerate_collision",
             HARD,
         ),
-        (drawer_collisions(lambda s: s * 13), "many_hulls", SOFT),
-        (
-            drawer_collisions(lambda s: (*s, box_shape((0, -0.1, 0.2), (0.5, 0.3, 0.001)))),
-            "oblong_hull",
-            SOFT,
-        ),
-        (drawer_collisions(lambda s: s[:1]), "collision_gap", HARD),
-        (lambda d: with_joint(d, "slide", axis=np.array([0.0, -2.0, 0.0])), "axis_not_unit", HARD),
-        (
-            drawer_collisions(lambda s: tuple(moved(x, (0.1, 0.1, 0.0)) for x in s)),
-            "collision_offset",
-            HARD,
-        ),
     ],
 )
-def test_each_fault_has_its_own_code(broken: Break, code: str, severity: Severity) -> None:
+def test_numbers_at_the_end_of_their_range_have_a_code_too(
+    broken: Break, code: str, severity: Severity
+) -> None:
     assert found(broken(cabinet())).get(code) is severity
 
 
