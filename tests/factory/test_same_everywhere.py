@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import os
+import platform
 import shutil
 import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
+
+import numpy as np
 
 from asset_factory.factory.build import build_asset
 from asset_factory.factory.config import BuildConfig, ReadingsConfig, RepairConfig
@@ -17,6 +20,18 @@ from asset_factory.factory.runtime.store import folder_digests
 from asset_factory.sim_checks.processes.threads import VARIABLES
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "meshes"
+#: What numpy would use beyond what every processor has.
+DISPATCHED = " ".join(np._core._multiarray_umath.__cpu_dispatch__)
+#: OpenBLAS's kernels of two processors ten years apart, and everybody else without what is new.
+OLD = {
+    "OPENBLAS_CORETYPE": "Prescott",
+    "ATEN_CPU_CAPABILITY": "default",
+    "NPY_DISABLE_CPU_FEATURES": DISPATCHED,
+    "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-AVX512F,-FMA4",
+}
+NEW = {"OPENBLAS_CORETYPE": "Haswell"}
+if platform.machine() != "x86_64":
+    OLD = NEW = {}
 CONFIG = BuildConfig(simulators=("mujoco",))
 #: The cabinet counts 275 and more a round, and passes after three.
 SHRUNKEN = replace(CONFIG, repair=RepairConfig(most_work=300), readings=ReadingsConfig(most_work=0))
@@ -47,24 +62,26 @@ def test_a_warm_cache_changes_nothing_however_small_the_budgets(tmp_path: Path) 
     assert registered(tmp_path / "shrunken")[0] == "rejected"
 
 
-def built_with(threads: int, output: Path) -> tuple[str, str, dict[str, str]]:
+def built_with(output: Path, **settings: str) -> tuple[str, str, dict[str, str]]:
     command = [sys.executable, "-m", "asset_factory.factory.cli", "build", "--sim", "mujoco"]
     asked = ["--input", EXAMPLES / "laptop.glb", "--output", output, "--quiet", "--no-report"]
-    environment = {**os.environ, **dict.fromkeys(VARIABLES, str(threads))}
-    subprocess.run([*command, *asked], env=environment, check=True, timeout=600)
+    subprocess.run([*command, *asked], env={**os.environ, **settings}, check=True, timeout=600)
     return registered(output)
 
 
-def test_neither_threads_nor_a_busy_machine_change_anything(tmp_path: Path) -> None:
-    alone = built_with(1, tmp_path / "alone")
+def test_neither_threads_nor_a_busy_machine_nor_its_processor_change_anything(
+    tmp_path: Path,
+) -> None:
+    alone = built_with(tmp_path / "alone", **dict.fromkeys(VARIABLES, "1"), **NEW)
     busy = [
         subprocess.Popen([sys.executable, "-c", "while True: pass"])
         for _ in os.sched_getaffinity(0)
     ]
     try:
-        assert built_with(16, tmp_path / "busy") == alone
+        assert built_with(tmp_path / "busy", **dict.fromkeys(VARIABLES, "16"), **OLD) == alone
     finally:
         for process in busy:
             process.kill()
             process.wait()
     assert alone[0] == "passed"
+    assert {"asset.urdf", "asset.xml"} <= set(alone[2])

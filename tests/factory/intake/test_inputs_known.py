@@ -20,7 +20,7 @@ from asset_factory.factory.jobs.probe import KnownReads
 from asset_factory.factory.registry import keys
 from asset_factory.factory.registry.keys import source_key
 
-CONFIG = BuildConfig(simulators=())
+CONFIG = BuildConfig(articulator="geometric", simulators=())
 
 
 def load(path: Path) -> Source:

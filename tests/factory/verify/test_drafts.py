@@ -85,7 +85,7 @@ def _reading_as(monkeypatch: pytest.MonkeyPatch, *changes: object) -> None:
     monkeypatch.setattr(standing, "hypotheses", hypotheses)
 
 
-CONFIG = BuildConfig(simulators=())
+CONFIG = BuildConfig(articulator="geometric", simulators=())
 
 
 def test_a_reading_that_is_blocked_loses_to_one_that_opens(tmp_path: Path, monkeypatch) -> None:
