@@ -1,7 +1,5 @@
 """Every worked example in CONTRIBUTING.md is run: its line goes into its table, and works."""
 
-from __future__ import annotations
-
 import re
 import sys
 from pathlib import Path
@@ -52,7 +50,7 @@ EXAMPLES = {
 }
 
 
-def example(heading: str, monkeypatch, **names: object) -> ModuleType:
+def example(heading, monkeypatch, **names):
     """The example of a section as the module that it says it is, with ``LINE``."""
     found = EXAMPLES[heading]
     assert found is not None, f"no example under {heading!r}"
@@ -64,7 +62,7 @@ def example(heading: str, monkeypatch, **names: object) -> ModuleType:
     return module
 
 
-def test_a_mesh_format(tmp_path: Path, monkeypatch) -> None:
+def test_a_mesh_format(tmp_path, monkeypatch):
     line = example("A mesh format", monkeypatch, MeshFormat=formats.MeshFormat).LINE
     monkeypatch.setattr(formats, "FORMATS", (*formats.FORMATS, line))
     corners = trimesh.creation.box((0.6, 0.4, 0.8)).triangles
@@ -78,7 +76,7 @@ def test_a_mesh_format(tmp_path: Path, monkeypatch) -> None:
         load_mesh(path, IntakeConfig())
 
 
-def box() -> Mesh:
+def box():
     shape = trimesh.creation.box((0.6, 0.4, 0.8)).subdivide().subdivide().subdivide()
     return Mesh.from_triangles(shape.vertices, shape.faces)
 

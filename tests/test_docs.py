@@ -5,7 +5,6 @@ import re
 import shlex
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -32,7 +31,7 @@ CHEAP = (
 ID = re.compile(r"[a-z_]+-[0-9a-f]{10}")
 
 
-def commands_of(page: Path) -> Iterator[str]:
+def commands_of(page):
     """Lines of code blocks that are to be typed, without prompt and folder."""
     text = page.read_text(encoding="utf-8")
     fenced = [line for block in FENCED.findall(text) for line in block.splitlines()]
@@ -42,7 +41,7 @@ def commands_of(page: Path) -> Iterator[str]:
             yield typed
 
 
-def inline_commands_of(page: Path) -> Iterator[str]:
+def inline_commands_of(page):
     """Commands named within sentences and tables; they may leave out what they need."""
     yield from re.findall(r"`((?:factory|make) [^`]+)`", page.read_text(encoding="utf-8"))
 
@@ -61,14 +60,14 @@ FLAGS = {
 }
 
 
-def words_of(line: str) -> list[str]:
+def words_of(line):
     """A line's words up to where the shell does something with the result."""
     words = shlex.split(line, comments=True)
     ends = [place for place, word in enumerate(words) if word in {">", "|", "||", "&&", ";"}]
     return words[: min(ends, default=len(words))]
 
 
-def targets() -> set[str]:
+def targets():
     """What ``make`` can make."""
     text = (ROOT / "Makefile").read_text(encoding="utf-8")
     return set(re.findall(r"^([a-z][\w-]*):", text, re.MULTILINE))
@@ -120,7 +119,7 @@ def test_every_command_in_a_sentence_is_one(line):
     assert [word for word in words if word.startswith("--") and word not in known] == []
 
 
-def is_cheap(line: str) -> bool:
+def is_cheap(line):
     return line.startswith(CHEAP) and (not line.startswith("factory view") or "--save" in line)
 
 

@@ -1,7 +1,5 @@
 """The list of small wrong changes fits the code, and a change that no test notices is told."""
 
-from __future__ import annotations
-
 import runpy
 import shutil
 from pathlib import Path
@@ -14,7 +12,7 @@ MUTANTS = SCRIPT["read_mutants"](SCRIPT["LIST"])
 
 
 @pytest.mark.parametrize("mutant", MUTANTS, ids=[mutant.says for mutant in MUTANTS])
-def test_every_change_can_still_be_made_and_has_its_tests(mutant, tmp_path: Path) -> None:
+def test_every_change_can_still_be_made_and_has_its_tests(mutant, tmp_path):
     copy = tmp_path / mutant.file
     copy.parent.mkdir(parents=True)
     shutil.copyfile(ROOT / mutant.file, copy)
@@ -36,9 +34,7 @@ def test_every_change_can_still_be_made_and_has_its_tests(mutant, tmp_path: Path
         ("/ 4", "/ 2", "assert half(4) == 2", "cannot be made: its text before occurs 0 times"),
     ],
 )
-def test_only_a_test_that_fails_by_its_own_word_kills(
-    tmp_path: Path, before: str, after: str, asserted: str, fault: str
-) -> None:
+def test_only_a_test_that_fails_by_its_own_word_kills(tmp_path, before, after, asserted, fault):
     (tmp_path / "src").mkdir()
     source = tmp_path / "src" / "half.py"
     source.write_text("def half(number):\n    return number / 2\n")

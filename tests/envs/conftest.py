@@ -1,9 +1,5 @@
 """A registry of generated household objects, made once: what a build writes, without checks."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 from openable_samples import HOUSEHOLD, write_registry
@@ -19,7 +15,7 @@ from asset_factory.learn.objects import make_object
 
 
 @pytest.fixture(scope="session")
-def household(tmp_path_factory) -> Path:
+def household(tmp_path_factory):
     """Four objects: doors and drawers, a lid, an oven's door, a screen."""
     root = write_registry(tmp_path_factory.mktemp("household"))
     store = Store(root / ".cache")

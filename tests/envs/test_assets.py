@@ -1,7 +1,5 @@
 """What the tasks read from a registry; no simulator."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np
@@ -21,7 +19,7 @@ def edited(registry, asset, change):
     return registry
 
 
-def test_every_asset_is_read_in_order_of_id(tmp_path) -> None:
+def test_every_asset_is_read_in_order_of_id(tmp_path):
     registry = write_registry(tmp_path, oven(), cabinet(), valve())
     read = read_registry(registry)
     assert list(read) == ["cabinet", "oven", "valve"]
@@ -29,17 +27,17 @@ def test_every_asset_is_read_in_order_of_id(tmp_path) -> None:
     assert read["cabinet"].urdf.is_file()
 
 
-def test_an_asset_without_joints_has_nothing_to_open(tmp_path) -> None:
+def test_an_asset_without_joints_has_nothing_to_open(tmp_path):
     registry = write_registry(tmp_path, assemble("stone", [box([0, 0, 0], [1, 1, 1])], (), {}))
     assert read_registry(registry)["stone"].openable == ()
 
 
-def test_a_joint_without_end_gets_a_quarter_turn(tmp_path) -> None:
+def test_a_joint_without_end_gets_a_quarter_turn(tmp_path):
     wheel = read_registry(write_registry(tmp_path, valve()))["valve"].joint("wheel")
     assert (wheel.lower, wheel.upper) == (0.0, np.pi / 2)
 
 
-def test_a_lever_is_the_distance_of_the_hold_from_the_axis(tmp_path) -> None:
+def test_a_lever_is_the_distance_of_the_hold_from_the_axis(tmp_path):
     read = read_registry(write_registry(tmp_path, cabinet(), valve()))
     assert read["cabinet"].joint("hinge").lever == pytest.approx(np.hypot(0.54, 0.01))
     assert read["cabinet"].joint("slide").lever == 0.0
@@ -47,7 +45,7 @@ def test_a_lever_is_the_distance_of_the_hold_from_the_axis(tmp_path) -> None:
 
 
 @pytest.mark.parametrize("ends", [(0.0, float("inf")), (0.0, None), (0.3, 0.0)])
-def test_a_joint_with_impossible_limits_is_no_target_and_says_why(tmp_path, ends) -> None:
+def test_a_joint_with_impossible_limits_is_no_target_and_says_why(tmp_path, ends):
     def change(data):
         data["joints"][1]["lower"], data["joints"][1]["upper"] = ends
 
@@ -60,7 +58,7 @@ def test_a_joint_with_impossible_limits_is_no_target_and_says_why(tmp_path, ends
         asset.joint("slide")
 
 
-def test_the_surest_interaction_target_is_held_rather_than_the_handle(tmp_path) -> None:
+def test_the_surest_interaction_target_is_held_rather_than_the_handle(tmp_path):
     def change(data):
         data["targets"] = [
             {
@@ -84,18 +82,18 @@ def test_the_surest_interaction_target_is_held_rather_than_the_handle(tmp_path) 
     assert asset.joint("hinge").finger_opening is None
 
 
-def test_no_registry_is_said_so(tmp_path) -> None:
+def test_no_registry_is_said_so(tmp_path):
     with pytest.raises(RegistryError, match="no registry here"):
         read_registry(tmp_path)
 
 
-def test_an_empty_registry_is_said_so(tmp_path) -> None:
+def test_an_empty_registry_is_said_so(tmp_path):
     (tmp_path / "assets").mkdir()
     with pytest.raises(RegistryError, match="a registry without assets"):
         read_registry(tmp_path)
 
 
-def test_a_damaged_manifest_is_named(tmp_path) -> None:
+def test_a_damaged_manifest_is_named(tmp_path):
     registry = write_registry(tmp_path, oven())
     (registry / "assets/oven/asset.json").write_text(json.dumps({"joints": []}))
     with pytest.raises(RegistryError, match=r"oven.asset\.json: not a manifest.*missing"):

@@ -1,7 +1,5 @@
 """An asset that is no longer what was judged is refused."""
 
-from __future__ import annotations
-
 import json
 import shutil
 
@@ -22,19 +20,19 @@ def register(asset):
     (asset.folder / "report.json").write_text(json.dumps({"files": file_digests(asset.folder)}))
 
 
-def test_an_untouched_asset_passes(asset) -> None:
+def test_an_untouched_asset_passes(asset):
     check_unaltered(asset)
     register(asset)
     check_unaltered(asset)
 
 
-def test_a_deleted_asset_is_named_with_those_that_are_left(asset) -> None:
+def test_a_deleted_asset_is_named_with_those_that_are_left(asset):
     shutil.rmtree(asset.folder)
     with pytest.raises(RegistryError, match=r"'oven': .*asset\.json is gone.*there are 'cabinet'"):
         check_unaltered(asset)
 
 
-def test_a_manifest_that_changed_since_it_was_read_is_refused(asset) -> None:
+def test_a_manifest_that_changed_since_it_was_read_is_refused(asset):
     manifest = asset.folder / "asset.json"
     manifest.write_text(manifest.read_text() + " ")
     with pytest.raises(RegistryError, match=r"asset\.json changed since the registry was read"):
@@ -42,7 +40,7 @@ def test_a_manifest_that_changed_since_it_was_read_is_refused(asset) -> None:
 
 
 @pytest.mark.parametrize("change", ["altered", "removed", "added"])
-def test_a_file_that_is_not_as_registered_is_named(asset, change) -> None:
+def test_a_file_that_is_not_as_registered_is_named(asset, change):
     register(asset)
     hull = sorted((asset.folder / "meshes/collision").iterdir())[0]
     if change == "altered":

@@ -1,7 +1,5 @@
 """Where links and hulls are, and where robots are put; no simulator."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -20,19 +18,19 @@ def assets(tmp_path_factory):
 
 
 @given(hinge=st.floats(0.0, 1.6), slide=st.floats(-0.1, 0.2))
-def test_links_move_as_the_factorys_own_kinematics_say(assets, hinge, slide) -> None:
+def test_links_move_as_the_factorys_own_kinematics_say(assets, hinge, slide):
     expected = cabinet(lower=-0.1).articulation.poses({"hinge": hinge, "slide": slide})
     found = displacements(assets["cabinet"], {"hinge": hinge, "slide": slide})
     for part, pose in enumerate(expected):
         assert np.allclose(found[f"part_{part}"], pose, atol=1e-8)
 
 
-def test_boxes_are_those_of_the_hulls_standing_on_the_ground(assets) -> None:
+def test_boxes_are_those_of_the_hulls_standing_on_the_ground(assets):
     boxes = hull_boxes(assets["cabinet"], {"slide": 0.1}, frozenset({"part_2"}))
     assert np.allclose(boxes, [[[-0.28, -0.322, 0.52], [0.28, -0.302, 0.78]]])
 
 
-def test_a_doors_handle_swings_about_its_hinge(assets) -> None:
+def test_a_doors_handle_swings_about_its_hinge(assets):
     asset = assets["cabinet"]
     hinge = asset.joint("hinge")
     path = handle_path(asset, hinge, np.linspace(0.0, 1.0, 5))
@@ -41,7 +39,7 @@ def test_a_doors_handle_swings_about_its_hinge(assets) -> None:
     assert np.allclose(path[0], [0.26, -0.222, 0.25])
 
 
-def test_what_a_joint_carries_moves_with_it(assets) -> None:
+def test_what_a_joint_carries_moves_with_it(assets):
     assert carried_links(assets["train"], "part_1") == {"part_1"}
     assert carried_links(assets["train"], "part_0") == {"part_0", "part_1", "part_2"}
 
@@ -53,7 +51,7 @@ def test_what_a_joint_carries_moves_with_it(assets) -> None:
 )
 def test_a_robot_stands_clear_within_reach_and_looks_at_the_handle(
     assets, robot, name, joint, start
-) -> None:
+):
     asset = assets[name]
     target = asset.joint(joint)
     place = find_place(asset, target, robot, start=start, spread=0.1)
@@ -66,7 +64,7 @@ def test_a_robot_stands_clear_within_reach_and_looks_at_the_handle(
     assert place.position[2] == 0.0 or not ROBOTS[robot].mobile
 
 
-def test_no_moving_part_reaches_the_base(assets) -> None:
+def test_no_moving_part_reaches_the_base(assets):
     asset = assets["oven"]
     place = find_place(asset, asset.joint("door"), "fetch")
     radius = ROBOTS["fetch"].body[0]
@@ -76,7 +74,7 @@ def test_no_moving_part_reaches_the_base(assets) -> None:
         assert np.linalg.norm(nearest - place.position[:2]) > radius
 
 
-def test_a_lid_pulled_upward_is_approached_from_where_its_handle_faces() -> None:
+def test_a_lid_pulled_upward_is_approached_from_where_its_handle_faces():
     bounds = np.array([[-1.0, -1.0, 0.0], [1.0, 1.0, 1.0]])
     up = np.array([0.0, 0.0, 1.0])
     side = np.array([1.0, 0.0, 0.0])

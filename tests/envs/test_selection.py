@@ -1,7 +1,5 @@
 """Filters and splits, and what they say when nothing is left."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 
@@ -27,7 +25,7 @@ def names(assets):
     return {key: [joint.name for joint in asset.openable] for key, asset in assets.items()}
 
 
-def test_what_cannot_be_moved_is_left_out(assets) -> None:
+def test_what_cannot_be_moved_is_left_out(assets):
     assert names(select(assets, Wanted())) == {
         "cabinet": ["hinge", "slide"],
         "oven": ["door"],
@@ -48,7 +46,7 @@ def test_what_cannot_be_moved_is_left_out(assets) -> None:
         (Wanted(joint="door"), {"oven": ["door"]}),
     ],
 )
-def test_a_filter_keeps_what_passes_it(assets, wanted, left) -> None:
+def test_a_filter_keeps_what_passes_it(assets, wanted, left):
     assert names(select(assets, wanted)) == left
 
 
@@ -81,7 +79,7 @@ def test_a_filter_keeps_what_passes_it(assets, wanted, left) -> None:
         (Wanted(verdict="clean"), "4 assets: none with verdict 'clean'; there are 'passed'"),
     ],
 )
-def test_an_empty_choice_names_what_there_is(assets, wanted, message) -> None:
+def test_an_empty_choice_names_what_there_is(assets, wanted, message):
     with pytest.raises(RegistryError, match=message):
         select(assets, wanted)
 
@@ -89,12 +87,12 @@ def test_an_empty_choice_names_what_there_is(assets, wanted, message) -> None:
 @pytest.mark.parametrize(
     "filters", [{"split": "val"}, {"verdict": "good"}, {"joint_types": ("planar",)}]
 )
-def test_a_filter_that_means_nothing_is_refused_with_those_that_do(filters) -> None:
+def test_a_filter_that_means_nothing_is_refused_with_those_that_do(filters):
     with pytest.raises(ConfigError, match="want one of"):
         Wanted(**filters)
 
 
-def test_an_assets_split_never_changes_and_about_a_fifth_is_for_testing() -> None:
+def test_an_assets_split_never_changes_and_about_a_fifth_is_for_testing():
     ids = [f"asset-{number}" for number in range(2000)]
     share = sum(split_of(name) == "test" for name in ids) / len(ids)
     assert share == pytest.approx(TEST_SHARE, abs=0.03)
@@ -106,7 +104,7 @@ def test_an_assets_split_never_changes_and_about_a_fifth_is_for_testing() -> Non
 EXPECTED = ["train", "test", "train", "train", "test", "train"]
 
 
-def test_the_two_splits_share_nothing_and_leave_nothing_out(assets) -> None:
+def test_the_two_splits_share_nothing_and_leave_nothing_out(assets):
     sides = []
     for split in ("train", "test"):
         try:
@@ -117,7 +115,7 @@ def test_the_two_splits_share_nothing_and_leave_nothing_out(assets) -> None:
     assert sides[0] | sides[1] == set(select(assets, Wanted()))
 
 
-def test_an_asset_judged_without_a_finding_is_clean(assets) -> None:
+def test_an_asset_judged_without_a_finding_is_clean(assets):
     asset = assets["oven"]
     assert verdicts_of(asset) == ("passed",)
     for findings, verdicts in (([], ("passed", "clean")), ([{"code": "x"}], ("passed",))):

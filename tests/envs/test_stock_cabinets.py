@@ -1,7 +1,5 @@
 """ManiSkill's own cabinet tasks run on a registry's assets."""
 
-from __future__ import annotations
-
 import sys
 
 import numpy as np
@@ -42,7 +40,7 @@ def doors(household, **options):
 
 
 @pytest.mark.parametrize(("make", "kinds"), [(drawers, {"cabinet"}), (doors, set(HOUSEHOLD))])
-def test_the_stock_tasks_run_on_every_asset_that_has_such_a_joint(household, make, kinds) -> None:
+def test_the_stock_tasks_run_on_every_asset_that_has_such_a_joint(household, make, kinds):
     env = make(household)
     env.action_space.seed(0)
     assert set(env.all_model_ids) == kinds
@@ -57,9 +55,7 @@ def test_the_stock_tasks_run_on_every_asset_that_has_such_a_joint(household, mak
     env.close()
 
 
-def test_the_front_faces_the_stock_robot_and_an_opened_drawer_is_the_stock_success(
-    household,
-) -> None:
+def test_the_front_faces_the_stock_robot_and_an_opened_drawer_is_the_stock_success(household):
     env = drawers(household)
     env.reset(seed=0)
     low, high = env._cabinets[0].get_first_collision_mesh().bounds
@@ -73,7 +69,7 @@ def test_the_front_faces_the_stock_robot_and_an_opened_drawer_is_the_stock_succe
     env.close()
 
 
-def test_what_has_no_such_joint_or_no_visual_called_handle_is_refused(household, tmp_path) -> None:
+def test_what_has_no_such_joint_or_no_visual_called_handle_is_refused(household, tmp_path):
     with pytest.raises(RegistryError, match="prismatic"):
         drawers(household, asset="laptop")
     with pytest.raises(
@@ -83,7 +79,7 @@ def test_what_has_no_such_joint_or_no_visual_called_handle_is_refused(household,
 
 
 @pytest.mark.full
-def test_a_script_for_the_stock_task_runs_unchanged(household, tmp_path, monkeypatch) -> None:
+def test_a_script_for_the_stock_task_runs_unchanged(household, tmp_path, monkeypatch):
     from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 
     script = tmp_path / "train.py"
@@ -99,7 +95,7 @@ def test_a_script_for_the_stock_task_runs_unchanged(household, tmp_path, monkeyp
     assert said.read_text() == "--seed=0"
 
 
-def run_script(household, script, said) -> None:
+def run_script(household, script, said):
     """Runs in a child: what ``python -m asset_factory.envs.stock`` does."""
     from asset_factory.envs.stock import main
 

@@ -1,7 +1,5 @@
 """Targets of many environments at once, as on a GPU: padded, chosen and read by index."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import numpy as np
@@ -51,7 +49,7 @@ def targets(tmp_path):
     return made
 
 
-def test_each_environment_has_its_own_candidates(targets) -> None:
+def test_each_environment_has_its_own_candidates(targets):
     assert targets.count.tolist() == [2, 1, 1]
     assert targets.drawn(torch.arange(3), torch.tensor([0.6, 0.9, 0.3])).tolist() == [1, 0, 1]
     assert targets.drawn(torch.tensor([2, 0]), torch.tensor([0.9, 0.4])).tolist() == [1, 0]
@@ -60,7 +58,7 @@ def test_each_environment_has_its_own_candidates(targets) -> None:
     assert targets["slides"].tolist() == [0.0, 0.0, 1.0]
 
 
-def test_link_data_come_from_the_rows_of_the_chosen_links(targets) -> None:
+def test_link_data_come_from_the_rows_of_the_chosen_links(targets):
     assert targets.handle_pose()[:, 0].tolist() == [13.0, 4 * 13.0, 7 * 13.0]
     orientation, velocity, turning = targets.motion()
     assert orientation[:, 0].tolist() == [16.0, 55.0, 94.0]
@@ -68,13 +66,13 @@ def test_link_data_come_from_the_rows_of_the_chosen_links(targets) -> None:
     assert turning[0].tolist() == [23.0, 24.0, 25.0]
 
 
-def test_choosing_in_some_environments_leaves_the_others(targets) -> None:
+def test_choosing_in_some_environments_leaves_the_others(targets):
     targets.choose(torch.tensor([0]), torch.tensor([1]))
     assert targets["dof"].tolist() == [0, 0, 1]
     assert targets.handle_pose()[:, 0].tolist() == [26.0, 52.0, 91.0]
 
 
-def test_shares_and_joint_values_are_inverse(targets) -> None:
+def test_shares_and_joint_values_are_inverse(targets):
     chosen = torch.tensor([0, 2])
     share = torch.tensor([0.5, 1.0])
     values = targets.opened(torch.zeros(2, 2), chosen, share)

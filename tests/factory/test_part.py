@@ -1,7 +1,5 @@
 """A panel, a handle and the part that they belong to turn with the object."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.articulation import rotation_about
@@ -20,14 +18,14 @@ DOOR = Part(
 )
 
 
-def test_a_panel_knows_where_it_is() -> None:
+def test_a_panel_knows_where_it_is():
     panel = DOOR.panel
     np.testing.assert_allclose(panel.center, [0.3, -0.3, 0.5])
     np.testing.assert_allclose(panel.outward, [0.0, -1.0, 0.0])
     np.testing.assert_allclose(panel.size, [0.4, 0.6])
 
 
-def test_panel_and_handle_turn_with_their_part() -> None:
+def test_panel_and_handle_turn_with_their_part():
     turn = rotation_about([0.0, 0.0, 1.0], 0.3)
     turned = DOOR.turned(turn)
     np.testing.assert_allclose(turned.panel.center, turn @ DOOR.panel.center)
@@ -37,7 +35,7 @@ def test_panel_and_handle_turn_with_their_part() -> None:
     np.testing.assert_allclose(back.panel.frame, DOOR.panel.frame, atol=1e-15)
 
 
-def test_a_part_is_remembered_with_all_that_it_is() -> None:
+def test_a_part_is_remembered_with_all_that_it_is():
     kept = unpack(Part, pack(DOOR))
     assert kept.kind is PartKind.DOOR
     assert kept.panel.opens is OpensBy.LEFT

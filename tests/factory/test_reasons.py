@@ -1,9 +1,6 @@
 """Every code that somebody says, or asks for, is declared with its meaning, and none else is."""
 
-from __future__ import annotations
-
 import ast
-from collections.abc import Iterator
 from pathlib import Path
 
 from asset_factory.factory import reasons
@@ -14,13 +11,13 @@ ROOT = Path(__file__).parents[2]
 SAYING = {"Finding", "InputRejected", "DescriptionError", "found", "_finding"}
 
 
-def sources(*folders: str) -> Iterator[tuple[Path, ast.AST]]:
+def sources(*folders):
     for folder in folders:
         for path in sorted((ROOT / folder).rglob("*.py")):
             yield path, ast.parse(path.read_text(encoding="utf-8"))
 
 
-def said(tree: ast.AST) -> Iterator[str]:
+def said(tree):
     """Codes in calls that say one."""
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call):
@@ -35,7 +32,7 @@ def said(tree: ast.AST) -> Iterator[str]:
                 yield value
 
 
-def asked(tree: ast.AST) -> Iterator[str]:
+def asked(tree):
     """Codes that a finding's code is compared with."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Compare) and ast.unparse(node.left).endswith(".code"):

@@ -1,7 +1,5 @@
 """Neither a cache, nor threads, nor a busy machine change a verdict, or a byte of an asset."""
 
-from __future__ import annotations
-
 import os
 import platform
 import shutil
@@ -37,14 +35,14 @@ CONFIG = BuildConfig(simulators=("mujoco",))
 SHRUNKEN = replace(CONFIG, repair=RepairConfig(most_work=300), readings=ReadingsConfig(most_work=0))
 
 
-def registered(output: Path) -> tuple[str, str, dict[str, str]]:
+def registered(output):
     """Status, reason and the digest of every file of the one entry."""
     registry = Registry(output)
     (entry,) = registry.entries()
     return entry.status, entry.reason, folder_digests(registry.folder(entry))
 
 
-def test_a_warm_cache_changes_nothing_however_small_the_budgets(tmp_path: Path) -> None:
+def test_a_warm_cache_changes_nothing_however_small_the_budgets(tmp_path):
     for name, config in (("full", CONFIG), ("shrunken", SHRUNKEN)):
         build_asset(EXAMPLES / "cabinet.glb", tmp_path / name, config)
     # From its own cache, and from one of somebody who went further.
@@ -62,16 +60,14 @@ def test_a_warm_cache_changes_nothing_however_small_the_budgets(tmp_path: Path) 
     assert registered(tmp_path / "shrunken")[0] == "rejected"
 
 
-def built_with(output: Path, **settings: str) -> tuple[str, str, dict[str, str]]:
+def built_with(output, **settings):
     command = [sys.executable, "-m", "asset_factory.factory.cli", "build", "--sim", "mujoco"]
     asked = ["--input", EXAMPLES / "laptop.glb", "--output", output, "--quiet", "--no-report"]
     subprocess.run([*command, *asked], env={**os.environ, **settings}, check=True, timeout=600)
     return registered(output)
 
 
-def test_neither_threads_nor_a_busy_machine_nor_its_processor_change_anything(
-    tmp_path: Path,
-) -> None:
+def test_neither_threads_nor_a_busy_machine_nor_its_processor_change_anything(tmp_path):
     alone = built_with(tmp_path / "alone", **dict.fromkeys(VARIABLES, "1"), **NEW)
     busy = [
         subprocess.Popen([sys.executable, "-c", "while True: pass"])

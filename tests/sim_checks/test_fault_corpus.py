@@ -1,16 +1,12 @@
 """The fault corpus: every broken exhibit is caught by its own code, every sound one passes."""
 
-from __future__ import annotations
-
 import re
 import warnings
-from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
-from fault_corpus.blind_spots import BlindSpot, blind_spots
+from fault_corpus.blind_spots import blind_spots
 from fault_corpus.collection import broken, good
-from fault_corpus.exhibits import ENGINES, Exhibit
+from fault_corpus.exhibits import ENGINES
 
 from asset_factory.sim_checks import Report
 from asset_factory.sim_checks.config import CheckConfig
@@ -23,17 +19,17 @@ ON_PAPER = [exhibit for exhibit in BROKEN if exhibit.expected("static")]
 IN_ENGINES = [exhibit for exhibit in BROKEN if any(exhibit.expected(engine) for engine in ENGINES)]
 
 
-def named(exhibits: list[Exhibit] | tuple[Exhibit, ...]) -> object:
+def named(exhibits):
     return pytest.mark.parametrize("exhibit", exhibits, ids=[exhibit.name for exhibit in exhibits])
 
 
 @pytest.fixture(scope="module")
-def judge() -> Iterator[Judge]:
+def judge():
     with Judge() as judge:
         yield judge
 
 
-def told(report: Report, detector: str) -> dict[str, str]:
+def told(report, detector):
     """Code -> severity of one detector's findings, the hardest of each code."""
     whose = None if detector == "static" else detector
     found = [item for item in report.findings if item.simulator == whose]
@@ -43,7 +39,7 @@ def told(report: Report, detector: str) -> dict[str, str]:
     }
 
 
-def on_paper(path: Path) -> dict[str, str]:
+def on_paper(path):
     """The same from the static checks, in this process."""
     try:
         with warnings.catch_warnings():
@@ -56,14 +52,12 @@ def on_paper(path: Path) -> dict[str, str]:
 
 
 @named(ON_PAPER)
-def test_a_fault_on_paper_is_caught_by_its_own_code(exhibit: Exhibit, tmp_path: Path) -> None:
+def test_a_fault_on_paper_is_caught_by_its_own_code(exhibit, tmp_path):
     assert on_paper(exhibit.build(tmp_path)).get(exhibit.code or "") == exhibit.severity
 
 
 @named(IN_ENGINES)
-def test_a_fault_in_an_engine_is_caught_by_its_own_code(
-    exhibit: Exhibit, tmp_path: Path, judge: Judge
-) -> None:
+def test_a_fault_in_an_engine_is_caught_by_its_own_code(exhibit, tmp_path, judge):
     report = judge.check(exhibit.build(tmp_path), ENGINES)
     for engine in ENGINES:
         code = exhibit.expected(engine)
@@ -74,15 +68,13 @@ def test_a_fault_in_an_engine_is_caught_by_its_own_code(
 
 
 @named(GOOD)
-def test_what_is_sound_passes_on_paper_and_in_every_engine(
-    exhibit: Exhibit, tmp_path: Path, judge: Judge
-) -> None:
+def test_what_is_sound_passes_on_paper_and_in_every_engine(exhibit, tmp_path, judge):
     report = judge.check(exhibit.build(tmp_path), ENGINES)
     assert report.hard == ()
 
 
 @pytest.mark.parametrize("spot", list(blind_spots()), ids=lambda spot: spot.name)
-def test_a_known_blind_spot_is_still_one(spot: BlindSpot, tmp_path: Path, judge: Judge) -> None:
+def test_a_known_blind_spot_is_still_one(spot, tmp_path, judge):
     """When the judge learns to see one, it moves to the other exhibits."""
     assert judge.check(spot.build(tmp_path), ENGINES).passed == (spot.fault is not None), (
         spot.reason
@@ -92,9 +84,7 @@ def test_a_known_blind_spot_is_still_one(spot: BlindSpot, tmp_path: Path, judge:
 @pytest.mark.parametrize(
     "name", ["cabinet.urdf", "fronts_overlap.urdf", "knuckle.mjcf", "needle_inertia.urdf"]
 )
-def test_a_report_depends_on_neither_place_nor_what_was_judged_before(
-    name: str, tmp_path: Path, judge: Judge
-) -> None:
+def test_a_report_depends_on_neither_place_nor_what_was_judged_before(name, tmp_path, judge):
     exhibit = next(item for item in (*GOOD, *BROKEN) if item.name == name)
     texts = []
     for folder in ("here", "there"):
@@ -106,7 +96,7 @@ def test_a_report_depends_on_neither_place_nor_what_was_judged_before(
     assert str(tmp_path) not in texts[0]
 
 
-def test_names_are_unique_and_codes_are_codes() -> None:
+def test_names_are_unique_and_codes_are_codes():
     names = [exhibit.name for exhibit in (*GOOD, *BROKEN)] + [spot.name for spot in blind_spots()]
     assert len(set(names)) == len(names)
     assert all(re.fullmatch(r"[a-z_]+", exhibit.code or "") for exhibit in BROKEN)

@@ -1,9 +1,6 @@
 """One judge, many files: what was judged before, and in what order, is nothing to the next."""
 
-from __future__ import annotations
-
 import os
-from pathlib import Path
 
 import pytest
 import trimesh
@@ -19,27 +16,27 @@ from asset_factory.sim_checks.simulators.catalog import SIMULATORS, installed
 ENGINES = tuple(name for name in SIMULATORS if installed(name))
 
 
-def folder(parent: Path, name: str) -> Path:
+def folder(parent, name):
     path = parent / name
     path.mkdir(parents=True)
     return path
 
 
 @pytest.fixture(scope="module")
-def good(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def good(tmp_path_factory):
     return write_urdf(tmp_path_factory.mktemp("good"))
 
 
 @pytest.fixture(scope="module")
-def killer(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def killer(tmp_path_factory):
     """Two roots: Bullet's loader dies of a segmentation fault, SAPIEN's and MuJoCo's do not."""
     return write_urdf(tmp_path_factory.mktemp("killer"), joints=False)
 
 
 @pytest.mark.skipif("pybullet" not in ENGINES, reason="needs pybullet")
 def test_a_file_that_kills_an_engine_costs_itself_its_verdict_and_the_next_one_nothing(
-    good: Path, killer: Path
-) -> None:
+    good, killer
+):
     alone = {path: run_checks(path, ENGINES).to_json() for path in (good, killer)}
     with Judge() as judge:
         reports = [judge.check(path, ENGINES) for path in (good, killer, good)]
@@ -48,7 +45,7 @@ def test_a_file_that_kills_an_engine_costs_itself_its_verdict_and_the_next_one_n
     assert reports[2].passed
 
 
-def test_no_order_and_no_number_of_workers_changes_a_byte(tmp_path: Path) -> None:
+def test_no_order_and_no_number_of_workers_changes_a_byte(tmp_path):
     bad = drawer(folder(tmp_path, "overlapping"), -0.004)
     unreadable = tmp_path / "bad.urdf"
     unreadable.write_text("<robot")
@@ -61,7 +58,7 @@ def test_no_order_and_no_number_of_workers_changes_a_byte(tmp_path: Path) -> Non
             ]
 
 
-def test_a_file_that_was_changed_is_judged_as_it_is_now(tmp_path: Path) -> None:
+def test_a_file_that_was_changed_is_judged_as_it_is_now(tmp_path):
     # Engines remember meshes by name, and MuJoCo by the second they were written in.
     path = write_urdf(tmp_path)
     sound = trimesh.load(tmp_path / "drawer_0.obj")
@@ -77,9 +74,7 @@ def test_a_file_that_was_changed_is_judged_as_it_is_now(tmp_path: Path) -> None:
             assert ("mujoco" in engines) is (not passes and "mujoco" in ENGINES)
 
 
-def test_what_was_examined_is_not_examined_again(
-    good: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_was_examined_is_not_examined_again(good, monkeypatch):
     with Judge() as judge:
         whole = judge.check(good, ENGINES[:1])
         examined = judge.examine(good)
@@ -87,7 +82,7 @@ def test_what_was_examined_is_not_examined_again(
         assert judge.check(good, ENGINES[:1], examined).to_json() == whole.to_json()
 
 
-def test_an_engine_that_asks_for_too_much_memory_is_stopped(good: Path) -> None:
+def test_an_engine_that_asks_for_too_much_memory_is_stopped(good):
     # Enough for Python to start, and for nothing else.
     config = CheckConfig(child=ChildConfig(memory_bytes=200 * 2**20))
     report = run_checks(good, ENGINES[:1], config)
@@ -104,8 +99,8 @@ def test_an_engine_that_asks_for_too_much_memory_is_stopped(good: Path) -> None:
     ],
 )
 def test_what_stopped_a_reader_of_the_static_checks_is_told(
-    error: Exception, code: str, stopped: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+    error, code, stopped, tmp_path, monkeypatch
+):
     monkeypatch.setattr(
         WarmChild,
         "call",

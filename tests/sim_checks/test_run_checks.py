@@ -1,11 +1,8 @@
 """One call judges a file from anyone, and a bad file is a finding, never an exception."""
 
-from __future__ import annotations
-
 import os
 import signal
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from box_world import write_urdf
@@ -13,7 +10,7 @@ from box_world import write_urdf
 from asset_factory.sim_checks import Report, Status, run_checks
 from asset_factory.sim_checks.checks import catalog
 from asset_factory.sim_checks.config import CheckConfig, ChildConfig
-from asset_factory.sim_checks.judge import Examination, examine_here
+from asset_factory.sim_checks.judge import examine_here
 
 SLIDE = (
     '<joint name="slide" type="prismatic"><parent link="shell"/>'
@@ -22,7 +19,7 @@ SLIDE = (
 )
 
 
-def drawer(folder: Path, gap: float) -> Path:
+def drawer(folder, gap):
     boxes = {
         "shell": ((0.0, 0.3, 0.0), (0.4, 0.1, 0.4)),
         "drawer": ((0.0, 0.15 - gap, 0.0), (0.4, 0.2, 0.4)),
@@ -30,7 +27,7 @@ def drawer(folder: Path, gap: float) -> Path:
     return write_urdf(folder, boxes, SLIDE)
 
 
-def test_a_sound_file_passes_with_its_clearance_measured(tmp_path: Path) -> None:
+def test_a_sound_file_passes_with_its_clearance_measured(tmp_path):
     report = run_checks(drawer(tmp_path, 0.003), ())
     assert report.passed
     assert report.measurements["penetration"]["joints"][0]["clearance_mm"] == pytest.approx(
@@ -39,14 +36,14 @@ def test_a_sound_file_passes_with_its_clearance_measured(tmp_path: Path) -> None
     assert report.measurements["lint"]["format"] == "urdf"
 
 
-def test_an_overlap_rejects_and_the_report_survives_json(tmp_path: Path) -> None:
+def test_an_overlap_rejects_and_the_report_survives_json(tmp_path):
     report = run_checks(drawer(tmp_path, -0.004), ())
     assert [finding.code for finding in report.hard] == ["rest_penetration"]
     assert report.status is not Status.UNJUDGED
     assert Report.from_dict(report.to_dict()).to_json() == report.to_json()
 
 
-def test_the_same_file_gives_the_same_bytes_wherever_it_lies(tmp_path: Path) -> None:
+def test_the_same_file_gives_the_same_bytes_wherever_it_lies(tmp_path):
     texts = []
     for name in ("here", "there"):
         folder = tmp_path / name
@@ -55,7 +52,7 @@ def test_the_same_file_gives_the_same_bytes_wherever_it_lies(tmp_path: Path) -> 
     assert texts[0] == texts[1]
 
 
-def test_an_unreadable_file_is_one_finding_and_no_simulator_is_asked(tmp_path: Path) -> None:
+def test_an_unreadable_file_is_one_finding_and_no_simulator_is_asked(tmp_path):
     path = tmp_path / "bad.urdf"
     path.write_text("<robot")
     report = run_checks(path, ("sapien",))
@@ -64,30 +61,28 @@ def test_an_unreadable_file_is_one_finding_and_no_simulator_is_asked(tmp_path: P
     assert report.status is not Status.UNJUDGED
 
 
-def test_two_roots_are_rejected_without_a_sweep(tmp_path: Path) -> None:
+def test_two_roots_are_rejected_without_a_sweep(tmp_path):
     boxes = {"a": ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), "b": ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))}
     report = run_checks(write_urdf(tmp_path, boxes, ""), ())
     assert [finding.code for finding in report.hard] == ["not_a_tree"]
 
 
-def test_an_unknown_simulator_is_wrong_usage(tmp_path: Path) -> None:
+def test_an_unknown_simulator_is_wrong_usage(tmp_path):
     with pytest.raises(ValueError, match="there are sapien"):
         run_checks(drawer(tmp_path, 0.003), ("sapient",))
 
 
-def die(*_: object) -> None:
+def die(*_):
     os.kill(os.getpid(), signal.SIGSEGV)
 
 
-def dying_examine(path: Path, config: CheckConfig, *, native: bool = True) -> Examination:
+def dying_examine(path, config, *, native=True):
     if native:
-        catalog.check_penetration = die  # type: ignore[assignment]
+        catalog.check_penetration = die
     return examine_here(path, config, native=native)
 
 
-def test_a_crash_of_the_check_is_a_finding_and_the_lint_still_speaks(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_crash_of_the_check_is_a_finding_and_the_lint_still_speaks(tmp_path, monkeypatch):
     monkeypatch.setattr("asset_factory.sim_checks.judge.examine_here", dying_examine)
     report = run_checks(drawer(tmp_path, 0.003), ())
     assert [finding.code for finding in report.hard] == ["check_crashed"]
@@ -96,7 +91,7 @@ def test_a_crash_of_the_check_is_a_finding_and_the_lint_still_speaks(
     assert report.status is Status.UNJUDGED
 
 
-def test_a_check_that_takes_too_long_is_a_finding(tmp_path: Path) -> None:
+def test_a_check_that_takes_too_long_is_a_finding(tmp_path):
     config = replace(CheckConfig(), child=ChildConfig(wall_s=0.01))
     report = run_checks(drawer(tmp_path, 0.003), (), config)
     assert report.hard[0].code == "check_timeout"
@@ -110,15 +105,13 @@ BOX_MJCF = """<mujoco><worldbody><body name="shell"><geom type="box" size=".1 .1
 @pytest.mark.parametrize(
     ("simulators", "status"), [((), "passed"), (("mujoco",), "passed"), (("sapien",), "unjudged")]
 )
-def test_a_file_that_nobody_drove_has_not_passed(
-    tmp_path: Path, simulators: tuple[str, ...], status: str
-) -> None:
+def test_a_file_that_nobody_drove_has_not_passed(tmp_path, simulators, status):
     (tmp_path / "box.xml").write_text(BOX_MJCF)
     report = run_checks(tmp_path / "box.xml", simulators)
     assert report.status == status
     assert ("not_simulated" in [finding.code for finding in report.hard]) is (status == "unjudged")
 
 
-def test_only_who_took_part_is_named(tmp_path: Path) -> None:
+def test_only_who_took_part_is_named(tmp_path):
     (tmp_path / "box.xml").write_text(BOX_MJCF)
     assert run_checks(tmp_path / "box.xml", ("sapien", "mujoco")).simulators == ("mujoco",)

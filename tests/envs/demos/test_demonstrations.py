@@ -1,10 +1,7 @@
 """A demonstration in ManiSkill's layout: its loader reads it, its replay ends the same."""
 
-from __future__ import annotations
-
 import json
 import shutil
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -30,7 +27,7 @@ pytestmark = [
 
 
 @pytest.fixture(scope="module")
-def shard(tmp_path_factory) -> Path:
+def shard(tmp_path_factory):
     """One episode that a robot solved, of a registry that has moved since."""
     root = tmp_path_factory.mktemp("demonstrated")
     write_registry(root / "out", drawer())
@@ -40,11 +37,11 @@ def shard(tmp_path_factory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def registry(shard) -> Path:
+def registry(shard):
     return shard.parent.parent / "moved"
 
 
-def test_the_same_actions_lead_to_the_same_end(shard, registry) -> None:
+def test_the_same_actions_lead_to_the_same_end(shard, registry):
     import gymnasium
 
     data = json.loads(shard.with_suffix(".json").read_text())
@@ -69,7 +66,7 @@ def test_the_same_actions_lead_to_the_same_end(shard, registry) -> None:
     environment.close()
 
 
-def test_maniskills_loader_reads_it(shard) -> None:
+def test_maniskills_loader_reads_it(shard):
     from mani_skill.trajectory.dataset import ManiSkillTrajectoryDataset
 
     data = ManiSkillTrajectoryDataset(str(shard), success_only=True)
@@ -79,7 +76,7 @@ def test_maniskills_loader_reads_it(shard) -> None:
     data.data.close()
 
 
-def test_only_what_the_task_calls_success_is_one(shard, registry, tmp_path) -> None:
+def test_only_what_the_task_calls_success_is_one(shard, registry, tmp_path):
     """Actions that stop too early, by a solver that claims to have opened it."""
     with h5py.File(shard) as file:
         actions = file["traj_0/actions"][:-20]
@@ -102,7 +99,7 @@ def test_only_what_the_task_calls_success_is_one(shard, registry, tmp_path) -> N
 
 
 @pytest.mark.parametrize("flags", [[], ["--use-env-states"], ["-c", "pd_ee_delta_pose"]])
-def test_maniskills_tool_replays_it(shard, registry, tmp_path, capsys, flags) -> None:
+def test_maniskills_tool_replays_it(shard, registry, tmp_path, capsys, flags):
     from asset_factory.envs.demos.replay import replay
 
     for path in (shard, shard.with_suffix(".json")):
@@ -111,7 +108,7 @@ def test_maniskills_tool_replays_it(shard, registry, tmp_path, capsys, flags) ->
     assert "1/1=100.00% demos saved" in capsys.readouterr().out
 
 
-def test_replay_wants_a_registry_after_its_flag(capsys) -> None:
+def test_replay_wants_a_registry_after_its_flag(capsys):
     from asset_factory.envs.demos.replay import replay
 
     with pytest.raises(SystemExit) as left:

@@ -10,9 +10,8 @@ from openable_samples import FRONT, assemble, box, write_registry
 
 from asset_factory.envs.solving import make_episodes
 from asset_factory.envs.solving.grips import PRESS_ON, _hand_points, drags
-from asset_factory.envs.solving.world import RobotWorld, read_world
+from asset_factory.envs.solving.world import read_world
 from asset_factory.factory.articulation import Joint, JointKind
-from asset_factory.factory.asset import Asset
 from asset_factory.factory.part import Handle
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
@@ -26,7 +25,7 @@ EDGE = 0.304
 THICK = 0.012
 
 
-def clamshell() -> Asset:
+def clamshell():
     """A lid that lies flush on its base, hinged at its rear edge."""
     middle = EDGE + 0.5 * THICK
     meshes = [box([0.0, 0.0, 0.15], [0.3, 0.24, 0.3]), box([0.0, 0.0, middle], [0.3, 0.24, THICK])]
@@ -35,7 +34,7 @@ def clamshell() -> Asset:
 
 
 @pytest.fixture(scope="module")
-def world(tmp_path_factory) -> RobotWorld:
+def world(tmp_path_factory):
     registry: Path = write_registry(tmp_path_factory.mktemp("registry"), clamshell())
     environment = make_episodes(registry, "panda")
     environment.reset(seed=0)
@@ -44,7 +43,7 @@ def world(tmp_path_factory) -> RobotWorld:
     return world
 
 
-def test_fingertips_are_pressed_on_the_lid_and_not_on_the_base_below(world) -> None:
+def test_fingertips_are_pressed_on_the_lid_and_not_on_the_base_below(world):
     poses = world.object_poses(np.zeros(1))
     found = drags(world, poses)
     front = [grip for grip in found if grip.hand[1, 2] > 0.8]
@@ -64,7 +63,7 @@ def test_fingertips_are_pressed_on_the_lid_and_not_on_the_base_below(world) -> N
     assert (hands[:, 2, 3] - world.object_root[2, 3] > EDGE).all()
 
 
-def test_a_finger_through_what_it_holds_is_a_collision(world) -> None:
+def test_a_finger_through_what_it_holds_is_a_collision(world):
     poses = world.object_poses(np.zeros(1))[None]
     arm = np.zeros((1, len(world.chain.limits)))
     fingers = world.balls.of(world.fingers)

@@ -1,7 +1,5 @@
 """Joint values bring a hand where it is asked to be, whatever tree it is on."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -9,7 +7,7 @@ from scipy.spatial.transform import Rotation
 from asset_factory.envs.solving.kinematics import Chain, pose_error, reach
 
 
-def arm(links: int, seed: int) -> Chain:
+def arm(links, seed):
     """Joints about random axes, 0.3 m apart, the last one sliding."""
     rng = np.random.default_rng(seed)
     before = np.tile(np.eye(4), (links + 1, 1, 1))
@@ -32,7 +30,7 @@ def arm(links: int, seed: int) -> Chain:
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_the_jacobian_is_the_derivative_of_the_pose(seed: int) -> None:
+def test_the_jacobian_is_the_derivative_of_the_pose(seed):
     chain = arm(6, seed)
     values = np.random.default_rng(seed).uniform(0.0, 0.4, size=(1, 6))
     poses = chain.forward(values, np.eye(4))
@@ -46,7 +44,7 @@ def test_the_jacobian_is_the_derivative_of_the_pose(seed: int) -> None:
         )
 
 
-def test_a_hand_gets_where_the_arm_can_bring_it() -> None:
+def test_a_hand_gets_where_the_arm_can_bring_it():
     chain = arm(8, 3)
     rng = np.random.default_rng(0)
     lower, upper = chain.limits.T
@@ -63,7 +61,7 @@ def test_a_hand_gets_where_the_arm_can_bring_it() -> None:
     )
 
 
-def test_joints_that_are_not_free_stay() -> None:
+def test_joints_that_are_not_free_stay():
     chain = arm(6, 1)
     start = np.full((1, 6), 0.2)
     found, _ = reach(chain, 6, np.eye(4), np.eye(4)[None], start, (1, 2, 4), 10)

@@ -1,10 +1,7 @@
 """A scripted robot opens what can be opened, says why it does not, and does the same again."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -27,7 +24,7 @@ LOCKED = 5000.0
 
 
 @pytest.fixture(scope="module")
-def registry(tmp_path_factory) -> Path:
+def registry(tmp_path_factory):
     objects = fin("drawer"), fin("locked"), fin("tower", height=3.0)
     root = write_registry(tmp_path_factory.mktemp("registry"), *objects)
     manifest = root / "assets" / "locked" / "asset.json"
@@ -48,7 +45,7 @@ def solved(registry, child):
     return solve_joint(registry, "drawer", "slide", child=child)
 
 
-def test_a_drawer_is_opened(solved) -> None:
+def test_a_drawer_is_opened(solved):
     assert solved.solved, solved.message
     assert solved.reason == ""
     assert solved.open_fraction >= 0.9
@@ -60,7 +57,7 @@ def test_a_drawer_is_opened(solved) -> None:
     assert 10.0 < solved.mean_force <= solved.peak_force
 
 
-def test_the_same_actions_open_it_again(registry, solved) -> None:
+def test_the_same_actions_open_it_again(registry, solved):
     environment = make_episodes(registry, "panda")
     success, share = replay(environment, solved)
     assert success
@@ -70,21 +67,19 @@ def test_the_same_actions_open_it_again(registry, solved) -> None:
     environment.close()
 
 
-def test_the_same_question_has_the_same_answer(registry, solved, child) -> None:
+def test_the_same_question_has_the_same_answer(registry, solved, child):
     again = solve_joint(registry, "drawer", "slide", child=child)
     assert np.array_equal(again.actions, solved.actions)
     assert replace(again, seconds=0.0, actions=solved.actions) == replace(solved, seconds=0.0)
 
 
-def test_a_force_counts_if_it_lasts_a_quarter_of_a_second() -> None:
+def test_a_force_counts_if_it_lasts_a_quarter_of_a_second():
     assert driving.sustained([1000.0, 1000.0]) == 0.0
     assert driving.sustained([0.0, 0.0, 1000.0, 0.0, 0.0, 0.0]) == pytest.approx(200.0)
     assert driving.sustained([30.0] * 20 + [0.0] * 5) == pytest.approx(30.0)
 
 
-def test_what_is_levered_open_by_more_than_an_arm_bears_is_not_solved(
-    registry, monkeypatch
-) -> None:
+def test_what_is_levered_open_by_more_than_an_arm_bears_is_not_solved(registry, monkeypatch):
     monkeypatch.setattr(driving, "OVERLOAD", 10.0)
     attempt = attempted(SolveTask(str(registry), "drawer", "slide", "panda", 0, 1))
     assert not attempt.solved
@@ -93,7 +88,7 @@ def test_what_is_levered_open_by_more_than_an_arm_bears_is_not_solved(
     assert attempt.open_fraction < 0.9
 
 
-def test_a_locked_drawer_is_not_reported_solved(registry, child) -> None:
+def test_a_locked_drawer_is_not_reported_solved(registry, child):
     attempt = solve_joint(registry, "locked", "slide", tries=1, child=child)
     assert not attempt.solved
     assert attempt.reason == "stuck"
@@ -101,7 +96,7 @@ def test_a_locked_drawer_is_not_reported_solved(registry, child) -> None:
     assert "N" in attempt.message
 
 
-def test_what_is_out_of_reach_is_said_to_be(registry, child) -> None:
+def test_what_is_out_of_reach_is_said_to_be(registry, child):
     attempt = solve_joint(registry, "tower", "slide", robot="fetch", tries=1, child=child)
     assert not attempt.solved
     assert attempt.reason == "unreachable"
@@ -109,7 +104,7 @@ def test_what_is_out_of_reach_is_said_to_be(registry, child) -> None:
     assert attempt.steps == 0
 
 
-def test_an_unknown_asset_joint_or_robot_is_the_askers_mistake(registry) -> None:
+def test_an_unknown_asset_joint_or_robot_is_the_askers_mistake(registry):
     with pytest.raises(
         RegistryError, match="no asset 'sofa'; there are 'drawer', 'locked', 'tower'"
     ):
@@ -120,6 +115,6 @@ def test_an_unknown_asset_joint_or_robot_is_the_askers_mistake(registry) -> None
         solve_joint(registry, "drawer", "lid")
 
 
-def test_a_child_that_runs_out_of_time_is_a_reason(registry) -> None:
+def test_a_child_that_runs_out_of_time_is_a_reason(registry):
     attempt = solve_joint(registry, "drawer", "slide", timeout_s=0.01)
     assert (attempt.solved, attempt.reason) == (False, "timeout")

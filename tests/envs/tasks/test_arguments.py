@@ -1,14 +1,12 @@
 """Wrong arguments: one clear error each, before anything is loaded."""
 
-from __future__ import annotations
-
 import pytest
 
 from asset_factory.envs.tasks import arguments
 from asset_factory.factory.errors import ConfigError
 
 
-def test_an_unknown_robot_is_refused_with_those_there_are() -> None:
+def test_an_unknown_robot_is_refused_with_those_there_are():
     with pytest.raises(
         ConfigError, match="robot_uids is 'googlebot', want one of 'panda', 'fetch', 'none'"
     ):
@@ -16,7 +14,7 @@ def test_an_unknown_robot_is_refused_with_those_there_are() -> None:
 
 
 @pytest.mark.parametrize("backend", ["physx_cpu", "cpu"])
-def test_several_environments_on_a_cpu_are_sent_to_processes(backend) -> None:
+def test_several_environments_on_a_cpu_are_sent_to_processes(backend):
     with pytest.raises(
         ConfigError, match=r"num_envs is 2, want 1 .*make_processes.*AsyncVectorEnv"
     ):
@@ -24,7 +22,7 @@ def test_several_environments_on_a_cpu_are_sent_to_processes(backend) -> None:
     assert arguments.check_number("OpenJointEnv", 1, backend) is False
 
 
-def test_several_environments_without_a_gpu_are_told_so() -> None:
+def test_several_environments_without_a_gpu_are_told_so():
     torch = pytest.importorskip("torch", reason="torch is not installed")
     if torch.cuda.is_available():
         assert arguments.check_number("OpenJointEnv", 2, "auto") is True
@@ -34,12 +32,12 @@ def test_several_environments_without_a_gpu_are_told_so() -> None:
 
 
 @pytest.mark.parametrize("bounds", [(2.0, 1.0), (-1.0, 1.0), (0.0, float("inf"))])
-def test_a_range_that_is_none_is_refused(bounds) -> None:
+def test_a_range_that_is_none_is_refused(bounds):
     with pytest.raises(ConfigError, match="friction_range is"):
         arguments.check_range("OpenJointEnv", "friction_range", bounds)
 
 
-def test_a_share_beyond_the_range_is_refused() -> None:
+def test_a_share_beyond_the_range_is_refused():
     with pytest.raises(ConfigError, match=r"goal is 1\.5, want a share"):
         arguments.check_share("SetJointEnv", "goal", 1.5)
 
@@ -55,20 +53,18 @@ def test_a_share_beyond_the_range_is_refused() -> None:
         ("state", None, None, "none"),
     ],
 )
-def test_a_renderer_is_only_asked_for_where_pictures_are(
-    obs_mode, render_mode, backend, chosen
-) -> None:
+def test_a_renderer_is_only_asked_for_where_pictures_are(obs_mode, render_mode, backend, chosen):
     assert arguments.choose_renderer("OpenJointEnv", obs_mode, render_mode, backend) == chosen
 
 
-def test_pictures_without_a_renderer_are_refused() -> None:
+def test_pictures_without_a_renderer_are_refused():
     with pytest.raises(
         ConfigError, match="obs_mode 'rgbd' needs a renderer, and render_backend is 'none'"
     ):
         arguments.choose_renderer("OpenJointEnv", "rgbd", None, "none")
 
 
-def test_joint_types_of_user_and_task_are_intersected() -> None:
+def test_joint_types_of_user_and_task_are_intersected():
     assert arguments.common_types("t", (), ("prismatic",)) == ("prismatic",)
     assert arguments.common_types("t", ("prismatic", "revolute"), ("prismatic",)) == ("prismatic",)
     assert arguments.common_types("t", ("revolute",), ()) == ("revolute",)

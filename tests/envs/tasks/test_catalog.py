@@ -1,7 +1,5 @@
 """The list of tasks: known to gymnasium at once, loaded when one is made."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys
@@ -13,12 +11,12 @@ from asset_factory.envs import TASKS
 IDS = {"OpenDrawer-v1", "OpenDoor-v1", "OpenJoint-v1", "CloseJoint-v1", "SetJoint-v1"}
 
 
-def test_the_list_holds_every_task_once() -> None:
+def test_the_list_holds_every_task_once():
     assert {task.id for task in TASKS} == IDS
     assert len(TASKS) == len(IDS)
 
 
-def test_importing_the_package_names_the_tasks_and_loads_no_simulator() -> None:
+def test_importing_the_package_names_the_tasks_and_loads_no_simulator():
     pytest.importorskip("gymnasium", reason="gymnasium is not installed")
     code = (
         "import sys, json, asset_factory.envs, gymnasium\n"
@@ -32,7 +30,7 @@ def test_importing_the_package_names_the_tasks_and_loads_no_simulator() -> None:
     assert set(registered) >= IDS
 
 
-def test_something_that_is_no_task_is_no_attribute() -> None:
+def test_something_that_is_no_task_is_no_attribute():
     import asset_factory.envs
 
     with pytest.raises(AttributeError, match="OpenSesameEnv"):

@@ -1,9 +1,5 @@
 """A thousand random steps of every task on every asset: finite, repeatable, also in processes."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import numpy as np
 import pytest
 from making import HEADLESS, make
@@ -21,7 +17,7 @@ STEPS = 1000
 IDS = [task.id for task in TASKS]
 
 
-def long_run(env: Any, asset: str) -> tuple[np.ndarray, Any, np.ndarray]:
+def long_run(env, asset):
     """Observation and reward of every step, the state half way, and what was seen there."""
     env.reset(seed=5, options={"asset": asset, "reconfigure": True})
     env.action_space.seed(5)
@@ -38,9 +34,7 @@ def long_run(env: Any, asset: str) -> tuple[np.ndarray, Any, np.ndarray]:
 @pytest.mark.parametrize(
     ("task", "robot"), [*((task, "panda") for task in IDS), ("OpenJoint-v1", "fetch")]
 )
-def test_a_thousand_steps_are_finite_the_same_again_and_can_be_gone_back_in(
-    household, task, robot
-) -> None:
+def test_a_thousand_steps_are_finite_the_same_again_and_can_be_gone_back_in(household, task, robot):
     env = make(household, task, robot_uids=robot)
     for asset in env.unwrapped._assets:
         rows, middle, seen = long_run(env, asset)
@@ -57,7 +51,7 @@ def test_a_thousand_steps_are_finite_the_same_again_and_can_be_gone_back_in(
 
 
 @pytest.mark.parametrize("task", IDS)
-def test_processes_do_for_a_hundred_steps_what_each_would_do_alone(household, task) -> None:
+def test_processes_do_for_a_hundred_steps_what_each_would_do_alone(household, task):
     several = make_processes(task, 3, registry=household, **HEADLESS)
     together, _ = several.reset(seed=11)
     rng = np.random.default_rng(0)

@@ -1,7 +1,5 @@
 """Hundreds of environments in one scene, over mixed assets, where there is a GPU."""
 
-from __future__ import annotations
-
 import pytest
 from making import make
 
@@ -13,7 +11,7 @@ if not torch.cuda.is_available():
 ENVS = 256
 
 
-def test_every_environment_has_an_asset_and_steps(household) -> None:
+def test_every_environment_has_an_asset_and_steps(household):
     several = make(household, num_envs=ENVS, sim_backend="physx_cuda", render_backend="none")
     observations, _ = several.reset(seed=0)
     assert observations.shape[0] == ENVS

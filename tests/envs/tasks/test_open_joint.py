@@ -1,9 +1,5 @@
 """OpenJoint-v1: resets closed, reports what was opened, and keeps still what nobody touches."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 from making import HEADLESS, make, put
@@ -21,7 +17,7 @@ pytestmark = [
 
 
 @pytest.fixture(scope="module")
-def registry(tmp_path_factory) -> Path:
+def registry(tmp_path_factory):
     return write_registry(tmp_path_factory.mktemp("registry"), cabinet(), oven(), valve())
 
 
@@ -33,7 +29,7 @@ def one(registry):
     env.close()
 
 
-def test_it_is_made_by_name_after_importing_the_package(registry) -> None:
+def test_it_is_made_by_name_after_importing_the_package(registry):
     import gymnasium
 
     import asset_factory.envs  # noqa: F401
@@ -46,13 +42,13 @@ def test_it_is_made_by_name_after_importing_the_package(registry) -> None:
 @pytest.mark.parametrize(
     ("joint", "closed", "opened"), [("hinge", 1.43, 1.45), ("slide", 0.268, 0.272)]
 )
-def test_success_is_nine_tenths_of_the_range(one, joint: str, closed: float, opened: float) -> None:
+def test_success_is_nine_tenths_of_the_range(one, joint, closed, opened):
     one.reset(seed=0, options={"joint": joint})
     assert not bool(put(one, joint, closed)["success"])
     assert bool(put(one, joint, opened)["success"])
 
 
-def test_a_door_that_is_still_swinging_is_no_success(one) -> None:
+def test_a_door_that_is_still_swinging_is_no_success(one):
     one.reset(seed=0, options={"joint": "hinge"})
     put(one, "hinge", 1.5)
     one.unwrapped.asset.set_qvel(np.array([[3.0, 0.0]], dtype=np.float32))
@@ -61,12 +57,12 @@ def test_a_door_that_is_still_swinging_is_no_success(one) -> None:
     assert not bool(judged["success"])
 
 
-def test_opening_another_joint_is_no_success(one) -> None:
+def test_opening_another_joint_is_no_success(one):
     one.reset(seed=0, options={"joint": "hinge"})
     assert not bool(put(one, "slide", 0.3)["success"])
 
 
-def test_reward_grows_with_opening_and_is_highest_at_success(one) -> None:
+def test_reward_grows_with_opening_and_is_highest_at_success(one):
     one.reset(seed=0, options={"joint": "slide"})
     task = one.unwrapped
     rewards = [
@@ -77,7 +73,7 @@ def test_reward_grows_with_opening_and_is_highest_at_success(one) -> None:
     assert rewards[-1] == 5.0
 
 
-def test_options_decide_asset_and_joint_for_one_episode(one) -> None:
+def test_options_decide_asset_and_joint_for_one_episode(one):
     task = one.unwrapped
     for name in ("slide", "hinge"):
         one.reset(options={"joint": name})
@@ -88,7 +84,7 @@ def test_options_decide_asset_and_joint_for_one_episode(one) -> None:
     assert task.asset_record.id == "cabinet"
 
 
-def test_what_was_asked_for_once_does_not_stay(registry) -> None:
+def test_what_was_asked_for_once_does_not_stay(registry):
     env = make(registry, robot_uids="none", joint="slide")
     env.reset(seed=0, options={"joint": "hinge"})
     assert env.unwrapped.target.name == "hinge"
@@ -100,7 +96,7 @@ def test_what_was_asked_for_once_does_not_stay(registry) -> None:
     env.close()
 
 
-def test_unknown_names_are_refused_with_those_there_are(one, registry, tmp_path) -> None:
+def test_unknown_names_are_refused_with_those_there_are(one, registry, tmp_path):
     with pytest.raises(
         RegistryError,
         match="no asset 'fridge' in the registry; there are 'cabinet', 'oven', 'valve'",
@@ -114,7 +110,7 @@ def test_unknown_names_are_refused_with_those_there_are(one, registry, tmp_path)
         make(registry, joint="lid")
 
 
-def test_an_oven_door_stays_closed_by_itself_and_opens_below_the_floor_line(registry) -> None:
+def test_an_oven_door_stays_closed_by_itself_and_opens_below_the_floor_line(registry):
     env = make(registry, asset="oven", robot_uids="none")
     env.reset(seed=0)
     for _ in range(40):
@@ -128,9 +124,7 @@ def test_an_oven_door_stays_closed_by_itself_and_opens_below_the_floor_line(regi
 
 
 @pytest.mark.parametrize(("share", "moves"), [(0.9, False), (1.5, True)])
-def test_a_drawer_moves_only_beyond_the_friction_its_manifest_states(
-    registry, share: float, moves: bool
-) -> None:
+def test_a_drawer_moves_only_beyond_the_friction_its_manifest_states(registry, share, moves):
     env = make(registry, asset="cabinet", joint="slide", robot_uids="none")
     env.reset(seed=0)
     task = env.unwrapped
@@ -142,7 +136,7 @@ def test_a_drawer_moves_only_beyond_the_friction_its_manifest_states(
     env.close()
 
 
-def test_a_pushed_drawer_slows_down_as_its_damping_says(registry) -> None:
+def test_a_pushed_drawer_slows_down_as_its_damping_says(registry):
     env = make(registry, asset="cabinet", joint="slide", robot_uids="none")
     env.reset(seed=0)
     task = env.unwrapped
@@ -156,7 +150,7 @@ def test_a_pushed_drawer_slows_down_as_its_damping_says(registry) -> None:
     env.close()
 
 
-def test_parts_of_one_asset_push_each_other(tmp_path) -> None:
+def test_parts_of_one_asset_push_each_other(tmp_path):
     env = make(write_registry(tmp_path, train()), joint="rear", robot_uids="none")
     env.reset(seed=0)
     for _ in range(20):
@@ -168,7 +162,7 @@ def test_parts_of_one_asset_push_each_other(tmp_path) -> None:
     env.close()
 
 
-def test_pairs_that_overlap_on_purpose_do_not_push_each_other(tmp_path) -> None:
+def test_pairs_that_overlap_on_purpose_do_not_push_each_other(tmp_path):
     registry = write_registry(tmp_path)
     export_bundle(
         train(),
@@ -185,7 +179,7 @@ def test_pairs_that_overlap_on_purpose_do_not_push_each_other(tmp_path) -> None:
     env.close()
 
 
-def test_a_wheel_without_end_opens_after_a_quarter_turn(registry) -> None:
+def test_a_wheel_without_end_opens_after_a_quarter_turn(registry):
     env = make(registry, asset="valve", robot_uids="none")
     observation, info = env.reset(seed=0)
     assert bool(np.isfinite(observation.numpy()).all())
@@ -194,7 +188,7 @@ def test_a_wheel_without_end_opens_after_a_quarter_turn(registry) -> None:
     env.close()
 
 
-def test_an_asset_whose_input_pose_is_half_open_starts_closed(tmp_path) -> None:
+def test_an_asset_whose_input_pose_is_half_open_starts_closed(tmp_path):
     env = make(write_registry(tmp_path, cabinet(lower=-0.1)), joint="slide", robot_uids="none")
     _, info = env.reset(seed=0)
     assert float(info["open_fraction"]) == pytest.approx(0.0, abs=1e-6)
@@ -202,7 +196,7 @@ def test_an_asset_whose_input_pose_is_half_open_starts_closed(tmp_path) -> None:
     env.close()
 
 
-def test_a_mobile_robot_stands_on_the_floor_before_the_object(registry) -> None:
+def test_a_mobile_robot_stands_on_the_floor_before_the_object(registry):
     env = make(registry, asset="cabinet", robot_uids="fetch")
     env.reset(seed=0, options={"joint": "slide"})
     task = env.unwrapped
@@ -213,7 +207,7 @@ def test_a_mobile_robot_stands_on_the_floor_before_the_object(registry) -> None:
     env.close()
 
 
-def test_friction_is_drawn_within_its_range_and_again_for_every_seed(registry) -> None:
+def test_friction_is_drawn_within_its_range_and_again_for_every_seed(registry):
     env = make(
         registry, asset="cabinet", joint="slide", robot_uids="none", friction_range=(0.5, 2.0)
     )
@@ -229,7 +223,7 @@ def test_friction_is_drawn_within_its_range_and_again_for_every_seed(registry) -
     assert all(0.5 <= factor <= 2.0 for factor in drawn)
 
 
-def test_an_asset_altered_after_the_task_was_made_is_refused(tmp_path) -> None:
+def test_an_asset_altered_after_the_task_was_made_is_refused(tmp_path):
     env = make(write_registry(tmp_path, cabinet(), oven()), robot_uids="none")
     for name in ("cabinet", "oven"):
         (tmp_path / "assets" / name / "asset.urdf").unlink()
@@ -250,12 +244,12 @@ def test_an_asset_altered_after_the_task_was_made_is_refused(tmp_path) -> None:
         ({"friction_range": (2, 1)}, ConfigError, "friction_range"),
     ],
 )
-def test_a_wrong_argument_is_one_clear_error(registry, options, error, message) -> None:
+def test_a_wrong_argument_is_one_clear_error(registry, options, error, message):
     with pytest.raises(error, match=message):
         make(registry, **options)
 
 
-def test_a_drawer_task_refuses_an_asset_with_doors_alone(registry) -> None:
+def test_a_drawer_task_refuses_an_asset_with_doors_alone(registry):
     with pytest.raises(
         RegistryError, match="asset 'oven': no prismatic joint to move; there are 'revolute' joints"
     ):
@@ -264,7 +258,7 @@ def test_a_drawer_task_refuses_an_asset_with_doors_alone(registry) -> None:
         make(registry, "OpenDrawer-v1", joint_type="revolute")
 
 
-def test_closing_starts_open_and_ends_closed(registry) -> None:
+def test_closing_starts_open_and_ends_closed(registry):
     env = make(registry, "CloseJoint-v1", asset="cabinet", joint="slide", robot_uids="none")
     for seed in range(3):
         _, info = env.reset(seed=seed)
@@ -275,7 +269,7 @@ def test_closing_starts_open_and_ends_closed(registry) -> None:
     env.close()
 
 
-def test_a_goal_is_given_or_drawn_away_from_the_start(registry) -> None:
+def test_a_goal_is_given_or_drawn_away_from_the_start(registry):
     env = make(
         registry,
         "SetJoint-v1",

@@ -1,10 +1,5 @@
 """What the cameras see where there is Vulkan, and what is said where there is none."""
 
-from __future__ import annotations
-
-from pathlib import Path
-from typing import Any
-
 import pytest
 from making import make
 from openable_samples import cabinet, write_registry
@@ -16,7 +11,7 @@ pytest.importorskip("mani_skill", reason="mani_skill is not installed")
 pytestmark = pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning")
 
 
-def pictures(registry: Path) -> Any:
+def pictures(registry):
     """Runs in a child: what the task's camera sees, or why it sees nothing."""
     try:
         env = make(registry, asset="cabinet", obs_mode="rgbd", render_mode="rgb_array")
@@ -26,7 +21,7 @@ def pictures(registry: Path) -> Any:
     return observation["sensor_data"]["base_camera"]["rgb"][0].numpy(), env.render()[0].numpy()
 
 
-def test_the_cameras_see_the_red_cabinet_or_vulkan_is_asked_for(tmp_path) -> None:
+def test_the_cameras_see_the_red_cabinet_or_vulkan_is_asked_for(tmp_path):
     registry = write_registry(tmp_path, cabinet())
     seen = run_isolated(pictures, registry, limits=Limits(wall_s=300.0)).unwrap()
     if isinstance(seen, str):

@@ -1,7 +1,5 @@
 """Several environments as processes do what each would do alone."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from making import HEADLESS, make
@@ -15,7 +13,7 @@ pytestmark = [
 ]
 
 
-def test_each_process_behaves_as_a_single_environment_with_its_seed(household) -> None:
+def test_each_process_behaves_as_a_single_environment_with_its_seed(household):
     import gymnasium
 
     several = make_processes("SetJoint-v1", 2, registry=household, **HEADLESS)

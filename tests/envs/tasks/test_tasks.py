@@ -1,9 +1,5 @@
 """Every task: its spaces, its episodes, its state, and what it makes of a thousand random steps."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import numpy as np
 import pytest
 from making import make, put, rollout
@@ -25,7 +21,7 @@ def env(request, household):
     made.close()
 
 
-def test_observations_fit_their_space_over_every_asset(env) -> None:
+def test_observations_fit_their_space_over_every_asset(env):
     for asset in env.unwrapped._assets:
         observation, info = env.reset(seed=1, options={"asset": asset})
         assert env.unwrapped.asset_record.id == asset
@@ -35,7 +31,7 @@ def test_observations_fit_their_space_over_every_asset(env) -> None:
         assert env.action_space.shape == env.action_space.sample().shape
 
 
-def test_a_seed_is_an_episode(env) -> None:
+def test_a_seed_is_an_episode(env):
     first = rollout(env, 7)
     again = rollout(env, 7)
     other = rollout(env, 8)
@@ -43,7 +39,7 @@ def test_a_seed_is_an_episode(env) -> None:
     assert not np.array_equal(first, other)
 
 
-def test_a_state_can_be_gone_back_to(env) -> None:
+def test_a_state_can_be_gone_back_to(env):
     task = env.unwrapped
     env.reset(seed=2)
     env.step(np.full(env.action_space.shape, 0.2, dtype=np.float32))
@@ -64,7 +60,7 @@ def test_a_state_can_be_gone_back_to(env) -> None:
     assert np.allclose(task.get_obs().numpy(), before, atol=1e-5)
 
 
-def test_rewards_are_dense_between_nothing_and_one_and_highest_at_success(env) -> None:
+def test_rewards_are_dense_between_nothing_and_one_and_highest_at_success(env):
     task = env.unwrapped
     env.reset(seed=3)
     joint = task.target
@@ -80,17 +76,17 @@ def test_rewards_are_dense_between_nothing_and_one_and_highest_at_success(env) -
     assert 0.0 <= float(task.compute_normalized_dense_reward(None, None, away)) < 0.9
 
 
-def test_random_steps_bring_no_nan(env) -> None:
+def test_random_steps_bring_no_nan(env):
     _random_steps(env, 40)
 
 
 @pytest.mark.full
-def test_a_thousand_random_steps_bring_no_nan(env) -> None:
+def test_a_thousand_random_steps_bring_no_nan(env):
     _random_steps(env, 1000)
 
 
 @pytest.mark.parametrize("asset", HOUSEHOLD)
-def test_nothing_moves_by_itself_and_no_robot_starts_in_the_way(household, asset) -> None:
+def test_nothing_moves_by_itself_and_no_robot_starts_in_the_way(household, asset):
     for robot in ("panda", "fetch"):
         env = make(household, asset=asset, robot_uids=robot)
         env.reset(seed=0)
@@ -103,7 +99,7 @@ def test_nothing_moves_by_itself_and_no_robot_starts_in_the_way(household, asset
         env.close()
 
 
-def _random_steps(env: Any, count: int) -> None:
+def _random_steps(env, count):
     env.reset(seed=4)
     env.action_space.seed(0)
     for step in range(count):
@@ -112,7 +108,7 @@ def _random_steps(env: Any, count: int) -> None:
         assert bool(np.isfinite(reward.numpy()).all()), step
 
 
-def _copied(value: Any) -> Any:
+def _copied(value):
     return (
         {key: _copied(each) for key, each in value.items()}
         if isinstance(value, dict)

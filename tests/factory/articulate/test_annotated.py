@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
-from asset_factory.factory.articulation import Articulation, JointKind
+from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.annotation import AnnotatedJoint, Annotation
 from asset_factory.factory.mesh import Mesh, concatenate
@@ -20,7 +20,7 @@ QUADS = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (
 TRIANGLES = [triangle for a, b, c, d in QUADS for triangle in ((a, b, c), (a, c, d))]
 
 
-def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> Mesh:
+def box(low, high):
     return Mesh.from_triangles(np.array(low) + CORNERS * (np.array(high) - low), TRIANGLES)
 
 
@@ -28,9 +28,7 @@ BODY = box((0, 0, 0), (1, 1, 1))
 FRONT = box((0, -0.1, 0), (1, 0, 1))
 
 
-def joint(
-    kind: str, lower: float | None = 0.0, upper: float | None = 1.0, **changes: Any
-) -> AnnotatedJoint:
+def joint(kind, lower=0.0, upper=1.0, **changes):
     values: dict[str, Any] = {
         "name": "j",
         "kind": kind,
@@ -44,12 +42,7 @@ def joint(
     return AnnotatedJoint(**(values | changes))
 
 
-def build(
-    meshes: list[Mesh | None],
-    joints: list[AnnotatedJoint],
-    names: list[str] | None = None,
-    transform: np.ndarray | None = None,
-) -> Articulation:
+def build(meshes, joints, names=None, transform=None):
     present = [mesh for mesh in meshes if mesh is not None]
     labels = np.concatenate(
         [np.full(len(m.faces), i) for i, m in enumerate(meshes) if m is not None]
@@ -62,22 +55,22 @@ def build(
     return AnnotatedArticulator(annotation, matrix, np.arange(len(labels))).articulate(mesh)
 
 
-def cabinet(*joints: AnnotatedJoint) -> Articulation:
+def cabinet(*joints):
     return build([BODY, FRONT], list(joints))
 
 
-def said(articulation: Articulation, words: str) -> bool:
+def said(articulation, words):
     return any(words in note for note in articulation.notes)
 
 
-def code_of(*joints: AnnotatedJoint) -> str:
+def code_of(*joints):
     with pytest.raises(InputRejected) as caught:
         cabinet(*joints)
     assert "'j'" in caught.value.message
     return caught.value.code
 
 
-def test_a_plain_drawer_passes_through_without_a_note() -> None:
+def test_a_plain_drawer_passes_through_without_a_note():
     result = cabinet(joint("prismatic", 0.0, 0.4, damping=3.0))
     assert (result.joints[0].lower, result.joints[0].upper, result.joints[0].damping) == (
         0.0,
@@ -88,7 +81,7 @@ def test_a_plain_drawer_passes_through_without_a_note() -> None:
     assert result.articulator == "annotated"
 
 
-def test_a_joint_that_opens_downwards_is_turned_round() -> None:
+def test_a_joint_that_opens_downwards_is_turned_round():
     result = cabinet(joint("revolute", -1.5, 0.0, axis=np.array([0.0, 0.0, 1.0])))
     turned = result.joints[0]
     assert (turned.lower, turned.upper) == (0.0, 1.5)
@@ -97,7 +90,7 @@ def test_a_joint_that_opens_downwards_is_turned_round() -> None:
     np.testing.assert_allclose(turned.motion(1.5), joint_motion([0, 0, 1], -1.5), atol=1e-12)
 
 
-def joint_motion(axis: list[float], angle: float) -> np.ndarray:
+def joint_motion(axis, angle):
     matrix = np.eye(4)
     c = np.cos(angle)
     s = np.sin(angle)
@@ -107,7 +100,7 @@ def joint_motion(axis: list[float], angle: float) -> np.ndarray:
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_an_input_in_mid_range_is_closed_where_the_object_is_smallest(sign: float) -> None:
+def test_an_input_in_mid_range_is_closed_where_the_object_is_smallest(sign):
     half_open = box((0, -0.4, 0), (1, -0.3, 1))
     limits = (-0.3, 0.2) if sign > 0 else (-0.2, 0.3)
     result = build(
@@ -119,7 +112,7 @@ def test_an_input_in_mid_range_is_closed_where_the_object_is_smallest(sign: floa
     assert said(result, "inside its range")
 
 
-def test_an_input_modelled_open_at_its_upper_limit_stays_open() -> None:
+def test_an_input_modelled_open_at_its_upper_limit_stays_open():
     wide_open = box((0, -1.1, 0), (1, -1.0, 1))
     result = build([BODY, wide_open], [joint("prismatic", -1.0, 0.0)])
     assert (result.joints[0].lower, result.joints[0].upper) == (-1.0, 0.0)
@@ -127,7 +120,7 @@ def test_an_input_modelled_open_at_its_upper_limit_stays_open() -> None:
     assert said(result, "taken as open")
 
 
-def test_a_knob_that_nothing_tells_keeps_its_direction() -> None:
+def test_a_knob_that_nothing_tells_keeps_its_direction():
     knob = box((0.4, -0.1, 0.4), (0.6, 0.0, 0.6))
     axis = np.array([0.0, 1.0, 0.0])
     result = build(
@@ -137,7 +130,7 @@ def test_a_knob_that_nothing_tells_keeps_its_direction() -> None:
     assert said(result, "neither end is clearly closed")
 
 
-def test_an_input_outside_the_range_is_posed_at_the_nearest_limit() -> None:
+def test_an_input_outside_the_range_is_posed_at_the_nearest_limit():
     handle = box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))
     second = joint(
         "prismatic", 0.0, 0.1, name="k", parent=1, child=2, origin=np.array([0.5, -0.2, 0.5])
@@ -150,7 +143,7 @@ def test_an_input_outside_the_range_is_posed_at_the_nearest_limit() -> None:
     assert said(result, "which is the new zero")
 
 
-def test_posing_turns_the_axes_of_what_is_carried() -> None:
+def test_posing_turns_the_axes_of_what_is_carried():
     leaf = box((1, -0.1, 0), (2, 0, 1))
     first = joint("revolute", np.pi / 2.0, 3.0, axis=np.array([0.0, 0.0, 1.0]))
     second = joint(
@@ -174,16 +167,14 @@ def test_posing_turns_the_axes_of_what_is_carried() -> None:
         (-1.0, 1.0, JointKind.REVOLUTE, "inside"),
     ],
 )
-def test_odd_limits_of_hinges_are_mended_with_a_note(
-    lower: float | None, upper: float | None, kind: JointKind, says: str
-) -> None:
+def test_odd_limits_of_hinges_are_mended_with_a_note(lower, upper, kind, says):
     result = cabinet(joint("revolute", lower, upper))
     assert result.joints[0].kind is kind
     assert said(result, says)
 
 
 @pytest.mark.parametrize("where", [0.0, 0.5])
-def test_a_joint_without_range_is_fixed_where_it_stands(where: float) -> None:
+def test_a_joint_without_range_is_fixed_where_it_stands(where):
     result = cabinet(joint("prismatic", where, where))
     assert len(result.parts) == 1
     assert result.mesh.bounds[0, 1] == pytest.approx(-0.1 - where)
@@ -191,7 +182,7 @@ def test_a_joint_without_range_is_fixed_where_it_stands(where: float) -> None:
     assert said(result, "nothing in this object moves")
 
 
-def test_a_description_s_slide_without_limits_gets_usual_ones_and_says_so() -> None:
+def test_a_description_s_slide_without_limits_gets_usual_ones_and_says_so():
     mesh = concatenate([BODY, FRONT])
     labels = np.repeat([0, 1], [len(BODY.faces), len(FRONT.faces)])
     annotation = Annotation(labels, ("a", "b"), (joint("prismatic", None, None),), "urdf")
@@ -203,7 +194,7 @@ def test_a_description_s_slide_without_limits_gets_usual_ones_and_says_so() -> N
     assert said(result, "has no limits: taken to slide by 0.1 m")
 
 
-def test_what_cannot_be_mended_is_refused_by_name() -> None:
+def test_what_cannot_be_mended_is_refused_by_name():
     assert code_of(joint("prismatic", None, None)) == "no_limits"
     assert code_of(joint("prismatic", 0.0, np.inf)) == "no_limits"
     assert code_of(joint("revolute", axis=np.zeros(3))) == "bad_axis"
@@ -212,14 +203,14 @@ def test_what_cannot_be_mended_is_refused_by_name() -> None:
     assert code_of(joint("both")) == "bad_axis"
 
 
-def test_a_description_with_two_roots_or_a_cycle_is_not_a_tree() -> None:
+def test_a_description_with_two_roots_or_a_cycle_is_not_a_tree():
     for joints in ([], [joint("fixed"), joint("fixed", name="k", parent=1, child=0)]):
         with pytest.raises(InputRejected) as caught:
             cabinet(*joints)
         assert caught.value.code == "not_a_tree"
 
 
-def test_fixed_parts_merge_and_take_the_name_of_the_first_that_can_be_seen() -> None:
+def test_fixed_parts_merge_and_take_the_name_of_the_first_that_can_be_seen():
     fixed = joint("fixed", parent=0, child=1, name="f")
     slide = joint("prismatic", name="s", parent=1, child=2)
     plate = joint("fixed", name="g", parent=2, child=3)
@@ -231,7 +222,7 @@ def test_fixed_parts_merge_and_take_the_name_of_the_first_that_can_be_seen() -> 
     assert said(result, "fixed to 'front' and made one part with it: 'handle'")
 
 
-def test_empty_carriers_stay_and_empty_leaves_go() -> None:
+def test_empty_carriers_stay_and_empty_leaves_go():
     turn = joint("revolute", name="turn", parent=0, child=1)
     slide = joint("prismatic", name="slide", parent=1, child=2)
     leaf = joint("revolute", name="leaf", parent=2, child=3)
@@ -242,12 +233,12 @@ def test_empty_carriers_stay_and_empty_leaves_go() -> None:
     assert said(result, "'p3' has no geometry and carries none")
 
 
-def test_an_empty_root_that_carries_movers_stays() -> None:
+def test_an_empty_root_that_carries_movers_stays():
     result = build([None, BODY, FRONT], [joint("prismatic"), joint("prismatic", name="k", child=2)])
     assert [len(part.faces) for part in result.parts] == [0, 12, 12]
 
 
-def test_names_are_made_safe_and_unique() -> None:
+def test_names_are_made_safe_and_unique():
     names = ["körper", "door#1", "door 1"]
     joints = [joint("prismatic", name="open me"), joint("prismatic", name="open_me", child=2)]
     result = build([BODY, FRONT, box((0, 0, 1), (1, 1, 2))], joints, names)
@@ -256,14 +247,14 @@ def test_names_are_made_safe_and_unique() -> None:
     assert said(result, "'door#1' is 'door_1'")
 
 
-def test_negative_or_infinite_damping_is_ignored_with_a_note() -> None:
+def test_negative_or_infinite_damping_is_ignored_with_a_note():
     result = cabinet(joint("prismatic", damping=-1.0, friction=np.inf))
     assert (result.joints[0].damping, result.joints[0].friction) == (None, None)
     assert said(result, "damping of -1.0 is ignored")
     assert said(result, "friction of inf is ignored")
 
 
-def test_a_hinge_frame_lies_on_its_axis_beside_what_it_holds() -> None:
+def test_a_hinge_frame_lies_on_its_axis_beside_what_it_holds():
     result = cabinet(joint("revolute", origin=np.array([0.0, 0.0, 1000.0])))
     np.testing.assert_allclose(result.joints[0].origin, [0.0, 0.0, 0.5], atol=1e-9)
 
@@ -278,12 +269,7 @@ turns = st.floats(-3.0, 3.0)
     st.tuples(turns, turns, turns),
     st.floats(0.0, 1.0),
 )
-def test_scaling_and_turning_the_object_commutes_with_moving_it(
-    angles: tuple[float, float, float],
-    scale: float,
-    shift: tuple[float, float, float],
-    share: float,
-) -> None:
+def test_scaling_and_turning_the_object_commutes_with_moving_it(angles, scale, shift, share):
     transform = np.eye(4)
     for axis, angle in enumerate(angles):
         i, k = [n for n in range(3) if n != axis]
@@ -310,6 +296,6 @@ def test_scaling_and_turning_the_object_commutes_with_moving_it(
         )
 
 
-def test_a_transform_that_bends_is_refused() -> None:
+def test_a_transform_that_bends_is_refused():
     with pytest.raises(ValueError, match="uniform"):
         build([BODY], [], transform=np.diag([1.0, 2.0, 1.0, 1.0]))

@@ -1,27 +1,25 @@
 """Doors of rooms, fridges and machines, drawers in one piece, and the baskets behind a door."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
 from asset_factory.factory.articulate.geometric import GeometricArticulator
-from asset_factory.factory.articulation import Articulation, JointKind
+from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.mesh import Mesh, concatenate
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
 SIDES = np.array([int(corner) for corner in "013032467475045051237276026064157173"]).reshape(-1, 3)
 
 
-def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> Mesh:
+def box(low, high):
     return Mesh.from_triangles(np.array(low) + CORNERS * (np.array(high) - np.array(low)), SIDES)
 
 
-def articulate(*meshes: Mesh) -> Articulation:
+def articulate(*meshes):
     return GeometricArticulator().articulate(concatenate(list(meshes)))
 
 
-def carcass(width: float, depth: float, height: float) -> list[Mesh]:
+def carcass(width, depth, height):
     return [
         box((0.0, 0.0, 0.0), (0.02, depth, height)),
         box((width - 0.02, 0.0, 0.0), (width, depth, height)),
@@ -40,7 +38,7 @@ LEAF = box((0.065, 0.01, 0.005), (0.935, 0.05, 2.035))
 KNOB = box((0.85, -0.04, 1.0), (0.9, 0.01, 1.05))
 
 
-def test_a_room_door_hinges_across_from_its_knob_and_opens_to_its_flush_side() -> None:
+def test_a_room_door_hinges_across_from_its_knob_and_opens_to_its_flush_side():
     articulation = articulate(*FRAME, LEAF, KNOB)
     (joint,) = articulation.joints
     assert joint.kind is JointKind.REVOLUTE
@@ -49,7 +47,7 @@ def test_a_room_door_hinges_across_from_its_knob_and_opens_to_its_flush_side() -
     assert np.array_equal(articulation.parts[1].faces, np.arange(36, 60))
 
 
-def test_a_pair_of_leaves_opens_away_from_each_other() -> None:
+def test_a_pair_of_leaves_opens_away_from_each_other():
     left = box((0.065, 0.01, 0.005), (0.499, 0.05, 2.035))
     right = box((0.501, 0.01, 0.005), (0.935, 0.05, 2.035))
     articulation = articulate(*FRAME, left, right)
@@ -61,7 +59,7 @@ def test_a_pair_of_leaves_opens_away_from_each_other() -> None:
     ]
 
 
-def test_a_picture_on_its_back_board_and_a_leaf_without_a_frame_stay() -> None:
+def test_a_picture_on_its_back_board_and_a_leaf_without_a_frame_stay():
     board = box((0.0, 0.05, 0.0), (1.0, 0.07, 0.8))
     picture = box((0.1, 0.03, 0.1), (0.9, 0.05, 0.7))
     assert articulate(board, picture).joints == ()
@@ -69,16 +67,14 @@ def test_a_picture_on_its_back_board_and_a_leaf_without_a_frame_stay() -> None:
 
 
 @pytest.mark.parametrize(("thickness", "degrees"), [(0.06, 180.0), (0.02, 90.0)])
-def test_a_thick_upright_door_opens_further_than_a_thin_one(
-    thickness: float, degrees: float
-) -> None:
+def test_a_thick_upright_door_opens_further_than_a_thin_one(thickness, degrees):
     door = box((0.001, -thickness, 0.001), (0.599, -0.001, 1.599))
     grip = box((0.53, -thickness - 0.04, 0.6), (0.55, -thickness - 0.001, 1.1))
     (joint,) = articulate(*carcass(0.6, 0.6, 1.6), door, grip).joints
     assert np.degrees(joint.upper) == pytest.approx(degrees, abs=5.0)
 
 
-def test_a_bar_on_two_posts_is_a_handle() -> None:
+def test_a_bar_on_two_posts_is_a_handle():
     door = box((0.001, -0.02, 0.001), (0.399, -0.001, 0.399))
     posts = [box((0.34, -0.09, z), (0.36, -0.021, z + 0.02)) for z in (0.08, 0.3)]
     bar = box((0.335, -0.12, 0.06), (0.365, -0.089, 0.34))
@@ -87,7 +83,7 @@ def test_a_bar_on_two_posts_is_a_handle() -> None:
     assert articulation.joints[0].axis[2] == pytest.approx(-1.0)
 
 
-def test_shelves_behind_a_door_with_a_side_handle_do_not_make_it_a_drawer() -> None:
+def test_shelves_behind_a_door_with_a_side_handle_do_not_make_it_a_drawer():
     door = box((0.001, -0.03, 0.001), (0.599, -0.001, 0.799))
     grip = box((0.55, -0.06, 0.3), (0.565, -0.031, 0.5))
     inside = [
@@ -102,7 +98,7 @@ def test_shelves_behind_a_door_with_a_side_handle_do_not_make_it_a_drawer() -> N
 WIRE = 0.004
 
 
-def basket(z: float, height: float) -> list[Mesh]:
+def basket(z, height):
     low = (0.05, 0.03)
     high = (0.55, 0.43)
     along = [
@@ -127,7 +123,7 @@ MACHINE = [
 ]
 
 
-def test_a_basket_behind_a_door_slides_out() -> None:
+def test_a_basket_behind_a_door_slides_out():
     articulation = articulate(*MACHINE, *basket(0.3, 0.1))
     rack = articulation.joint("rack_0_slide")
     assert rack.kind is JointKind.PRISMATIC
@@ -137,12 +133,12 @@ def test_a_basket_behind_a_door_slides_out() -> None:
     assert articulation.joint("door_0_hinge").axis[0] == pytest.approx(1.0)
 
 
-def test_a_flat_grid_is_a_shelf_and_stays() -> None:
+def test_a_flat_grid_is_a_shelf_and_stays():
     articulation = articulate(*MACHINE, *basket(0.3, WIRE))
     assert [j.name for j in articulation.joints] == ["door_0_hinge"]
 
 
-def tub(low: tuple[float, float, float], high: tuple[float, float, float], grip: bool) -> Mesh:
+def tub(low, high, grip):
     """A drawer as one surface, open at the top; perhaps with a bump fused to its front."""
     (x0, y0, z0) = low
     (x1, y1, z1) = high
@@ -183,7 +179,7 @@ def tub(low: tuple[float, float, float], high: tuple[float, float, float], grip:
 
 
 @pytest.mark.parametrize("grip", [True, False])
-def test_a_lone_drawer_in_one_piece_needs_a_grip(grip: bool) -> None:
+def test_a_lone_drawer_in_one_piece_needs_a_grip(grip):
     articulation = articulate(
         *carcass(0.6, 0.5, 0.2), tub((0.03, 0.0, 0.03), (0.57, 0.4, 0.15), grip)
     )

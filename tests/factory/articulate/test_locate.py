@@ -1,7 +1,5 @@
 """Parts that came without a word about them are told by their shape and how they move."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -14,7 +12,7 @@ from asset_factory.factory.part import OpensBy, PartKind, Proposer
 X, Y, Z = np.eye(3)
 
 
-def box(low: tuple[float, ...], high: tuple[float, ...]) -> Mesh:
+def box(low, high):
     corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
     faces = [
         (0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1),
@@ -23,14 +21,14 @@ def box(low: tuple[float, ...], high: tuple[float, ...]) -> Mesh:
     return Mesh.from_triangles(np.array(low) + corners * np.subtract(high, low), faces)
 
 
-def cupboard(part: Mesh, joint: Joint) -> Articulation:
+def cupboard(part, joint):
     """A metre of body with one part that moves."""
     mesh = concatenate([box((0, 0, 0), (1, 1, 1)), part])
     parts = (Part("base", np.arange(12)), Part("x", np.arange(12, len(mesh.faces))))
     return Articulation(mesh, parts, (joint,), "test")
 
 
-def hinge(axis: np.ndarray, origin: tuple[float, ...]) -> Joint:
+def hinge(axis, origin):
     return Joint("j", JointKind.REVOLUTE, 0, 1, axis, origin, 0.0, 1.5)
 
 
@@ -54,16 +52,14 @@ TURN = Joint("j", JointKind.CONTINUOUS, 0, 1, -Y, (0.51, 0, 0.51), -np.pi, np.pi
         (box((0.4, -0.3, 0.4), (0.5, 0, 0.5)), hinge(-Z, (0.1, 0, 0.5)), PartKind.LEVER, None),
     ],
 )
-def test_a_part_is_told_by_its_shape_and_motion(
-    part: Mesh, joint: Joint, kind: PartKind, opens: OpensBy | None
-) -> None:
+def test_a_part_is_told_by_its_shape_and_motion(part, joint, kind, opens):
     body, found = located(cupboard(part, joint)).parts
     assert body.kind is PartKind.BODY
     assert found.kind is kind
     assert (found.panel and found.panel.opens) == opens
 
 
-def test_a_panel_ends_where_its_part_does() -> None:
+def test_a_panel_ends_where_its_part_does():
     panel = located(cupboard(FRONT, SLIDE)).parts[1].panel
     np.testing.assert_allclose(panel.low, [0.1, 0.2])
     np.testing.assert_allclose(panel.high, [0.9, 0.8])
@@ -71,7 +67,7 @@ def test_a_panel_ends_where_its_part_does() -> None:
     np.testing.assert_allclose(panel.outward, -Y)
 
 
-def test_an_id_is_of_the_part_and_its_motion_alone() -> None:
+def test_an_id_is_of_the_part_and_its_motion_alone():
     (_, part) = sourced(cupboard(FRONT, SLIDE), Proposer.ANNOTATION).parts
     (_, same) = sourced(cupboard(FRONT, SLIDE), Proposer.ANNOTATION).parts
     (_, other) = sourced(cupboard(FRONT, TURN), Proposer.ANNOTATION).parts

@@ -5,13 +5,11 @@ from __future__ import annotations
 import json
 import re
 import threading
-from pathlib import Path
 
 import pytest
 
 from asset_factory.factory.cli import console
 from asset_factory.factory.cli.commands import run
-from asset_factory.sim_checks import Report
 from asset_factory.sim_checks.judge import Judge
 
 BODY = (
@@ -21,7 +19,7 @@ BODY = (
 )
 
 
-def write(path: Path, gap: float) -> Path:
+def write(path, gap):
     path.parent.mkdir(parents=True, exist_ok=True)
     shell = BODY.format(at="0 0 0")
     drawer = BODY.format(at=f"0 {0.2 + gap} 0")
@@ -34,9 +32,7 @@ def write(path: Path, gap: float) -> Path:
     return path
 
 
-def test_a_folder_is_judged_file_by_file_with_its_path_as_the_name(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_folder_is_judged_file_by_file_with_its_path_as_the_name(tmp_path, capsys):
     write(tmp_path / "good" / "asset.urdf", 0.004)
     write(tmp_path / "bad" / "asset.urdf", -0.004)
     (tmp_path / "notes.xml").write_text("<notes/>")
@@ -53,9 +49,7 @@ def test_a_folder_is_judged_file_by_file_with_its_path_as_the_name(
     ]
 
 
-def test_one_file_gives_one_report_and_no_other_output(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_one_file_gives_one_report_and_no_other_output(tmp_path, capsys):
     path = write(tmp_path / "asset.urdf", 0.004)
     assert run(["check", str(path), "--sim", "", "--json", "-"]) == 0
     report = json.loads(capsys.readouterr().out)
@@ -66,17 +60,17 @@ def test_one_file_gives_one_report_and_no_other_output(
     )
 
 
-def test_reports_are_printed_as_they_come(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reports_are_printed_as_they_come(tmp_path, monkeypatch):
     files = [write(tmp_path / f"{name}.urdf", 0.004) for name in ("one", "two")]
     printed = threading.Event()
     check = Judge.check
     print_report = console.print_report
 
-    def watched(judge: Judge, path: Path, *rest: object) -> object:
+    def watched(judge, path, *rest):
         assert path.stem == "one" or printed.wait(60.0)
         return check(judge, path, *rest)
 
-    def noted(report: Report) -> None:
+    def noted(report):
         print_report(report)
         printed.set()
 
@@ -85,9 +79,7 @@ def test_reports_are_printed_as_they_come(tmp_path: Path, monkeypatch: pytest.Mo
     assert run(["check", *map(str, files), "--sim", "", "--workers", "1"]) == 0
 
 
-def test_every_simulator_at_once_and_who_disagrees(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_every_simulator_at_once_and_who_disagrees(tmp_path, capsys):
     for engine in ("sapien", "mujoco", "pybullet"):
         pytest.importorskip(engine)
     path = write(tmp_path / "asset.urdf", -0.01)
@@ -100,9 +92,7 @@ def test_every_simulator_at_once_and_who_disagrees(
     )
 
 
-def test_missing_files_and_empty_folders_are_wrong_usage(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_missing_files_and_empty_folders_are_wrong_usage(tmp_path, capsys):
     assert run(["check", str(tmp_path / "nowhere.urdf")]) == 2
     assert "nowhere.urdf: no such file" in capsys.readouterr().err
     assert run(["check", str(tmp_path)]) == 2
@@ -111,9 +101,7 @@ def test_missing_files_and_empty_folders_are_wrong_usage(
     assert "no URDF, MJCF or USD file given" in capsys.readouterr().err
 
 
-def test_many_files_are_judged_at_once_and_told_in_the_order_given(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_many_files_are_judged_at_once_and_told_in_the_order_given(tmp_path, monkeypatch, capsys):
     names = ["one", "two", "three"]
     files = [write(tmp_path / f"{name}.urdf", 0.004) for name in names]
     both = threading.Barrier(2)
@@ -121,7 +109,7 @@ def test_many_files_are_judged_at_once_and_told_in_the_order_given(
     judges: set[int] = set()
     check = Judge.check
 
-    def watched(judge: Judge, path: Path, *rest: object) -> object:
+    def watched(judge, path, *rest):
         judges.add(id(judge))
         if path.stem != "three":
             both.wait(60.0)
@@ -139,7 +127,7 @@ def test_many_files_are_judged_at_once_and_told_in_the_order_given(
     assert len(judges) == 2
 
 
-def test_workers_have_to_be_some(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_workers_have_to_be_some(tmp_path, capsys):
     path = write(tmp_path / "asset.urdf", 0.004)
     assert run(["check", str(path), "--sim", "", "--workers", "0"]) == 2
     assert "--workers: is 0, want at least 1" in capsys.readouterr().err

@@ -1,7 +1,5 @@
 """What people read: what was done, not once more what was known."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from asset_factory.factory.cli import console
@@ -11,7 +9,7 @@ from asset_factory.factory.report.summary import Summary
 from asset_factory.sim_checks import Status
 
 
-def results(known: int, built: int) -> list[Result]:
+def results(known, built):
     """So many that were known, then so many that were built, the last of them rejected."""
     old = [Result(f"{number}.glb", entry(f"old-{number}"), attempts=0) for number in range(known)]
     new = [Result(f"new_{number}.glb", entry(f"new-{number}")) for number in range(built)]
@@ -21,11 +19,11 @@ def results(known: int, built: int) -> list[Result]:
     return old + new
 
 
-def entry(asset_id: str, status: Status = Status.PASSED, **said: str) -> Entry:
+def entry(asset_id, status=Status.PASSED, **said):
     return Entry(asset_id, "thing", "", status, said.pop("reason", ""), 1, 1, 1, **said)
 
 
-def test_what_was_known_is_counted_in_a_line(capsys) -> None:
+def test_what_was_known_is_counted_in_a_line(capsys):
     everything = results(3, 2)
     assert console.follow(iter(everything), 5) == everything
     assert capsys.readouterr().err.splitlines() == [
@@ -35,7 +33,7 @@ def test_what_was_known_is_counted_in_a_line(capsys) -> None:
     ]
 
 
-def test_nothing_known_and_nothing_else_are_told_too(capsys) -> None:
+def test_nothing_known_and_nothing_else_are_told_too(capsys):
     console.follow(iter(results(0, 1)), 1)
     assert capsys.readouterr().err.splitlines() == ["[1/1] rejected: bad: 5 mm deep"]
     console.follow(iter(results(4, 0)), 4)
@@ -44,7 +42,7 @@ def test_nothing_known_and_nothing_else_are_told_too(capsys) -> None:
     assert capsys.readouterr().err == ""
 
 
-def test_rate_and_time_left_are_those_of_what_is_built(monkeypatch) -> None:
+def test_rate_and_time_left_are_those_of_what_is_built(monkeypatch):
     monkeypatch.setattr(console, "Progress", Watched)
     console._follow_on_terminal(console.Console(), iter(results(3, 2)), 6)
     assert (Watched.total, Watched.advanced) == (3, 2)
@@ -56,12 +54,12 @@ class Watched(console.Progress):
     total = 0.0
     advanced = 0.0
 
-    def update(self, task, *, total=None, advance=None, **rest) -> None:
+    def update(self, task, *, total=None, advance=None, **rest):
         Watched.total = Watched.total if total is None else total
         Watched.advanced += advance or 0
 
 
-def test_a_long_table_leaves_out_what_was_known(capsys) -> None:
+def test_a_long_table_leaves_out_what_was_known(capsys):
     console.print_results(Summary(tuple(results(console.LISTED - 1, 1))), Path("out"))
     assert "old-0" in capsys.readouterr().out
     console.print_results(Summary(tuple(results(console.LISTED, 1))), Path("out"))

@@ -1,10 +1,7 @@
 """``factory demos``: what is written, nothing is done twice, no reader ever sees half of it."""
 
-from __future__ import annotations
-
 import json
 import os
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -26,7 +23,7 @@ pytestmark = pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:
 
 
 @pytest.fixture(scope="module")
-def registry(tmp_path_factory) -> Path:
+def registry(tmp_path_factory):
     return write_registry(tmp_path_factory.mktemp("registry"), cabinet(), oven(), valve())
 
 
@@ -41,7 +38,7 @@ def robot(monkeypatch):
 
 @pytest.fixture
 def make(registry, tmp_path, robot):
-    def make(**flags) -> int:
+    def make(**flags):
         return command.run(
             command.Demos(**{"output": registry, "to": tmp_path / "demos", "per_joint": 2, **flags})
         )
@@ -49,7 +46,7 @@ def make(registry, tmp_path, robot):
     return make
 
 
-def shards_of(folder: Path) -> dict[str, bytes]:
+def shards_of(folder):
     return {
         path.name: path.read_bytes()
         for path in sorted(folder.iterdir())
@@ -57,7 +54,7 @@ def shards_of(folder: Path) -> dict[str, bytes]:
     }
 
 
-def test_a_file_holds_one_asset_and_says_what_failed(make, tmp_path, capsys) -> None:
+def test_a_file_holds_one_asset_and_says_what_failed(make, tmp_path, capsys):
     assert make() == Exit.OK
     names = ["cabinet-000.h5", "cabinet-000.json", "oven-000.h5", "oven-000.json", "summary.json"]
     names += ["valve-000.h5", "valve-000.json"]
@@ -83,9 +80,7 @@ def test_a_file_holds_one_asset_and_says_what_failed(make, tmp_path, capsys) -> 
     assert "6 of 8 episodes succeeded, 6 trajectories in" in capsys.readouterr().out
 
 
-def test_the_same_command_gives_the_same_bytes_and_asks_for_nothing_twice(
-    make, tmp_path, robot
-) -> None:
+def test_the_same_command_gives_the_same_bytes_and_asks_for_nothing_twice(make, tmp_path, robot):
     make()
     first = shards_of(tmp_path / "demos")
     make()
@@ -95,9 +90,7 @@ def test_the_same_command_gives_the_same_bytes_and_asks_for_nothing_twice(
 
 
 @pytest.mark.parametrize("episodes", [1, 4, 6])
-def test_what_was_finished_before_the_end_is_not_made_again(
-    make, tmp_path, robot, episodes: int
-) -> None:
+def test_what_was_finished_before_the_end_is_not_made_again(make, tmp_path, robot, episodes):
     make(to=tmp_path / "whole")
     robot.asked.clear()
     robot.dies_after = episodes
@@ -116,9 +109,7 @@ def test_what_was_finished_before_the_end_is_not_made_again(
 
 
 @pytest.mark.parametrize("step", ["_put_together", "write_json", "_sync"])
-def test_a_shard_that_cannot_be_written_is_not_seen(
-    make, tmp_path, robot, monkeypatch, step: str
-) -> None:
+def test_a_shard_that_cannot_be_written_is_not_seen(make, tmp_path, robot, monkeypatch, step):
     class Full(OSError):
         pass
 
@@ -138,7 +129,7 @@ def test_a_shard_that_cannot_be_written_is_not_seen(
     assert not list((tmp_path / "demos").glob(f"{files.WRITING_PREFIX}*"))
 
 
-def test_a_shard_whose_trajectories_are_gone_is_made_again(make, tmp_path, robot) -> None:
+def test_a_shard_whose_trajectories_are_gone_is_made_again(make, tmp_path, robot):
     make()
     robot.asked.clear()
     (tmp_path / "demos/oven-000.h5").unlink()
@@ -146,7 +137,7 @@ def test_a_shard_whose_trajectories_are_gone_is_made_again(make, tmp_path, robot
     assert {episode.asset for episode in robot.asked} == {"oven"}
 
 
-def test_what_ran_out_of_time_is_tried_again_and_the_rest_is_not(make, tmp_path, robot) -> None:
+def test_what_ran_out_of_time_is_tried_again_and_the_rest_is_not(make, tmp_path, robot):
     robot.slow = frozenset({1})
     assert make(ids=("oven",)) == Exit.UNJUDGED
     row = json.loads((tmp_path / "demos/oven-000.json").read_text())["asset_factory"]["attempts"][1]
@@ -157,7 +148,7 @@ def test_what_ran_out_of_time_is_tried_again_and_the_rest_is_not(make, tmp_path,
     assert [episode.seed for episode in robot.asked] == [1]
 
 
-def test_further_seeds_and_assets_leave_full_files_alone(make, tmp_path, robot) -> None:
+def test_further_seeds_and_assets_leave_full_files_alone(make, tmp_path, robot):
     make(ids=("cabinet",), shard_size=4)
     before = shards_of(tmp_path / "demos")
     robot.asked.clear()
@@ -168,7 +159,7 @@ def test_further_seeds_and_assets_leave_full_files_alone(make, tmp_path, robot) 
     assert "cabinet-001.h5" in after
 
 
-def test_an_altered_asset_is_demonstrated_anew(make, registry, robot) -> None:
+def test_an_altered_asset_is_demonstrated_anew(make, registry, robot):
     make()
     robot.asked.clear()
     manifest = registry / "assets/valve/asset.json"
@@ -179,7 +170,7 @@ def test_an_altered_asset_is_demonstrated_anew(make, registry, robot) -> None:
     assert {episode.asset for episode in robot.asked} == {"valve"}
 
 
-def test_joints_without_a_success_have_no_trajectories(make, tmp_path) -> None:
+def test_joints_without_a_success_have_no_trajectories(make, tmp_path):
     assert make(joint="slide") == Exit.OK
     assert not list((tmp_path / "demos").glob("*.h5"))
     assert make(joint="slide", strict=True) == Exit.REJECTED
@@ -193,7 +184,7 @@ def test_joints_without_a_success_have_no_trajectories(make, tmp_path) -> None:
         ({"joint": "wheel"}, {"wheel"}),
     ],
 )
-def test_a_task_is_demonstrated_on_its_joints(make, robot, flags, joints) -> None:
+def test_a_task_is_demonstrated_on_its_joints(make, robot, flags, joints):
     make(**flags)
     assert {episode.joint for episode in robot.asked} == joints
 
@@ -207,19 +198,19 @@ def test_a_task_is_demonstrated_on_its_joints(make, robot, flags, joints) -> Non
         ({"robot": "fetch", "control_mode": "pd_ee_pose"}, "Fetch has no 'pd_ee_pose'"),
     ],
 )
-def test_wrong_usage_is_named(make, flags, words) -> None:
+def test_wrong_usage_is_named(make, flags, words):
     with pytest.raises(ConfigError, match=words):
         make(**flags)
 
 
-def test_an_unknown_asset_is_named(make) -> None:
+def test_an_unknown_asset_is_named(make):
     with pytest.raises(
         RegistryError, match=r"no asset 'sofa' in .*; there are 'cabinet', 'oven', 'valve'"
     ):
         make(ids=("sofa",))
 
 
-def test_one_folder_holds_one_kind_and_one_run(make, tmp_path) -> None:
+def test_one_folder_holds_one_kind_and_one_run(make, tmp_path):
     make()
     with pytest.raises(
         ConfigError, match="holds demonstrations of OpenJoint-v1, panda, state, pd_joint_pos"
@@ -249,7 +240,7 @@ def test_one_folder_holds_one_kind_and_one_run(make, tmp_path) -> None:
         ),
     ],
 )
-def test_no_demonstration_is_lost_or_written_twice(make, tmp_path, flags, words) -> None:
+def test_no_demonstration_is_lost_or_written_twice(make, tmp_path, flags, words):
     make(ids=("cabinet",), shard_size=2 if "shard_size" in flags else 50)
     before = shards_of(tmp_path / "demos")
     with pytest.raises(ConfigError, match=words):
@@ -258,9 +249,7 @@ def test_no_demonstration_is_lost_or_written_twice(make, tmp_path, flags, words)
 
 
 @given(seeds=st.integers(1, 9), size=st.integers(1, 7), more=st.integers(0, 5))
-def test_every_episode_is_in_one_shard_and_stays_there(
-    registry, seeds: int, size: int, more: int
-) -> None:
+def test_every_episode_is_in_one_shard_and_stays_there(registry, seeds, size, more):
     assets = list(read_registry(registry).values())
     few = make_shards(assets[:2], range(seeds), size)
     many = make_shards(assets, range(seeds + more), size)

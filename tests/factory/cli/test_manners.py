@@ -1,11 +1,8 @@
 """How the command line behaves: pipes that close, interruptions, narrow terminals, a doctor."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -17,7 +14,7 @@ from asset_factory.learn.commands.evaluation_printing import COLUMNS, _fitting
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS
 
 
-def test_a_reader_that_has_seen_enough_gets_no_traceback() -> None:
+def test_a_reader_that_has_seen_enough_gets_no_traceback():
     lines = "from asset_factory.factory.cli import commands\n"
     lines += "commands.run = lambda arguments: print('x\\n' * 100_000) or 0\n"
     lines += "commands.main()\n"
@@ -35,14 +32,14 @@ def test_a_reader_that_has_seen_enough_gets_no_traceback() -> None:
 @pytest.mark.parametrize(
     ("typed", "told"), [("buidl", "did you mean 'build'?"), ("zzz", "there are build, nightly")]
 )
-def test_a_mistyped_command_is_recognised(typed, told, capsys) -> None:
+def test_a_mistyped_command_is_recognised(typed, told, capsys):
     with pytest.raises(SystemExit) as left:
         run([typed, "--output", "out"])
     assert left.value.code == 2
     assert told in capsys.readouterr().err
 
 
-def test_a_flag_that_is_there_twice_is_told_and_not_half_obeyed(capsys, tmp_path) -> None:
+def test_a_flag_that_is_there_twice_is_told_and_not_half_obeyed(capsys, tmp_path):
     with pytest.raises(SystemExit) as left:
         run(["build", "--input", "a.glb", "--input", "b.glb", "--output", str(tmp_path)])
     assert left.value.code == 2
@@ -51,7 +48,7 @@ def test_a_flag_that_is_there_twice_is_told_and_not_half_obeyed(capsys, tmp_path
     assert flags.category == ("oven", "fridge")
 
 
-def test_shells_can_complete_commands_and_flags(capsys) -> None:
+def test_shells_can_complete_commands_and_flags(capsys):
     with pytest.raises(SystemExit) as left:
         run(["--tyro-print-completion", "bash"])
     assert not left.value.code
@@ -60,13 +57,13 @@ def test_shells_can_complete_commands_and_flags(capsys) -> None:
     assert "--retry-rejected" in told
 
 
-def test_a_narrow_terminal_gets_fewer_columns_and_a_wide_one_all() -> None:
+def test_a_narrow_terminal_gets_fewer_columns_and_a_wide_one_all():
     columns = COLUMNS["physical"]
     assert _fitting(columns, 240) == columns
     assert 0 < len(_fitting(columns, 80)) < len(_fitting(columns, 120)) < len(columns)
 
 
-def test_the_doctor_says_what_is_missing_and_what_is_broken(monkeypatch, tmp_path) -> None:
+def test_the_doctor_says_what_is_missing_and_what_is_broken(monkeypatch, tmp_path):
     broken = Library("broken", "nothing", "json", _raises, "build", "another machine")
     missing = Library("missing", "nothing", "no_such_module", _raises, "build")
     fine = Library("fine", "nothing", "json", _fine, "build")
@@ -81,23 +78,21 @@ def test_the_doctor_says_what_is_missing_and_what_is_broken(monkeypatch, tmp_pat
 
 
 @pytest.mark.parametrize("name", SIMULATORS)
-def test_the_doctors_trial_is_one_that_engines_pass(name, monkeypatch, tmp_path) -> None:
+def test_the_doctors_trial_is_one_that_engines_pass(name, monkeypatch, tmp_path):
     monkeypatch.setattr(machine, "LIBRARIES", ())
     monkeypatch.setattr(machine, "SIMULATORS", {name: SIMULATORS[name]})
     found = {each.name: each for each in abilities(tmp_path)}
     assert found[name].health in (Health.WORKS, Health.MISSING), found[name]
 
 
-def test_the_doctor_prints_json_and_tells_whether_a_build_can_run(
-    monkeypatch, capsys, tmp_path
-) -> None:
+def test_the_doctor_prints_json_and_tells_whether_a_build_can_run(monkeypatch, capsys, tmp_path):
     monkeypatch.setattr(machine, "LIBRARIES", ())
     monkeypatch.setattr(machine, "SIMULATORS", {})
     assert run(["doctor", "--output", str(tmp_path), "--json"]) == 1
     assert [each["name"] for each in json.loads(capsys.readouterr().out)] == ["machine", "disk"]
 
 
-def test_a_quiet_build_says_nothing_and_a_json_build_one_summary(capsys, tmp_path: Path) -> None:
+def test_a_quiet_build_says_nothing_and_a_json_build_one_summary(capsys, tmp_path):
     (tmp_path / "brick.stl").write_text("solid nothing\nendsolid nothing\n")
     build = ["build", "--input", str(tmp_path / "brick.stl"), "--sim", "mujoco"]
     assert run([*build, "--output", str(tmp_path / "one"), "--quiet"]) == 0
@@ -106,9 +101,9 @@ def test_a_quiet_build_says_nothing_and_a_json_build_one_summary(capsys, tmp_pat
     assert json.loads(capsys.readouterr().out)["rejected"] == 1
 
 
-def _raises() -> str:
+def _raises():
     raise RuntimeError("it does not")
 
 
-def _fine() -> str:
+def _fine():
     return "as it should"

@@ -19,7 +19,7 @@ from asset_factory.sim_checks.processes.isolation import Outcome
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
 
 
-def found(asset: str, joint: str, robot: str = "panda", **facts: object) -> Attempt:
+def found(asset, joint, robot="panda", **facts):
     return replace(
         Attempt(asset, "d", joint, robot, 0, {"asset": asset, "joint": joint}, False), **facts
     )
@@ -46,7 +46,7 @@ def robots(monkeypatch):
     asked = []
 
     class Answers:
-        def __init__(self, workers: int, retries: int) -> None:
+        def __init__(self, workers, retries):
             pass
 
         def run(self, function, calls, limits):
@@ -70,7 +70,7 @@ def robots(monkeypatch):
     return asked
 
 
-def test_fetch_tries_what_panda_could_not_open(output, notes, robots, capsys) -> None:
+def test_fetch_tries_what_panda_could_not_open(output, notes, robots, capsys):
     assert command.run(command.Solve(output=output)) == Exit.OK
     panda = [
         ("cabinet", "hinge", "panda"),
@@ -85,9 +85,7 @@ def test_fetch_tries_what_panda_could_not_open(output, notes, robots, capsys) ->
     assert "[fetch 1/2] cabinet slide: solved in 7 steps" in printed.err
 
 
-def test_the_record_is_the_same_every_time_and_nothing_is_asked_twice(
-    output, notes, robots
-) -> None:
+def test_the_record_is_the_same_every_time_and_nothing_is_asked_twice(output, notes, robots):
     command.run(command.Solve(output=output))
     path = output / "solving" / "cabinet.json"
     first = path.read_bytes()
@@ -102,7 +100,7 @@ def test_the_record_is_the_same_every_time_and_nothing_is_asked_twice(
     assert not {"seconds", "actions"} & set(row)
 
 
-def test_an_altered_asset_and_more_tries_are_asked_again(output, notes, robots) -> None:
+def test_an_altered_asset_and_more_tries_are_asked_again(output, notes, robots):
     command.run(command.Solve(output=output, robot="panda"))
     robots.clear()
     command.run(command.Solve(output=output, robot="panda", tries=9))
@@ -114,12 +112,12 @@ def test_an_altered_asset_and_more_tries_are_asked_again(output, notes, robots) 
     assert robots == [("valve", "wheel", "panda")]
 
 
-def test_strict_tells_of_assets_that_nobody_opened(output, notes, robots) -> None:
+def test_strict_tells_of_assets_that_nobody_opened(output, notes, robots):
     assert command.run(command.Solve(output=output, strict=True)) == Exit.REJECTED
     assert command.run(command.Solve(ids=("cabinet",), output=output, strict=True)) == Exit.OK
 
 
-def test_one_joint_is_no_verdict_on_the_others(output, notes, robots) -> None:
+def test_one_joint_is_no_verdict_on_the_others(output, notes, robots):
     command.run(command.Solve(ids=("cabinet",), output=output, joint="slide", robot="panda"))
     assert robots == [("cabinet", "slide", "panda")]
     assert notes == {}
@@ -133,12 +131,12 @@ def test_one_joint_is_no_verdict_on_the_others(output, notes, robots) -> None:
         ({"timeout": 0.0}, "--timeout: is 0 s, want more than 0"),
     ],
 )
-def test_wrong_usage_is_named(output, notes, flags, words) -> None:
+def test_wrong_usage_is_named(output, notes, flags, words):
     with pytest.raises(ConfigError, match=words):
         command.run(command.Solve(output=output, **flags))
 
 
-def test_an_unknown_asset_or_joint_is_named(output, notes) -> None:
+def test_an_unknown_asset_or_joint_is_named(output, notes):
     with pytest.raises(RegistryError, match=r"no asset 'sofa' in .*; there are 'cabinet', 'valve'"):
         command.run(command.Solve(ids=("sofa",), output=output))
     with pytest.raises(
@@ -147,7 +145,7 @@ def test_an_unknown_asset_or_joint_is_named(output, notes) -> None:
         command.run(command.Solve(output=output, joint="lid"))
 
 
-def test_what_could_not_be_tried_is_asked_again_and_is_no_verdict() -> None:
+def test_what_could_not_be_tried_is_asked_again_and_is_no_verdict():
     record = SolveRecord("cabinet", "d").noting(
         found("cabinet", "hinge", reason="timeout", message="no answer"), 4
     )
@@ -162,7 +160,7 @@ def test_what_could_not_be_tried_is_asked_again_and_is_no_verdict() -> None:
 @pytest.mark.parametrize(
     "text", ["", "[]", '{"version": 1}', '{"version": 1, "digest": "d", "attempts": [{}]}']
 )
-def test_a_record_that_cannot_be_read_counts_as_none(tmp_path, text: str) -> None:
+def test_a_record_that_cannot_be_read_counts_as_none(tmp_path, text):
     (tmp_path / "solving").mkdir()
     (tmp_path / "solving" / "cabinet.json").write_text(text)
     assert read_record(tmp_path, "cabinet", "d") == SolveRecord("cabinet", "d")

@@ -1,7 +1,5 @@
 """Nothing that stands in a file steers a terminal: not its name, not a name in it."""
 
-from __future__ import annotations
-
 import io
 import os
 import re
@@ -20,7 +18,7 @@ SHOWN = r"\x1b]0;pwn\x07\x1b[2J\x9b31m\u202egnp.\udcff"
 OF_RICH = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 
 
-def steers(text: str) -> bool:
+def steers(text):
     return any(not (letter.isprintable() or letter in "\n\r") for letter in text)
 
 

@@ -1,7 +1,5 @@
 """Pictures show what they say: the open door is where it swings, the fault where it is."""
 
-from __future__ import annotations
-
 import io
 import os
 import subprocess
@@ -19,7 +17,7 @@ from asset_factory.factory.display.camera import Viewpoint
 from asset_factory.factory.display.casting import Caster
 from asset_factory.factory.display.made import plain_surface, scene_of
 from asset_factory.factory.display.pictures import FRAMES, HEIGHT, WIDTH, Fault, pictures_of, still
-from asset_factory.factory.display.scene import SceneGraph, SceneJoint, SceneSurface
+from asset_factory.factory.display.scene import SceneGraph, SceneJoint
 from asset_factory.factory.display.shading import Coloring
 from asset_factory.factory.display.sheet import MOST, SheetCell, contact_sheet
 
@@ -34,7 +32,7 @@ def pictures(scene):
     return pictures_of(scene, Fault({"hinge": 0.8}, (0.1, -0.3, 0.25)))
 
 
-def pixels(data: bytes) -> np.ndarray:
+def pixels(data):
     return np.asarray(Image.open(io.BytesIO(data)).convert("RGBA")).astype(int)
 
 
@@ -87,7 +85,7 @@ def test_everything_is_in_the_picture_and_seen_from_the_front(scene):
 
 
 def test_a_lid_is_seen_from_where_it_lets_one_in():
-    def box(link: int, low: tuple[float, ...], high: tuple[float, ...]) -> SceneSurface:
+    def box(link, low, high):
         shape = trimesh.creation.box(bounds=(low, high))
         return plain_surface(link, shape.vertices, shape.faces)
 

@@ -1,7 +1,5 @@
 """A scene moves as the asset's own articulation says, and comes back from its GLB unchanged."""
 
-from __future__ import annotations
-
 import io
 import json
 import struct
@@ -22,7 +20,7 @@ TEXTURED = Material("oak", (1.0, 0.9, 0.8, 1.0), image((120, 80, 40)))
 
 
 @pytest.fixture(scope="module")
-def scene() -> SceneGraph:
+def scene():
     return scene_of(cabinet((TEXTURED, Material("red", (0.8, 0.1, 0.1, 1.0)), TEXTURED)))
 
 

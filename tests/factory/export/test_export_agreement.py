@@ -11,14 +11,13 @@ import pytest
 from export_samples import PROVENANCE, box, boxes_asset
 
 from asset_factory.factory.articulation import Joint, JointKind, rotation_about
-from asset_factory.factory.asset import Asset, Inertial
+from asset_factory.factory.asset import Inertial
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.export.resistance import joint_resistances
-from asset_factory.sim_checks.description import Description
 from asset_factory.sim_checks.read.read import read_here
 
 
-def lopsided_asset() -> Asset:
+def lopsided_asset():
     """A body, a door that also turns inwards, a drawer in the door; no inertia along the axes."""
     centers = ([0.0, 0.0, 0.4], [0.1, -0.25, 0.4], [0.2, -0.35, 0.5])
     meshes = [box(center, [0.6, 0.1 + 0.1 * i, 0.3]) for i, center in enumerate(centers)]
@@ -36,7 +35,7 @@ def lopsided_asset() -> Asset:
 
 
 @pytest.fixture(scope="module", params=["urdf", "mjcf"])
-def said(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Description:
+def said(request, tmp_path_factory):
     """What a file of the exported asset says."""
     pytest.importorskip("mujoco", reason="mujoco is not installed")
     bundle = export_bundle(lopsided_asset(), PROVENANCE, tmp_path_factory.mktemp("bundle"))
@@ -44,7 +43,7 @@ def said(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
     return read_here(path)
 
 
-def test_every_link_has_the_mass_the_center_and_the_whole_tensor(said: Description) -> None:
+def test_every_link_has_the_mass_the_center_and_the_whole_tensor(said):
     asset = lopsided_asset()
     links = {link.name: link for link in said.links}
     for part, body in enumerate(asset.bodies):
@@ -55,7 +54,7 @@ def test_every_link_has_the_mass_the_center_and_the_whole_tensor(said: Descripti
         assert inertia.tensor == pytest.approx(body.inertial.tensor, abs=1e-7)
 
 
-def test_every_link_s_hulls_lie_where_the_asset_has_them(said: Description) -> None:
+def test_every_link_s_hulls_lie_where_the_asset_has_them(said):
     asset = lopsided_asset()
     links = {link.name: link for link in said.links}
     for part, body in enumerate(asset.bodies):
@@ -66,7 +65,7 @@ def test_every_link_s_hulls_lie_where_the_asset_has_them(said: Description) -> N
         assert there.max(axis=0) == pytest.approx(hull.vertices.max(axis=0), abs=1e-6)
 
 
-def test_every_joint_has_its_axis_both_limits_and_what_resists_it(said: Description) -> None:
+def test_every_joint_has_its_axis_both_limits_and_what_resists_it(said):
     asset = lopsided_asset()
     lines = {line.name: line for line in said.joints}
     for joint, resistance in zip(asset.articulation.joints, joint_resistances(asset), strict=True):
@@ -79,7 +78,7 @@ def test_every_joint_has_its_axis_both_limits_and_what_resists_it(said: Descript
         assert line.damping == pytest.approx(resistance.damping)
 
 
-def test_sdf_has_the_same_joints_and_tensors(tmp_path: Path) -> None:
+def test_sdf_has_the_same_joints_and_tensors(tmp_path):
     asset = lopsided_asset()
     export_bundle(asset, PROVENANCE, tmp_path, formats=("sdf",))
     model = ElementTree.parse(tmp_path / "asset.sdf").getroot().find("model")

@@ -1,10 +1,7 @@
 """The bundle folder: complete, reproducible, and saying what it holds."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
-from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
@@ -19,7 +16,7 @@ from asset_factory.factory.mesh import Material
 from asset_factory.factory.part import PartKind, PartSource, Proposer
 
 
-def content(folder: Path) -> dict[str, bytes]:
+def content(folder):
     return {
         p.relative_to(folder).as_posix(): p.read_bytes()
         for p in sorted(folder.rglob("*"))
@@ -27,33 +24,33 @@ def content(folder: Path) -> dict[str, bytes]:
     }
 
 
-def textured_cabinet() -> Asset:
+def textured_cabinet():
     return cabinet(
         [Material("wood", texture=image(c)) for c in ((255, 0, 0), (0, 255, 0), (0, 0, 255))]
     )
 
 
-def test_the_same_asset_gives_the_same_bytes_in_any_folder(tmp_path) -> None:
+def test_the_same_asset_gives_the_same_bytes_in_any_folder(tmp_path):
     export_bundle(textured_cabinet(), PROVENANCE, tmp_path / "one")
     export_bundle(textured_cabinet(), PROVENANCE, tmp_path / "two" / "elsewhere")
     assert content(tmp_path / "one") == content(tmp_path / "two" / "elsewhere")
 
 
-def test_exporting_again_leaves_nothing_of_the_bundle_before(tmp_path) -> None:
+def test_exporting_again_leaves_nothing_of_the_bundle_before(tmp_path):
     export_bundle(textured_cabinet(), PROVENANCE, tmp_path / "bundle")
     export_bundle(boxes_asset([box([0, 0, 0], [1, 1, 1])], ()), PROVENANCE, tmp_path / "bundle")
     export_bundle(boxes_asset([box([0, 0, 0], [1, 1, 1])], ()), PROVENANCE, tmp_path / "fresh")
     assert content(tmp_path / "bundle") == content(tmp_path / "fresh")
 
 
-def test_everything_named_in_the_urdf_exists_inside_the_folder(tmp_path) -> None:
+def test_everything_named_in_the_urdf_exists_inside_the_folder(tmp_path):
     bundle = export_bundle(textured_cabinet(), PROVENANCE, tmp_path)
     named = {mesh.get("filename", "") for mesh in ElementTree.parse(bundle.urdf).iter("mesh")}
     on_disk = {name for name in content(tmp_path) if name.endswith(".obj")}
     assert named == on_disk
 
 
-def test_parts_whose_textures_share_a_name_keep_their_own_picture(tmp_path) -> None:
+def test_parts_whose_textures_share_a_name_keep_their_own_picture(tmp_path):
     export_bundle(textured_cabinet(), PROVENANCE, tmp_path)
     pictures = []
     for part in range(3):
@@ -63,7 +60,7 @@ def test_parts_whose_textures_share_a_name_keep_their_own_picture(tmp_path) -> N
     assert pictures == [image(c).data for c in ((255, 0, 0), (0, 255, 0), (0, 0, 255))]
 
 
-def test_a_part_of_two_materials_is_written_as_two_visuals(tmp_path) -> None:
+def test_a_part_of_two_materials_is_written_as_two_visuals(tmp_path):
     two = cabinet([Material("a"), Material("b", (1.0, 0.0, 0.0, 1.0)), Material("c")])
     merged = Asset(
         "merged",
@@ -80,20 +77,20 @@ def test_a_part_of_two_materials_is_written_as_two_visuals(tmp_path) -> None:
     assert bundle.manifest.links[0].visuals == 3
 
 
-def test_only_handle_geometry_is_called_a_handle(tmp_path) -> None:
+def test_only_handle_geometry_is_called_a_handle(tmp_path):
     bundle = export_bundle(cabinet(), PROVENANCE, tmp_path)
     names = [v.get("name", "") for v in ElementTree.parse(bundle.urdf).iter("visual")]
     assert [n for n in names if "handle" in n] == ["handle_part_1_1"]
     assert (tmp_path / "meshes/visual/part_1_1.obj").read_text().count("\nf ") == 12
 
 
-def test_the_urdf_asks_for_no_renderer(tmp_path) -> None:
+def test_the_urdf_asks_for_no_renderer(tmp_path):
     tree = ElementTree.parse(export_bundle(textured_cabinet(), PROVENANCE, tmp_path).urdf)
     assert not list(tree.iter("material"))
     assert {child.tag for geometry in tree.iter("geometry") for child in geometry} == {"mesh"}
 
 
-def test_a_continuous_joint_has_no_limits_to_hit(tmp_path) -> None:
+def test_a_continuous_joint_has_no_limits_to_hit(tmp_path):
     wheel = Joint("spin", JointKind.CONTINUOUS, 0, 1, [0, 0, 1], [0, 0, 2], -np.pi, np.pi)
     asset = boxes_asset([box([0, 0, 0], [1, 1, 1]), box([0, 0, 2], [1, 1, 1])], (wheel,))
     bundle = export_bundle(asset, PROVENANCE, tmp_path)
@@ -104,7 +101,7 @@ def test_a_continuous_joint_has_no_limits_to_hit(tmp_path) -> None:
     assert bundle.manifest.joints[0].upper == pytest.approx(np.pi)
 
 
-def test_excluded_pairs_reach_mjcf_and_manifest_once(tmp_path) -> None:
+def test_excluded_pairs_reach_mjcf_and_manifest_once(tmp_path):
     pairs = (("part_1", "part_0"), ("part_0", "part_1"))
     bundle = export_bundle(cabinet(), PROVENANCE, tmp_path, pairs)
     assert [e.attrib for e in ElementTree.parse(bundle.mjcf).iter("exclude")] == [
@@ -113,12 +110,12 @@ def test_excluded_pairs_reach_mjcf_and_manifest_once(tmp_path) -> None:
     assert bundle.manifest.excluded_pairs == (("part_0", "part_1"),)
 
 
-def test_an_excluded_pair_of_unknown_parts_is_refused_with_the_names_there_are(tmp_path) -> None:
+def test_an_excluded_pair_of_unknown_parts_is_refused_with_the_names_there_are(tmp_path):
     with pytest.raises(ValueError, match=r"no part .lid.; there are .*part_2"):
         export_bundle(cabinet(), PROVENANCE, tmp_path, (("part_0", "lid"),))
 
 
-def test_the_manifest_is_what_was_written_and_measures_the_object(tmp_path) -> None:
+def test_the_manifest_is_what_was_written_and_measures_the_object(tmp_path):
     bundle = export_bundle(cabinet(), PROVENANCE, tmp_path)
     manifest = json.loads((tmp_path / "asset.json").read_text())
     assert Manifest.from_json(json.dumps(manifest)) == bundle.manifest
@@ -131,7 +128,7 @@ def test_the_manifest_is_what_was_written_and_measures_the_object(tmp_path) -> N
     assert hinge["handle"]["point"] == [0.5, -0.04, 0.0]
 
 
-def test_the_manifest_says_which_proposal_a_part_comes_from(tmp_path) -> None:
+def test_the_manifest_says_which_proposal_a_part_comes_from(tmp_path):
     asset = cabinet()
     body, door, drawer = asset.articulation.parts
     source = PartSource("sides-0123456789ab", Proposer.SIDES, 0.70004, {"shown": 1.5, "way": 0.25})
@@ -154,7 +151,7 @@ def test_the_manifest_says_which_proposal_a_part_comes_from(tmp_path) -> None:
     assert Manifest.from_json(json.dumps(older)).links[1].proposal is None
 
 
-def test_the_ground_offset_lifts_an_object_that_closes_below_its_input_pose(tmp_path) -> None:
+def test_the_ground_offset_lifts_an_object_that_closes_below_its_input_pose(tmp_path):
     drop = Joint("drop", JointKind.PRISMATIC, 0, 1, [0, 0, 1], [0, 0, 0], -0.5, 0.5)
     asset = boxes_asset([box([0, 0, 0], [1, 1, 1]), box([3, 0, 0], [1, 1, 1])], (drop,))
     assert export_bundle(asset, PROVENANCE, tmp_path).manifest.ground_offset == 1.0

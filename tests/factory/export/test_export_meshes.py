@@ -1,7 +1,5 @@
 """Exported meshes: nothing lost, nothing invented, every simulator's rules kept."""
 
-from __future__ import annotations
-
 import io
 
 import numpy as np
@@ -18,21 +16,21 @@ from asset_factory.factory.export.textures import TextureFolder, png_bytes
 from asset_factory.factory.mesh import Material, Mesh, Texture
 
 
-def load(text: str) -> trimesh.Trimesh:
+def load(text):
     return trimesh.load(io.StringIO(text), file_type="obj", process=False, maintain_order=True)
 
 
 @given(st.floats(-1e6, 1e6))
-def test_a_number_reads_back_within_half_a_nanometre(value: float) -> None:
+def test_a_number_reads_back_within_half_a_nanometre(value):
     # Far from zero, neighbouring doubles are themselves that far apart.
     assert abs(float(number(value)) - value) <= 0.5e-9 + 2.0 * np.spacing(abs(value))
 
 
-def test_negative_zero_is_written_as_zero() -> None:
+def test_negative_zero_is_written_as_zero():
     assert vector([-0.0, -1e-12, 1.0, 0.5]) == "0 0 1 0.5"
 
 
-def test_an_exported_hull_has_the_same_corners_and_volume() -> None:
+def test_an_exported_hull_has_the_same_corners_and_volume():
     hull = hull_of(box([1.0, 2.0, 3.0], [0.1, 0.2, 0.3]))
     loaded = load(hull_obj(hull, np.array([1.0, 2.0, 3.0])))
     assert len(loaded.vertices) == 8
@@ -40,14 +38,14 @@ def test_an_exported_hull_has_the_same_corners_and_volume() -> None:
     assert np.allclose(loaded.bounds, [[-0.05, -0.1, -0.15], [0.05, 0.1, 0.15]])
 
 
-def test_welded_vertices_stay_welded_and_a_box_keeps_its_sharp_edges() -> None:
+def test_welded_vertices_stay_welded_and_a_box_keeps_its_sharp_edges():
     text = visual_obj(box([0, 0, 0], [1, 1, 1]), np.zeros(3), "x.mtl", "x")
     assert text.count("\nv ") == 8
     assert text.count("\nvn ") == 6
     assert text.count("\nf ") == 12
 
 
-def test_a_missing_texture_coordinate_does_not_reach_the_file() -> None:
+def test_a_missing_texture_coordinate_does_not_reach_the_file():
     mesh = box([0, 0, 0], [1, 1, 1])
     uv = np.full((12, 3, 2), np.nan)
     uv[:6] = 0.25
@@ -64,7 +62,7 @@ def test_a_missing_texture_coordinate_does_not_reach_the_file() -> None:
     ]
 
 
-def test_given_normals_are_kept_and_missing_ones_are_the_faces_own() -> None:
+def test_given_normals_are_kept_and_missing_ones_are_the_faces_own():
     mesh = Mesh.from_triangles([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     normals = np.full((1, 3, 3), np.nan)
     normals[0, 0] = [1.0, 0.0, 0.0]
@@ -78,12 +76,12 @@ def test_given_normals_are_kept_and_missing_ones_are_the_faces_own() -> None:
     assert text.splitlines()[-1] == "f 1//2 2//1 3//1"
 
 
-def test_a_lone_triangle_is_padded_to_the_four_vertices_mujoco_wants() -> None:
+def test_a_lone_triangle_is_padded_to_the_four_vertices_mujoco_wants():
     mesh = Mesh.from_triangles([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     assert visual_obj(mesh, np.zeros(3), "m", "m").count("\nv ") == 4
 
 
-def test_a_material_names_its_texture_and_colour() -> None:
+def test_a_material_names_its_texture_and_colour():
     text = material_mtl(Material("wood", (0.5, 0.25, 1.0, 0.5)), "door_0", "texture.png")
     assert text.splitlines() == [
         "newmtl door_0",
@@ -95,14 +93,14 @@ def test_a_material_names_its_texture_and_colour() -> None:
     ]
 
 
-def test_a_jpeg_becomes_a_png_of_the_same_picture() -> None:
+def test_a_jpeg_becomes_a_png_of_the_same_picture():
     texture = image((0, 0, 0), "JPEG")
     decoded = Image.open(io.BytesIO(png_bytes(texture)))
     assert decoded.format == "PNG"
     assert np.array_equal(np.asarray(decoded), np.asarray(Image.open(io.BytesIO(texture.data))))
 
 
-def test_a_palette_png_is_made_plain_and_a_plain_one_keeps_its_bytes() -> None:
+def test_a_palette_png_is_made_plain_and_a_plain_one_keeps_its_bytes():
     buffer = io.BytesIO()
     Image.new("P", (4, 4), 3).save(buffer, format="PNG")
     assert Image.open(io.BytesIO(png_bytes(Texture(buffer.getvalue(), ".png")))).mode == "RGB"
@@ -110,7 +108,7 @@ def test_a_palette_png_is_made_plain_and_a_plain_one_keeps_its_bytes() -> None:
     assert png_bytes(plain) == plain.data
 
 
-def test_a_broken_image_leaves_a_plain_colour_and_a_sentence(tmp_path) -> None:
+def test_a_broken_image_leaves_a_plain_colour_and_a_sentence(tmp_path):
     textures = TextureFolder(tmp_path)
     assert textures.file_name(Material("wood", texture=Texture(b"not an image", ".png"))) is None
     assert "'wood'" in textures.notes[0]

@@ -1,7 +1,5 @@
 """Default friction and damping: not at the slightest touch, and not beyond a robot."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +7,7 @@ import pytest
 from export_samples import box, boxes_asset, cabinet
 
 from asset_factory.factory.articulation import Joint, JointKind
-from asset_factory.factory.asset import Asset, Inertial
+from asset_factory.factory.asset import Inertial
 from asset_factory.factory.export.links import safe_tensor
 from asset_factory.factory.export.resistance import (
     GRAVITY,
@@ -18,11 +16,11 @@ from asset_factory.factory.export.resistance import (
 )
 
 
-def one_joint(joint: Joint, child_center=(0.0, 0.0, 2.0)) -> Asset:
+def one_joint(joint, child_center=(0.0, 0.0, 2.0)):
     return boxes_asset([box([0, 0, 0], [1, 1, 1]), box(child_center, [0.4, 0.02, 0.6])], (joint,))
 
 
-def test_what_the_articulation_states_wins() -> None:
+def test_what_the_articulation_states_wins():
     joint = Joint(
         "j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 2], 0, 1, damping=0.25, friction=0.0
     )
@@ -30,7 +28,7 @@ def test_what_the_articulation_states_wins() -> None:
     assert (resistance.damping, resistance.friction) == (0.25, 0.0)
 
 
-def test_damping_that_explicit_engines_cannot_bear_is_lowered_and_told() -> None:
+def test_damping_that_explicit_engines_cannot_bear_is_lowered_and_told():
     joint = Joint("j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 2], 0, 1, damping=500.0)
     asset = one_joint(joint)
     (resistance,) = resistances = joint_resistances(asset)
@@ -42,7 +40,7 @@ def test_damping_that_explicit_engines_cannot_bear_is_lowered_and_told() -> None
     assert resistance_notes(cabinet(), joint_resistances(cabinet())) == ()
 
 
-def test_friction_that_no_arm_can_overcome_is_lowered_and_told() -> None:
+def test_friction_that_no_arm_can_overcome_is_lowered_and_told():
     slide = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 1, 0], [0, 0, 2], 0, 0.3, friction=100.0)
     asset = one_joint(slide)
     (resistance,) = resistances = joint_resistances(asset)
@@ -51,7 +49,7 @@ def test_friction_that_no_arm_can_overcome_is_lowered_and_told() -> None:
     assert "friction 100" in note
 
 
-def test_friction_that_stops_all_that_bullet_can_turn_is_lowered_and_told() -> None:
+def test_friction_that_stops_all_that_bullet_can_turn_is_lowered_and_told():
     hinge = Joint("j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 2], 0, 1, friction=0.01)
     asset = one_joint(hinge)
     flap = Inertial(0.005, np.array([0.0, 0.0, 2.0]), np.eye(3) * 2e-7)
@@ -63,7 +61,7 @@ def test_friction_that_stops_all_that_bullet_can_turn_is_lowered_and_told() -> N
     assert "friction 0.01" in note
 
 
-def test_friction_beyond_reason_counts_as_not_stated_and_is_told() -> None:
+def test_friction_beyond_reason_counts_as_not_stated_and_is_told():
     slide = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 1, 0], [0, 0, 2], 0, 0.3, friction=1e4)
     asset = one_joint(slide)
     (resistance,) = joint_resistances(asset)
@@ -72,19 +70,19 @@ def test_friction_beyond_reason_counts_as_not_stated_and_is_told() -> None:
     assert "friction 1e+04" in note
 
 
-def test_damping_never_takes_more_than_an_arm_to_open_in_three_seconds() -> None:
+def test_damping_never_takes_more_than_an_arm_to_open_in_three_seconds():
     slide = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 1, 0], [0, 0, 2], 0, 6.0, damping=200.0)
     (resistance,) = joint_resistances(one_joint(slide))
     assert resistance.damping * 6.0 / 3.0 == pytest.approx(30.0)
 
 
-def test_a_door_needs_a_newton_or_so_at_its_rim() -> None:
+def test_a_door_needs_a_newton_or_so_at_its_rim():
     hinge, slide = joint_resistances(cabinet())
     assert 0.5 <= hinge.friction / 0.56 <= 3.0
     assert 1.0 <= slide.friction <= 5.0
 
 
-def test_damping_is_inertia_over_half_a_second_by_the_parallel_axis_theorem() -> None:
+def test_damping_is_inertia_over_half_a_second_by_the_parallel_axis_theorem():
     joint = Joint("j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [-0.2, 0.0, 2.0], 0, 1)
     (resistance,) = joint_resistances(one_joint(joint))
     inertia = 2.0 / 12.0 * (0.4**2 + 0.02**2) + 2.0 * 0.2**2
@@ -92,13 +90,13 @@ def test_damping_is_inertia_over_half_a_second_by_the_parallel_axis_theorem() ->
     assert resistance.armature == pytest.approx(0.01 * inertia)
 
 
-def test_a_door_that_gravity_would_open_is_held_closed() -> None:
+def test_a_door_that_gravity_would_open_is_held_closed():
     hinge = Joint("j", JointKind.REVOLUTE, 0, 1, [1, 0, 0], [0.0, 0.0, 2.0], 0, 1.5)
     (resistance,) = joint_resistances(one_joint(hinge, child_center=(0.0, -0.5, 2.0)))
     assert resistance.friction == pytest.approx(1.2 * 2.0 * GRAVITY * 0.5)
 
 
-def weighing(asset: Asset, mass: float) -> Asset:
+def weighing(asset, mass):
     """The asset with its last part so heavy [kg]."""
     body = asset.bodies[-1]
     ratio = mass / body.inertial.mass
@@ -108,9 +106,7 @@ def weighing(asset: Asset, mass: float) -> Asset:
 
 @pytest.mark.parametrize("mass", [0.1, 2.0, 9.6, 80.0])
 @pytest.mark.parametrize("kind", [JointKind.PRISMATIC, JointKind.REVOLUTE])
-def test_what_is_chosen_here_is_never_more_than_a_light_hand_pulls(
-    mass: float, kind: JointKind
-) -> None:
+def test_what_is_chosen_here_is_never_more_than_a_light_hand_pulls(mass, kind):
     """9.6 kg that slide down would be held by 113 N, which the validator refuses."""
     axis = [0, 0, -1] if kind is JointKind.PRISMATIC else [1, 0, 0]
     joint = Joint("j", kind, 0, 1, axis, [0.0, 0.0, 2.0], 0.0, 1.5)
@@ -124,18 +120,18 @@ def test_what_is_chosen_here_is_never_more_than_a_light_hand_pulls(
 
 
 @pytest.mark.parametrize(("stated", "written"), [(0.0, 0.0), (25.0, 25.0), (100.0, 30.0)])
-def test_what_is_stated_is_not_held_against_a_light_hand(stated: float, written: float) -> None:
+def test_what_is_stated_is_not_held_against_a_light_hand(stated, written):
     slide = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, 2], 0, 0.3, friction=stated)
     (resistance,) = joint_resistances(weighing(one_joint(slide), 9.6))
     assert resistance.friction == written
 
 
-def test_gravity_that_closes_a_joint_adds_no_friction() -> None:
+def test_gravity_that_closes_a_joint_adds_no_friction():
     lift = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 0, 1], [0.0, 0.0, 2.0], 0, 0.5)
     assert joint_resistances(one_joint(lift))[0].friction == 1.0
 
 
-def test_a_fixed_joint_resists_nothing() -> None:
+def test_a_fixed_joint_resists_nothing():
     assert (
         joint_resistances(one_joint(Joint("j", JointKind.FIXED, 0, 1, [0, 0, 1], [0, 0, 2])))[
             0
@@ -144,7 +140,7 @@ def test_a_fixed_joint_resists_nothing() -> None:
     )
 
 
-def test_carried_parts_are_the_whole_subtree() -> None:
+def test_carried_parts_are_the_whole_subtree():
     chain = tuple(
         Joint(f"j{i}", JointKind.REVOLUTE, parent, i, [0, 0, 1], [0, 0, i], 0, 1)
         for i, parent in ((1, 0), (2, 1), (3, 0), (4, 2))
@@ -154,7 +150,7 @@ def test_carried_parts_are_the_whole_subtree() -> None:
     assert asset.articulation.carried(3) == (3,)
 
 
-def test_a_flat_plate_is_lifted_off_the_border_of_the_triangle_inequality() -> None:
+def test_a_flat_plate_is_lifted_off_the_border_of_the_triangle_inequality():
     moments = np.linalg.eigvalsh(safe_tensor(Inertial(1.0, np.zeros(3), np.diag([1.0, 2.0, 3.0]))))
     assert moments[0] + moments[1] - moments[2] == pytest.approx(3e-6)
     solid = Inertial(1.0, np.zeros(3), np.eye(3))

@@ -1,12 +1,9 @@
 """What was exported moves in every simulator exactly as the articulation says."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -17,7 +14,7 @@ from hypothesis import strategies as st
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, rotation_about
 from asset_factory.factory.asset import Asset
-from asset_factory.factory.export import Bundle, export_bundle
+from asset_factory.factory.export import export_bundle
 from asset_factory.factory.mesh import Material, Mesh
 from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 
@@ -26,7 +23,7 @@ MOVING = [JointKind.REVOLUTE, JointKind.CONTINUOUS, JointKind.PRISMATIC, JointKi
 
 
 @st.composite
-def assets(draw: st.DrawFn) -> Asset:
+def assets(draw):
     """Random trees of boxes: any kind of joint, any axis, some limits below zero."""
     kinds = draw(st.lists(st.sampled_from(MOVING), min_size=1, max_size=5))
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
@@ -47,11 +44,11 @@ def assets(draw: st.DrawFn) -> Asset:
     return boxes_asset(meshes, tuple(joints))
 
 
-def joint_values(articulation: Articulation, fraction: float) -> dict[str, float]:
+def joint_values(articulation, fraction):
     return {j.name: j.lower + fraction * j.range for j in articulation.joints}
 
 
-def link_frames(articulation: Articulation, values: dict[str, float]) -> np.ndarray:
+def link_frames(articulation, values):
     """Poses of the link frames in the world, shape [part_count, 4, 4]."""
     rest = np.tile(np.eye(4), (len(articulation.parts), 1, 1))
     for part in range(len(articulation.parts)):
@@ -59,7 +56,7 @@ def link_frames(articulation: Articulation, values: dict[str, float]) -> np.ndar
     return articulation.poses(values) @ rest
 
 
-def urdf_frames(path: Path, values: dict[str, float]) -> dict[str, np.ndarray]:
+def urdf_frames(path, values):
     """Forward kinematics by the URDF specification alone."""
     root = ElementTree.parse(path).getroot()
     frames = {root.find("link").get("name"): np.eye(4)}
@@ -82,7 +79,7 @@ def urdf_frames(path: Path, values: dict[str, float]) -> dict[str, np.ndarray]:
 
 @settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(asset=assets(), fraction=st.floats(0.0, 1.0))
-def test_the_urdf_has_the_articulations_forward_kinematics(asset: Asset, fraction: float) -> None:
+def test_the_urdf_has_the_articulations_forward_kinematics(asset, fraction):
     values = joint_values(asset.articulation, fraction)
     with TemporaryDirectory() as folder:
         read = urdf_frames(export_bundle(asset, PROVENANCE, Path(folder)).urdf, values)
@@ -94,7 +91,7 @@ def test_the_urdf_has_the_articulations_forward_kinematics(asset: Asset, fractio
 
 @settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(asset=assets())
-def test_mujoco_puts_every_link_where_the_articulation_does(asset: Asset) -> None:
+def test_mujoco_puts_every_link_where_the_articulation_does(asset):
     mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
     with TemporaryDirectory() as folder:
         model = mujoco.MjModel.from_xml_path(
@@ -113,9 +110,7 @@ def test_mujoco_puts_every_link_where_the_articulation_does(asset: Asset) -> Non
             assert np.allclose(data.body(part.name).xmat.reshape(3, 3), frame[:3, :3], atol=1e-6)
 
 
-def sapien_frames(
-    path: str, settings_of: list[dict[str, float]]
-) -> tuple[list[dict[str, Any]], list[int]]:
+def sapien_frames(path, settings_of):
     """Runs in a child: link poses for each setting of the joints, and collision shapes per link."""
     import sapien
 
@@ -135,7 +130,7 @@ def sapien_frames(
     return frames, [len(link.collision_shapes) for link in articulation.links]
 
 
-def exported(asset: Asset, folder: Path) -> Bundle:
+def exported(asset, folder):
     return export_bundle(asset, PROVENANCE, folder)
 
 
@@ -143,7 +138,7 @@ def exported(asset: Asset, folder: Path) -> Bundle:
     max_examples=3, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
 )
 @given(asset=assets())
-def test_sapien_puts_every_link_where_the_articulation_does(asset: Asset) -> None:
+def test_sapien_puts_every_link_where_the_articulation_does(asset):
     pytest.importorskip("sapien", reason="sapien is not installed")
     cases = [joint_values(asset.articulation, f) for f in (0.0, 0.4, 1.0)]
     with TemporaryDirectory() as folder:
@@ -156,7 +151,7 @@ def test_sapien_puts_every_link_where_the_articulation_does(asset: Asset) -> Non
             assert np.allclose(frames[part.name], frame, atol=2e-6)
 
 
-def pybullet_masses(path: str) -> list[float]:
+def pybullet_masses(path):
     """Runs in a child: the mass of every link, root first."""
     import pybullet
 
@@ -170,7 +165,7 @@ def pybullet_masses(path: str) -> list[float]:
 
 
 @pytest.mark.parametrize("jointed", [True, False])
-def test_pybullet_loads_a_bundle_with_and_without_joints(tmp_path: Path, jointed: bool) -> None:
+def test_pybullet_loads_a_bundle_with_and_without_joints(tmp_path, jointed):
     pytest.importorskip("pybullet", reason="pybullet is not installed")
     asset = cabinet() if jointed else boxes_asset([box([0, 0, 0], [1, 1, 1])], ())
     masses = run_isolated(
@@ -180,7 +175,7 @@ def test_pybullet_loads_a_bundle_with_and_without_joints(tmp_path: Path, jointed
     assert masses[1:] == [body.inertial.mass for body in asset.bodies[1:]]
 
 
-def pybullet_turned(path: str) -> tuple[float, float]:
+def pybullet_turned(path):
     """Runs in a child: friction of the first joint, and where three times it takes the joint."""
     import pybullet
 
@@ -195,7 +190,7 @@ def pybullet_turned(path: str) -> tuple[float, float]:
     return friction, pybullet.getJointState(body, 0)[0]
 
 
-def test_pybullet_opens_a_flap_of_five_grams(tmp_path: Path) -> None:
+def test_pybullet_opens_a_flap_of_five_grams(tmp_path):
     pytest.importorskip("pybullet", reason="pybullet is not installed")
     hinge = Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [-0.004, 0.0, 2.0], 0.0, 2.5)
     plate = box([0, 0, 2], [0.008, 0.001, 0.012])
@@ -208,7 +203,7 @@ def test_pybullet_opens_a_flap_of_five_grams(tmp_path: Path) -> None:
     assert turned > 2.4
 
 
-def test_mujoco_sees_each_parts_own_texture_and_only_hulls_collide(tmp_path: Path) -> None:
+def test_mujoco_sees_each_parts_own_texture_and_only_hulls_collide(tmp_path):
     mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
     colors = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
     looks = [
@@ -224,7 +219,7 @@ def test_mujoco_sees_each_parts_own_texture_and_only_hulls_collide(tmp_path: Pat
     assert set(model.geom_group[~collides]) == {2}
 
 
-def test_mujoco_holds_what_friction_should_hold(tmp_path: Path) -> None:
+def test_mujoco_holds_what_friction_should_hold(tmp_path):
     mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
     down = Joint("press", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, -1], 0.0, 0.02)
     asset = boxes_asset([box([0, 0, 0], [1, 1, 1]), box([0, 0, -1], [0.1, 0.1, 0.02])], (down,))
@@ -238,7 +233,7 @@ def test_mujoco_holds_what_friction_should_hold(tmp_path: Path) -> None:
     assert data.joint("press").qpos[0] - 0.01 == pytest.approx(2e-5, rel=0.1)
 
 
-def test_mujoco_takes_flat_visuals_lone_triangles_and_carriers(tmp_path: Path) -> None:
+def test_mujoco_takes_flat_visuals_lone_triangles_and_carriers(tmp_path):
     mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
     triangle = Mesh.from_triangles([[0, 0, 1], [1, 0, 1], [0, 1, 1]], [[0, 1, 2]])
     solid = box([0, 0, 1], [0.2, 0.2, 0.2])

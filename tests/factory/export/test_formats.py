@@ -1,17 +1,13 @@
 """Every format says the same, to every reader that is installed."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from export_samples import PROVENANCE, box, boxes_asset, cabinet
 from format_readers import READERS, animated_glb, pxr_usd
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind
-from asset_factory.factory.asset import Asset
+from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.export.formats import FORMATS, formats_named
@@ -21,7 +17,7 @@ SHARES = (0.0, 0.25, 0.5, 0.8, 1.0)
 KINDS = (JointKind.REVOLUTE, JointKind.CONTINUOUS, JointKind.PRISMATIC, JointKind.FIXED)
 
 
-def tree_of_boxes(seed: int) -> Asset:
+def tree_of_boxes(seed):
     """A random tree of one to six boxes behind joints of any kind and any axis."""
     rng = np.random.default_rng(seed)
     count = int(rng.integers(1, 7))
@@ -49,7 +45,7 @@ def tree_of_boxes(seed: int) -> Asset:
     return boxes_asset(meshes, tuple(joints))
 
 
-def frames(articulation: Articulation, values: dict[str, float]) -> dict[str, np.ndarray]:
+def frames(articulation, values):
     """Poses of the links in the world, as the articulation says."""
     poses = articulation.poses(values)
     found = {}
@@ -61,7 +57,7 @@ def frames(articulation: Articulation, values: dict[str, float]) -> dict[str, np
 
 
 @pytest.fixture(scope="module")
-def bundles(tmp_path_factory: pytest.TempPathFactory) -> list[tuple[Asset, Path]]:
+def bundles(tmp_path_factory):
     made = [tree_of_boxes(seed) for seed in range(11)]
     made.append(cabinet())
     folder = tmp_path_factory.mktemp("bundles")

@@ -1,7 +1,5 @@
 """Triangles cut along planes and to boxes: what is inside stays, exactly."""
 
-from __future__ import annotations
-
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -12,17 +10,17 @@ from asset_factory.factory.geometry.cutting import clip_to_box, cut_at_zero
 from asset_factory.factory.geometry.triangles import meet_box
 
 
-def area(triangles: np.ndarray) -> float:
+def area(triangles):
     edges = triangles[:, 1:] - triangles[:, :1]
     return float(np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum() / 2.0)
 
 
-def surface(low: float, high: float) -> np.ndarray:
+def surface(low, high):
     solid = box((low, high), (low, high), (low, high), PLAIN)
     return solid.vertices[solid.faces]
 
 
-def test_the_surface_of_a_cube_in_a_smaller_box_is_what_a_knife_leaves() -> None:
+def test_the_surface_of_a_cube_in_a_smaller_box_is_what_a_knife_leaves():
     inside = clip_to_box(
         surface(0.0, 1.0), np.array([-1.0, -1.0, -1.0]), np.array([0.25, 2.0, 2.0])
     )
@@ -30,13 +28,13 @@ def test_the_surface_of_a_cube_in_a_smaller_box_is_what_a_knife_leaves() -> None
     assert inside[..., 0].max() == 0.25
 
 
-def test_a_box_within_a_solid_holds_nothing_of_its_surface() -> None:
+def test_a_box_within_a_solid_holds_nothing_of_its_surface():
     assert not len(clip_to_box(surface(0.0, 1.0), np.full(3, 0.4), np.full(3, 0.6)))
 
 
 @settings(max_examples=40)
 @given(st.integers(0, 2**32 - 1))
-def test_two_halves_make_the_whole(seed: int) -> None:
+def test_two_halves_make_the_whole(seed):
     rng = np.random.default_rng(seed)
     triangles = rng.uniform(-1.0, 1.0, (12, 3, 3))
     cut = rng.uniform(-0.5, 0.5)
@@ -51,7 +49,7 @@ def test_two_halves_make_the_whole(seed: int) -> None:
 
 @settings(max_examples=40)
 @given(st.integers(0, 2**32 - 1))
-def test_triangles_that_meet_a_box_are_those_of_which_it_holds_some(seed: int) -> None:
+def test_triangles_that_meet_a_box_are_those_of_which_it_holds_some(seed):
     rng = np.random.default_rng(seed)
     triangles = rng.uniform(-1.0, 1.0, (1, 1, 3)) + rng.uniform(-0.6, 0.6, (20, 3, 3))
     low = np.array([-0.3, -0.2, -0.4])
@@ -60,7 +58,7 @@ def test_triangles_that_meet_a_box_are_those_of_which_it_holds_some(seed: int) -
     assert meet_box(triangles, low, high).tolist() == some
 
 
-def test_pieces_keep_what_is_linear_on_their_triangles() -> None:
+def test_pieces_keep_what_is_linear_on_their_triangles():
     triangles = surface(0.0, 1.0)
     height = triangles[:, :, 0] - 0.3
     pieces = cut_at_zero(height)

@@ -1,7 +1,5 @@
 """Connected components: double-sided sheets hold together, boxes that touch stay apart."""
 
-from __future__ import annotations
-
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -13,21 +11,21 @@ CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], 
 SIDES = np.array([int(corner) for corner in "013032467475045051237276026064157173"]).reshape(-1, 3)
 
 
-def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> Mesh:
+def box(low, high):
     return Mesh.from_triangles(np.array(low) + CORNERS * (np.array(high) - np.array(low)), SIDES)
 
 
-def test_a_box_is_one_component() -> None:
+def test_a_box_is_one_component():
     assert connected_components(box((0, 0, 0), (1, 1, 1))).tolist() == [0] * 12
 
 
-def test_a_mesh_without_faces_has_no_labels() -> None:
+def test_a_mesh_without_faces_has_no_labels():
     assert connected_components(Mesh.from_triangles(np.zeros((0, 3)), np.zeros((0, 3)))).shape == (
         0,
     )
 
 
-def test_vertices_repeated_at_a_seam_do_not_split_a_box() -> None:
+def test_vertices_repeated_at_a_seam_do_not_split_a_box():
     welded = box((0, 0, 0), (1, 1, 1))
     loose = Mesh.from_triangles(
         welded.vertices[welded.faces].reshape(-1, 3), np.arange(36).reshape(-1, 3)
@@ -35,19 +33,19 @@ def test_vertices_repeated_at_a_seam_do_not_split_a_box() -> None:
     assert connected_components(loose).tolist() == [0] * 12
 
 
-def test_a_double_sided_sheet_is_one_component() -> None:
+def test_a_double_sided_sheet_is_one_component():
     sheet = Mesh.from_triangles(
         [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3], [2, 1, 0], [3, 2, 0]]
     )
     assert connected_components(sheet).tolist() == [0, 0, 0, 0]
 
 
-def test_boxes_that_share_only_an_edge_stay_apart() -> None:
+def test_boxes_that_share_only_an_edge_stay_apart():
     pair = concatenate([box((0, 0, 0), (1, 1, 1)), box((1, 1, 0), (2, 2, 1))])
     assert connected_components(pair).tolist() == [0] * 12 + [1] * 12
 
 
-def test_a_face_without_area_joins_the_component_at_its_vertex() -> None:
+def test_a_face_without_area_joins_the_component_at_its_vertex():
     solid = box((0, 0, 0), (1, 1, 1))
     mesh = Mesh.from_triangles(solid.vertices, np.vstack([solid.faces, [[0, 0, 1]]]))
     assert connected_components(mesh).tolist() == [0] * 13
@@ -55,7 +53,7 @@ def test_a_face_without_area_joins_the_component_at_its_vertex() -> None:
 
 @settings(max_examples=25, deadline=None)
 @given(st.permutations(range(36)), st.floats(-0.2, 0.2))
-def test_components_do_not_depend_on_the_order_of_faces(order: list[int], angle: float) -> None:
+def test_components_do_not_depend_on_the_order_of_faces(order, angle):
     three = concatenate([box((2.0 * k, 0, 0), (2.0 * k + 1, 1, 1)) for k in range(3)])
     shuffled = Mesh.from_triangles(three.vertices, three.faces[order])
     labels = connected_components(shuffled)

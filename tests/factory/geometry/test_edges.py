@@ -1,7 +1,5 @@
 """Edges that two faces share, and groups of what is linked."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.geometry.edges import label_linked, shared_edges
@@ -10,7 +8,7 @@ from asset_factory.factory.geometry.edges import label_linked, shared_edges
 CLOSED = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
 
 
-def test_every_edge_of_a_closed_surface_is_shared_by_two_faces_wound_alike() -> None:
+def test_every_edge_of_a_closed_surface_is_shared_by_two_faces_wound_alike():
     shared = shared_edges(CLOSED)
     assert shared.vertices.tolist() == [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]]
     assert shared.alike.all()
@@ -18,19 +16,19 @@ def test_every_edge_of_a_closed_surface_is_shared_by_two_faces_wound_alike() -> 
         assert all(np.isin(edge, CLOSED[face]).all() for face in faces)
 
 
-def test_a_face_turned_round_is_not_wound_as_its_neighbours() -> None:
+def test_a_face_turned_round_is_not_wound_as_its_neighbours():
     faces = CLOSED.copy()
     faces[0] = faces[0, ::-1]
     shared = shared_edges(faces)
     assert (shared.alike == ~(shared.faces == 0).any(axis=1)).all()
 
 
-def test_edges_of_one_or_three_faces_are_not_shared() -> None:
+def test_edges_of_one_or_three_faces_are_not_shared():
     fan = np.array([[0, 1, 2], [0, 1, 3], [0, 1, 4]])
     assert not len(shared_edges(fan).faces)
     assert not len(shared_edges(np.zeros((0, 3), dtype=np.int64)).faces)
 
 
-def test_what_is_linked_is_one_group() -> None:
+def test_what_is_linked_is_one_group():
     assert label_linked(5, np.array([[3, 1], [4, 2]])).tolist() == [0, 1, 2, 1, 2]
     assert label_linked(2, np.zeros((0, 2), dtype=np.int64)).tolist() == [0, 1]

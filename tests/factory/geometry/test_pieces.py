@@ -9,13 +9,13 @@ from asset_factory.factory.geometry.pieces import Sheet, pieces
 from asset_factory.factory.models.particulate.surface import Surface
 
 
-def sheet_of(shape: trimesh.Trimesh, colors: np.ndarray | None = None) -> Sheet:
+def sheet_of(shape, colors=None):
     edges = shape.face_adjacency_edges
     lengths = np.linalg.norm(shape.vertices[edges[:, 0]] - shape.vertices[edges[:, 1]], axis=1)
     return Sheet(shape.area_faces, shape.face_normals, shape.face_adjacency, lengths, colors)
 
 
-def board(height: np.ndarray) -> trimesh.Trimesh:
+def board(height):
     """A closed board of 61 x 41 points, 10 mm apart, whose top lies at a height [m] each."""
     x, y = np.meshgrid(np.arange(61) * 0.01, np.arange(41) * 0.01, indexing="ij")
     top = np.stack([x, y, height], axis=-1).reshape(-1, 3)
@@ -39,14 +39,14 @@ def board(height: np.ndarray) -> trimesh.Trimesh:
     return trimesh.Trimesh(vertices, closed, process=False)
 
 
-def grooved() -> np.ndarray:
+def grooved():
     """Two panels parted by a groove 3 mm deep."""
     height = np.zeros((61, 41))
     height[30] = -0.003
     return height
 
 
-def test_a_groove_parts_a_skin() -> None:
+def test_a_groove_parts_a_skin():
     shape = board(grooved())
     found = pieces(sheet_of(shape))
     up = shape.face_normals[:, 2] > 0.99
@@ -56,11 +56,11 @@ def test_a_groove_parts_a_skin() -> None:
     assert left[0] != right[0]
 
 
-def test_a_flat_skin_is_parted_at_its_edges_alone() -> None:
+def test_a_flat_skin_is_parted_at_its_edges_alone():
     assert len(np.unique(pieces(sheet_of(board(np.zeros((61, 41))))))) == 6
 
 
-def test_a_jump_of_colour_parts_a_flat_skin() -> None:
+def test_a_jump_of_colour_parts_a_flat_skin():
     shape = board(np.zeros((61, 41)))
     dark = (shape.triangles_center[:, 0] < 0.2) & (shape.face_normals[:, 2] > 0.5)
     colors = np.where(dark[:, None], 0.2, 0.8) * np.ones(3)
@@ -69,19 +69,19 @@ def test_a_jump_of_colour_parts_a_flat_skin() -> None:
     assert len(np.unique(found)) == 7
 
 
-def test_crumbs_go_to_what_surrounds_them() -> None:
+def test_crumbs_go_to_what_surrounds_them():
     height = np.zeros((61, 41))
     height[10, 10] = 0.02
     assert len(np.unique(pieces(sheet_of(board(height))))) == 6
 
 
-def test_components_of_a_modelled_mesh_are_its_pieces() -> None:
+def test_components_of_a_modelled_mesh_are_its_pieces():
     boxes = [trimesh.creation.box((1, 1, 1)).apply_translation([2 * k, 0, 0]) for k in range(3)]
     found = pieces(sheet_of(trimesh.util.concatenate(boxes)))
     assert (found == np.repeat(np.arange(3), 12)).all()
 
 
-def test_a_large_skin_with_crumbs_is_cut_and_the_crumbs_are_not() -> None:
+def test_a_large_skin_with_crumbs_is_cut_and_the_crumbs_are_not():
     crumb = trimesh.creation.box((0.02, 0.02, 0.02)).apply_translation([0.0, 0.0, 1.0])
     found = pieces(sheet_of(trimesh.util.concatenate([board(grooved()), crumb])))
     assert len(np.unique(found[-12:])) == 1
@@ -90,7 +90,7 @@ def test_a_large_skin_with_crumbs_is_cut_and_the_crumbs_are_not() -> None:
 
 @given(st.integers(0, 1000))
 @settings(max_examples=10)
-def test_pieces_do_not_depend_on_the_order_of_faces(seed: int) -> None:
+def test_pieces_do_not_depend_on_the_order_of_faces(seed):
     shape = board(grooved())
     order = np.random.default_rng(seed).permutation(len(shape.faces))
     shuffled = trimesh.Trimesh(shape.vertices, shape.faces[order], process=False)
@@ -100,7 +100,7 @@ def test_pieces_do_not_depend_on_the_order_of_faces(seed: int) -> None:
     assert pairs.shape[1] == len(np.unique(before)) == len(np.unique(after))
 
 
-def test_a_surface_knows_its_pieces() -> None:
+def test_a_surface_knows_its_pieces():
     shape = board(grooved())
     surface = Surface.of(np.asarray(shape.vertices), np.asarray(shape.faces))
     up = shape.face_normals[:, 2] > 0.99

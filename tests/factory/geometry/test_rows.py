@@ -1,9 +1,6 @@
 """Equal rows of a table."""
 
-from __future__ import annotations
-
 import numpy as np
-import numpy.typing as npt
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
@@ -18,7 +15,7 @@ TABLES = hnp.arrays(
 
 
 @given(TABLES)
-def test_they_are_those_that_numpy_finds(rows: npt.NDArray[np.generic]) -> None:
+def test_they_are_those_that_numpy_finds(rows):
     first, which = distinct_rows(rows)
     _, index, inverse = np.unique(rows, axis=0, return_index=True, return_inverse=True)
     assert first.tolist() == index.tolist()

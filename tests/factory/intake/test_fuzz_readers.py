@@ -3,18 +3,16 @@
 The files are damaged or hostile.
 """
 
-from __future__ import annotations
-
 from itertools import islice
 
 import pytest
-from fuzz_cases import Case, seeds
+from fuzz_cases import seeds
 from fuzz_hostile import MESH_PAGES
 from fuzz_hostile_texts import TEXT_PAGES
 from fuzz_hostile_usd import USD_PAGES
 from fuzz_hostile_weights import WEIGHT_PAGES
 from fuzz_mutations import mutated
-from fuzz_trial import Trial, try_case
+from fuzz_trial import try_case
 
 from asset_factory.sim_checks.processes.isolation import Limits, WarmChild
 
@@ -35,7 +33,7 @@ ATTACKS = {
 }
 
 
-def sample(number: int) -> list[Case]:
+def sample(number):
     """Ten of each kind, and some attacks by hand."""
     pages = {**MESH_PAGES, **TEXT_PAGES, **USD_PAGES, **WEIGHT_PAGES}
     damaged = [mutated(seeds()[kind], k) for kind in QUICK for k in range(11)]
@@ -49,7 +47,7 @@ def sample(number: int) -> list[Case]:
     return cases[number::2]
 
 
-def try_sample(number: int) -> list[Trial]:
+def try_sample(number):
     return [try_case(case) for case in sample(number)]
 
 
@@ -69,7 +67,7 @@ def test_every_hostile_file_ends_in_a_verdict_and_touches_nothing_else(child, nu
     }
 
 
-def try_traitors() -> list[tuple[str, ...]]:
+def try_traitors():
     """What the watch says of readers that do what they must not."""
     import socket
     import subprocess

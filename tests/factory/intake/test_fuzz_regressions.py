@@ -30,14 +30,14 @@ from asset_factory.factory.mesh import Material, Mesh, concatenate
 QUICK_S = 3.0
 
 
-def laid(folder: Path, files: dict[str, bytes], entry: str) -> Path:
+def laid(folder, files, entry):
     for name, data in files.items():
         (folder / name).write_bytes(data)
     return folder / entry
 
 
-def refusal(path: Path, config: IntakeConfig | None = None) -> InputRejected:
-    def read() -> None:
+def refusal(path, config=None):
+    def read():
         intake = load(path, config or IntakeConfig())
         choose(intake, BuildConfig(articulator="annotated")).articulate(intake.mesh)
 
@@ -46,12 +46,12 @@ def refusal(path: Path, config: IntakeConfig | None = None) -> InputRejected:
     return caught.value
 
 
-def counted(monkeypatch, module, name: str) -> list[object]:
+def counted(monkeypatch, module, name):
     """The calls that a function of a module gets from now on."""
     calls: list[object] = []
     real = getattr(module, name)
 
-    def count(*args: object) -> object:
+    def count(*args):
         calls.append(args)
         return real(*args)
 
@@ -71,7 +71,7 @@ def counted(monkeypatch, module, name: str) -> list[object]:
         "#" * 70_000,
     ],
 )
-def test_a_sidecar_of_odd_numbers_or_references_is_refused(text: str, tmp_path: Path) -> None:
+def test_a_sidecar_of_odd_numbers_or_references_is_refused(text, tmp_path):
     path = write_glb(tmp_path)
     (tmp_path / "loop").symlink_to("loop")
     (tmp_path / "cube.toml").write_text(text)
@@ -81,9 +81,7 @@ def test_a_sidecar_of_odd_numbers_or_references_is_refused(text: str, tmp_path: 
 @pytest.mark.parametrize(
     ("sidecar", "height"), [("scale = 1e-9", None), ("scale = 1e9", None), ("", 1e300)]
 )
-def test_a_size_that_no_object_has_is_absurd(
-    sidecar: str, height: float | None, tmp_path: Path
-) -> None:
+def test_a_size_that_no_object_has_is_absurd(sidecar, height, tmp_path):
     for path in (
         write_glb(tmp_path),
         laid(tmp_path, {"cube.urdf": URDF.encode(), **cube_files()}, "cube.urdf"),
@@ -92,14 +90,14 @@ def test_a_size_that_no_object_has_is_absurd(
         assert refusal(path, IntakeConfig(height=height)).code == "absurd_size"
 
 
-def test_continued_lines_are_joined_at_once(tmp_path: Path) -> None:
+def test_continued_lines_are_joined_at_once(tmp_path):
     text = b"v 0 0 0\nv 1 0 0\nv 0 1 \\\n1\nf 1 \\\r\n2 3\n" + b"\\\n" * 1_000_000
     started = time.process_time()
     assert len(load(laid(tmp_path, {"a.obj": text}, "a.obj"), IntakeConfig()).mesh.faces) == 1
     assert time.process_time() - started < QUICK_S
 
 
-def test_blanks_of_every_kind_bound_a_polygon(tmp_path: Path) -> None:
+def test_blanks_of_every_kind_bound_a_polygon(tmp_path):
     text = b"v 0 0 0\nv 1 0 0\nv 0 1 1\nf" + b"\v1" * 1000 + b"\n"
     assert (
         refusal(laid(tmp_path, {"a.obj": text}, "a.obj"), IntakeConfig(max_faces=900)).code
@@ -107,9 +105,7 @@ def test_blanks_of_every_kind_bound_a_polygon(tmp_path: Path) -> None:
     )
 
 
-def test_a_library_and_a_picture_are_read_once_however_often_they_are_named(
-    monkeypatch, tmp_path: Path
-) -> None:
+def test_a_library_and_a_picture_are_read_once_however_often_they_are_named(monkeypatch, tmp_path):
     path = write_obj(tmp_path)
     path.write_text("mtllib cube.mtl\n" * 500 + path.read_text())
     (tmp_path / "cube.mtl").write_text("newmtl red wood\n" + "map_Kd wood.png\n" * 500)
@@ -119,13 +115,13 @@ def test_a_library_and_a_picture_are_read_once_however_often_they_are_named(
     assert (len(libraries), len(pictures)) == (1, 1)
 
 
-def test_more_libraries_than_anybody_has_are_too_large(tmp_path: Path) -> None:
+def test_more_libraries_than_anybody_has_are_too_large(tmp_path):
     path = write_obj(tmp_path)
     path.write_text("".join(f"mtllib {k}.mtl\n" for k in range(100)) + path.read_text())
     assert refusal(path).code == "too_large"
 
 
-def test_only_the_first_of_a_thousand_notes_are_kept(tmp_path: Path) -> None:
+def test_only_the_first_of_a_thousand_notes_are_kept(tmp_path):
     path = write_obj(tmp_path)
     (tmp_path / "cube.mtl").write_text(
         "newmtl a\n" + "".join(f"map_Kd {k}{'x' * 200}.png\n" for k in range(1000))
@@ -135,7 +131,7 @@ def test_only_the_first_of_a_thousand_notes_are_kept(tmp_path: Path) -> None:
     assert any(note.endswith("more notes of this kind.") for note in notes)
 
 
-def test_an_accessor_is_read_once_and_all_of_them_are_bounded(monkeypatch, tmp_path: Path) -> None:
+def test_an_accessor_is_read_once_and_all_of_them_are_bounded(monkeypatch, tmp_path):
     document, binary = gltf_parts()
     empty = {"componentType": 5125, "count": 0, "type": "SCALAR"}
     document["accessors"] += [{"componentType": 5126, "count": 3000, "type": "VEC3"}, empty]
@@ -152,7 +148,7 @@ def test_an_accessor_is_read_once_and_all_of_them_are_bounded(monkeypatch, tmp_p
     assert "numbers" in refusal(path, IntakeConfig(max_faces=1500)).message
 
 
-def test_primitives_without_faces_cost_their_instances_nothing(tmp_path: Path) -> None:
+def test_primitives_without_faces_cost_their_instances_nothing(tmp_path):
     document, binary = gltf_parts(nodes=[{"mesh": 0}] * 3000)
     document["accessors"][3]["count"] = 0
     document["meshes"][0]["primitives"] *= 3000
@@ -162,7 +158,7 @@ def test_primitives_without_faces_cost_their_instances_nothing(tmp_path: Path) -
     assert time.process_time() - started < QUICK_S
 
 
-def test_many_tiny_pictures_are_too_large_together(tmp_path: Path) -> None:
+def test_many_tiny_pictures_are_too_large_together(tmp_path):
     document, binary = gltf_parts(image=png((2, 2)))
     document["images"] *= 17
     document["materials"] *= 17
@@ -179,7 +175,7 @@ def test_many_tiny_pictures_are_too_large_together(tmp_path: Path) -> None:
     assert load(path, IntakeConfig(max_texture_pixels=600 * 512)).mesh.materials
 
 
-def test_names_and_materials_are_told_apart_without_counting_from_one() -> None:
+def test_names_and_materials_are_told_apart_without_counting_from_one():
     started = time.process_time()
     assert unique_names(["a"] * 20_000)[-1] == "a_20000"
     assert unique_names(["a", "a_2", "a", "a"]) == ["a", "a_2", "a_3", "a_4"]
@@ -193,7 +189,7 @@ def test_names_and_materials_are_told_apart_without_counting_from_one() -> None:
 
 
 @pytest.mark.parametrize("form", ["ascii", "binary_little_endian"])
-def test_ply_tables_of_nothing_are_bounded_together(form: str, tmp_path: Path) -> None:
+def test_ply_tables_of_nothing_are_bounded_together(form, tmp_path):
     tables = "".join(f"element e{k} 3000\n" for k in range(3))
     text = f"ply\nformat {form} 1.0\n{tables}end_header\n".encode() + b"\n" * 9000
     path = laid(tmp_path, {"a.ply": text}, "a.ply")
@@ -202,12 +198,12 @@ def test_ply_tables_of_nothing_are_bounded_together(form: str, tmp_path: Path) -
 
 
 @pytest.mark.parametrize("error", [struct.error, RuntimeError, AttributeError, OverflowError])
-def test_whatever_a_decoder_raises_the_picture_is_left_out(error, monkeypatch) -> None:
+def test_whatever_a_decoder_raises_the_picture_is_left_out(error, monkeypatch):
     from PIL import Image
 
     from asset_factory.factory.intake.files import InputFiles
 
-    def fail(*_: object, **__: object) -> None:
+    def fail(*_, **__):
         raise error("deep inside")
 
     monkeypatch.setattr(Image, "open", fail)
@@ -217,7 +213,7 @@ def test_whatever_a_decoder_raises_the_picture_is_left_out(error, monkeypatch) -
 @pytest.mark.parametrize(
     "reference", ["a%00b.obj", "loop.obj", "n" * 300 + ".obj", "d/" * 3000 + "x.obj"]
 )
-def test_references_with_names_that_no_file_has_are_refused(reference: str, tmp_path: Path) -> None:
+def test_references_with_names_that_no_file_has_are_refused(reference, tmp_path):
     (tmp_path / "loop.obj").symlink_to("loop.obj")
     text = URDF.replace("cube.obj", reference).encode()
     rejection = refusal(laid(tmp_path, {**cube_files(), "box.urdf": text}, "box.urdf"))
@@ -236,14 +232,12 @@ def test_references_with_names_that_no_file_has_are_refused(reference: str, tmp_
         ("</robot>", "</robot>" + " " * 70_000_000, "too_large"),
     ],
 )
-def test_a_urdf_of_absurd_numbers_or_size_is_refused(
-    old: str, new: str, code: str, tmp_path: Path
-) -> None:
+def test_a_urdf_of_absurd_numbers_or_size_is_refused(old, new, code, tmp_path):
     text = URDF.replace(old, new, 1).encode()
     assert refusal(laid(tmp_path, {**cube_files(), "box.urdf": text}, "box.urdf")).code == code
 
 
-def test_too_many_shapes_are_refused_before_they_are_made(tmp_path: Path) -> None:
+def test_too_many_shapes_are_refused_before_they_are_made(tmp_path):
     boxes = '<visual><geometry><box size="1 1 1"/></geometry></visual>' * 10_001
     text = URDF.replace("<inertial>", boxes + "<inertial>").encode()
     assert (
@@ -251,7 +245,7 @@ def test_too_many_shapes_are_refused_before_they_are_made(tmp_path: Path) -> Non
     )
 
 
-def test_a_document_type_is_refused_in_any_encoding(tmp_path: Path) -> None:
+def test_a_document_type_is_refused_in_any_encoding(tmp_path):
     body = DAE.split("?>", 1)[1]
     for encoding in ("utf-8", "utf-16"):
         text = (
@@ -263,7 +257,7 @@ def test_a_document_type_is_refused_in_any_encoding(tmp_path: Path) -> None:
         assert "document type" in rejection.message
 
 
-def bad_predictions() -> dict[str, bytes]:
+def bad_predictions():
     good = packed(prediction())
     locked = bytearray(good)
     for mark, offset in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
@@ -277,12 +271,12 @@ def bad_predictions() -> dict[str, bytes]:
 
 
 @pytest.mark.parametrize("name", bad_predictions())
-def test_a_hostile_prediction_is_refused(name: str, tmp_path: Path) -> None:
+def test_a_hostile_prediction_is_refused(name, tmp_path):
     path = laid(tmp_path, annotated(bad_predictions()[name]), "cube.glb")
     assert refusal(path).code in ("bad_annotation", "bad_axis")
 
 
-def test_an_array_whose_header_is_no_header_is_refused(tmp_path: Path) -> None:
+def test_an_array_whose_header_is_no_header_is_refused(tmp_path):
     import zipfile
 
     path = laid(tmp_path, annotated(b""), "cube.glb")
@@ -293,7 +287,7 @@ def test_an_array_whose_header_is_no_header_is_refused(tmp_path: Path) -> None:
         assert refusal(path).code == "bad_annotation"
 
 
-def test_the_compiler_of_mjcf_leaves_no_log_behind(tmp_path: Path) -> None:
+def test_the_compiler_of_mjcf_leaves_no_log_behind(tmp_path):
     pytest.importorskip("mujoco")
     files = cube_files()
     text = MJCF.replace('<include file="assets.xml"/>', "").replace(
@@ -321,7 +315,7 @@ def test_the_compiler_of_mjcf_leaves_no_log_behind(tmp_path: Path) -> None:
     assert list((tmp_path / "elsewhere").iterdir()) == []
 
 
-def test_the_root_of_an_xml_file_is_looked_for_at_its_beginning_only(tmp_path: Path) -> None:
+def test_the_root_of_an_xml_file_is_looked_for_at_its_beginning_only(tmp_path):
     write_glb(tmp_path)
     (tmp_path / "a.xml").write_bytes(b"<!--" + b"x" * 3_000_000 + b"--><mujoco/>")
     assert [path.name for path in find_inputs((tmp_path,))] == ["cube.glb"]

@@ -6,7 +6,6 @@ import os
 import resource
 import socket
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -24,11 +23,11 @@ LIMITS = Limits(wall_s=60.0, cpu_s=20.0)
 MOST_BYTES = 300 * 2**20
 
 
-def search(folder: Path) -> tuple[list[str], int, list[str]]:
+def search(folder):
     """What is found, the memory that it took [bytes], and what was opened outside the folder."""
     opened: list[str] = []
 
-    def hear(event: str, arguments: tuple[object, ...]) -> None:
+    def hear(event, arguments):
         if event == "open" and isinstance(arguments[0], str) and "secret" in arguments[0]:
             opened.append(arguments[0])
 
@@ -41,13 +40,13 @@ def search(folder: Path) -> tuple[list[str], int, list[str]]:
     return found, grown * 1024, opened
 
 
-def includes_itself(folder: Path) -> list[str]:
+def includes_itself(folder):
     include = '<include file="scene.xml"/>'
     (folder / "scene.xml").write_text(f"<mujoco>{include * 3000}</mujoco>")
     return ["scene.xml"]
 
 
-def includes_each_other(folder: Path) -> list[str]:
+def includes_each_other(folder):
     every = "".join(f'<include file="part{k}.xml"/>' for k in range(300))
     for k in range(300):
         (folder / f"part{k}.xml").write_text(f"<mujocoinclude>{every}</mujocoinclude>")
@@ -55,7 +54,7 @@ def includes_each_other(folder: Path) -> list[str]:
     return ["scene.xml"]
 
 
-def is_sparse(folder: Path) -> list[str]:
+def is_sparse(folder):
     names = [f"huge{suffix}" for suffix in (".urdf", ".obj", ".glb", ".stl", ".ply", ".off")]
     for name in (*names, "huge.xml", "huge.json", "huge.toml", "huge.npz", "huge.mtl"):
         with (folder / name).open("wb") as file:
@@ -63,14 +62,14 @@ def is_sparse(folder: Path) -> list[str]:
     return sorted(names)
 
 
-def includes_a_huge_file(folder: Path) -> list[str]:
+def includes_a_huge_file(folder):
     with (folder / "huge.xml").open("wb") as file:
         file.truncate(6 * 2**30)
     (folder / "scene.xml").write_text('<mujoco><include file="huge.xml"/></mujoco>')
     return ["scene.xml"]
 
 
-def leads_out(folder: Path) -> list[str]:
+def leads_out(folder):
     (folder.parent / "secret.xml").write_text("<mujocoinclude/>")
     (folder / "link.xml").symlink_to(folder.parent / "secret.xml")
     text = '<include file="../secret.xml"/><include file="link.xml"/>'
@@ -78,7 +77,7 @@ def leads_out(folder: Path) -> list[str]:
     return ["scene.xml"]
 
 
-def holds_no_files(folder: Path) -> list[str]:
+def holds_no_files(folder):
     for name in ("pipe.xml", "pipe.urdf", "pipe.obj", "door.xml", "chest.mtl"):
         os.mkfifo(folder / name)
     # Its path is longer than a socket's may be.
@@ -94,7 +93,7 @@ def holds_no_files(folder: Path) -> list[str]:
     return ["chest.obj", "scene.xml"]
 
 
-def names_without_end(folder: Path) -> list[str]:
+def names_without_end(folder):
     long = f"<mesh filename='{'a/' * 500_000}x.obj'/>"
     many = "".join(f"<mesh filename='{k}.obj'/>" for k in range(200_000))
     open_end = "<mesh file = " + "file " * 500_000

@@ -1,19 +1,14 @@
 """MJCF -> Intake, read back from MuJoCo's own compiler."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
-from asset_factory.factory.articulation import Articulation, JointKind
+from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.importers.load import load_description
 from asset_factory.factory.intake.importers.mjcf import shown
-from asset_factory.factory.intake.intake import Intake
 from asset_factory.factory.intake.reads import ABSENT, ReadLog
 from asset_factory.sim_checks.read.mjcf_model import CompiledGeom
 
@@ -23,35 +18,35 @@ pytest.importorskip("mujoco")
 LOPSIDED = "v 5 0 0\nv 6 0.1 0\nv 5 2 0.2\nv 5.3 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
 
 
-def write(folder: Path, text: str) -> Path:
+def write(folder, text):
     path = folder / "thing.xml"
     path.write_text(f"<mujoco>{text}</mujoco>", encoding="utf-8")
     return path
 
 
-def load(folder: Path, text: str) -> Intake:
+def load(folder, text):
     return load_description(write(folder, text), IntakeConfig())
 
 
-def articulated(intake: Intake) -> Articulation:
+def articulated(intake):
     assert intake.annotation is not None
     return AnnotatedArticulator(
         intake.annotation, intake.transform, intake.source_faces
     ).articulate(intake.mesh)
 
 
-def refused(folder: Path, text: str) -> InputRejected:
+def refused(folder, text):
     with pytest.raises(InputRejected) as caught:
         load(folder, text)
     return caught.value
 
 
-def part_bounds(articulation: Articulation, name: str) -> np.ndarray:
+def part_bounds(articulation, name):
     index = [part.name for part in articulation.parts].index(name)
     return articulation.part_mesh(index).bounds
 
 
-def test_joints_of_every_kind_come_back_in_the_world_frame(tmp_path: Path) -> None:
+def test_joints_of_every_kind_come_back_in_the_world_frame(tmp_path):
     intake = load(
         tmp_path,
         """
@@ -80,7 +75,7 @@ def test_joints_of_every_kind_come_back_in_the_world_frame(tmp_path: Path) -> No
     assert any("floats freely" in note for note in intake.provenance.notes)
 
 
-def test_a_recentred_mesh_lands_where_the_file_had_it(tmp_path: Path) -> None:
+def test_a_recentred_mesh_lands_where_the_file_had_it(tmp_path):
     (tmp_path / "assets").mkdir()
     (tmp_path / "assets" / "lopsided.obj").write_text(LOPSIDED)
     intake = load(
@@ -96,7 +91,7 @@ def test_a_recentred_mesh_lands_where_the_file_had_it(tmp_path: Path) -> None:
     np.testing.assert_allclose(found, np.unique(expected.round(4), axis=0), atol=2e-4)
 
 
-def test_several_joints_of_one_body_become_a_chain_in_their_order(tmp_path: Path) -> None:
+def test_several_joints_of_one_body_become_a_chain_in_their_order(tmp_path):
     intake = load(
         tmp_path,
         """<worldbody><geom type="box" size=".5 .5 .5"/>
@@ -112,7 +107,7 @@ def test_several_joints_of_one_body_become_a_chain_in_their_order(tmp_path: Path
     np.testing.assert_allclose(pose[:3, 3], [0.0, 0.3, 0.0], atol=1e-12)
 
 
-def test_limits_count_from_the_reference_pose(tmp_path: Path) -> None:
+def test_limits_count_from_the_reference_pose(tmp_path):
     intake = load(
         tmp_path,
         """<compiler angle="radian"/><worldbody><geom type="box" size=".5 .5 .5"/>
@@ -124,7 +119,7 @@ def test_limits_count_from_the_reference_pose(tmp_path: Path) -> None:
     assert (joint.lower, joint.upper) == pytest.approx((0.0, 0.4))
 
 
-def geom(group: int, collides: bool, alpha: float = 1.0) -> CompiledGeom:
+def geom(group, collides, alpha=1.0):
     return CompiledGeom(
         name="",
         body=1,
@@ -151,14 +146,14 @@ def geom(group: int, collides: bool, alpha: float = 1.0) -> CompiledGeom:
         ([geom(1, True), geom(0, False, alpha=0.0)], [0]),
     ],
 )
-def test_what_a_viewer_would_show_is_visual(geoms: list[CompiledGeom], visible: list[int]) -> None:
+def test_what_a_viewer_would_show_is_visual(geoms, visible):
     chosen = shown(geoms)
     assert [any(geom is other for other in chosen) for geom in geoms] == [
         i in visible for i in range(len(geoms))
     ]
 
 
-def test_bodies_without_joints_are_judged_and_merged_with_what_holds_them(tmp_path: Path) -> None:
+def test_bodies_without_joints_are_judged_and_merged_with_what_holds_them(tmp_path):
     intake = load(
         tmp_path,
         """<worldbody><geom type="plane" size="1 1 .1"/>
@@ -172,7 +167,7 @@ def test_bodies_without_joints_are_judged_and_merged_with_what_holds_them(tmp_pa
     assert result.joints[0].name == "lid_joint"
 
 
-def test_includes_are_followed_inside_the_folder(tmp_path: Path) -> None:
+def test_includes_are_followed_inside_the_folder(tmp_path):
     (tmp_path / "part.xml").write_text(
         '<mujocoinclude><geom type="sphere" size="1"/></mujocoinclude>'
     )
@@ -196,13 +191,13 @@ SPHERE = '<geom type="sphere" size="1"/>'
         ("empty", "<worldbody><body name='b'/></worldbody>"),
     ],
 )
-def test_what_cannot_be_used_is_refused(tmp_path: Path, code: str, text: str) -> None:
+def test_what_cannot_be_used_is_refused(tmp_path, code, text):
     error = refused(tmp_path, text)
     assert error.code == code
     assert str(tmp_path) not in error.message
 
 
-def test_a_body_too_light_for_mujoco_is_lifted_all_the_same(tmp_path: Path) -> None:
+def test_a_body_too_light_for_mujoco_is_lifted_all_the_same(tmp_path):
     (tmp_path / "flat.obj").write_text(
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.000001\nf 1 2 3\nf 2 4 3\n"
     )
@@ -215,7 +210,7 @@ def test_a_body_too_light_for_mujoco_is_lifted_all_the_same(tmp_path: Path) -> N
     assert len(articulated(intake).movable_joints) == 1
 
 
-def test_where_a_missing_file_was_looked_for_is_noted(tmp_path: Path) -> None:
+def test_where_a_missing_file_was_looked_for_is_noted(tmp_path):
     path = write(
         tmp_path,
         '<compiler meshdir="meshes"/><asset><mesh name="m" file="no.stl"/></asset>',

@@ -1,7 +1,5 @@
 """URDF -> Intake: geometry in place, joints in the root frame, a reason for every refusal."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -10,66 +8,62 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
-from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.importers.load import load_description
-from asset_factory.factory.intake.intake import Intake
 
 BOX = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
 TETRA = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
 
 
-def write(folder: Path, body: str, name: str = "thing.urdf") -> Path:
+def write(folder, body, name="thing.urdf"):
     path = folder / name
     path.write_text(f'<?xml version="1.0"?>\n<robot name="r">{body}</robot>', encoding="utf-8")
     return path
 
 
-def link(name: str, inside: str = BOX) -> str:
+def link(name, inside=BOX):
     return f'<link name="{name}">{inside}</link>'
 
 
-def joint(
-    name: str, kind: str, parent: str, child: str, inside: str = '<limit lower="0" upper="1"/>'
-) -> str:
+def joint(name, kind, parent, child, inside='<limit lower="0" upper="1"/>'):
     ends = f'<parent link="{parent}"/><child link="{child}"/>'
     return f'<joint name="{name}" type="{kind}">{ends}{inside}</joint>'
 
 
-def load(path: Path) -> Intake:
+def load(path):
     return load_description(path, IntakeConfig())
 
 
-def articulated(intake: Intake) -> Articulation:
+def articulated(intake):
     assert intake.annotation is not None
     return AnnotatedArticulator(
         intake.annotation, intake.transform, intake.source_faces
     ).articulate(intake.mesh)
 
 
-def lift(folder: Path, body: str) -> Articulation:
+def lift(folder, body):
     return articulated(load(write(folder, body)))
 
 
-def refused(folder: Path, body: str) -> InputRejected:
+def refused(folder, body):
     with pytest.raises(InputRejected) as caught:
         lift(folder, body)
     return caught.value
 
 
-def bounds_of(articulation: Articulation, name: str) -> np.ndarray:
+def bounds_of(articulation, name):
     index = [part.name for part in articulation.parts].index(name)
     return articulation.part_mesh(index).bounds
 
 
-def signed_volume(articulation: Articulation, part: int) -> float:
+def signed_volume(articulation, part):
     mesh = articulation.part_mesh(part)
     a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
     return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
 
 
-def test_a_link_stands_where_its_joint_and_visual_origins_put_it(tmp_path: Path) -> None:
+def test_a_link_stands_where_its_joint_and_visual_origins_put_it(tmp_path):
     turned = (
         '<visual><origin xyz="2 0 0" rpy="0 0 1.5707963267948966"/><geometry><box size="2 1 1"/>'
         "</geometry></visual>"
@@ -88,7 +82,7 @@ def test_a_link_stands_where_its_joint_and_visual_origins_put_it(tmp_path: Path)
     np.testing.assert_allclose(result.joint("slide").axis, [0.0, 1.0, 0.0], atol=1e-12)
 
 
-def test_every_primitive_is_closed_and_as_large_as_it_says(tmp_path: Path) -> None:
+def test_every_primitive_is_closed_and_as_large_as_it_says(tmp_path):
     shapes = {
         "box": ('<box size="1 2 3"/>', 6.0, 1e-12),
         "cylinder": ('<cylinder radius="1" length="2"/>', 2.0 * np.pi, 0.02),
@@ -103,7 +97,7 @@ def test_every_primitive_is_closed_and_as_large_as_it_says(tmp_path: Path) -> No
         assert (np.unique(edges, axis=0, return_counts=True)[1] == 2).all()
 
 
-def test_a_mirroring_mesh_scale_keeps_faces_outward(tmp_path: Path) -> None:
+def test_a_mirroring_mesh_scale_keeps_faces_outward(tmp_path):
     (tmp_path / "tetra.obj").write_text(TETRA)
     visual = '<visual><geometry><mesh filename="tetra.obj" scale="-2 1 1"/></geometry></visual>'
     result = lift(tmp_path, link("base", visual))
@@ -111,7 +105,7 @@ def test_a_mirroring_mesh_scale_keeps_faces_outward(tmp_path: Path) -> None:
     assert signed_volume(result, 0) == pytest.approx(2.0)
 
 
-def test_commas_between_numbers_are_read_as_others_read_them_and_told(tmp_path: Path) -> None:
+def test_commas_between_numbers_are_read_as_others_read_them_and_told(tmp_path):
     (tmp_path / "t.obj").write_text(TETRA, encoding="utf-8")
     shape = '<visual><geometry><mesh filename="t.obj" scale="{}"/></geometry></visual>'
     moved = link("a", shape.format("2.0, 1.0,1.0")) + link("b") + joint("j", "prismatic", "a", "b")
@@ -121,8 +115,8 @@ def test_commas_between_numbers_are_read_as_others_read_them_and_told(tmp_path: 
     assert refused(tmp_path, moved.replace("2.0, 1.0,1.0", "2,0 1 1,0")).code == "unreadable"
 
 
-def test_materials_are_found_by_name_and_in_place(tmp_path: Path) -> None:
-    def colored(material: str) -> str:
+def test_materials_are_found_by_name_and_in_place(tmp_path):
+    def colored(material):
         return f'<visual><geometry><box size="1 1 1"/></geometry>{material}</visual>'
 
     links = link(
@@ -135,7 +129,7 @@ def test_materials_are_found_by_name_and_in_place(tmp_path: Path) -> None:
     assert np.bincount(result.mesh.face_material).tolist() == [12, 12]
 
 
-def test_collision_geometry_stands_in_only_where_nothing_can_be_seen(tmp_path: Path) -> None:
+def test_collision_geometry_stands_in_only_where_nothing_can_be_seen(tmp_path):
     hull = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
     result = lift(
         tmp_path,
@@ -151,13 +145,13 @@ def test_collision_geometry_stands_in_only_where_nothing_can_be_seen(tmp_path: P
     )
 
 
-def test_repeated_inertials_and_visual_names_do_not_matter(tmp_path: Path) -> None:
+def test_repeated_inertials_and_visual_names_do_not_matter(tmp_path):
     inertial = '<inertial><mass value="1"/></inertial>'
     named = '<visual name="v"><geometry><box size="1 1 1"/></geometry></visual>'
     assert len(lift(tmp_path, link("base", inertial * 2 + named * 2)).mesh.faces) == 24
 
 
-def test_a_mimicking_joint_moves_freely_and_a_note_says_so(tmp_path: Path) -> None:
+def test_a_mimicking_joint_moves_freely_and_a_note_says_so(tmp_path):
     body = link("a") + link("b") + link("c") + joint("one", "prismatic", "a", "b")
     body += joint("two", "prismatic", "a", "c", '<limit lower="0" upper="1"/><mimic joint="one"/>')
     path = write(tmp_path, body)
@@ -165,7 +159,7 @@ def test_a_mimicking_joint_moves_freely_and_a_note_says_so(tmp_path: Path) -> No
     assert len(articulated(load(path)).movable_joints) == 2
 
 
-def test_height_and_up_axis_scale_geometry_axes_and_travel_alike(tmp_path: Path) -> None:
+def test_height_and_up_axis_scale_geometry_axes_and_travel_alike(tmp_path):
     body = (
         link("a")
         + link("b")
@@ -178,7 +172,7 @@ def test_height_and_up_axis_scale_geometry_axes_and_travel_alike(tmp_path: Path)
     assert result.joint("j").upper == pytest.approx(1.0)
 
 
-def test_the_digest_depends_on_every_file_that_was_read(tmp_path: Path) -> None:
+def test_the_digest_depends_on_every_file_that_was_read(tmp_path):
     (tmp_path / "tetra.obj").write_text(TETRA)
     path = write(
         tmp_path, link("a", '<visual><geometry><mesh filename="tetra.obj"/></geometry></visual>')
@@ -198,7 +192,7 @@ BOMB = (
 @pytest.mark.parametrize(
     "text", [BOMB, "<robot><link>", "", "<model/>", "\x00\x01", "<robot xmlns:x='u'><y:z/></robot>"]
 )
-def test_broken_or_dangerous_xml_is_unreadable(tmp_path: Path, text: str) -> None:
+def test_broken_or_dangerous_xml_is_unreadable(tmp_path, text):
     path = tmp_path / "thing.urdf"
     path.write_text(text)
     with pytest.raises(InputRejected) as caught:
@@ -280,16 +274,14 @@ def test_broken_or_dangerous_xml_is_unreadable(tmp_path: Path, text: str) -> Non
         ),
     ],
 )
-def test_what_cannot_be_used_is_refused_with_a_code_and_a_name(
-    tmp_path: Path, code: str, body: str, says: str
-) -> None:
+def test_what_cannot_be_used_is_refused_with_a_code_and_a_name(tmp_path, code, body, says):
     error = refused(tmp_path, body)
     assert error.code == code
     assert says in error.message
     assert str(tmp_path) not in error.message
 
 
-def test_too_many_faces_are_refused_with_the_number(tmp_path: Path) -> None:
+def test_too_many_faces_are_refused_with_the_number(tmp_path):
     with pytest.raises(InputRejected) as caught:
         load_description(write(tmp_path, link("a", BOX * 3)), IntakeConfig(max_faces=30))
     assert (caught.value.code, caught.value.value) == ("too_large", 36)
@@ -302,7 +294,7 @@ FORMATS = Path(__file__).parents[4] / "shared" / "fixtures" / "data_formats"
     not FORMATS.is_dir(), reason="the reference conversions are not on this machine"
 )
 @pytest.mark.parametrize("name", ["hinge_slider", "offset_limits_nested"])
-def test_axes_and_ranges_agree_with_the_reference_conversion(name: str) -> None:
+def test_axes_and_ranges_agree_with_the_reference_conversion(name):
     """The reference poses every joint at its lower limit, then fits the whole into a unit box."""
     result = articulated(load(FORMATS / name / "in" / f"{name}.urdf"))
     lines = np.load(FORMATS / name / "out" / "link_axes_plucker.npz")
@@ -331,7 +323,7 @@ def test_axes_and_ranges_agree_with_the_reference_conversion(name: str) -> None:
         )
 
 
-def rpy(roll: float, pitch: float, yaw: float) -> np.ndarray:
+def rpy(roll, pitch, yaw):
     """Independent of the reader: three elementary rotations, multiplied."""
     cr = np.cos(roll)
     sr = np.sin(roll)
@@ -345,14 +337,14 @@ def rpy(roll: float, pitch: float, yaw: float) -> np.ndarray:
     return about_z @ about_y @ about_x
 
 
-def homogeneous(rotation: np.ndarray, translation: np.ndarray) -> np.ndarray:
+def homogeneous(rotation, translation):
     matrix = np.eye(4)
     matrix[:3, :3] = rotation
     matrix[:3, 3] = translation
     return matrix
 
 
-def about(axis: np.ndarray, angle: float) -> np.ndarray:
+def about(axis, angle):
     """Rotation by the exponential of a cross-product matrix, summed as a series."""
     x, y, z = axis
     cross = angle * np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
@@ -381,7 +373,7 @@ edge = st.tuples(
     max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 @given(st.lists(edge, min_size=1, max_size=6))
-def test_random_trees_move_as_a_product_of_matrices_says(tmp_path: Path, edges: list) -> None:
+def test_random_trees_move_as_a_product_of_matrices_says(tmp_path, edges):
     body = link("l0")
     frames = [np.eye(4)]
     for child, (pick, kind, xyz, angles, axis, share) in enumerate(edges, start=1):
@@ -410,7 +402,7 @@ def test_random_trees_move_as_a_product_of_matrices_says(tmp_path: Path, edges: 
     owner = np.concatenate([np.full(len(part.faces), i) for i, part in enumerate(result.parts)])
     owner = owner[np.argsort(np.concatenate([part.faces for part in result.parts]))]
     for index, frame in enumerate(frames):
-        faces = np.flatnonzero(intake.annotation.face_part[intake.source_faces] == index)  # type: ignore[union-attr]
+        faces = np.flatnonzero(intake.annotation.face_part[intake.source_faces] == index)
         pose = poses[owner[faces[0]]]
         corners = np.unique(result.mesh.vertices[result.mesh.faces[faces]].reshape(-1, 3), axis=0)
         moved = corners @ pose[:3, :3].T + pose[:3, 3]

@@ -1,9 +1,5 @@
 """A USD asset with physics joints is an input as a URDF is."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -15,13 +11,13 @@ from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.intake.load import load
 
 
-def written(folder: Path, text: str) -> Path:
+def written(folder, text):
     path = folder / "thing.usda"
     path.write_text(text)
     return path
 
 
-def test_its_parts_and_joints_come_with_it_in_metres_and_z_up(tmp_path: Path) -> None:
+def test_its_parts_and_joints_come_with_it_in_metres_and_z_up(tmp_path):
     header = 'metersPerUnit = 0.01\nupAxis = "Y"'
     config = BuildConfig(articulator="annotated")
     intake = load(written(tmp_path, stage(CABINET, header)), config.intake)

@@ -1,10 +1,7 @@
 """Two inputs share an id only if they are the same input; changes meanwhile are found out."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from datetime import UTC, datetime
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -30,20 +27,20 @@ CONFIG = BuildConfig(simulators=())
 SHAPE = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
 
 
-def loaded(path: Path, config: BuildConfig = CONFIG) -> Source:
+def loaded(path, config=CONFIG):
     source = Source(path, config)
     source.load()
     return source
 
 
-def refused(path: Path, config: BuildConfig = CONFIG) -> Source:
+def refused(path, config=CONFIG):
     source = Source(path, config)
     with pytest.raises(InputRejected):
         source.load()
     return source
 
 
-def placed(folder: Path, name: str = "thing.glb") -> Path:
+def placed(folder, name="thing.glb"):
     folder.mkdir(parents=True, exist_ok=True)
     return write_glb(folder).rename(folder / name)
 
@@ -123,7 +120,7 @@ def test_a_mesh_changed_while_an_mjcf_is_compiled_is_compiled_again(tmp_path, mo
     assert source.reads["cube.stl"] == digest_file(tmp_path / "cube.stl")
 
 
-def _tetrahedron(size: float) -> bytes:
+def _tetrahedron(size):
     import trimesh
 
     corners = [(0, 0, 0), (size, 0, 0), (0, size, 0), (0, 0, size)]

@@ -1,9 +1,6 @@
 """Which files an input is made of is found out once, and every one of them counts."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,7 +20,7 @@ from asset_factory.factory.registry.keys import source_key
 CONFIG = BuildConfig(articulator="geometric", simulators=())
 
 
-def load(path: Path) -> Source:
+def load(path):
     source = Source(path, CONFIG)
     source.load()
     return source
@@ -37,7 +34,7 @@ def load(path: Path) -> Source:
         (write_glb, {"cube.glb", "cube.toml", "cube.glb.toml"}),
     ],
 )
-def test_every_file_of_a_mesh_counts(write, files, tmp_path) -> None:
+def test_every_file_of_a_mesh_counts(write, files, tmp_path):
     (tmp_path / "in").mkdir()
     path = write(tmp_path / "in")
     source = load(path)
@@ -60,7 +57,7 @@ def test_every_file_of_a_mesh_counts(write, files, tmp_path) -> None:
     assert known.probe(path).key == source_key(source)
 
 
-def urdf(folder: Path) -> Path:
+def urdf(folder):
     (folder / "meshes").mkdir(parents=True)
     write_obj(folder / "meshes")
     shape = '<visual><geometry><mesh filename="meshes/cube.obj"/></geometry></visual>'
@@ -69,7 +66,7 @@ def urdf(folder: Path) -> Path:
     return folder / "box.urdf"
 
 
-def test_every_file_of_a_description_counts(tmp_path) -> None:
+def test_every_file_of_a_description_counts(tmp_path):
     source = load(urdf(tmp_path))
     present = {name for name, digest in source.reads.items() if digest}
     assert present == {
@@ -81,7 +78,7 @@ def test_every_file_of_a_description_counts(tmp_path) -> None:
     }
 
 
-def test_an_annotation_counts(tmp_path) -> None:
+def test_an_annotation_counts(tmp_path):
     path = write_glb(tmp_path)
     np.savez(tmp_path / "pred.npz", face_part_ids=np.zeros(12, dtype=int))
     (tmp_path / "cube.toml").write_text('annotation = "pred.npz"')
@@ -90,7 +87,7 @@ def test_an_annotation_counts(tmp_path) -> None:
     }
 
 
-def test_a_missing_texture_that_turns_up_makes_another_input(tmp_path) -> None:
+def test_a_missing_texture_that_turns_up_makes_another_input(tmp_path):
     path = write_obj(tmp_path)
     texture = (tmp_path / "wood.png").read_bytes()
     (tmp_path / "wood.png").unlink()
@@ -100,7 +97,7 @@ def test_a_missing_texture_that_turns_up_makes_another_input(tmp_path) -> None:
     assert source_key(load(path)) != source_key(without)
 
 
-def test_the_key_knows_names_and_folders_only_as_far_as_they_matter(tmp_path) -> None:
+def test_the_key_knows_names_and_folders_only_as_far_as_they_matter(tmp_path):
     keys = {}
     for folder in ("a", "b", "fridge"):
         (tmp_path / folder).mkdir()
@@ -109,7 +106,7 @@ def test_the_key_knows_names_and_folders_only_as_far_as_they_matter(tmp_path) ->
     assert source_key(load(write_glb(tmp_path / "a", "other.glb"))) not in keys.values()
 
 
-def test_settings_and_libraries_are_in_the_key(tmp_path, monkeypatch) -> None:
+def test_settings_and_libraries_are_in_the_key(tmp_path, monkeypatch):
     path = write_glb(tmp_path)
     source = load(path)
     simulated = Source(path, replace(CONFIG, simulators=("mujoco",)))
@@ -128,15 +125,13 @@ def test_settings_and_libraries_are_in_the_key(tmp_path, monkeypatch) -> None:
     keys._pipeline_key.cache_clear()
 
 
-def test_an_input_that_somebody_writes_is_read_again_and_then_refused(
-    tmp_path, monkeypatch
-) -> None:
+def test_an_input_that_somebody_writes_is_read_again_and_then_refused(tmp_path, monkeypatch):
     path = write_glb(tmp_path)
     original = reads_module.content_digest
     looked = []
 
-    def restless(times: int):
-        def digest(file: Path) -> str:
+    def restless(times):
+        def digest(file):
             if file.suffix == ".glb" and len(looked) < times:
                 looked.append(file)
                 return "0" * 64
@@ -158,14 +153,14 @@ def test_an_input_that_somebody_writes_is_read_again_and_then_refused(
     assert source_key(source) == ""
 
 
-def test_what_was_seen_first_counts_unless_it_was_not_there(tmp_path) -> None:
+def test_what_was_seen_first_counts_unless_it_was_not_there(tmp_path):
     log = ReadLog()
     for digest in ("", "1", "2"):
         log.note(tmp_path / "b", digest)
     assert log.reads_of(tmp_path / "input") == {"b": "1"}
 
 
-def test_what_somebody_else_found_out_meanwhile_is_looked_at_again(tmp_path) -> None:
+def test_what_somebody_else_found_out_meanwhile_is_looked_at_again(tmp_path):
     (tmp_path / "in").mkdir()
     path = write_obj(tmp_path / "in")
     mine = KnownReads(tmp_path / "cache", CONFIG)
@@ -179,7 +174,7 @@ def test_what_somebody_else_found_out_meanwhile_is_looked_at_again(tmp_path) -> 
     assert mine.renewed(probe).claim == probe.claim
 
 
-def test_the_same_bytes_with_another_sidecar_are_made_of_other_files(tmp_path) -> None:
+def test_the_same_bytes_with_another_sidecar_are_made_of_other_files(tmp_path):
     known = KnownReads(tmp_path / "cache", CONFIG)
     sources = []
     for name in ("plain", "annotated"):
@@ -198,10 +193,10 @@ def test_the_same_bytes_with_another_sidecar_are_made_of_other_files(tmp_path) -
 @pytest.mark.parametrize(
     ("error", "code"), [(TimeoutError, "reading_timeout"), (ChildProcessError, "reading_killed")]
 )
-def test_a_reader_that_was_stopped_gives_no_verdict(error, code, tmp_path, monkeypatch) -> None:
+def test_a_reader_that_was_stopped_gives_no_verdict(error, code, tmp_path, monkeypatch):
     path = write_obj(tmp_path)
 
-    def stopped(*arguments: object) -> None:
+    def stopped(*arguments):
         raise error(f"{path.name}: no answer within 60 s")
 
     monkeypatch.setattr(source_module, "load", stopped)

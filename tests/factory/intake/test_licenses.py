@@ -1,9 +1,6 @@
 """Which licenses a configuration lets in; each asset names the license of its input."""
 
-from __future__ import annotations
-
 import json
-from pathlib import Path
 
 import pytest
 from export_samples import cabinet
@@ -49,7 +46,7 @@ def test_licenses_are_matched_by_name_or_pattern_in_any_case(license, allowed, i
     assert all(name in caught.value.message for name in allowed)
 
 
-def inputs(folder: Path) -> dict[str, Path]:
+def inputs(folder):
     for name, data in {**cube_files(), "box.urdf": URDF.encode()}.items():
         (folder / name).write_bytes(data)
     inline = MJCF.replace('<include file="assets.xml"/>', "").replace(

@@ -1,11 +1,8 @@
 """What counts as an input, and that importing the room costs little."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -13,13 +10,13 @@ from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.intake.discover import find_inputs, links_out
 
 
-def _touch(path: Path, content: str = "x") -> Path:
+def _touch(path, content="x"):
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(content)
     return path
 
 
-def test_folders_are_searched_in_sorted_order(tmp_path: Path) -> None:
+def test_folders_are_searched_in_sorted_order(tmp_path):
     b = _touch(tmp_path / "b" / "y.OBJ")
     a = _touch(tmp_path / "a" / "x.glb")
     z = _touch(tmp_path / "z.ply")
@@ -28,7 +25,7 @@ def test_folders_are_searched_in_sorted_order(tmp_path: Path) -> None:
     assert find_inputs([tmp_path]) == (z, a, b)
 
 
-def test_meshes_of_a_description_are_not_inputs_of_their_own(tmp_path: Path) -> None:
+def test_meshes_of_a_description_are_not_inputs_of_their_own(tmp_path):
     urdf = _touch(
         tmp_path / "robot" / "robot.urdf",
         '<robot><mesh filename="package://r/meshes/link.obj"/></robot>',
@@ -47,7 +44,7 @@ def test_meshes_of_a_description_are_not_inputs_of_their_own(tmp_path: Path) -> 
     assert find_inputs([mesh, other]) == (mesh, other)
 
 
-def test_meshes_beside_a_description_that_it_does_not_name_are_inputs(tmp_path: Path) -> None:
+def test_meshes_beside_a_description_that_it_does_not_name_are_inputs(tmp_path):
     urdf = _touch(tmp_path / "robot.urdf", '<robot><mesh filename="door.obj"/></robot>')
     _touch(tmp_path / "door.obj")
     others = [_touch(tmp_path / f"{name}.glb") for name in ("chair", "table")]
@@ -57,13 +54,13 @@ def test_meshes_beside_a_description_that_it_does_not_name_are_inputs(tmp_path: 
     assert find_inputs([tmp_path / "empty"]) == (empty, mesh)
 
 
-def test_the_root_layer_of_a_usd_asset_is_an_input_and_its_other_layers_are_not(tmp_path: Path):
+def test_the_root_layer_of_a_usd_asset_is_an_input_and_its_other_layers_are_not(tmp_path):
     main = _touch(tmp_path / "oven" / "oven.usda")
     _touch(tmp_path / "oven" / "payload.usda")
     assert find_inputs([tmp_path]) == (main,)
 
 
-def test_links_that_lead_out_are_named(tmp_path: Path) -> None:
+def test_links_that_lead_out_are_named(tmp_path):
     _touch(tmp_path / "far" / "a.glb")
     inside = _touch(tmp_path / "in" / "b.glb")
     os.symlink(tmp_path / "far", tmp_path / "in" / "there")
@@ -71,7 +68,7 @@ def test_links_that_lead_out_are_named(tmp_path: Path) -> None:
     assert links_out([tmp_path / "in"]) == (tmp_path / "in" / "there",)
 
 
-def test_links_out_of_the_folder_and_hidden_files_are_passed_over(tmp_path: Path) -> None:
+def test_links_out_of_the_folder_and_hidden_files_are_passed_over(tmp_path):
     outside = _touch(tmp_path / "outside.glb")
     inside = _touch(tmp_path / "in" / "a.glb")
     os.symlink(outside, tmp_path / "in" / "b.glb")
@@ -81,12 +78,12 @@ def test_links_out_of_the_folder_and_hidden_files_are_passed_over(tmp_path: Path
     assert find_inputs([tmp_path / "in"]) == (inside,)
 
 
-def test_a_file_named_twice_is_one_input(tmp_path: Path) -> None:
+def test_a_file_named_twice_is_one_input(tmp_path):
     path = _touch(tmp_path / "a.glb")
     assert find_inputs([path, tmp_path, path]) == (path,)
 
 
-def test_a_path_that_does_not_exist_is_a_config_error(tmp_path: Path) -> None:
+def test_a_path_that_does_not_exist_is_a_config_error(tmp_path):
     with pytest.raises(ConfigError, match="does not exist"):
         find_inputs([tmp_path / "absent"])
 
@@ -94,7 +91,7 @@ def test_a_path_that_does_not_exist_is_a_config_error(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "first", ["intake.annotation", "intake.discover", "intake.intake", "intake.loading"]
 )
-def test_its_modules_import_in_any_order(first: str) -> None:
+def test_its_modules_import_in_any_order(first):
     code = (
         f"import asset_factory.factory.{first}\n"
         "from asset_factory.factory.intake.discover import find_inputs, links_out\n"
@@ -104,12 +101,12 @@ def test_its_modules_import_in_any_order(first: str) -> None:
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-def test_looking_for_inputs_imports_no_geometry() -> None:
+def test_looking_for_inputs_imports_no_geometry():
     code = "import asset_factory.factory.intake.discover, sys; sys.exit('trimesh' in sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-def test_a_registry_among_the_inputs_is_passed_over(tmp_path: Path) -> None:
+def test_a_registry_among_the_inputs_is_passed_over(tmp_path):
     (tmp_path / "out" / "assets" / "cup-0000000000").mkdir(parents=True)
     (tmp_path / "out" / "registry.db").touch()
     asset = tmp_path / "out" / "assets" / "cup-0000000000" / "asset.urdf"

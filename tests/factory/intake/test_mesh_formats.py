@@ -1,36 +1,31 @@
 """Every format gives the same cube, textures and materials included."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 import trimesh
 from mesh_cube import TEXTURED, WRITERS, cube, gltf_parts, pack_glb, png, write_glb, write_obj
 
 from asset_factory.factory.config import IntakeConfig
-from asset_factory.factory.intake.loading import Visual, load_mesh, load_visual
-from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.intake.loading import load_mesh, load_visual
 
 LIMITS = IntakeConfig()
 
 
-def _volume(mesh: Mesh) -> float:
+def _volume(mesh):
     a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
     return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
 
 
-def _corners(mesh: Mesh) -> np.ndarray:
+def _corners(mesh):
     return np.asarray(mesh.vertices[mesh.faces])
 
 
-def _load(path: Path) -> Visual:
+def _load(path):
     return load_visual(path, path.parent, LIMITS)
 
 
 @pytest.mark.parametrize("form", WRITERS)
-def test_cube_survives_in_file_order_and_seams_are_welded(form: str, tmp_path: Path) -> None:
+def test_cube_survives_in_file_order_and_seams_are_welded(form, tmp_path):
     visual = _load(WRITERS[form](tmp_path))
     shape = cube()
     assert visual.mesh.vertices.shape == (8, 3)
@@ -43,7 +38,7 @@ def test_cube_survives_in_file_order_and_seams_are_welded(form: str, tmp_path: P
 
 
 @pytest.mark.parametrize("form", TEXTURED)
-def test_texture_bytes_coordinates_and_normals_survive(form: str, tmp_path: Path) -> None:
+def test_texture_bytes_coordinates_and_normals_survive(form, tmp_path):
     mesh = _load(WRITERS[form](tmp_path)).mesh
     shape = cube()
     textured = mesh.materials[int(mesh.face_material[0])]
@@ -56,14 +51,14 @@ def test_texture_bytes_coordinates_and_normals_survive(form: str, tmp_path: Path
     np.testing.assert_allclose(mesh.corner_normals, shape["normals"][shape["faces"]], atol=1e-7)
 
 
-def test_gltf_keeps_base_colour_and_license(tmp_path: Path) -> None:
+def test_gltf_keeps_base_colour_and_license(tmp_path):
     visual = _load(write_glb(tmp_path))
     assert visual.mesh.materials[0].name == "red_wood"
     assert visual.mesh.materials[0].color == (1.0, 0.5, 0.25, 1.0)
     assert visual.license == "CC0-1.0"
 
 
-def test_obj_keeps_several_materials(tmp_path: Path) -> None:
+def test_obj_keeps_several_materials(tmp_path):
     mesh = _load(write_obj(tmp_path)).mesh
     assert [m.name for m in mesh.materials] == ["red_wood", "steel"]
     assert mesh.face_material.tolist() == [0] * 8 + [1] * 4
@@ -72,7 +67,7 @@ def test_obj_keeps_several_materials(tmp_path: Path) -> None:
     assert mesh.materials[1].texture is None
 
 
-def test_gltf_applies_nested_transforms_and_every_instance(tmp_path: Path) -> None:
+def test_gltf_applies_nested_transforms_and_every_instance(tmp_path):
     quarter = float(np.sqrt(0.5))
     nodes = [
         {"children": [1, 2], "translation": [10, 0, 0]},
@@ -89,7 +84,7 @@ def test_gltf_applies_nested_transforms_and_every_instance(tmp_path: Path) -> No
     assert len(visual.mesh.materials) == 1
 
 
-def test_gltf_mirrored_instance_still_faces_outward(tmp_path: Path) -> None:
+def test_gltf_mirrored_instance_still_faces_outward(tmp_path):
     mesh = _load(write_glb(tmp_path, nodes=[{"mesh": 0, "scale": [-1, 1, 1]}])).mesh
     assert _volume(mesh) == pytest.approx(1.0)
     corners = _corners(mesh)
@@ -99,9 +94,7 @@ def test_gltf_mirrored_instance_still_faces_outward(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("mode", "indices"), [(5, [0, 1, 3, 2]), (6, [0, 1, 2, 3])])
-def test_gltf_strips_and_fans_become_triangles(
-    mode: int, indices: list[int], tmp_path: Path
-) -> None:
+def test_gltf_strips_and_fans_become_triangles(mode, indices, tmp_path):
     document, binary = gltf_parts()
     primitive = document["meshes"][0]["primitives"][0]
     primitive.update(mode=mode)
@@ -122,7 +115,7 @@ def test_gltf_strips_and_fans_become_triangles(
     np.testing.assert_allclose(normals, [[-1, 0, 0], [-1, 0, 0]], atol=1e-6)
 
 
-def test_gltf_texture_transform_moves_coordinates(tmp_path: Path) -> None:
+def test_gltf_texture_transform_moves_coordinates(tmp_path):
     document, binary = gltf_parts()
     reference = document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]
     reference["extensions"] = {
@@ -138,7 +131,7 @@ def test_gltf_texture_transform_moves_coordinates(tmp_path: Path) -> None:
     np.testing.assert_allclose(uv, expected, atol=1e-7)
 
 
-def test_gltf_sparse_accessor_moves_one_vertex(tmp_path: Path) -> None:
+def test_gltf_sparse_accessor_moves_one_vertex(tmp_path):
     document, binary = gltf_parts()
     offset = len(binary)
     binary += (
@@ -158,7 +151,7 @@ def test_gltf_sparse_accessor_moves_one_vertex(tmp_path: Path) -> None:
     assert _load(tmp_path / "cube.glb").mesh.bounds[0].tolist() == [-1.0, 0.0, 0.0]
 
 
-def test_obj_understands_negative_indices_and_missing_attributes(tmp_path: Path) -> None:
+def test_obj_understands_negative_indices_and_missing_attributes(tmp_path):
     (tmp_path / "t.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf -3/-1 -2 -1\nf 1 3 2\n")
     mesh = _load(tmp_path / "t.obj").mesh
     assert mesh.faces.tolist() == [[0, 1, 2], [0, 2, 1]]
@@ -167,7 +160,7 @@ def test_obj_understands_negative_indices_and_missing_attributes(tmp_path: Path)
     assert mesh.corner_normals is None
 
 
-def test_obj_without_its_library_loads_and_says_so(tmp_path: Path) -> None:
+def test_obj_without_its_library_loads_and_says_so(tmp_path):
     path = write_obj(tmp_path)
     (tmp_path / "cube.mtl").unlink()
     visual = _load(path)
@@ -175,7 +168,7 @@ def test_obj_without_its_library_loads_and_says_so(tmp_path: Path) -> None:
     assert all(m.texture is None for m in visual.mesh.materials)
 
 
-def test_broken_texture_is_left_out_and_named(tmp_path: Path) -> None:
+def test_broken_texture_is_left_out_and_named(tmp_path):
     path = write_obj(tmp_path)
     (tmp_path / "wood.png").write_bytes(png()[:30])
     visual = _load(path)
@@ -183,7 +176,7 @@ def test_broken_texture_is_left_out_and_named(tmp_path: Path) -> None:
     assert all(m.texture is None for m in visual.mesh.materials)
 
 
-def test_ply_vertex_colours_become_one_linear_colour(tmp_path: Path) -> None:
+def test_ply_vertex_colours_become_one_linear_colour(tmp_path):
     rows = "0 0 0 188 0 255\n1 0 0 188 0 255\n0 1 0 188 0 255\n"
     head = (
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -197,7 +190,7 @@ def test_ply_vertex_colours_become_one_linear_colour(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("form", ["ascii", "binary_little_endian"])
-def test_ply_mixed_polygons_keep_their_order(form: str, tmp_path: Path) -> None:
+def test_ply_mixed_polygons_keep_their_order(form, tmp_path):
     head = (
         f"ply\nformat {form} 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
         "property float z\n"
@@ -214,7 +207,7 @@ def test_ply_mixed_polygons_keep_their_order(form: str, tmp_path: Path) -> None:
     assert _load(tmp_path / "t.ply").mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3], [3, 2, 4]]
 
 
-def test_collada_applies_its_unit_and_nodes(tmp_path: Path) -> None:
+def test_collada_applies_its_unit_and_nodes(tmp_path):
     pytest.importorskip("collada", reason="pycollada is not installed")
     box = trimesh.creation.box(extents=(1, 2, 3))
     data = trimesh.exchange.dae.export_collada(box)
@@ -228,7 +221,7 @@ def test_collada_applies_its_unit_and_nodes(tmp_path: Path) -> None:
     assert mesh.vertices.shape == (8, 3)
 
 
-def test_same_file_gives_the_same_intake(tmp_path: Path) -> None:
+def test_same_file_gives_the_same_intake(tmp_path):
     path = write_obj(tmp_path)
     first = load_mesh(path, LIMITS)
     second = load_mesh(path, LIMITS)
@@ -238,7 +231,7 @@ def test_same_file_gives_the_same_intake(tmp_path: Path) -> None:
     assert first.mesh.materials == second.mesh.materials
 
 
-def test_digest_covers_referred_files(tmp_path: Path) -> None:
+def test_digest_covers_referred_files(tmp_path):
     path = write_obj(tmp_path)
     before = load_mesh(path, LIMITS).provenance.digest
     (tmp_path / "wood.png").write_bytes(png(color=(0, 0, 0)))

@@ -7,7 +7,6 @@ import os
 import random
 import struct
 import zlib
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -34,14 +33,14 @@ from asset_factory.factory.intake.loading import load_mesh, load_visual
 CONFIG = IntakeConfig()
 
 
-def _rejected(path: Path, config: IntakeConfig = CONFIG) -> InputRejected:
+def _rejected(path, config=CONFIG):
     with pytest.raises(InputRejected) as caught:
         load_mesh(path, config)
     assert str(path.parent) not in caught.value.message
     return caught.value
 
 
-def _outcome(path: Path) -> Intake | str:
+def _outcome(path):
     """The intake, or the code it was rejected with; anything else escapes and fails the test."""
     try:
         return load_mesh(path, CONFIG)
@@ -49,7 +48,7 @@ def _outcome(path: Path) -> Intake | str:
         return rejection.code
 
 
-def _glb(folder: Path, **changes: Any) -> Path:
+def _glb(folder, **changes):
     document, binary = gltf_parts()
     for key, value in changes.items():
         document[key] = value
@@ -68,13 +67,13 @@ def test_a_text_stl_that_is_cut_off_between_its_triangles_is_rejected(tmp_path):
     assert len(load_mesh(path, CONFIG).mesh.faces) == 24
 
 
-def test_unknown_suffix_is_unsupported(tmp_path: Path) -> None:
+def test_unknown_suffix_is_unsupported(tmp_path):
     (tmp_path / "cube.fbx").write_bytes(b"x")
     assert _rejected(tmp_path / "cube.fbx").code == "unsupported"
 
 
 @pytest.mark.parametrize("extension", ["KHR_draco_mesh_compression", "EXT_meshopt_compression"])
-def test_compressed_geometry_is_unsupported_and_named(extension: str, tmp_path: Path) -> None:
+def test_compressed_geometry_is_unsupported_and_named(extension, tmp_path):
     rejection = _rejected(_glb(tmp_path, extensionsRequired=[extension]))
     assert rejection.code == "unsupported"
     assert extension in rejection.message
@@ -83,23 +82,23 @@ def test_compressed_geometry_is_unsupported_and_named(extension: str, tmp_path: 
 @pytest.mark.parametrize(
     "name", ["cube.glb", "cube.gltf", "cube.obj", "cube.ply", "cube.stl", "cube.off"]
 )
-def test_zero_bytes_are_empty(name: str, tmp_path: Path) -> None:
+def test_zero_bytes_are_empty(name, tmp_path):
     (tmp_path / name).write_bytes(b"")
     assert _rejected(tmp_path / name).code == "empty"
 
 
-def test_a_mesh_without_faces_is_empty(tmp_path: Path) -> None:
+def test_a_mesh_without_faces_is_empty(tmp_path):
     (tmp_path / "p.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\n")
     assert _rejected(tmp_path / "p.obj").code == "empty"
     assert _rejected(_glb(tmp_path, scenes=[{"nodes": []}])).code == "empty"
 
 
-def test_text_in_a_binary_format_is_unreadable(tmp_path: Path) -> None:
+def test_text_in_a_binary_format_is_unreadable(tmp_path):
     (tmp_path / "cube.glb").write_text("this is no mesh")
     assert _rejected(tmp_path / "cube.glb").code == "unreadable"
 
 
-def test_a_pointer_of_git_lfs_is_explained(tmp_path: Path) -> None:
+def test_a_pointer_of_git_lfs_is_explained(tmp_path):
     (tmp_path / "cube.glb").write_text(
         "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n"
     )
@@ -108,18 +107,18 @@ def test_a_pointer_of_git_lfs_is_explained(tmp_path: Path) -> None:
     assert "git lfs pull" in rejection.message
 
 
-def test_a_missing_file_and_a_folder_are_unreadable(tmp_path: Path) -> None:
+def test_a_missing_file_and_a_folder_are_unreadable(tmp_path):
     assert _rejected(tmp_path / "absent.glb").code == "unreadable"
     (tmp_path / "folder.obj").mkdir()
     assert _rejected(tmp_path / "folder.obj").code == "unreadable"
 
 
-def test_a_cyclic_node_tree_is_unreadable(tmp_path: Path) -> None:
+def test_a_cyclic_node_tree_is_unreadable(tmp_path):
     nodes = [{"mesh": 0, "children": [1]}, {"children": [0]}]
     assert _rejected(_glb(tmp_path, nodes=nodes, scenes=[{"nodes": [0]}])).code == "unreadable"
 
 
-def test_a_file_over_the_byte_limit_is_too_large(tmp_path: Path) -> None:
+def test_a_file_over_the_byte_limit_is_too_large(tmp_path):
     rejection = _rejected(write_glb(tmp_path), IntakeConfig(max_bytes=100))
     assert rejection.code == "too_large"
     assert rejection.limit == 100
@@ -128,21 +127,21 @@ def test_a_file_over_the_byte_limit_is_too_large(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("form", WRITERS)
-def test_more_faces_than_the_limit_are_too_large(form: str, tmp_path: Path) -> None:
+def test_more_faces_than_the_limit_are_too_large(form, tmp_path):
     assert _rejected(WRITERS[form](tmp_path), IntakeConfig(max_faces=11)).code == "too_large"
 
 
 @pytest.mark.parametrize("form", WRITERS)
-def test_exactly_as_many_faces_as_the_limit_are_fine(form: str, tmp_path: Path) -> None:
+def test_exactly_as_many_faces_as_the_limit_are_fine(form, tmp_path):
     assert len(load_mesh(WRITERS[form](tmp_path), IntakeConfig(max_faces=12)).mesh.faces) == 12
 
 
-def test_instances_count_towards_the_face_limit(tmp_path: Path) -> None:
+def test_instances_count_towards_the_face_limit(tmp_path):
     path = write_glb(tmp_path, nodes=[{"mesh": 0, "translation": [2 * k, 0, 0]} for k in range(10)])
     assert _rejected(path, IntakeConfig(max_faces=100)).code == "too_large"
 
 
-def test_a_huge_announced_count_is_refused_before_allocation(tmp_path: Path) -> None:
+def test_a_huge_announced_count_is_refused_before_allocation(tmp_path):
     document, binary = gltf_parts()
     document["accessors"][0] = {"componentType": 5126, "count": 2**40, "type": "VEC3"}
     (tmp_path / "a.glb").write_bytes(pack_glb(document, binary))
@@ -158,21 +157,21 @@ def test_a_huge_announced_count_is_refused_before_allocation(tmp_path: Path) -> 
     assert _rejected(tmp_path / "d.stl").code == "unreadable"
 
 
-def test_a_texture_over_the_pixel_limit_is_refused_by_its_header(tmp_path: Path) -> None:
+def test_a_texture_over_the_pixel_limit_is_refused_by_its_header(tmp_path):
     path = write_glb(tmp_path, image=png((300, 200)))
     rejection = _rejected(path, IntakeConfig(max_texture_pixels=50_000))
     assert rejection.code == "too_large"
     assert rejection.value == 60_000
 
 
-def test_a_decompression_bomb_is_refused_by_its_header(tmp_path: Path) -> None:
+def test_a_decompression_bomb_is_refused_by_its_header(tmp_path):
     data = bytearray(png())
     data[16:24] = struct.pack(">II", 60_000, 60_000)
     data[29:33] = struct.pack(">I", zlib.crc32(data[12:29]))
     assert _rejected(write_glb(tmp_path, image=bytes(data))).code == "too_large"
 
 
-def test_many_large_textures_together_are_too_large(tmp_path: Path) -> None:
+def test_many_large_textures_together_are_too_large(tmp_path):
     document, binary = gltf_parts(image=png((100, 100)))
     document["images"] *= 20
     document["textures"] = [{"source": k} for k in range(20)]
@@ -187,8 +186,8 @@ def test_many_large_textures_together_are_too_large(tmp_path: Path) -> None:
     )
 
 
-def test_out_of_memory_is_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def no_memory(path: Path) -> None:
+def test_out_of_memory_is_too_large(tmp_path, monkeypatch):
+    def no_memory(path):
         raise MemoryError
 
     path = write_stl(tmp_path)
@@ -196,12 +195,12 @@ def test_out_of_memory_is_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert _rejected(path).code == "too_large"
 
 
-def test_vertices_without_a_finite_one_are_not_finite(tmp_path: Path) -> None:
+def test_vertices_without_a_finite_one_are_not_finite(tmp_path):
     (tmp_path / "n.obj").write_text("v nan nan nan\nv inf 0 0\nv 0 1 0\nf 1 2 3\n")
     assert _rejected(tmp_path / "n.obj").code == "not_finite"
 
 
-def test_faces_that_are_not_finite_or_flat_are_dropped_and_counted(tmp_path: Path) -> None:
+def test_faces_that_are_not_finite_or_flat_are_dropped_and_counted(tmp_path):
     (tmp_path / "m.obj").write_text(
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv 2 0 0\nv 0 0 1\nf 1 2 4\nf 1 2 3\nf 1 2 5\n"
         "f 1 1 3\nf 1 3 6\n"
@@ -213,12 +212,12 @@ def test_faces_that_are_not_finite_or_flat_are_dropped_and_counted(tmp_path: Pat
 
 
 @pytest.mark.parametrize("points", ["0 0 0|1 0 0|2 0 0", "0 0 0|0 0 0|0 0 0", "0 0 0|1 1 1|2 2 2"])
-def test_a_point_or_a_line_has_zero_size(points: str, tmp_path: Path) -> None:
+def test_a_point_or_a_line_has_zero_size(points, tmp_path):
     (tmp_path / "l.obj").write_text("".join(f"v {p}\n" for p in points.split("|")) + "f 1 2 3\n")
     assert _rejected(tmp_path / "l.obj").code == "zero_size"
 
 
-def test_a_flat_mesh_cannot_be_scaled_to_a_height(tmp_path: Path) -> None:
+def test_a_flat_mesh_cannot_be_scaled_to_a_height(tmp_path):
     (tmp_path / "rug.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     assert len(load_mesh(tmp_path / "rug.obj", CONFIG).mesh.faces) == 1
     assert _rejected(tmp_path / "rug.obj", IntakeConfig(height=0.5)).code == "zero_size"
@@ -235,7 +234,7 @@ def test_a_flat_mesh_cannot_be_scaled_to_a_height(tmp_path: Path) -> None:
         "a/../../b.png",
     ],
 )
-def test_a_reference_that_leaves_the_folder_is_external(reference: str, tmp_path: Path) -> None:
+def test_a_reference_that_leaves_the_folder_is_external(reference, tmp_path):
     inside = tmp_path / "inside"
     inside.mkdir()
     (tmp_path / "secret.png").write_bytes(png())
@@ -279,7 +278,7 @@ input_semantic="TEXCOORD" input_set="0"/></instance_material></technique_common>
 <scene><instance_visual_scene url="#w"/></scene></COLLADA>"""
 
 
-def test_a_collada_file_shows_pictures_of_its_own_folder_only(tmp_path: Path) -> None:
+def test_a_collada_file_shows_pictures_of_its_own_folder_only(tmp_path):
     pytest.importorskip("collada", reason="pycollada is not installed")
     inside = tmp_path / "inside"
     inside.mkdir()
@@ -296,7 +295,7 @@ def test_a_collada_file_shows_pictures_of_its_own_folder_only(tmp_path: Path) ->
     assert _rejected(path).code == "external_reference"
 
 
-def test_a_link_that_leaves_the_folder_is_external(tmp_path: Path) -> None:
+def test_a_link_that_leaves_the_folder_is_external(tmp_path):
     inside = tmp_path / "inside"
     inside.mkdir()
     (tmp_path / "secret.png").write_bytes(png())
@@ -306,14 +305,14 @@ def test_a_link_that_leaves_the_folder_is_external(tmp_path: Path) -> None:
     assert _rejected(path).code == "external_reference"
 
 
-def test_a_visual_outside_its_root_is_external(tmp_path: Path) -> None:
+def test_a_visual_outside_its_root_is_external(tmp_path):
     (tmp_path / "robot").mkdir()
     with pytest.raises(InputRejected, match="outside") as caught:
         load_visual(write_stl(tmp_path), tmp_path / "robot", CONFIG)
     assert caught.value.code == "external_reference"
 
 
-def test_a_visual_may_refer_to_anything_below_its_root(tmp_path: Path) -> None:
+def test_a_visual_may_refer_to_anything_below_its_root(tmp_path):
     (tmp_path / "meshes").mkdir()
     path = write_obj(tmp_path / "meshes")
     (tmp_path / "images").mkdir()
@@ -324,13 +323,13 @@ def test_a_visual_may_refer_to_anything_below_its_root(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("field", [{"up": "w"}, {"height": 0.0}, {"height": float("nan")}])
-def test_a_setting_that_cannot_be_is_a_config_error(field: dict[str, Any], tmp_path: Path) -> None:
+def test_a_setting_that_cannot_be_is_a_config_error(field, tmp_path):
     with pytest.raises(ConfigError):
         load_mesh(write_stl(tmp_path), IntakeConfig(**field))
 
 
 @pytest.mark.parametrize("form", WRITERS)
-def test_damaged_files_are_read_or_rejected_never_anything_else(form: str, tmp_path: Path) -> None:
+def test_damaged_files_are_read_or_rejected_never_anything_else(form, tmp_path):
     path = WRITERS[form](tmp_path)
     good = path.read_bytes()
     generator = random.Random(form)  # noqa: S311 - test data
@@ -347,9 +346,7 @@ def test_damaged_files_are_read_or_rejected_never_anything_else(form: str, tmp_p
 
 @settings(max_examples=60, deadline=None)
 @given(data=st.data())
-def test_json_of_any_shape_is_read_or_rejected(
-    data: st.DataObject, tmp_path_factory: pytest.TempPathFactory
-) -> None:
+def test_json_of_any_shape_is_read_or_rejected(data, tmp_path_factory):
     document, binary = gltf_parts()
     junk = st.recursive(
         st.none() | st.booleans() | st.integers(-5, 10**12) | st.floats() | st.text(max_size=5),
@@ -380,7 +377,7 @@ def test_json_of_any_shape_is_read_or_rejected(
     assert isinstance(_outcome(path), Intake | str)
 
 
-def test_a_wrecked_glb_is_told_by_what_it_begins_with(tmp_path: Path) -> None:
+def test_a_wrecked_glb_is_told_by_what_it_begins_with(tmp_path):
     path = tmp_path / "wrecked.glb"
     for data, told in (
         (b"\xba\x01\x02\x03 and so on", "begins with ba 01 02 03, want 'glTF'"),

@@ -1,7 +1,5 @@
 """Up axis, metric size, category and sidecar."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +10,6 @@ from mesh_cube import write_glb, write_off, write_stl
 
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import ConfigError, InputRejected
-from asset_factory.factory.intake.intake import Intake
 from asset_factory.factory.intake.loading import load_mesh
 from asset_factory.factory.intake.orientation import UP_AXES, parse_up, rotation_to_z_up
 from asset_factory.factory.intake.sizes import guess_category, scale_by_size, size_table
@@ -20,7 +17,7 @@ from asset_factory.factory.intake.sizes import guess_category, scale_by_size, si
 FIXTURE = Path(__file__).parents[4] / "shared" / "fixtures" / "postprocess_e2e" / "up_dir.npz"
 
 
-def _box(folder: Path, name: str, extents: tuple[float, float, float]) -> Path:
+def _box(folder, name, extents):
     x, y, z = extents
     rows = [f"v {i * x} {j * y} {k * z}" for i in (0, 1) for j in (0, 1) for k in (0, 1)]
     faces = ["1 2 4 3", "5 7 8 6", "1 5 6 2", "3 4 8 7", "1 3 7 5", "2 6 8 4"]
@@ -28,14 +25,14 @@ def _box(folder: Path, name: str, extents: tuple[float, float, float]) -> Path:
     return folder / name
 
 
-def _load(path: Path, sidecar: str | None = None, **options: object) -> Intake:
+def _load(path, sidecar=None, **options):
     if sidecar is not None:
         path.with_suffix(".toml").write_text(sidecar)
-    return load_mesh(path, IntakeConfig(**options))  # type: ignore[arg-type]
+    return load_mesh(path, IntakeConfig(**options))
 
 
 @pytest.mark.parametrize("axis", UP_AXES)
-def test_the_named_axis_becomes_z_by_a_proper_rotation(axis: str) -> None:
+def test_the_named_axis_becomes_z_by_a_proper_rotation(axis):
     rotation = rotation_to_z_up(axis)
     direction = np.eye(3)["xyz".index(axis[-1])] * (-1.0 if axis[0] == "-" else 1.0)
     np.testing.assert_array_equal(rotation @ direction, [0, 0, 1])
@@ -44,7 +41,7 @@ def test_the_named_axis_becomes_z_by_a_proper_rotation(axis: str) -> None:
 
 
 @pytest.mark.parametrize("axis", UP_AXES)
-def test_rotations_agree_with_the_released_model(axis: str) -> None:
+def test_rotations_agree_with_the_released_model(axis):
     if not FIXTURE.exists():
         pytest.skip("the recorded up_dir fixture is not on this machine")
     with np.load(FIXTURE) as recorded:
@@ -55,7 +52,7 @@ def test_rotations_agree_with_the_released_model(axis: str) -> None:
         np.testing.assert_allclose(unit, recorded[axis.upper()], atol=1e-6)
 
 
-def test_up_is_option_then_sidecar_then_format(tmp_path: Path) -> None:
+def test_up_is_option_then_sidecar_then_format(tmp_path):
     glb = write_glb(tmp_path)
     stl = write_off(tmp_path, "other.off")
     assert (_load(glb).provenance.up, _load(glb).provenance.up_source) == ("y", "format")
@@ -69,12 +66,12 @@ def test_up_is_option_then_sidecar_then_format(tmp_path: Path) -> None:
     assert any("up axis was taken to be z" in note for note in _load(stl).provenance.notes)
 
 
-def test_no_other_word_is_an_up_axis() -> None:
+def test_no_other_word_is_an_up_axis():
     with pytest.raises(ConfigError, match="want one of x, -x"):
         parse_up("up")
 
 
-def test_transform_leads_from_the_input_to_the_object(tmp_path: Path) -> None:
+def test_transform_leads_from_the_input_to_the_object(tmp_path):
     intake = _load(write_glb(tmp_path, nodes=[{"mesh": 0, "translation": [1, 2, 3]}]), height=0.5)
     low = np.array([1.0, 2, 3])
     high = np.array([2.0, 3, 4])
@@ -84,7 +81,7 @@ def test_transform_leads_from_the_input_to_the_object(tmp_path: Path) -> None:
     assert intake.provenance.scale == pytest.approx(0.5)
 
 
-def test_height_is_option_then_sidecar_then_table(tmp_path: Path) -> None:
+def test_height_is_option_then_sidecar_then_table(tmp_path):
     path = _box(tmp_path, "fridge.obj", (70, 70, 180))
     table = _load(path).provenance
     assert (table.scale, table.scale_source, table.category) == (0.01, "category", "fridge")
@@ -113,9 +110,7 @@ def test_height_is_option_then_sidecar_then_table(tmp_path: Path) -> None:
         ("thing.obj", (1e-3, 1e-3, 1e-3), 1000.0, "guess"),
     ],
 )
-def test_units_are_guessed_from_plausible_sizes(
-    name: str, extents: tuple[float, float, float], factor: float, source: str, tmp_path: Path
-) -> None:
+def test_units_are_guessed_from_plausible_sizes(name, extents, factor, source, tmp_path):
     provenance = _load(_box(tmp_path, name, extents)).provenance
     assert provenance.scale == pytest.approx(factor)
     assert provenance.scale_source == source
@@ -140,11 +135,11 @@ def test_units_are_guessed_from_plausible_sizes(
         ("mailbox", "", "mailbox"),
     ],
 )
-def test_category_is_guessed_from_names(stem: str, folder: str, category: str | None) -> None:
+def test_category_is_guessed_from_names(stem, folder, category):
     assert guess_category(stem, folder) == category
 
 
-def test_a_gltf_that_is_only_plausible_z_up_is_kept_y_up_but_pointed_out(tmp_path: Path) -> None:
+def test_a_gltf_that_is_only_plausible_z_up_is_kept_y_up_but_pointed_out(tmp_path):
     nodes = [{"mesh": 0, "scale": [0.9, 0.04, 2.0]}]
     provenance = _load(write_glb(tmp_path, "door.glb", nodes=nodes)).provenance
     assert provenance.up == "y"
@@ -153,13 +148,13 @@ def test_a_gltf_that_is_only_plausible_z_up_is_kept_y_up_but_pointed_out(tmp_pat
     assert (fine.scale_source, len(fine.notes)) == ("as_is", 2)
 
 
-def test_a_guessed_category_is_written_down(tmp_path: Path) -> None:
+def test_a_guessed_category_is_written_down(tmp_path):
     provenance = _load(_box(tmp_path, "oven_2.obj", (0.6, 0.6, 0.8))).provenance
     assert provenance.category == "oven"
     assert any("category oven was guessed" in note for note in provenance.notes)
 
 
-def test_sidecar_says_everything(tmp_path: Path) -> None:
+def test_sidecar_says_everything(tmp_path):
     (tmp_path / "pred.npz").write_bytes(b"x")
     intake = _load(
         write_glb(tmp_path),
@@ -174,7 +169,7 @@ def test_sidecar_says_everything(tmp_path: Path) -> None:
     assert intake.annotation is None
 
 
-def test_the_longer_sidecar_name_wins(tmp_path: Path) -> None:
+def test_the_longer_sidecar_name_wins(tmp_path):
     path = write_glb(tmp_path)
     (tmp_path / "cube.toml").write_text('category = "chair"')
     (tmp_path / "cube.glb.toml").write_text('category = "table"')
@@ -195,21 +190,19 @@ def test_the_longer_sidecar_name_wins(tmp_path: Path) -> None:
         ('annotation = "absent.npz"', "does not exist"),
     ],
 )
-def test_a_bad_sidecar_is_rejected_with_what_would_work(
-    content: str, said: str, tmp_path: Path
-) -> None:
+def test_a_bad_sidecar_is_rejected_with_what_would_work(content, said, tmp_path):
     with pytest.raises(InputRejected, match=said) as caught:
         _load(write_stl(tmp_path), content)
     assert caught.value.code == "bad_sidecar"
 
 
-def test_an_annotation_outside_the_folder_is_external(tmp_path: Path) -> None:
+def test_an_annotation_outside_the_folder_is_external(tmp_path):
     with pytest.raises(InputRejected) as caught:
         _load(write_stl(tmp_path), 'annotation = "../pred.npz"')
     assert caught.value.code == "external_reference"
 
 
-def test_every_typical_size_is_plausible_and_every_alias_unique() -> None:
+def test_every_typical_size_is_plausible_and_every_alias_unique():
     sizes = {size.category: size for size in size_table().values()}
     assert len(sizes) >= 50
     for size in sizes.values():
@@ -217,7 +210,7 @@ def test_every_typical_size_is_plausible_and_every_alias_unique() -> None:
 
 
 @given(st.sampled_from(sorted(size_table())), st.floats(1e-6, 1e6), st.floats(0.1, 10.0))
-def test_the_chosen_scale_is_always_plausible(name: str, height: float, aspect: float) -> None:
+def test_the_chosen_scale_is_always_plausible(name, height, aspect):
     extents = np.array([height * aspect, height / 2.0, height])
     size = size_table()[name]
     scale = scale_by_size(extents, name)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
-from asset_factory.factory.articulation import Articulation, JointKind
+from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.importers.prediction import point_on_line, read_prediction
 from asset_factory.factory.mesh import Mesh
@@ -17,7 +17,7 @@ from asset_factory.factory.mesh import Mesh
 FACES = 8
 
 
-def fields(**changes: Any) -> dict[str, Any]:
+def fields(**changes):
     """Labels of four boxes: part 0 carries a hinge (1), a slider (2) and a part with both (3)."""
     axis = np.array([0.0, 0.0, 1.0])
     point = np.array([1.0, 2.0, 0.0])
@@ -36,25 +36,25 @@ def fields(**changes: Any) -> dict[str, Any]:
     return {name: value for name, value in result.items() if value is not None}
 
 
-def save(folder: Path, **changes: Any) -> Path:
+def save(folder, **changes):
     path = folder / "pred.npz"
     np.savez(path, **fields(**changes))
     return path
 
 
-def strip(count: int = FACES) -> Mesh:
+def strip(count=FACES):
     """Loose triangles side by side, one above another."""
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=np.float64)
     vertices = np.concatenate([corners + np.array([0, 0, i]) for i in range(count)])
     return Mesh.from_triangles(vertices, np.arange(3 * count).reshape(-1, 3))
 
 
-def articulate(path: Path, count: int = FACES) -> Articulation:
+def articulate(path, count=FACES):
     annotation = read_prediction(path, count)
     return AnnotatedArticulator(annotation, np.eye(4), np.arange(count)).articulate(strip(count))
 
 
-def test_moments_are_axis_cross_point(tmp_path: Path) -> None:
+def test_moments_are_axis_cross_point(tmp_path):
     joint = read_prediction(save(tmp_path), FACES).joints[0]
     np.testing.assert_allclose(joint.origin, [1.0, 2.0, 0.0], atol=1e-12)
     random = np.random.default_rng(0)
@@ -65,7 +65,7 @@ def test_moments_are_axis_cross_point(tmp_path: Path) -> None:
         np.testing.assert_allclose(np.cross(axis, found - point), 0.0, atol=1e-12)
 
 
-def test_all_four_motions_become_joints(tmp_path: Path) -> None:
+def test_all_four_motions_become_joints(tmp_path):
     result = articulate(save(tmp_path))
     kinds = {joint.name: joint.kind for joint in result.joints}
     assert kinds == {
@@ -77,7 +77,7 @@ def test_all_four_motions_become_joints(tmp_path: Path) -> None:
     assert result.joint("joint_2").upper == pytest.approx(0.3)
 
 
-def test_what_turns_and_slides_slides_along_the_turned_direction(tmp_path: Path) -> None:
+def test_what_turns_and_slides_slides_along_the_turned_direction(tmp_path):
     result = articulate(
         save(tmp_path, revolute_range=np.array([[0, 0], [0, 1.5], [0, 0], [0, np.pi / 2]]))
     )
@@ -87,20 +87,20 @@ def test_what_turns_and_slides_slides_along_the_turned_direction(tmp_path: Path)
     np.testing.assert_allclose(moved[:3], [1.0, 3.2, 0.0], atol=1e-6)
 
 
-def test_further_trees_are_attached_to_the_largest_and_a_note_names_them(tmp_path: Path) -> None:
+def test_further_trees_are_attached_to_the_largest_and_a_note_names_them(tmp_path):
     result = articulate(save(tmp_path, motion_hierarchy=np.array([[0, 1], [0, 2]])))
     assert len(result.movable_joints) == 2
     assert len(result.parts[0].faces) == 4
     assert any("'part_3'" in note and "'part_0'" in note for note in result.notes)
 
 
-def test_faces_without_a_part_go_to_the_root(tmp_path: Path) -> None:
+def test_faces_without_a_part_go_to_the_root(tmp_path):
     result = articulate(save(tmp_path, face_part_ids=np.array([0, 0, 1, 1, 2, 2, 3, -1])))
     assert result.parts[0].faces.tolist() == [0, 1, 7]
     assert any("1 faces belong to no part" in note for note in result.notes)
 
 
-def test_labels_of_faces_that_were_dropped_do_not_matter(tmp_path: Path) -> None:
+def test_labels_of_faces_that_were_dropped_do_not_matter(tmp_path):
     path = save(tmp_path, face_part_ids=np.array([0, 0, 1, 1, 2, 2, 3, 3, 3]))
     assert len(read_prediction(path, FACES).face_part) == 9
 
@@ -121,16 +121,14 @@ def test_labels_of_faces_that_were_dropped_do_not_matter(tmp_path: Path) -> None
         ({"revolute_range": np.array([[object()] * 2] * 4, dtype=object)}, "plain arrays"),
     ],
 )
-def test_unknown_shapes_are_refused_by_name(
-    tmp_path: Path, changes: dict[str, Any], says: str
-) -> None:
+def test_unknown_shapes_are_refused_by_name(tmp_path, changes, says):
     with pytest.raises(InputRejected) as caught:
         read_prediction(save(tmp_path, **changes), FACES)
     assert caught.value.code == "bad_annotation"
     assert says in caught.value.message
 
 
-def test_files_that_are_no_archives_are_refused(tmp_path: Path) -> None:
+def test_files_that_are_no_archives_are_refused(tmp_path):
     path = tmp_path / "pred.npz"
     with pytest.raises(InputRejected) as caught:
         read_prediction(path, FACES)
@@ -145,7 +143,7 @@ def test_files_that_are_no_archives_are_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "edges", [[[0, 1], [1, 2], [2, 1]], [[0, 1], [0, 2], [3, 2]], [[1, 0], [2, 1], [3, 2], [0, 3]]]
 )
-def test_hierarchies_that_are_no_forest_are_refused(tmp_path: Path, edges: list[list[int]]) -> None:
+def test_hierarchies_that_are_no_forest_are_refused(tmp_path, edges):
     with pytest.raises(InputRejected) as caught:
         articulate(save(tmp_path, motion_hierarchy=np.array(edges)))
     assert caught.value.code == "not_a_tree"
@@ -158,7 +156,7 @@ PREDICTIONS = Path(__file__).parents[4] / "shared" / "fixtures" / "postprocess_e
     not PREDICTIONS.is_dir(), reason="the reference predictions are not on this machine"
 )
 @pytest.mark.parametrize("name", ["strict_induced_tree", "nonstrict"])
-def test_published_predictions_become_trees(name: str) -> None:
+def test_published_predictions_become_trees(name):
     stored = np.load(PREDICTIONS / name / "pred.npz", allow_pickle=False)
     count = len(stored["face_part_ids"])
     result = articulate(PREDICTIONS / name / "pred.npz", count)
@@ -174,7 +172,7 @@ LINES = Path(__file__).parents[4] / "shared" / "fixtures" / "geometry" / "plucke
 
 
 @pytest.mark.skipif(not LINES.is_file(), reason="the reference lines are not on this machine")
-def test_points_on_lines_agree_with_the_reference() -> None:
+def test_points_on_lines_agree_with_the_reference():
     stored = np.load(LINES)
     for line, point in zip(stored["plucker"], stored["point_out"], strict=True):
         np.testing.assert_allclose(point_on_line(line[:3], line[3:]), point, atol=1e-6)

@@ -1,7 +1,5 @@
 """Points in time, and limits that cannot be."""
 
-from __future__ import annotations
-
 import os
 
 import pytest
@@ -11,7 +9,7 @@ from asset_factory.factory.jobs import Budget
 from asset_factory.factory.jobs.budget import modified_since, parse_since
 
 
-def test_a_point_in_time_is_seconds_ago_a_date_or_a_file(tmp_path) -> None:
+def test_a_point_in_time_is_seconds_ago_a_date_or_a_file(tmp_path):
     assert parse_since("3600", now=10_000.0) == 6_400.0
     assert parse_since("2026-11-21T00:00+00:00") == 1_795_219_200.0
     assert parse_since("2026-11-21T01:00+01:00") == 1_795_219_200.0
@@ -24,7 +22,7 @@ def test_a_point_in_time_is_seconds_ago_a_date_or_a_file(tmp_path) -> None:
             parse_since(text)
 
 
-def test_only_what_was_modified_since_is_wanted(tmp_path) -> None:
+def test_only_what_was_modified_since_is_wanted(tmp_path):
     for name, modified in (("old", 100.0), ("new", 300.0)):
         (tmp_path / name).touch()
         os.utime(tmp_path / name, (modified, modified))
@@ -33,6 +31,6 @@ def test_only_what_was_modified_since_is_wanted(tmp_path) -> None:
 
 
 @pytest.mark.parametrize("wrong", [{"limit": -1}, {"max_s": -1.0}, {"max_s": float("nan")}])
-def test_a_budget_that_cannot_be_is_refused(wrong) -> None:
+def test_a_budget_that_cannot_be_is_refused(wrong):
     with pytest.raises(ConfigError, match="want 0 or more"):
         Budget(**wrong)

@@ -1,9 +1,6 @@
 """A crash that comes again is a verdict; one that may have been bad luck is tried again."""
 
-from __future__ import annotations
-
 import json
-from pathlib import Path
 
 import pytest
 from crashing_builds import dying
@@ -15,12 +12,12 @@ from asset_factory.factory.registry import Registry, keys
 
 
 @pytest.fixture(autouse=True)
-def _dying(monkeypatch: pytest.MonkeyPatch) -> None:
+def _dying(monkeypatch):
     monkeypatch.setattr(job_module, "build_here", dying)
     monkeypatch.setattr(job_module, "modules_for", lambda config: ())
 
 
-def built(tmp_path: Path, name: str, retries: int = 1, **more):
+def built(tmp_path, name, retries=1, **more):
     path = tmp_path / "in" / f"{name}.stl"
     path.parent.mkdir(exist_ok=True)
     path.write_text("solid")

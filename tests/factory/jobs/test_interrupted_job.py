@@ -1,7 +1,5 @@
 """An interrupted or killed job leaves no process, loses nothing, and the next does the rest."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess
@@ -20,7 +18,7 @@ SCRIPT = Path(__file__).parents[2] / "samples" / "slow_job.py"
 PATIENCE_S = 60.0
 
 
-def begun(folder: Path, output: Path, *flags: str) -> subprocess.Popen[str]:
+def begun(folder, output, *flags):
     """A job that has finished three inputs and hangs in the fourth."""
     write_inputs(folder, 3)
     (folder / "zz_slow.stl").write_text("solid slow")
@@ -33,14 +31,14 @@ def begun(folder: Path, output: Path, *flags: str) -> subprocess.Popen[str]:
     return process
 
 
-def wait_for(condition) -> None:
+def wait_for(condition):
     end = time.monotonic() + PATIENCE_S
     while not condition():
         assert time.monotonic() < end
         time.sleep(0.02)
 
 
-def is_alive(process: int) -> bool:
+def is_alive(process):
     try:
         status = Path(f"/proc/{process}/stat").read_text()
     except OSError:
@@ -48,7 +46,7 @@ def is_alive(process: int) -> bool:
     return status.rsplit(")", 1)[1].split()[0] != "Z"
 
 
-def workers(folder: Path) -> set[int]:
+def workers(folder):
     return {int(line.split()[1]) for line in (folder / MADE).read_text().splitlines()}
 
 
@@ -56,7 +54,7 @@ def workers(folder: Path) -> set[int]:
     ("number", "code"),
     [(signal.SIGTERM, 143), pytest.param(signal.SIGINT, 130, marks=pytest.mark.full)],
 )
-def test_an_interrupted_job_has_registered_what_was_finished(number, code, tmp_path) -> None:
+def test_an_interrupted_job_has_registered_what_was_finished(number, code, tmp_path):
     with begun(tmp_path / "in", tmp_path / "out") as process:
         process.send_signal(number)
         assert process.wait(PATIENCE_S) == code
@@ -69,7 +67,7 @@ def test_an_interrupted_job_has_registered_what_was_finished(number, code, tmp_p
         assert list((tmp_path / "out" / name).iterdir()) == []
 
 
-def test_the_first_ctrl_c_finishes_what_is_begun_and_the_second_stops(tmp_path) -> None:
+def test_the_first_ctrl_c_finishes_what_is_begun_and_the_second_stops(tmp_path):
     with begun(tmp_path / "in", tmp_path / "out", "--wind-up") as process:
         process.send_signal(signal.SIGINT)
         time.sleep(0.5)
@@ -80,7 +78,7 @@ def test_the_first_ctrl_c_finishes_what_is_begun_and_the_second_stops(tmp_path) 
     assert len(Registry(tmp_path / "out").entries()) == 3
 
 
-def test_a_job_that_winds_up_begins_nothing_more(tmp_path, monkeypatch) -> None:
+def test_a_job_that_winds_up_begins_nothing_more(tmp_path, monkeypatch):
     monkeypatch.setattr(job_module, "build_here", pretend)
     monkeypatch.setattr(job_module, "modules_for", lambda config: ())
     inputs = write_inputs(tmp_path / "in", 8)
@@ -95,9 +93,7 @@ def test_a_job_that_winds_up_begins_nothing_more(tmp_path, monkeypatch) -> None:
     assert len(list(rest.run())) == 8
 
 
-def test_a_killed_job_leaves_no_orphans_and_the_next_one_does_the_rest(
-    tmp_path, monkeypatch
-) -> None:
+def test_a_killed_job_leaves_no_orphans_and_the_next_one_does_the_rest(tmp_path, monkeypatch):
     with begun(tmp_path / "in", tmp_path / "out") as process:
         process.kill()
         assert process.wait(PATIENCE_S) == -signal.SIGKILL
@@ -109,10 +105,10 @@ def test_a_killed_job_leaves_no_orphans_and_the_next_one_does_the_rest(
     assert [result.attempts for result in job(inputs, tmp_path / "out").run()] == [0, 0, 0, 1]
 
 
-def test_a_signal_waits_until_it_does_no_harm() -> None:
+def test_a_signal_waits_until_it_does_no_harm():
     steps = []
 
-    def register() -> None:
+    def register():
         with undisturbed():
             os.kill(os.getpid(), signal.SIGTERM)
             time.sleep(0.01)

@@ -31,13 +31,13 @@ from asset_factory.sim_checks.report import KILLED, OUT_OF_TIME, Status
 
 
 @pytest.fixture(autouse=True)
-def _pretending(monkeypatch: pytest.MonkeyPatch) -> None:
+def _pretending(monkeypatch):
     monkeypatch.setattr(job_module, "build_here", pretend)
     monkeypatch.setattr(job_module, "modules_for", lambda config: ())
     monkeypatch.setattr(job_module, "POLL_S", 0.01)
 
 
-def test_the_same_job_again_does_nothing(tmp_path: Path) -> None:
+def test_the_same_job_again_does_nothing(tmp_path):
     inputs = write_inputs(tmp_path / "in", 5)
     first = list(job(inputs, tmp_path / "out").run())
     assert [result.attempts for result in first] == [1] * 5
@@ -48,7 +48,7 @@ def test_the_same_job_again_does_nothing(tmp_path: Path) -> None:
     assert [(r.input, r.entry) for r in again] == [(r.input, r.entry) for r in first]
 
 
-def test_only_what_is_missing_or_another_is_built(tmp_path: Path) -> None:
+def test_only_what_is_missing_or_another_is_built(tmp_path):
     inputs = write_inputs(tmp_path / "in", 4)
     list(job(inputs[:2], tmp_path / "out").run())
     inputs[0].write_text("solid other")
@@ -58,7 +58,7 @@ def test_only_what_is_missing_or_another_is_built(tmp_path: Path) -> None:
     assert all(result.known for result in job(inputs, tmp_path / "out").run())
 
 
-def test_other_settings_are_another_build_but_other_limits_are_not(tmp_path: Path) -> None:
+def test_other_settings_are_another_build_but_other_limits_are_not(tmp_path):
     inputs = write_inputs(tmp_path / "in", 2)
     list(job(inputs, tmp_path / "out").run())
     patient = replace(PLAIN, asset_wall_s=1.0, asset_memory_bytes=2**30, retries=0)
@@ -67,7 +67,7 @@ def test_other_settings_are_another_build_but_other_limits_are_not(tmp_path: Pat
     assert not any(result.known for result in job(inputs, tmp_path / "out", heavier).run())
 
 
-def test_a_moved_folder_and_a_lost_cache_change_nothing(tmp_path: Path) -> None:
+def test_a_moved_folder_and_a_lost_cache_change_nothing(tmp_path):
     inputs = write_inputs(tmp_path / "in", 2)
     list(job(inputs, tmp_path / "out").run())
     (tmp_path / "in").rename(tmp_path / "moved")
@@ -76,7 +76,7 @@ def test_a_moved_folder_and_a_lost_cache_change_nothing(tmp_path: Path) -> None:
     assert all(result.known for result in job(moved, tmp_path / "out").run())
 
 
-def test_a_limit_leaves_the_rest_to_the_next_job(tmp_path: Path) -> None:
+def test_a_limit_leaves_the_rest_to_the_next_job(tmp_path):
     inputs = write_inputs(tmp_path / "in", 5)
     short = job(inputs, tmp_path / "out", budget=Budget(limit=2))
     assert len(list(short.run())) == 2
@@ -90,7 +90,7 @@ def test_a_limit_leaves_the_rest_to_the_next_job(tmp_path: Path) -> None:
     assert (enough.state, enough.left) == ("finished", 0)
 
 
-def test_out_of_time_begins_nothing(tmp_path: Path) -> None:
+def test_out_of_time_begins_nothing(tmp_path):
     inputs = write_inputs(tmp_path / "in", 3)
     late = job(inputs, tmp_path / "out", budget=Budget(max_s=0.0))
     assert list(late.run()) == []
@@ -98,7 +98,7 @@ def test_out_of_time_begins_nothing(tmp_path: Path) -> None:
     assert made(tmp_path / "in") == []
 
 
-def test_what_was_rejected_stays_rejected_until_somebody_asks(tmp_path: Path) -> None:
+def test_what_was_rejected_stays_rejected_until_somebody_asks(tmp_path):
     good = write_inputs(tmp_path / "in", 1)[0]
     bad = tmp_path / "in" / "bad.stl"
     bad.write_text("solid bad")
@@ -110,7 +110,7 @@ def test_what_was_rejected_stays_rejected_until_somebody_asks(tmp_path: Path) ->
     assert made(tmp_path / "in").count(good.name) == 1
 
 
-def test_a_crash_is_listed_and_tried_again_by_the_next_job(tmp_path: Path) -> None:
+def test_a_crash_is_listed_and_tried_again_by_the_next_job(tmp_path):
     inputs = (*write_inputs(tmp_path / "in", 2), tmp_path / "in" / "dies.stl")
     inputs[2].write_text("solid dies")
     results = {
@@ -132,7 +132,7 @@ def test_a_crash_is_listed_and_tried_again_by_the_next_job(tmp_path: Path) -> No
     ]
 
 
-def test_a_hang_is_listed_and_tried_again_by_the_next_job(tmp_path: Path) -> None:
+def test_a_hang_is_listed_and_tried_again_by_the_next_job(tmp_path):
     inputs = (*write_inputs(tmp_path / "in", 1), tmp_path / "in" / "slow.stl")
     inputs[1].write_text("solid slow")
     hurried = replace(PLAIN, asset_wall_s=1.0)
@@ -147,7 +147,7 @@ def test_a_hang_is_listed_and_tried_again_by_the_next_job(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("damage", ["altered", "missing", "extra"])
-def test_what_was_damaged_is_built_again_when_asked(tmp_path: Path, damage: str) -> None:
+def test_what_was_damaged_is_built_again_when_asked(tmp_path, damage):
     inputs = write_inputs(tmp_path / "in", 2)
     first, _ = job(inputs, tmp_path / "out").run()
     folder = tmp_path / "out" / "assets" / first.entry.id
@@ -170,14 +170,14 @@ def test_what_was_damaged_is_built_again_when_asked(tmp_path: Path, damage: str)
     )
 
 
-def test_a_folder_that_is_gone_is_built_again_unasked(tmp_path: Path) -> None:
+def test_a_folder_that_is_gone_is_built_again_unasked(tmp_path):
     inputs = write_inputs(tmp_path / "in", 1)
     (first,) = job(inputs, tmp_path / "out").run()
     shutil.rmtree(tmp_path / "out" / "assets" / first.entry.id)
     assert [result.known for result in job(inputs, tmp_path / "out").run()] == [False]
 
 
-def test_a_full_disk_ends_the_job_with_one_sentence_and_nothing_half_done(tmp_path: Path) -> None:
+def test_a_full_disk_ends_the_job_with_one_sentence_and_nothing_half_done(tmp_path):
     inputs = (*write_inputs(tmp_path / "in", 1), tmp_path / "in" / "full.stl")
     inputs[1].write_text("solid full")
     with pytest.raises(RegistryError, match="cannot be written: No space left on device"):
@@ -189,11 +189,11 @@ def test_a_full_disk_ends_the_job_with_one_sentence_and_nothing_half_done(tmp_pa
 
 def test_an_output_that_became_read_only_ends_the_job_but_what_is_known_is_told(
     tmp_path, monkeypatch
-) -> None:
+):
     inputs = write_inputs(tmp_path / "in", 2)
     list(job(inputs[:1], tmp_path / "out").run())
 
-    def closed(output: Path) -> None:
+    def closed(output):
         raise OSError(errno.EROFS, "Read-only file system", str(output))
 
     monkeypatch.setattr(job_module, "Log", closed)
@@ -203,11 +203,11 @@ def test_an_output_that_became_read_only_ends_the_job_but_what_is_known_is_told(
     assert [result.known for result in job(inputs[:1], tmp_path / "out").run()] == [True]
 
 
-def test_two_jobs_on_one_registry_make_each_asset_once(tmp_path: Path) -> None:
+def test_two_jobs_on_one_registry_make_each_asset_once(tmp_path):
     inputs = write_inputs(tmp_path / "in", 30)
     results: dict[int, list[str]] = {}
 
-    def work(number: int) -> None:
+    def work(number):
         order = inputs if number else inputs[::-1]
         results[number] = sorted(Path(r.input).name for r in job(order, tmp_path / "out").run())
 
@@ -222,7 +222,7 @@ def test_two_jobs_on_one_registry_make_each_asset_once(tmp_path: Path) -> None:
     assert len(Registry(tmp_path / "out").entries()) == 30
 
 
-def test_a_job_that_is_over_does_not_wait_for_another(tmp_path: Path) -> None:
+def test_a_job_that_is_over_does_not_wait_for_another(tmp_path):
     inputs = write_inputs(tmp_path / "in", 2)
     ours = job(inputs, tmp_path / "out", budget=Budget(limit=1))
     claim = KnownReads(tmp_path / "out" / ".cache", PLAIN).probe(inputs[0]).claim
@@ -233,14 +233,14 @@ def test_a_job_that_is_over_does_not_wait_for_another(tmp_path: Path) -> None:
     theirs.release()
 
 
-def test_two_files_of_one_name_and_content_are_built_once(tmp_path: Path) -> None:
+def test_two_files_of_one_name_and_content_are_built_once(tmp_path):
     inputs = (*write_inputs(tmp_path / "in", 1), *write_inputs(tmp_path / "copy", 1))
     results = list(job(inputs, tmp_path / "out").run())
     assert sorted(Path(result.input).parent.name for result in results) == ["copy", "in"]
     assert len(made(tmp_path / "in") + made(tmp_path / "copy")) == 1
 
 
-def test_every_build_is_logged(tmp_path: Path) -> None:
+def test_every_build_is_logged(tmp_path):
     inputs = write_inputs(tmp_path / "in", 2)
     list(job(inputs, tmp_path / "out").run())
     lines = [json.loads(line) for line in (tmp_path / "out" / LOG_NAME).read_text().splitlines()]
@@ -249,7 +249,7 @@ def test_every_build_is_logged(tmp_path: Path) -> None:
     assert lines[-1] | {"state": "finished", "built": 2, "left": 0} == lines[-1]
 
 
-def test_a_relative_path_is_the_same_input(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_relative_path_is_the_same_input(tmp_path, monkeypatch):
     (path,) = write_inputs(tmp_path / "in", 1)
     list(job((path,), tmp_path / "out").run())
     monkeypatch.chdir(tmp_path / "in")
@@ -257,9 +257,7 @@ def test_a_relative_path_is_the_same_input(tmp_path: Path, monkeypatch: pytest.M
     assert (result.known, result.input) == (True, path.name)
 
 
-def test_what_an_input_without_rights_was_listed_as_goes_once_it_has_them(
-    tmp_path: Path, monkeypatch
-) -> None:
+def test_what_an_input_without_rights_was_listed_as_goes_once_it_has_them(tmp_path, monkeypatch):
     (path,) = write_inputs(tmp_path / "in", 1)
     registry = Registry(tmp_path / "out", create=True)
     with monkeypatch.context() as closed:
@@ -278,7 +276,7 @@ def test_what_an_input_without_rights_was_listed_as_goes_once_it_has_them(
     assert [entry.id for entry in registry.entries()] == ["thing"]
 
 
-def test_that_something_was_stopped_is_not_remembered_as_an_answer(tmp_path: Path) -> None:
+def test_that_something_was_stopped_is_not_remembered_as_an_answer(tmp_path):
     (path,) = write_inputs(tmp_path / "in", 1)
     origin = Source(path, PLAIN)
     origin.reads = {path.name: digest_file(path)}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -18,7 +18,7 @@ GENEROUS = Limits(wall_s=60.0)
 CALLS: list[str] = []
 
 
-def behave(what: str) -> str:
+def behave(what):
     """Does what it is called."""
     CALLS.append(what)
     match what.split("-", maxsplit=1)[0]:
@@ -35,20 +35,20 @@ def behave(what: str) -> str:
     return what
 
 
-def nap(seconds: float) -> float:
+def nap(seconds):
     time.sleep(seconds)
     return seconds
 
 
-def process_id(_: int) -> int:
+def process_id(_):
     return os.getpid()
 
 
-def named(*names: str) -> list[Call]:
+def named(*names):
     return [Call(name, {"what": name}) for name in names]
 
 
-def test_what_fails_costs_only_itself() -> None:
+def test_what_fails_costs_only_itself():
     calls = named("one", "crash", "two", "eat", "three", "raise", "four")
     limits = Limits(wall_s=60.0, memory_bytes=4 * 2**30)
     outcomes = {call.name: outcome for call, outcome in LocalExecutor(2).run(behave, calls, limits)}
@@ -64,12 +64,12 @@ def test_what_fails_costs_only_itself() -> None:
         assert outcomes[name].unwrap() == name
 
 
-def test_what_hangs_is_killed() -> None:
+def test_what_hangs_is_killed():
     ((_, outcome),) = LocalExecutor(1, retries=0).run(behave, named("hang"), Limits(wall_s=2.0))
     assert (outcome.failure, outcome.detail) == ("timeout", "no answer within 2 s")
 
 
-def test_bad_luck_gets_one_more_try_in_a_new_process_and_no_more() -> None:
+def test_bad_luck_gets_one_more_try_in_a_new_process_and_no_more():
     # The first call of a process, and one that is not: both are tried twice.
     for before in ((), ("fine",)):
         *_, (_, outcome) = LocalExecutor(1).run(behave, named(*before, "crash"), GENEROUS)
@@ -83,7 +83,7 @@ def test_bad_luck_gets_one_more_try_in_a_new_process_and_no_more() -> None:
     assert (outcome.unwrap(), outcome.tries) == ("worn", 2)
 
 
-def test_whoever_is_done_comes_first() -> None:
+def test_whoever_is_done_comes_first():
     calls = [Call(str(seconds), {"seconds": seconds}) for seconds in (1.0, 0.01)]
     assert [outcome.value for _, outcome in LocalExecutor(2).run(nap, calls, GENEROUS)] == [
         0.01,
@@ -91,11 +91,11 @@ def test_whoever_is_done_comes_first() -> None:
     ]
 
 
-def test_calls_are_taken_as_workers_come_free() -> None:
+def test_calls_are_taken_as_workers_come_free():
     taken = 0
     ahead = 0
 
-    def endless() -> Iterator[Call]:
+    def endless():
         nonlocal taken
         while True:
             taken += 1
@@ -104,11 +104,11 @@ def test_calls_are_taken_as_workers_come_free() -> None:
     answers = LocalExecutor(2).run(nap, endless(), GENEROUS)
     for answered, _ in zip(range(200), answers, strict=False):
         ahead = max(ahead, taken - answered)
-    answers.close()  # type: ignore[attr-defined]
+    answers.close()
     assert ahead <= AHEAD * 2
 
 
-def test_workers_are_kept_and_replaced() -> None:
+def test_workers_are_kept_and_replaced():
     calls = [Call(str(number), {"_": number}) for number in range(6)]
     processes = [
         outcome.unwrap()
@@ -118,17 +118,17 @@ def test_workers_are_kept_and_replaced() -> None:
     assert processes[3] == processes[4] == processes[5]
 
 
-def test_closing_kills_what_is_under_way() -> None:
+def test_closing_kills_what_is_under_way():
     started = time.monotonic()
     answers = LocalExecutor(2).run(
         nap, [Call("short", {"seconds": 0.0}), Call("long", {"seconds": 600.0})], GENEROUS
     )
     next(answers)
-    answers.close()  # type: ignore[attr-defined]
+    answers.close()
     assert time.monotonic() - started < 30.0
 
 
-def test_no_calls_no_processes_and_what_does_not_pickle_is_told() -> None:
+def test_no_calls_no_processes_and_what_does_not_pickle_is_told():
     assert list(LocalExecutor(4).run(nap, (), GENEROUS)) == []
     anonymous: Callable[..., Any] = lambda: None  # noqa: E731
     ((_, outcome),) = LocalExecutor(1).run(anonymous, [Call("any", {})], GENEROUS)
@@ -136,8 +136,8 @@ def test_no_calls_no_processes_and_what_does_not_pickle_is_told() -> None:
     assert "pickle" in outcome.detail.lower()
 
 
-def test_an_error_in_whoever_makes_the_calls_is_its_own() -> None:
-    def broken() -> Iterator[Call]:
+def test_an_error_in_whoever_makes_the_calls_is_its_own():
+    def broken():
         yield Call("one", {"seconds": 0.0})
         raise LookupError("no more")
 

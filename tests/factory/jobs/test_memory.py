@@ -1,9 +1,5 @@
 """No more workers than memory has room for, by the machine and by every cgroup above."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 
 from asset_factory.factory.jobs import memory
@@ -12,7 +8,7 @@ from asset_factory.factory.jobs.memory import free_memory, workers_for
 GIB = 2**30
 
 
-def machine(root: Path, available: int, cgroup: str = "") -> Path:
+def machine(root, available, cgroup=""):
     proc = root / "proc"
     (proc / "self").mkdir(parents=True)
     (proc / "meminfo").write_text(
@@ -22,18 +18,18 @@ def machine(root: Path, available: int, cgroup: str = "") -> Path:
     return proc
 
 
-def group(folder: Path, limit: str, used: int, unused: int = 0) -> None:
+def group(folder, limit, used, unused=0):
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "memory.max").write_text(f"{limit}\n")
     (folder / "memory.current").write_text(f"{used}\n")
     (folder / "memory.stat").write_text(f"anon 5\ninactive_file {unused}\n")
 
 
-def test_without_cgroups_the_machine_decides(tmp_path: Path) -> None:
+def test_without_cgroups_the_machine_decides(tmp_path):
     assert free_memory(machine(tmp_path, 8 * GIB), tmp_path / "none") == 8 * GIB
 
 
-def test_the_tightest_of_all_groups_above_decides(tmp_path: Path) -> None:
+def test_the_tightest_of_all_groups_above_decides(tmp_path):
     proc = machine(tmp_path, 64 * GIB, "0::/slurm/job/step\n")
     groups = tmp_path / "groups"
     group(groups / "slurm" / "job", str(8 * GIB), 5 * GIB, GIB)
@@ -41,14 +37,14 @@ def test_the_tightest_of_all_groups_above_decides(tmp_path: Path) -> None:
     assert free_memory(proc, groups) == 4 * GIB
 
 
-def test_a_container_sees_its_own_group_at_the_root(tmp_path: Path) -> None:
+def test_a_container_sees_its_own_group_at_the_root(tmp_path):
     proc = machine(tmp_path, 64 * GIB, "0::/../outside\n")
     groups = tmp_path / "groups"
     group(groups, str(2 * GIB), GIB)
     assert free_memory(proc, groups) == GIB
 
 
-def test_groups_of_the_first_kind_are_read_too(tmp_path: Path) -> None:
+def test_groups_of_the_first_kind_are_read_too(tmp_path):
     proc = machine(tmp_path, 64 * GIB, "5:cpu,cpuacct:/x\n4:memory:/x\n")
     folder = tmp_path / "groups" / "memory" / "x"
     folder.mkdir(parents=True)
@@ -57,7 +53,7 @@ def test_groups_of_the_first_kind_are_read_too(tmp_path: Path) -> None:
     assert free_memory(proc, tmp_path / "groups") == 4 * GIB
 
 
-def test_where_nothing_says_nothing_limits(tmp_path: Path) -> None:
+def test_where_nothing_says_nothing_limits(tmp_path):
     assert free_memory(tmp_path, tmp_path) is None
 
 
@@ -65,9 +61,7 @@ def test_where_nothing_says_nothing_limits(tmp_path: Path) -> None:
     ("asked", "free", "started"),
     [(None, 64, 4), (None, 5, 2), (None, 0, 1), (3, 64, 3), (16, 9, 4), (16, None, 16)],
 )
-def test_workers_fit_into_what_is_free(
-    asked: int | None, free: int | None, started: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_workers_fit_into_what_is_free(asked, free, started, monkeypatch):
     monkeypatch.setattr(memory, "processors", lambda: 4)
     monkeypatch.setattr(memory, "free_memory", lambda: None if free is None else free * GIB)
     workers, sentence = workers_for(asked, 2 * GIB)

@@ -1,7 +1,5 @@
 """A warm worker's assets are those of a new one, whatever it built before."""
 
-from __future__ import annotations
-
 import time
 from pathlib import Path
 
@@ -22,14 +20,14 @@ def _fresh_worker():
         worker._JUDGES.popitem()[1].close()
 
 
-def boxes(folder: Path) -> list[Path]:
+def boxes(folder):
     for number, size in enumerate(((0.5, 0.4, 0.3), (0.2, 0.3, 0.4))):
         trimesh.creation.box(size).export(folder / f"box_{number}.stl")
     (folder / "broken.glb").write_bytes(b"glTF but not really")
     return sorted(folder.iterdir())
 
 
-def test_the_order_of_builds_changes_no_byte(tmp_path: Path) -> None:
+def test_the_order_of_builds_changes_no_byte(tmp_path):
     (tmp_path / "in").mkdir()
     inputs = boxes(tmp_path / "in")
     digests = []
@@ -44,21 +42,19 @@ def test_the_order_of_builds_changes_no_byte(tmp_path: Path) -> None:
     assert digests[0] == digests[1]
 
 
-def test_one_judge_is_kept_for_one_configuration() -> None:
+def test_one_judge_is_kept_for_one_configuration():
     first = worker._judge(PLAIN.checks, 1)
     assert worker._judge(PLAIN.checks, 1) is first
     assert worker._judge(PLAIN.checks, 2) is not first
     assert len(worker._JUDGES) == 1
 
 
-def test_simulators_share_what_processors_the_workers_leave(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_simulators_share_what_processors_the_workers_leave(monkeypatch):
     monkeypatch.setattr(local, "processors", lambda: 8)
     assert [LocalExecutor(workers).engines for workers in (1, 3, 8, 9)] == [8, 2, 1, 1]
 
 
-def test_too_late_is_not_begun(tmp_path: Path) -> None:
+def test_too_late_is_not_begun(tmp_path):
     late = worker.build_here(
         tmp_path / "in.stl", tmp_path / "s", PLAIN, tmp_path, time.time() - 1.0, None
     )

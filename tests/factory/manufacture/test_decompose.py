@@ -1,16 +1,12 @@
 """Parts in, hulls out; bad parts end in hulls with a sentence or a rejection, within limits."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from manifold3d import Manifold
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.config import DecomposeConfig
@@ -37,40 +33,38 @@ from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcom
 CONFIG = DecomposeConfig(resolution=300, iterations=20, nodes=5)
 
 
-def one_part(vertices: np.ndarray, faces: np.ndarray) -> Articulation:
+def one_part(vertices, faces):
     mesh = Mesh.from_triangles(vertices, faces)
     return Articulation(mesh, (Part("body", np.arange(len(mesh.faces))),), (), "rigid")
 
 
-def boxes(
-    *specs: tuple[tuple[float, float, float], tuple[float, float, float]],
-) -> tuple[np.ndarray, np.ndarray]:
+def boxes(*specs):
     made = trimesh.util.concatenate(
         [trimesh.creation.box(s).apply_translation(at) for s, at in specs]
     )
     return np.array(made.vertices), np.array(made.faces)
 
 
-def only(vertices: np.ndarray, faces: np.ndarray, config: DecomposeConfig = CONFIG) -> PartHulls:
+def only(vertices, faces, config=CONFIG):
     return decompose(one_part(vertices, faces), config)[0]
 
 
-def cover_volume(result: PartHulls) -> float:
+def cover_volume(result):
     return float(union([manifold_of_hull(hull) for hull in result.hulls]).volume())
 
 
-def torus() -> tuple[np.ndarray, np.ndarray]:
+def torus():
     made = trimesh.creation.torus(0.1, 0.03, major_sections=24, minor_sections=12)
     return np.array(made.vertices), np.array(made.faces)
 
 
-def torus_solid() -> Manifold:
+def torus_solid():
     solid = manifold_of(*torus())
     assert solid is not None
     return solid
 
 
-def test_a_box_is_one_exact_hull() -> None:
+def test_a_box_is_one_exact_hull():
     result = only(*boxes(((0.4, 0.3, 0.2), (1, 2, 3))))
     assert (result.method, result.exact, len(result.hulls), result.degraded) == (
         "exact",
@@ -81,7 +75,7 @@ def test_a_box_is_one_exact_hull() -> None:
     assert result.hulls[0].volume == pytest.approx(0.024)
 
 
-def test_boards_that_touch_are_one_hull_each_and_keep_their_cavity() -> None:
+def test_boards_that_touch_are_one_hull_each_and_keep_their_cavity():
     result = only(
         *boxes(
             ((0.6, 0.02, 0.8), (0, 0.2, 0)),
@@ -95,7 +89,7 @@ def test_boards_that_touch_are_one_hull_each_and_keep_their_cavity() -> None:
     assert max(depth_below(hull, inside).max() for hull in result.hulls) < 0.0
 
 
-def test_a_hollow_body_keeps_its_cavity() -> None:
+def test_a_hollow_body_keeps_its_cavity():
     outer = boxes(((0.4, 0.4, 0.4), (0, 0, 0)))
     inner = boxes(((0.36, 0.36, 0.36), (0, 0, 0)))
     result = only(
@@ -106,12 +100,12 @@ def test_a_hollow_body_keeps_its_cavity() -> None:
     assert cover_volume(result) == pytest.approx(0.4**3 - 0.36**3)
 
 
-def test_a_part_that_is_nearly_convex_is_one_hull() -> None:
+def test_a_part_that_is_nearly_convex_is_one_hull():
     result = only(*boxes(((0.4, 0.3, 0.2), (0, 0, 0)), ((0.4, 0.3, 0.2), (0.002, 0.002, 0.0))))
     assert (result.method, len(result.hulls), result.exact) == ("single", 1, False)
 
 
-def test_a_carrier_has_no_hulls() -> None:
+def test_a_carrier_has_no_hulls():
     vertices, faces = boxes(((0.4, 0.3, 0.2), (0, 0, 0)))
     mesh = Mesh.from_triangles(vertices, faces)
     joint = Joint("slide", JointKind.PRISMATIC, 0, 1, np.array([0, 0, 1.0]), np.zeros(3), 0.0, 0.1)
@@ -120,7 +114,7 @@ def test_a_carrier_has_no_hulls() -> None:
     assert results[1] == PartHulls((), "none", (), True)
 
 
-def test_coacd_covers_a_curved_solid_keeps_its_hole_and_repeats_itself() -> None:
+def test_coacd_covers_a_curved_solid_keeps_its_hole_and_repeats_itself():
     first, again = (ladder.search(torus_solid(), 0.01, CONFIG) for _ in range(2))
     assert (first.method, first.degraded) == ("coacd", ())
     assert uncovered(first.hulls, surface_points(*torus())) < 0.002
@@ -130,7 +124,7 @@ def test_coacd_covers_a_curved_solid_keeps_its_hole_and_repeats_itself() -> None
     ]
 
 
-def test_a_curved_part_is_covered_and_a_cache_hit_equals_a_miss(tmp_path: Path) -> None:
+def test_a_curved_part_is_covered_and_a_cache_hit_equals_a_miss(tmp_path):
     articulation = one_part(*torus())
     store = Store(tmp_path)
     config = replace(CONFIG, error_m=0.015)
@@ -150,9 +144,7 @@ def test_a_curved_part_is_covered_and_a_cache_hit_equals_a_miss(tmp_path: Path) 
             assert a.faces.tobytes() == b.faces.tobytes()
 
 
-def test_a_cached_result_is_not_computed_again(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_cached_result_is_not_computed_again(tmp_path, monkeypatch):
     articulation = one_part(*boxes(((0.4, 0.3, 0.2), (0, 0, 0))))
     store = Store(tmp_path)
     first = decompose(articulation, CONFIG, store)
@@ -182,9 +174,7 @@ CUBE = boxes(((0.2, 0.2, 0.2), (0, 0, 0)))
         ("far away", CUBE[0] + 1e4, CUBE[1], 0.008),
     ],
 )
-def test_inputs_that_break_coacd_come_out_exact(
-    name: str, vertices: np.ndarray, faces: np.ndarray, volume: float
-) -> None:
+def test_inputs_that_break_coacd_come_out_exact(name, vertices, faces, volume):
     result = only(vertices, faces)
     assert result.exact, name
     assert cover_volume(result) == pytest.approx(volume, rel=1e-6)
@@ -198,7 +188,7 @@ def test_inputs_that_break_coacd_come_out_exact(
         (CUBE[0], CUBE[1][2:]),
     ],
 )
-def test_open_surfaces_become_thin_slabs(vertices: np.ndarray, faces: np.ndarray) -> None:
+def test_open_surfaces_become_thin_slabs(vertices, faces):
     vertices = np.asarray(vertices, dtype=float)
     faces = np.asarray(faces)
     result = only(vertices, faces)
@@ -208,14 +198,14 @@ def test_open_surfaces_become_thin_slabs(vertices: np.ndarray, faces: np.ndarray
     assert cover_volume(result) <= 1.01 * area * CONFIG.shell_m
 
 
-def test_a_wide_pipe_with_a_hidden_end_is_closed_unless_it_is_said_to_be_hollow() -> None:
+def test_a_wide_pipe_with_a_hidden_end_is_closed_unless_it_is_said_to_be_hollow():
     closed = trimesh.creation.cylinder(0.04, 0.8, sections=24)
     lying = closed.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [0, 1, 0]))
     open_end = lying.triangles_center[:, 0] > 0.4 - 1e-6
     pipe = np.array(lying.vertices), np.array(lying.faces[~open_end])
     middle = np.array([[0.0, 0.0, 0.0], [0.3, 0.0, 0.0]])
 
-    def filled(result: PartHulls) -> bool:
+    def filled(result):
         return max(float(depth_below(hull, middle).max()) for hull in result.hulls) > 0.0
 
     assert filled(only(*pipe))
@@ -224,14 +214,14 @@ def test_a_wide_pipe_with_a_hidden_end_is_closed_unless_it_is_said_to_be_hollow(
     assert uncovered(walls.hulls, surface_points(*pipe)) < CONFIG.error_m
 
 
-def test_a_part_of_dust_is_rejected() -> None:
+def test_a_part_of_dust_is_rejected():
     with pytest.raises(InputRejected) as caught:
         only(np.array([[0, 0, 0], [1e-7, 0, 0], [0, 1e-7, 0]]), np.array([[0, 1, 2]]))
     assert caught.value.code == "decomposition_failed"
     assert "body" in caught.value.message
 
 
-def test_too_many_hulls_reject_with_the_numbers() -> None:
+def test_too_many_hulls_reject_with_the_numbers():
     pegs = [((0.01, 0.01, 0.1), (0.1 * i, 0.0, 0.0)) for i in range(6)]
     with pytest.raises(InputRejected) as caught:
         only(*boxes(*pegs), replace(CONFIG, max_hulls=4))
@@ -242,12 +232,10 @@ def test_too_many_hulls_reject_with_the_numbers() -> None:
     )
 
 
-def test_a_crashing_engine_costs_a_found_and_leaves_a_sentence(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_crashing_engine_costs_a_found_and_leaves_a_sentence(monkeypatch):
     asked = []
 
-    def broken(function: object, *args: object, limits: Limits) -> Outcome[object]:
+    def broken(function, *args, limits):
         asked.append(function)
         if function is ladder.coacd_pieces:
             return Outcome(None, Failure.CRASHED, "killed by SIGSEGV", "", 0.1)
@@ -273,8 +261,8 @@ def test_a_crashing_engine_costs_a_found_and_leaves_a_sentence(
     ],
 )
 def test_what_a_clock_or_somebody_stopped_is_unjudged_and_not_kept(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, outcome: Outcome[object], code: str
-) -> None:
+    monkeypatch, tmp_path, outcome, code
+):
     monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: outcome)
     monkeypatch.setattr(
         "asset_factory.factory.manufacture.decompose.methods.cut_along_faces", lambda *_: None
@@ -287,7 +275,7 @@ def test_what_a_clock_or_somebody_stopped_is_unjudged_and_not_kept(
     assert not list(tmp_path.rglob("*.npz"))
 
 
-def blob(segments: int, at: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+def blob(segments, at=0.0):
     """A ball with dents deeper than any error, too many to become a few convex pieces."""
     ball = trimesh.creation.uv_sphere(radius=1.0, count=[segments, segments])
     rng = np.random.default_rng(0)
@@ -300,12 +288,10 @@ def blob(segments: int, at: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
     return vertices + np.array([0.0, 0.0, at]), np.array(ball.faces)
 
 
-def test_coacd_is_asked_of_what_is_simple_within_the_error_only(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_coacd_is_asked_of_what_is_simple_within_the_error_only(monkeypatch):
     asked = []
 
-    def counted(function: object, solid: object, *_: object, limits: Limits) -> Outcome[object]:
+    def counted(function, solid, *_, limits):
         asked.append((function, len(solid[1])))
         assert limits.cpu_s is None
         return Outcome([], None, "", "", 0.1)
@@ -325,7 +311,7 @@ def test_coacd_is_asked_of_what_is_simple_within_the_error_only(
     assert all(faces <= 2000 for _, faces in asked)
 
 
-def test_pieces_are_split_again_up_to_a_count() -> None:
+def test_pieces_are_split_again_up_to_a_count():
     solid = torus_solid()
     whole = hull_of(torus()[0])
     assert whole is not None
@@ -338,7 +324,7 @@ def test_pieces_are_split_again_up_to_a_count() -> None:
 
 
 @pytest.mark.full
-def test_a_hundred_thousand_faces_in_two_blobs_become_hulls(tmp_path: Path) -> None:
+def test_a_hundred_thousand_faces_in_two_blobs_become_hulls(tmp_path):
     """It takes 43 s of processor time, V-HACD's included, and took minutes of CoACD."""
     pieces = [blob(112), blob(112, at=0.8)]
     vertices = np.concatenate([piece[0] for piece in pieces])
@@ -353,9 +339,7 @@ def test_a_hundred_thousand_faces_in_two_blobs_become_hulls(tmp_path: Path) -> N
         assert (result.method, len(result.hulls) <= 64) == ("vhacd", True)
 
 
-def test_without_memory_the_next_method_is_tried_and_that_is_kept(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_without_memory_the_next_method_is_tried_and_that_is_kept(monkeypatch, tmp_path):
     full = Outcome[object](None, Failure.RAISED, "ran out of memory", "", 0.1, error=MemoryError())
     monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: full)
     monkeypatch.setattr(
@@ -367,9 +351,7 @@ def test_without_memory_the_next_method_is_tried_and_that_is_kept(
     assert list(tmp_path.rglob("*.npz"))
 
 
-def test_a_program_that_cannot_start_children_is_not_taken_for_a_bad_mesh(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_program_that_cannot_start_children_is_not_taken_for_a_bad_mesh(monkeypatch):
     gone = Outcome[object](
         None, "raised", "ImportError: no coacd", "", 0.1, error=ImportError("no coacd")
     )
@@ -378,7 +360,7 @@ def test_a_program_that_cannot_start_children_is_not_taken_for_a_bad_mesh(
         ladder.search(torus_solid(), 0.01, CONFIG)
 
 
-def test_coacd_that_takes_too_long_is_killed() -> None:
+def test_coacd_that_takes_too_long_is_killed():
     slow = DecomposeConfig(resolution=20000, iterations=2000, nodes=50, search_depth=4)
     limits = Limits(wall_s=30.0, cpu_s=1.0)
     outcome = run_isolated(ladder.coacd_pieces, torus(), 1e-4, slow, limits=limits)
@@ -388,9 +370,7 @@ def test_coacd_that_takes_too_long_is_killed() -> None:
 
 @settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.integers(0, 2**32 - 1), st.integers(1, 6))
-def test_any_pile_of_boxes_is_covered_and_nothing_reaches_farther_than_the_error(
-    seed: int, count: int
-) -> None:
+def test_any_pile_of_boxes_is_covered_and_nothing_reaches_farther_than_the_error(seed, count):
     random = np.random.default_rng(seed)
     specs = [
         (tuple(random.uniform(0.02, 0.3, 3)), tuple(random.uniform(-0.3, 0.3, 3)))

@@ -1,7 +1,5 @@
 """A door that is hung at its front edge turns clear of the frame around it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -21,7 +19,7 @@ RIGHT = 0.379
 THICK = 0.02
 
 
-def inset_door(**changed: object) -> Articulation:
+def inset_door(**changed):
     """A frame's left post and the door beside it, its hinge at the back, handle at the right."""
     post = board((0.0, 0.0, 0.0), (0.02, 0.4, 0.6))
     door = board((LEFT, 0.0, 0.0), (RIGHT, THICK, 0.6))
@@ -38,11 +36,11 @@ def inset_door(**changed: object) -> Articulation:
         confidence=0.9,
     )
     parts = (Part("base", np.arange(12)), Part("door", np.arange(12, 36)))
-    joints = (replace(hinge, **changed),)  # type: ignore[arg-type]
+    joints = (replace(hinge, **changed),)
     return located(Articulation(mesh, parts, joints, "auto"))
 
 
-def farthest_left(door: Articulation, joint: Joint) -> float:
+def farthest_left(door, joint):
     """Of the panel's corners along its way [m]."""
     panel = door.mesh.submesh(np.arange(12, 24))
     corners = panel.vertices - joint.origin
@@ -50,7 +48,7 @@ def farthest_left(door: Articulation, joint: Joint) -> float:
     return float(min((corners @ turn.T + joint.origin)[:, 0].min() for turn in turns))
 
 
-def test_at_its_back_edge_an_inset_door_turns_into_the_frame_at_its_front_edge_not() -> None:
+def test_at_its_back_edge_an_inset_door_turns_into_the_frame_at_its_front_edge_not():
     door = inset_door()
     (given,) = door.joints
     hung = at_front_edge(door, given)
@@ -62,7 +60,7 @@ def test_at_its_back_edge_an_inset_door_turns_into_the_frame_at_its_front_edge_n
 
 
 @pytest.mark.parametrize("turn", [0.0, np.pi / 2.0, np.pi, -np.pi / 2.0])
-def test_the_front_edge_is_found_whichever_way_the_door_faces(turn: float) -> None:
+def test_the_front_edge_is_found_whichever_way_the_door_faces(turn):
     door = inset_door()
     rotation = rotation_about([0.0, 0.0, 1.0], turn)
     turned = rotated(door, rotation)
@@ -72,12 +70,12 @@ def test_the_front_edge_is_found_whichever_way_the_door_faces(turn: float) -> No
 
 
 @pytest.mark.parametrize("changed", [{"kind": JointKind.PRISMATIC}, {"lower": -1.5}])
-def test_what_slides_or_swings_both_ways_has_no_front_edge(changed: dict[str, object]) -> None:
+def test_what_slides_or_swings_both_ways_has_no_front_edge(changed):
     door = inset_door(**changed)
     assert at_front_edge(door, door.joints[0]) is None
 
 
-def test_a_plan_rehangs_guessed_hinges_only() -> None:
+def test_a_plan_rehangs_guessed_hinges_only():
     door = inset_door()
     assert dispensable_joints(door, 0.15).hinges == {"hinge"}
     assert not dispensable_joints(inset_door(confidence=None), 0.15).hinges

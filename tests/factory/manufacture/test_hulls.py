@@ -1,7 +1,5 @@
 """Convex pieces: hulls, what they may fill, how they are cut, joined and limited."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import trimesh
@@ -9,7 +7,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from manifold3d import Manifold
 
-from asset_factory.factory.asset import Hull
 from asset_factory.factory.manufacture.decompose.convex import (
     depth_below,
     hull_of,
@@ -23,13 +20,11 @@ from asset_factory.factory.manufacture.decompose.sheets import slabs
 from asset_factory.factory.manufacture.decompose.solids import OpenSurface, manifold_of_hull
 
 
-def solid_box(
-    size: tuple[float, float, float], at: tuple[float, float, float] = (0, 0, 0)
-) -> Manifold:
+def solid_box(size, at=(0, 0, 0)):
     return Manifold.cube(size).translate(at)
 
 
-def hull_box(size: tuple[float, float, float], at: tuple[float, float, float] = (0, 0, 0)) -> Hull:
+def hull_box(size, at=(0, 0, 0)):
     corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * size + at
     hull = hull_of(corners.astype(float))
     assert hull is not None
@@ -38,7 +33,7 @@ def hull_box(size: tuple[float, float, float], at: tuple[float, float, float] = 
 
 @settings(max_examples=30, deadline=None)
 @given(st.integers(0, 2**32 - 1), st.integers(4, 60), st.floats(-50, 50))
-def test_hulls_face_outwards_and_hold_their_points(seed: int, count: int, offset: float) -> None:
+def test_hulls_face_outwards_and_hold_their_points(seed, count, offset):
     points = np.random.default_rng(seed).normal(size=(count, 3)) + offset
     hull = hull_of(points)
     assert hull is not None
@@ -49,18 +44,18 @@ def test_hulls_face_outwards_and_hold_their_points(seed: int, count: int, offset
 @pytest.mark.parametrize(
     "points", [np.zeros((0, 3)), np.eye(3), np.random.default_rng(0).random((9, 3)) * [1, 1, 0]]
 )
-def test_points_without_a_body_have_no_hull(points: np.ndarray) -> None:
+def test_points_without_a_body_have_no_hull(points):
     assert hull_of(points) is None
 
 
-def test_depth_is_the_distance_to_the_nearest_face() -> None:
+def test_depth_is_the_distance_to_the_nearest_face():
     hull = hull_box((1, 1, 1))
     points = np.array([[0.5, 0.5, 0.9], [0.5, 0.5, 0.5], [0.5, 0.5, 1.25]])
     assert depth_below(hull, points) == pytest.approx([0.1, 0.5, -0.25])
     assert uncovered([hull], points) == pytest.approx(0.25)
 
 
-def test_a_limited_hull_lies_inside_and_loses_little() -> None:
+def test_a_limited_hull_lies_inside_and_loses_little():
     sphere = hull_of(np.array(trimesh.creation.icosphere(subdivisions=3, radius=0.1).vertices))
     assert sphere is not None
     few = limit_vertices(sphere, 64)
@@ -70,7 +65,7 @@ def test_a_limited_hull_lies_inside_and_loses_little() -> None:
     assert limit_vertices(few, 64) is few
 
 
-def test_a_hull_may_fill_dents_and_slots_within_the_error_and_nothing_wider() -> None:
+def test_a_hull_may_fill_dents_and_slots_within_the_error_and_nothing_wider():
     board = solid_box((0.4, 0.3, 0.1))
     for cut, allowed in (
         (solid_box((0.2, 0.2, 0.004), (0.1, 0.05, 0.096)), True),  # a wide dent, 4 mm deep
@@ -89,7 +84,7 @@ def test_a_hull_may_fill_dents_and_slots_within_the_error_and_nothing_wider() ->
         assert fills_little(hull_box((0.4, 0.3, 0.1)), board - cut, 0.005) is allowed
 
 
-def test_boxes_are_exact_and_boards_are_cut_exactly() -> None:
+def test_boxes_are_exact_and_boards_are_cut_exactly():
     whole = as_one(solid_box((0.4, 0.3, 0.1)), 0.005)
     assert whole is not None
     assert whole.exact
@@ -101,7 +96,7 @@ def test_boxes_are_exact_and_boards_are_cut_exactly() -> None:
     assert sum(hull.volume for hull in cut.hulls) == pytest.approx(shape.volume(), rel=1e-9)
 
 
-def test_a_ring_is_cut_into_its_four_bars() -> None:
+def test_a_ring_is_cut_into_its_four_bars():
     frame = solid_box((1.0, 0.05, 2.0)) - solid_box((0.8, 0.05, 1.8), (0.1, 0.0, 0.1))
     cut = cut_along_faces(frame, 0.005, 16)
     assert cut is not None
@@ -110,7 +105,7 @@ def test_a_ring_is_cut_into_its_four_bars() -> None:
     assert sum(hull.volume for hull in cut.hulls) == pytest.approx(frame.volume(), rel=1e-9)
 
 
-def test_cutting_gives_up_beyond_the_limit() -> None:
+def test_cutting_gives_up_beyond_the_limit():
     comb = solid_box((0.5, 0.1, 0.02))
     for tooth in range(8):
         comb = comb + solid_box((0.02, 0.1, 0.2), (0.06 * tooth, 0, 0))
@@ -118,14 +113,14 @@ def test_cutting_gives_up_beyond_the_limit() -> None:
     assert cut_along_faces(comb, 0.005, 32) is not None
 
 
-def test_halves_of_a_board_are_joined_and_the_legs_of_a_table_are_not() -> None:
+def test_halves_of_a_board_are_joined_and_the_legs_of_a_table_are_not():
     halves = [hull_box((0.5, 0.5, 0.02)), hull_box((0.5, 0.5, 0.02), (0.5, 0, 0))]
     assert [hull.volume for hull in merge(halves, 0.005)] == pytest.approx([0.01])
     legs = [hull_box((0.05, 0.05, 0.7), (x, 0, 0)) for x in (0.0, 0.3, 0.6)]
     assert len(merge([*legs, hull_box((0.65, 0.5, 0.02), (0, 0, 0.7))], 0.005)) == 4
 
 
-def test_joining_covers_whatever_was_given() -> None:
+def test_joining_covers_whatever_was_given():
     random = np.random.default_rng(3)
     hulls = [
         hull_box((0.03, 0.03, 0.01), tuple(random.random(3) * [0.2, 0.2, 0.01])) for _ in range(40)
@@ -135,7 +130,7 @@ def test_joining_covers_whatever_was_given() -> None:
     assert uncovered(merged, np.concatenate([hull.vertices for hull in hulls])) < 1e-9
 
 
-def test_an_open_box_becomes_five_walls_with_room_between() -> None:
+def test_an_open_box_becomes_five_walls_with_room_between():
     made = trimesh.creation.box((0.4, 0.3, 0.2))
     vertices = np.array(made.vertices)
     faces = np.array(made.faces)
@@ -148,7 +143,7 @@ def test_an_open_box_becomes_five_walls_with_room_between() -> None:
     assert max(depth_below(wall, inside).max() for wall in walls) < 0.0
 
 
-def test_a_flat_sheet_of_an_l_keeps_its_notch() -> None:
+def test_a_flat_sheet_of_an_l_keeps_its_notch():
     vertices = np.array(
         [[0, 0, 0], [1, 0, 0], [1, 0.4, 0], [0.4, 0.4, 0], [0.4, 1, 0], [0, 1, 0.0]]
     )

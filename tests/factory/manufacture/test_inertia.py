@@ -1,7 +1,5 @@
 """Masses and inertias against closed forms and symmetries."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -10,7 +8,7 @@ from plain_solids import box, cylinder
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
-from asset_factory.factory.asset import Hull, Inertial
+from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import InertiaConfig
 from asset_factory.factory.errors import InvalidAsset
 from asset_factory.factory.manufacture.inertia import (
@@ -29,34 +27,34 @@ PLAIN = Material("plain")
 UNIT = box((0.0, 0.4), (0.0, 0.3), (0.0, 0.2), PLAIN)
 
 
-def inertial(mesh: Mesh, hulls: tuple[Hull, ...] = (), density: float = DENSITY) -> Inertial:
+def inertial(mesh, hulls=(), density=DENSITY):
     return part_inertial(mesh, hulls, density, CONFIG)
 
 
-def box_tensor(mass: float, x: float, y: float, z: float) -> np.ndarray:
+def box_tensor(mass, x, y, z):
     return mass / 12.0 * np.diag([y * y + z * z, x * x + z * z, x * x + y * y])
 
 
-def inside_out(mesh: Mesh) -> Mesh:
+def inside_out(mesh):
     return Mesh.from_triangles(mesh.vertices, mesh.faces[:, ::-1])
 
 
-def sheet(x: float, y: float) -> Mesh:
+def sheet(x, y):
     return Mesh.from_triangles([(0, 0, 0), (x, 0, 0), (x, y, 0), (0, y, 0)], [(0, 1, 2), (0, 2, 3)])
 
 
-def hull_of(mesh: Mesh) -> Hull:
+def hull_of(mesh):
     return Hull(mesh.vertices, mesh.faces)
 
 
-def test_a_box_has_its_textbook_inertia() -> None:
+def test_a_box_has_its_textbook_inertia():
     found = inertial(UNIT)
     assert found.mass == pytest.approx(DENSITY * 0.4 * 0.3 * 0.2)
     np.testing.assert_allclose(found.center, [0.2, 0.15, 0.1])
     np.testing.assert_allclose(found.tensor, box_tensor(found.mass, 0.4, 0.3, 0.2), atol=1e-12)
 
 
-def test_a_cylinder_comes_close_to_its_textbook_inertia() -> None:
+def test_a_cylinder_comes_close_to_its_textbook_inertia():
     radius = 0.1
     height = 0.5
     found = inertial(cylinder(2, (0.0, 0.0), radius, (0.0, height), PLAIN, sides=360))
@@ -69,7 +67,7 @@ def test_a_cylinder_comes_close_to_its_textbook_inertia() -> None:
 
 
 @pytest.mark.parametrize("shell", [(False, True), (True, False)], ids=["proper", "all_inside_out"])
-def test_a_closed_shell_inside_another_is_a_cavity(shell: tuple[bool, bool]) -> None:
+def test_a_closed_shell_inside_another_is_a_cavity(shell):
     outer = UNIT
     inner = box((0.02, 0.38), (0.02, 0.28), (0.02, 0.18), PLAIN)
     parts = [
@@ -84,25 +82,25 @@ def test_a_closed_shell_inside_another_is_a_cavity(shell: tuple[bool, bool]) -> 
     np.testing.assert_allclose(found.tensor, expected, atol=1e-12)
 
 
-def test_a_solid_inside_a_cavity_counts_again() -> None:
+def test_a_solid_inside_a_cavity_counts_again():
     layers = [UNIT, inside_out(box((0.02, 0.38), (0.02, 0.28), (0.02, 0.18), PLAIN))]
     core = box((0.1, 0.2), (0.1, 0.2), (0.05, 0.15), PLAIN)
     with_core = inertial(concatenate([*layers, core])).mass
     assert with_core - inertial(concatenate(layers)).mass == pytest.approx(DENSITY * 1e-3)
 
 
-def test_a_lone_inside_out_box_weighs_what_a_box_weighs() -> None:
+def test_a_lone_inside_out_box_weighs_what_a_box_weighs():
     assert inertial(inside_out(UNIT)).mass == pytest.approx(inertial(UNIT).mass)
 
 
-def test_mixed_winding_is_mended() -> None:
+def test_mixed_winding_is_mended():
     faces = np.array(UNIT.faces)
     faces[::3] = faces[::3, ::-1]
     found = inertial(Mesh.from_triangles(UNIT.vertices, faces))
     assert found.mass == pytest.approx(inertial(UNIT).mass)
 
 
-def test_overlapping_boxes_count_their_overlap_once() -> None:
+def test_overlapping_boxes_count_their_overlap_once():
     other = UNIT.transformed([[1, 0, 0, 0.2], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
     found = inertial(concatenate([UNIT, other]))
     assert found.mass == pytest.approx(DENSITY * 0.6 * 0.3 * 0.2)
@@ -111,7 +109,7 @@ def test_overlapping_boxes_count_their_overlap_once() -> None:
     )
 
 
-def test_two_touching_boxes_that_share_an_edge_are_two_solids() -> None:
+def test_two_touching_boxes_that_share_an_edge_are_two_solids():
     vertices = np.unique(
         np.vstack([UNIT.vertices, UNIT.vertices + np.array([0.4, 0.3, 0.0])]), axis=0
     )
@@ -126,7 +124,7 @@ def test_two_touching_boxes_that_share_an_edge_are_two_solids() -> None:
     )
 
 
-def test_two_parts_together_are_the_sum_of_both() -> None:
+def test_two_parts_together_are_the_sum_of_both():
     far = box((1.0, 1.1), (0.0, 0.5), (0.3, 0.5), PLAIN)
     one = inertial(UNIT)
     two = inertial(far)
@@ -141,7 +139,7 @@ def test_two_parts_together_are_the_sum_of_both() -> None:
     np.testing.assert_allclose(both.tensor, expected, rtol=1e-9, atol=1e-12)
 
 
-def test_a_sheet_weighs_its_area_times_the_wall_and_its_back_side_adds_nothing() -> None:
+def test_a_sheet_weighs_its_area_times_the_wall_and_its_back_side_adds_nothing():
     plate = sheet(0.5, 0.4)
     found = inertial(plate)
     assert found.mass == pytest.approx(DENSITY * 0.2 * CONFIG.shell_thickness_m)
@@ -151,12 +149,12 @@ def test_a_sheet_weighs_its_area_times_the_wall_and_its_back_side_adds_nothing()
     assert inertial(doubled).mass == pytest.approx(found.mass)
 
 
-def test_a_closed_surface_without_thickness_is_a_sheet() -> None:
+def test_a_closed_surface_without_thickness_is_a_sheet():
     flat = box((0.0, 0.5), (0.0, 0.4), (0.0, 1e-6), PLAIN)
     assert inertial(flat).mass == pytest.approx(DENSITY * 0.2 * CONFIG.shell_thickness_m, rel=1e-4)
 
 
-def test_an_open_box_of_sheets_is_walls_and_not_a_block() -> None:
+def test_an_open_box_of_sheets_is_walls_and_not_a_block():
     normals = np.cross(
         UNIT.vertices[UNIT.faces[:, 1]] - UNIT.vertices[UNIT.faces[:, 0]],
         UNIT.vertices[UNIT.faces[:, 2]] - UNIT.vertices[UNIT.faces[:, 0]],
@@ -169,20 +167,20 @@ def test_an_open_box_of_sheets_is_walls_and_not_a_block() -> None:
     assert found.center[2] < 0.1
 
 
-def test_no_part_weighs_more_than_its_filled_hulls() -> None:
+def test_no_part_weighs_more_than_its_filled_hulls():
     plate = sheet(0.5, 0.4)
     hull = hull_of(box((0.0, 0.5), (0.0, 0.4), (-0.0005, 0.0005), PLAIN))
     assert inertial(plate, (hull,)).mass == pytest.approx(DENSITY * hull.volume)
     assert inertial(UNIT, (hull_of(UNIT), hull_of(UNIT))).mass == pytest.approx(inertial(UNIT).mass)
 
 
-def test_a_part_of_faces_without_area_weighs_what_its_hulls_weigh() -> None:
+def test_a_part_of_faces_without_area_weighs_what_its_hulls_weigh():
     line = Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)])
     assert inertial(line, (hull_of(UNIT),)).mass == pytest.approx(DENSITY * 0.024)
     assert inertial(line).mass == MIN_MASS_KG
 
 
-def test_a_crumb_is_lifted_to_what_simulators_can_hold() -> None:
+def test_a_crumb_is_lifted_to_what_simulators_can_hold():
     crumb = box((0.0, 1e-4), (0.0, 1e-4), (0.0, 1e-4), PLAIN)
     found = inertial(crumb)
     assert found.mass == MIN_MASS_KG
@@ -191,7 +189,7 @@ def test_a_crumb_is_lifted_to_what_simulators_can_hold() -> None:
     )
 
 
-def test_nothing_at_all_and_no_density_are_refused() -> None:
+def test_nothing_at_all_and_no_density_are_refused():
     empty = Mesh.from_triangles(np.zeros((0, 3)), np.zeros((0, 3)))
     with pytest.raises(InvalidAsset, match="carrier_inertial"):
         inertial(empty)
@@ -199,7 +197,7 @@ def test_nothing_at_all_and_no_density_are_refused() -> None:
         inertial(UNIT, density=0.0)
 
 
-def test_a_carrier_is_a_light_sphere_at_the_joint() -> None:
+def test_a_carrier_is_a_light_sphere_at_the_joint():
     child = inertial(UNIT)
     found = carrier_inertial(child, np.array([0.1, 0.2, 0.3]))
     assert found.mass == pytest.approx(0.05 * child.mass)
@@ -207,7 +205,7 @@ def test_a_carrier_is_a_light_sphere_at_the_joint() -> None:
     assert len(np.unique(np.linalg.eigvalsh(found.tensor).round(12))) == 1
 
 
-def lump(seed: int) -> Mesh:
+def lump(seed):
     points = np.random.default_rng(seed).normal(size=(12, 3)) * [0.3, 0.2, 0.1]
     hull = ConvexHull(points)
     outward = np.einsum(
@@ -222,9 +220,7 @@ def lump(seed: int) -> Mesh:
 
 @settings(max_examples=25, deadline=None)
 @given(seed=st.integers(0, 1000), shift=st.floats(-20.0, 20.0), factor=st.floats(0.3, 3.0))
-def test_moving_turning_and_scaling_commute_with_the_inertia(
-    seed: int, shift: float, factor: float
-) -> None:
+def test_moving_turning_and_scaling_commute_with_the_inertia(seed, shift, factor):
     mesh = lump(seed)
     rotation = Rotation.random(rng=np.random.default_rng(seed)).as_matrix()
     matrix = np.eye(4)
@@ -241,7 +237,7 @@ def test_moving_turning_and_scaling_commute_with_the_inertia(
 
 
 @pytest.mark.parametrize("category", DEMO_CATEGORIES)
-def test_generated_objects_weigh_what_such_things_weigh(category: str) -> None:
+def test_generated_objects_weigh_what_such_things_weigh(category):
     articulation = make_object(category, 0)
     masses = [inertial(articulation.part_mesh(i)).mass for i in range(len(articulation.parts))]
     low, high = (0.5, 3.0) if category == "laptop" else (3.0, 200.0)

@@ -1,14 +1,10 @@
 """An asset of many hulls has them joined, and says of which parts, unless it is to fit closely."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from asset_factory.factory.asset import Asset
 from asset_factory.factory.config import BuildConfig, HullsConfig
 from asset_factory.factory.intake.intake import Intake, Provenance
 from asset_factory.factory.manufacture.plan import Plan
@@ -16,15 +12,14 @@ from asset_factory.factory.manufacture.stage import manufacture
 from asset_factory.factory.runtime.stages import Stages
 from asset_factory.factory.runtime.store import Store
 from asset_factory.learn.objects import make_object
-from asset_factory.sim_checks import Finding
 
 
 @pytest.fixture(scope="module")
-def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def kept(tmp_path_factory):
     return tmp_path_factory.mktemp("joined")
 
 
-def made(kept: Path, wanted: int, plan: Plan, most: int = 10_000) -> tuple[Asset, list[Finding]]:
+def made(kept, wanted, plan, most=10_000):
     whole = make_object("fan", seed=3)
     provenance = Provenance("fan.glb", "0" * 64)
     intake = Intake("fan", whole.mesh, np.arange(len(whole.mesh.faces)), np.eye(4), provenance)
@@ -33,7 +28,7 @@ def made(kept: Path, wanted: int, plan: Plan, most: int = 10_000) -> tuple[Asset
     return asset, [each for each in findings if each.code == "hulls_joined"]
 
 
-def test_parts_of_many_hulls_are_joined_and_named(kept: Path) -> None:
+def test_parts_of_many_hulls_are_joined_and_named(kept):
     plain, nothing = made(kept, 10_000, Plan())
     joined, told = made(kept, 8, Plan())
     assert not nothing
@@ -49,14 +44,14 @@ def test_parts_of_many_hulls_are_joined_and_named(kept: Path) -> None:
     assert all(each.message.endswith(("of 7.5 mm", "of 10 mm")) for each in told)
 
 
-def test_hulls_that_are_to_fit_closely_stay_as_they_are(kept: Path) -> None:
+def test_hulls_that_are_to_fit_closely_stay_as_they_are(kept):
     plain, _ = made(kept, 10_000, Plan())
     closely, told = made(kept, 8, Plan(closely=True))
     assert not told
     assert closely.hull_count == plain.hull_count
 
 
-def test_an_asset_that_still_has_too_many_is_joined_further_at_once(kept: Path) -> None:
+def test_an_asset_that_still_has_too_many_is_joined_further_at_once(kept):
     gently, _ = made(kept, 8, Plan())
     further, told = made(kept, 8, Plan(), most=8)
     assert further.hull_count < gently.hull_count

@@ -1,7 +1,5 @@
 """A repair is a type that goes into a report and back; its sentence follows from it."""
 
-from __future__ import annotations
-
 import json
 
 import pytest
@@ -38,19 +36,19 @@ TOLD = (
 
 
 @pytest.mark.parametrize(("repair", "sentence"), TOLD, ids=lambda value: getattr(value, "kind", ""))
-def test_a_repair_tells_its_sentence_and_survives_a_report(repair: Repair, sentence: str) -> None:
+def test_a_repair_tells_its_sentence_and_survives_a_report(repair, sentence):
     assert repair.sentence == sentence
     assert Repair.from_dict(json.loads(json.dumps(repair.to_dict()))) == repair
 
 
-def test_every_kind_has_a_label_and_a_sentence() -> None:
+def test_every_kind_has_a_label_and_a_sentence():
     for kind in RepairKind:
         repair = Repair(kind, ("a",), (("a", "b"),), ("j",), 1.0, 0.0, "m", 0.5, why="it jams")
         assert kind.label
         assert repair.sentence
 
 
-def test_a_report_that_holds_sentences_alone_still_tells_kinds() -> None:
+def test_a_report_that_holds_sentences_alone_still_tells_kinds():
     sentences = ["cut the hulls apart of a and b", "left what is open in a open: ...", "who knows"]
     repairs = [older_repair(sentence) for sentence in sentences]
     assert [repair.sentence for repair in repairs] == sentences
@@ -59,6 +57,6 @@ def test_a_report_that_holds_sentences_alone_still_tells_kinds() -> None:
 
 
 @pytest.mark.parametrize("damaged", [{}, {"kind": "none"}, {"kind": "other", "pairs": ["a"]}, []])
-def test_what_is_no_repair_is_refused(damaged: object) -> None:
+def test_what_is_no_repair_is_refused(damaged):
     with pytest.raises((KeyError, TypeError, ValueError)):
         Repair.from_dict(damaged)

@@ -1,7 +1,5 @@
 """Hulls fill what matters to nobody, and never where another part is or passes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import trimesh
@@ -10,7 +8,6 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind, P
 from asset_factory.factory.config import DecomposeConfig
 from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.decompose.decompose import (
-    PartHulls,
     decompose,
     error_for,
 )
@@ -19,11 +16,11 @@ from asset_factory.factory.mesh import Mesh
 CONFIG = DecomposeConfig(resolution=300, iterations=20, nodes=5)
 
 
-def box(size, at) -> trimesh.Trimesh:
+def box(size, at):
     return trimesh.creation.box(size).apply_translation(at)
 
 
-def two_parts(fixed: trimesh.Trimesh, moving: trimesh.Trimesh, upper: float = 0.2) -> Articulation:
+def two_parts(fixed, moving, upper=0.2):
     """The second part slides along +x."""
     mesh = Mesh.from_triangles(
         np.vstack([fixed.vertices, moving.vertices]),
@@ -37,21 +34,21 @@ def two_parts(fixed: trimesh.Trimesh, moving: trimesh.Trimesh, upper: float = 0.
     return Articulation(mesh, parts, (slide,), "annotated")
 
 
-def grooved() -> trimesh.Trimesh:
+def grooved():
     """A plate of 2 m with a groove along x, 60 mm wide and 9 mm deep, in its top at z = 0."""
     plate = box((1.0, 2.0, 0.05), (0.5, 0.0, -0.025))
     groove = box((1.2, 0.06, 0.018), (0.5, 0.0, 0.0))
     return trimesh.boolean.difference([plate, groove], engine="manifold")
 
 
-def deepest(result: PartHulls, points) -> float:
+def deepest(result, points):
     return max(float(depth_below(hull, np.asarray(points)).max()) for hull in result.hulls)
 
 
 IN_GROOVE = [[x, 0.0, -0.003] for x in np.linspace(0.05, 0.95, 10)]
 
 
-def test_a_shallow_groove_of_a_large_part_is_filled_where_nobody_is() -> None:
+def test_a_shallow_groove_of_a_large_part_is_filled_where_nobody_is():
     elsewhere = two_parts(grooved(), box((0.05, 0.05, 0.05), (0.5, 0.0, 0.5)))
     assert error_for(elsewhere.part_mesh(0), CONFIG) == pytest.approx(0.012)
     fixed = decompose(elsewhere, CONFIG)[0]
@@ -59,14 +56,14 @@ def test_a_shallow_groove_of_a_large_part_is_filled_where_nobody_is() -> None:
     assert deepest(fixed, IN_GROOVE) > 0.0
 
 
-def test_a_groove_that_another_part_runs_in_stays_open_all_its_way() -> None:
+def test_a_groove_that_another_part_runs_in_stays_open_all_its_way():
     # A tongue, at one end of the groove at rest, that slides to the other.
     tongue = box((0.1, 0.05, 0.05), (0.06, 0.0, 0.018))
     fixed = decompose(two_parts(grooved(), tongue, upper=0.85), CONFIG)[0]
     assert deepest(fixed, IN_GROOVE) < 0.001
 
 
-def cap(radius: float = 0.04, height: float = 0.025) -> trimesh.Trimesh:
+def cap(radius=0.04, height=0.025):
     """A round cap with its opening down."""
     made = trimesh.creation.cylinder(radius, height, sections=24)
     low = (made.vertices[made.faces][:, :, 2] < 0.0).all(axis=1)
@@ -74,13 +71,13 @@ def cap(radius: float = 0.04, height: float = 0.025) -> trimesh.Trimesh:
     return made
 
 
-def test_a_knob_without_a_back_is_one_hull() -> None:
+def test_a_knob_without_a_back_is_one_hull():
     fixed, knob = decompose(two_parts(box((0.5, 0.5, 0.02), (0, 0, -0.05)), cap()), CONFIG)
     assert (knob.method, len(knob.hulls), knob.exact) == ("single", 1, False)
     assert fixed.exact
 
 
-def test_a_knob_with_a_shaft_in_it_keeps_its_hollow() -> None:
+def test_a_knob_with_a_shaft_in_it_keeps_its_hollow():
     plate = box((0.5, 0.5, 0.02), (0, 0, -0.05))
     shaft = box((0.01, 0.01, 0.045), (0.0, 0.0, -0.0175))
     knob = decompose(two_parts(trimesh.util.concatenate([plate, shaft]), cap()), CONFIG)[1]
@@ -89,7 +86,7 @@ def test_a_knob_with_a_shaft_in_it_keeps_its_hollow() -> None:
 
 
 @pytest.mark.parametrize(("turned", "filled"), [(False, True), (True, False)])
-def test_a_tray_that_is_open_towards_the_top_holds_things(turned: bool, filled: bool) -> None:
+def test_a_tray_that_is_open_towards_the_top_holds_things(turned, filled):
     tray = cap(radius=0.2)
     if turned:
         tray.apply_transform(trimesh.transformations.rotation_matrix(np.pi, [1, 0, 0]))
@@ -97,7 +94,7 @@ def test_a_tray_that_is_open_towards_the_top_holds_things(turned: bool, filled: 
     assert (deepest(part, [[0.0, 0.0, 0.0]]) > 0.0) is filled
 
 
-def test_the_gap_behind_a_handle_stays_open_on_a_large_door() -> None:
+def test_the_gap_behind_a_handle_stays_open_on_a_large_door():
     # 16 mm wide: a finger gets in.
     door = box((2.0, 0.05, 1.0), (0.0, 0.0, 0.0))
     bar = box((0.02, 0.02, 0.2), (0.8, -0.051, 0.0))
@@ -107,7 +104,7 @@ def test_the_gap_behind_a_handle_stays_open_on_a_large_door() -> None:
     assert deepest(part, [[0.8, -0.033, 0.0]]) < 0.0
 
 
-def test_a_bottle_that_a_hand_gets_into_from_above_stays_hollow() -> None:
+def test_a_bottle_that_a_hand_gets_into_from_above_stays_hollow():
     # Its mouth is a fiftieth of its surface.
     bottle = cap(radius=0.04, height=0.6)
     bottle.apply_transform(trimesh.transformations.rotation_matrix(np.pi, [1, 0, 0]))

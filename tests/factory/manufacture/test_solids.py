@@ -3,8 +3,6 @@
 Nothing native sees anything else.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 import pytest
@@ -26,14 +24,12 @@ from asset_factory.factory.manufacture.decompose.solids import (
 Triangles = tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]
 
 
-def box(
-    size: tuple[float, float, float], at: tuple[float, float, float] = (0.0, 0.0, 0.0)
-) -> Triangles:
+def box(size, at=(0.0, 0.0, 0.0)):
     made = trimesh.creation.box(size)
     return np.array(made.vertices) + at, np.array(made.faces, dtype=np.int64)
 
 
-def together(*meshes: Triangles) -> Triangles:
+def together(*meshes):
     offset = np.cumsum([0, *[len(v) for v, _ in meshes]])
     return (
         np.concatenate([v for v, _ in meshes]),
@@ -41,48 +37,48 @@ def together(*meshes: Triangles) -> Triangles:
     )
 
 
-def welded(mesh: Triangles) -> Triangles:
+def welded(mesh):
     vertices, index = np.unique(np.round(mesh[0], 9), axis=0, return_inverse=True)
     return vertices, index.reshape(-1)[mesh[1]]
 
 
-def volumes(mesh: Triangles) -> list[float]:
+def volumes(mesh):
     return sorted(round(solid.volume(), 9) for solid in gate(*mesh).solids)
 
 
-def test_a_closed_box_is_one_solid_of_its_volume() -> None:
+def test_a_closed_box_is_one_solid_of_its_volume():
     assert volumes(box((1, 2, 3))) == [6.0]
 
 
-def test_an_inverted_box_is_turned() -> None:
+def test_an_inverted_box_is_turned():
     vertices, faces = box((1, 2, 3))
     assert volumes((vertices, faces[:, ::-1])) == [6.0]
 
 
-def test_duplicated_faces_do_not_double_the_volume() -> None:
+def test_duplicated_faces_do_not_double_the_volume():
     vertices, faces = box((1, 2, 3))
     assert volumes((vertices, np.concatenate([faces, faces]))) == [6.0]
 
 
-def test_double_sided_faces_count_once() -> None:
+def test_double_sided_faces_count_once():
     vertices, faces = box((1, 2, 3))
     gated = gate(vertices, np.concatenate([faces, faces[:, ::-1]]))
     assert [solid.volume() for solid in gated.solids] == pytest.approx([6.0])
     assert not gated.sheets
 
 
-def test_boxes_that_share_welded_faces_edges_or_corners_come_apart() -> None:
+def test_boxes_that_share_welded_faces_edges_or_corners_come_apart():
     for at in ((1, 0, 0), (1, 1, 0), (1, 1, 1)):
         assert volumes(welded(together(box((1, 1, 1)), box((1, 1, 1), at)))) == [1.0, 1.0]
 
 
-def test_two_overlapping_bodies_stay_two_and_unite_without_double_counting() -> None:
+def test_two_overlapping_bodies_stay_two_and_unite_without_double_counting():
     solids = gate(*together(box((1, 1, 1)), box((1, 1, 1), (0.5, 0, 0)))).solids
     assert len(solids) == 2
     assert union(list(solids)).volume() == pytest.approx(1.5)
 
 
-def test_an_inverted_body_inside_another_is_a_cavity() -> None:
+def test_an_inverted_body_inside_another_is_a_cavity():
     vertices, faces = box((0.5, 0.5, 0.5))
     gated = gate(*together(box((1, 1, 1)), (vertices, faces[:, ::-1])))
     assert [solid.volume() for solid in gated.solids] == pytest.approx([1.0])
@@ -91,7 +87,7 @@ def test_an_inverted_body_inside_another_is_a_cavity() -> None:
     assert not contains(gated.cavities[0], gated.solids[0])
 
 
-def test_an_open_box_is_a_sheet_wound_one_way() -> None:
+def test_an_open_box_is_a_sheet_wound_one_way():
     vertices, faces = box((1, 1, 1))
     faces = faces[faces.min(axis=1) >= 0][2:].copy()
     faces[::2] = faces[::2, ::-1]
@@ -110,7 +106,7 @@ def test_an_open_box_is_a_sheet_wound_one_way() -> None:
 @pytest.mark.parametrize(
     "faces", [[], [[0, 1, 2]], [[0, 0, 1]], [[0, 1, 2], [2, 1, 3]], [[0, 1, 2]] * 5]
 )
-def test_what_encloses_nothing_is_no_solid(faces: list[list[int]]) -> None:
+def test_what_encloses_nothing_is_no_solid(faces):
     gated = gate(
         np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]]),
         np.array(faces, dtype=np.int64).reshape(-1, 3),
@@ -118,7 +114,7 @@ def test_what_encloses_nothing_is_no_solid(faces: list[list[int]]) -> None:
     assert not gated.solids
 
 
-def test_an_open_surface_is_refused_before_anything_native_sees_it() -> None:
+def test_an_open_surface_is_refused_before_anything_native_sees_it():
     # Five faces of a box corner: on odd numbers of faces like these manifold3d 3.5 dies of a
     # segmentation fault.
     faces = np.array([[35, 33, 31], [33, 11, 9], [31, 9, 7], [33, 35, 11], [31, 33, 9]])
@@ -129,8 +125,8 @@ def test_an_open_surface_is_refused_before_anything_native_sees_it() -> None:
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 2**32 - 1), st.integers(3, 9), st.integers(1, 24))
 def test_any_soup_is_gated_without_a_crash_and_only_closed_positive_solids_come_out(
-    seed: int, vertex_count: int, face_count: int
-) -> None:
+    seed, vertex_count, face_count
+):
     random = np.random.default_rng(seed)
     faces = random.integers(0, vertex_count, size=(face_count, 3))
     faces = np.concatenate([faces, faces[random.random(face_count) < 0.5][:, ::-1]])
@@ -143,7 +139,7 @@ def test_any_soup_is_gated_without_a_crash_and_only_closed_positive_solids_come_
         assert closes(triangles_of(solid)[1])
 
 
-def test_a_pipe_with_hidden_open_ends_is_closed_and_a_box_without_a_lid_is_not() -> None:
+def test_a_pipe_with_hidden_open_ends_is_closed_and_a_box_without_a_lid_is_not():
     pipe = trimesh.creation.cylinder(radius=0.01, height=0.5, sections=24)
     flat = np.abs(pipe.face_normals[:, 2]) < 0.5
     solid = capped(gate(np.array(pipe.vertices), np.array(pipe.faces)[flat]).sheets[0])
@@ -154,7 +150,7 @@ def test_a_pipe_with_hidden_open_ends_is_closed_and_a_box_without_a_lid_is_not()
     assert capped(gate(vertices, lidless).sheets[0]) is None
 
 
-def test_simplifying_keeps_a_closed_solid_of_nearly_the_same_volume() -> None:
+def test_simplifying_keeps_a_closed_solid_of_nearly_the_same_volume():
     sphere = trimesh.creation.icosphere(subdivisions=4, radius=0.2)
     solid = manifold_of(np.array(sphere.vertices), np.array(sphere.faces))
     assert solid is not None

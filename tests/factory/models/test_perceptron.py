@@ -1,7 +1,5 @@
 """Small networks: their sum in closed form, and files that are for other numbers refused."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -13,13 +11,13 @@ from asset_factory.factory.models.shipped import Arrays, load_arrays
 from asset_factory.factory.models.weights.safetensors import write_arrays
 
 
-def _network() -> Perceptron:
+def _network():
     rng = np.random.default_rng(0)
     shapes = ((3, 4), (4,), (4, 2), (2,), (3, 2))
     return Perceptron(*(rng.normal(size=shape) for shape in shapes))
 
 
-def test_scores_are_the_sum_of_both_ways() -> None:
+def test_scores_are_the_sum_of_both_ways():
     network = _network()
     numbers = np.array([0.3, -1.0, 2.0])
     hidden = np.tanh(numbers @ network.inner + network.offset)
@@ -29,16 +27,16 @@ def test_scores_are_the_sum_of_both_ways() -> None:
     assert network.scores(np.stack([numbers, 0.0 * numbers])).shape == (2, 2)
 
 
-def test_a_linear_model_is_a_network_of_no_width() -> None:
+def test_a_linear_model_is_a_network_of_no_width():
     assert linear(np.array([1.0, 2.0])).scores(np.array([3.0, 4.0])) == pytest.approx([11.0])
 
 
-def test_what_is_far_from_what_was_learned_counts_as_no_farther() -> None:
+def test_what_is_far_from_what_was_learned_counts_as_no_farther():
     network = Perceptron(*_network().arrays("n").values(), np.zeros(3), np.ones(3))
     assert np.array_equal(network.scores(np.full(3, 4.0)), network.scores(np.full(3, 400.0)))
 
 
-def test_a_network_comes_back_from_its_file(tmp_path: Path) -> None:
+def test_a_network_comes_back_from_its_file(tmp_path):
     file = tmp_path / "some.safetensors"
     write_arrays(file, _network().arrays("some"), inputs_of({"some": ("a", "b", "c")}))
     assert file.stat().st_mode & 0o777 == 0o644
@@ -50,7 +48,7 @@ def test_a_network_comes_back_from_its_file(tmp_path: Path) -> None:
     assert file.read_bytes() == first
 
 
-def test_a_file_for_other_numbers_is_refused() -> None:
+def test_a_file_for_other_numbers_is_refused():
     stored = Arrays(Path("some.safetensors"), {}, inputs_of({"some": ("a", "b")}))
     with pytest.raises(ConfigError, match=r"some\.safetensors: some was fitted .*\['c'\]"):
         Perceptron.read(stored, "some", ("a", "b", "c"))
@@ -58,7 +56,7 @@ def test_a_file_for_other_numbers_is_refused() -> None:
         Perceptron.read(stored, "some", ("b", "a"))
 
 
-def test_a_file_of_anything_else_is_refused(tmp_path: Path) -> None:
+def test_a_file_of_anything_else_is_refused(tmp_path):
     (tmp_path / "some.safetensors").write_bytes(b"\x80\x04N.")
     with pytest.raises(ConfigError, match="too few"):
         load_arrays(tmp_path / "some.safetensors")

@@ -1,7 +1,5 @@
 """The picture network: its arithmetic against other libraries."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy import signal
@@ -10,7 +8,7 @@ from asset_factory.factory.articulate.seams.sight import CUES
 from asset_factory.factory.models.picture_network import GRID, convolved, picture_scores
 
 
-def test_a_convolution_is_a_cross_correlation() -> None:
+def test_a_convolution_is_a_cross_correlation():
     rng = np.random.default_rng(0)
     values = rng.normal(size=(3, 8, 6))
     kernel = rng.normal(size=(2, 3, 3, 3))
@@ -25,7 +23,7 @@ def test_a_convolution_is_a_cross_correlation() -> None:
     assert halved == pytest.approx(np.stack(expected)[:, ::2, ::2], abs=1e-5)
 
 
-def test_it_computes_what_was_trained() -> None:
+def test_it_computes_what_was_trained():
     torch = pytest.importorskip("torch")
     from asset_factory.learn.elevations.network import PictureNetwork
 

@@ -1,7 +1,5 @@
 """What is shipped is plain arrays, and beside each file a card says which command makes it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +12,7 @@ FILES = sorted(path.name for path in WEIGHTS.iterdir() if path.suffix != ".md")
 
 
 @pytest.mark.parametrize("file", FILES)
-def test_weights_are_plain_numbers_with_a_card(file: str) -> None:
+def test_weights_are_plain_numbers_with_a_card(file):
     arrays, _ = read_arrays(WEIGHTS / file)
     # A turn without end is longer than any.
     assert not any(np.isnan(values).any() for values in arrays.values())

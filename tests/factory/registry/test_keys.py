@@ -1,12 +1,8 @@
 """Every setting, library and source is in the key of each stage that it can change."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, replace
 from functools import cache
 from importlib.metadata import version
-from typing import Any
 
 import pytest
 
@@ -54,7 +50,7 @@ LIBRARIES = {
 }
 
 
-def settings(value: Any, path: str = "", marks: frozenset[str] = frozenset()) -> Iterator[Any]:
+def settings(value, path="", marks=frozenset()):
     """Every single setting of a configuration: its path, its value, its marks."""
     for field in fields(value):
         name = f"{path}.{field.name}".lstrip(".")
@@ -69,7 +65,7 @@ def settings(value: Any, path: str = "", marks: frozenset[str] = frozenset()) ->
 SETTINGS = {name: (value, marks) for name, value, marks in settings(BuildConfig())}
 
 
-def another(name: str, value: Any) -> Any:
+def another(name, value):
     """Any other value of a setting; the names of things must exist."""
     known = {"articulator": "geometric", "simulators": ("mujoco",)}
     if name in known:
@@ -86,7 +82,7 @@ def another(name: str, value: Any) -> Any:
     return 0.5
 
 
-def changed(config: Any, path: str) -> Any:
+def changed(config, path):
     """The configuration with one setting changed."""
     head, _, rest = path.partition(".")
     current = getattr(config, head)
@@ -95,11 +91,11 @@ def changed(config: Any, path: str) -> Any:
 
 
 @cache
-def keys_of(config: BuildConfig) -> dict[str, str]:
+def keys_of(config):
     return {stage.name: stage.key(config, "an input") for stage in STAGES}
 
 
-def expected(path: str) -> set[str]:
+def expected(path):
     """Of the longest path that is listed."""
     parts = path.split(".")
     found = (".".join(parts[:length]) for length in range(len(parts), 0, -1))
@@ -107,7 +103,7 @@ def expected(path: str) -> set[str]:
 
 
 @pytest.mark.parametrize("path", SETTINGS)
-def test_a_setting_changes_the_keys_of_its_stages_and_no_others(path: str) -> None:
+def test_a_setting_changes_the_keys_of_its_stages_and_no_others(path):
     plain = BuildConfig()
     other = changed(plain, path)
     told = {name for name, key in keys_of(other).items() if key != keys_of(plain)[name]}
@@ -122,12 +118,12 @@ def test_a_setting_changes_the_keys_of_its_stages_and_no_others(path: str) -> No
     assert built[0] != built[1]
 
 
-def test_every_section_is_expected_somewhere() -> None:
+def test_every_section_is_expected_somewhere():
     sections = {path.partition(".")[0] for path, (_, marks) in SETTINGS.items() if not marks}
     assert sections <= {path.partition(".")[0] for path in EXPECTED}
 
 
-def test_a_section_that_a_stage_declares_and_that_is_not_there_is_an_error() -> None:
+def test_a_section_that_a_stage_declares_and_that_is_not_there_is_an_error():
     stage = replace(STAGES[0], settings=("nowhere",))
     with pytest.raises(AttributeError, match="nowhere"):
         stage.key(BuildConfig())
@@ -135,8 +131,8 @@ def test_a_section_that_a_stage_declares_and_that_is_not_there_is_an_error() -> 
 
 @pytest.mark.parametrize("stage", STAGES, ids=lambda stage: stage.name)
 def test_a_changed_line_in_what_a_stage_runs_changes_its_key_and_that_of_a_build(
-    stage, monkeypatch: pytest.MonkeyPatch
-) -> None:
+    stage, monkeypatch
+):
     config = BuildConfig()
     before = stage.key(config), build_key("an input", config)
     registry_keys._pipeline_key.cache_clear()
@@ -147,9 +143,7 @@ def test_a_changed_line_in_what_a_stage_runs_changes_its_key_and_that_of_a_build
     assert not {*before} & {*after}
 
 
-def test_a_changed_line_beside_the_stages_changes_the_key_of_a_build(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_changed_line_beside_the_stages_changes_the_key_of_a_build(monkeypatch):
     config = BuildConfig()
     before = build_key("an input", config)
     registry_keys._pipeline_key.cache_clear()
@@ -162,18 +156,16 @@ def test_a_changed_line_beside_the_stages_changes_the_key_of_a_build(
 
 
 @pytest.mark.parametrize("library", LIBRARIES)
-def test_another_version_of_a_library_changes_the_keys_of_what_it_makes(
-    library: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_another_version_of_a_library_changes_the_keys_of_what_it_makes(library, monkeypatch):
     config = replace(BuildConfig(), simulators=("sapien", "mujoco", "pybullet"))
 
-    def keys() -> dict[str, str]:
+    def keys():
         runtime_keys.installed_version.cache_clear()
         registry_keys._pipeline_key.cache_clear()
         found = {stage.name: stage.key(config, "an input") for stage in STAGES}
         return {**found, "build": build_key("an input", config)}
 
-    def another_of_it(name: str) -> str:
+    def another_of_it(name):
         return "another" if name == library else version(name)
 
     before = keys()

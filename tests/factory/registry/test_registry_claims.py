@@ -1,7 +1,5 @@
 """Rights to work end with whoever had them, and only one of several makes a registry."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import threading
@@ -14,7 +12,7 @@ from asset_factory.factory.registry.claims import claim, drop_abandoned
 from asset_factory.factory.registry.cleaning import collect_garbage
 
 
-def test_a_claim_is_had_by_one_until_it_is_released(tmp_path) -> None:
+def test_a_claim_is_had_by_one_until_it_is_released(tmp_path):
     first = claim(tmp_path / "claims", "work")
     assert first is not None
     assert claim(tmp_path / "claims", "work") is None
@@ -28,7 +26,7 @@ def test_a_claim_is_had_by_one_until_it_is_released(tmp_path) -> None:
     assert list((tmp_path / "claims").iterdir()) == []
 
 
-def test_a_claim_ends_with_its_process(tmp_path) -> None:
+def test_a_claim_ends_with_its_process(tmp_path):
     script = (
         "import sys, time; from pathlib import Path; from asset_factory.factory.registry.claims "
         "import claim;held = claim(Path(sys.argv[1]), 'work'); print('held', "
@@ -48,7 +46,7 @@ def test_a_claim_ends_with_its_process(tmp_path) -> None:
     assert not Path(tmp_path / "work").exists()
 
 
-def test_claims_of_the_dead_are_dropped_those_of_the_living_are_not(tmp_path) -> None:
+def test_claims_of_the_dead_are_dropped_those_of_the_living_are_not(tmp_path):
     registry = Registry(tmp_path / "out", create=True)
     folder = tmp_path / "out" / ".claims"
     held = claim(folder, "held")
@@ -60,11 +58,11 @@ def test_claims_of_the_dead_are_dropped_those_of_the_living_are_not(tmp_path) ->
     assert drop_abandoned(folder) == 0
 
 
-def test_several_who_make_a_registry_at_once_lose_nothing(tmp_path) -> None:
+def test_several_who_make_a_registry_at_once_lose_nothing(tmp_path):
     count = 8
     together = threading.Barrier(8)
 
-    def work(number: int) -> None:
+    def work(number):
         together.wait()
         publish(Registry(tmp_path / "out", create=True), entry=named(f"cabinet-{number}"))
 

@@ -1,11 +1,8 @@
 """The digest of a stage's source: it changes with what the stage runs, and with nothing else."""
 
-from __future__ import annotations
-
 import ast
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -37,7 +34,7 @@ SOURCES = {
 
 
 @pytest.fixture
-def digest(tmp_path, monkeypatch) -> Iterator[Callable[..., str]]:
+def digest(tmp_path, monkeypatch):
     """What takes the digest of modules of a small package, anew each time."""
     for name, text in SOURCES.items():
         path = tmp_path / name
@@ -45,7 +42,7 @@ def digest(tmp_path, monkeypatch) -> Iterator[Callable[..., str]]:
         path.write_text(text)
     monkeypatch.syspath_prepend(tmp_path)
 
-    def taken(*names: str) -> str:
+    def taken(*names):
         forget()
         return code_digest(*names)
 
@@ -53,7 +50,7 @@ def digest(tmp_path, monkeypatch) -> Iterator[Callable[..., str]]:
     forget()
 
 
-def forget() -> None:
+def forget():
     for kept in (code.code_digest, code._module, code._imported_by, code._sources):
         kept.cache_clear()
 
@@ -71,9 +68,7 @@ def forget() -> None:
         ("kitchen/guest.py", {"kitchen.guest"}),
     ],
 )
-def test_a_changed_line_changes_the_digest_of_those_who_run_it(
-    changed: str, stages: set[str], digest, tmp_path
-) -> None:
+def test_a_changed_line_changes_the_digest_of_those_who_run_it(changed, stages, digest, tmp_path):
     names = ("kitchen.cook", "kitchen.bake", "kitchen.guest")
     before = {name: digest(name) for name in names}
     with (tmp_path / changed).open("a") as file:
@@ -81,7 +76,7 @@ def test_a_changed_line_changes_the_digest_of_those_who_run_it(
     assert {name for name in names if digest(name) != before[name]} == stages
 
 
-def test_a_package_counts_as_all_that_is_in_it(digest, tmp_path) -> None:
+def test_a_package_counts_as_all_that_is_in_it(digest, tmp_path):
     before = digest("kitchen.tools")
     (tmp_path / "kitchen/tools/spoons.py").write_text("spoon = 2\n")
     assert digest("kitchen.tools") != before
@@ -91,7 +86,7 @@ def test_a_package_counts_as_all_that_is_in_it(digest, tmp_path) -> None:
     assert digest("kitchen.tools") != before
 
 
-def test_a_package_counts_where_a_name_is_its_own(digest) -> None:
+def test_a_package_counts_where_a_name_is_its_own(digest):
     digest("kitchen.look")
     assert modules_run_by("kitchen.look") == {
         "kitchen.look",
@@ -101,20 +96,20 @@ def test_a_package_counts_where_a_name_is_its_own(digest) -> None:
     }
 
 
-def test_line_ends_change_nothing(digest, tmp_path) -> None:
+def test_line_ends_change_nothing(digest, tmp_path):
     before = digest("kitchen")
     for path in tmp_path.rglob("*.py"):
         path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
     assert digest("kitchen") == before
 
 
-def test_a_module_that_is_not_there_is_an_error(digest) -> None:
+def test_a_module_that_is_not_there_is_an_error(digest):
     for name in ("kitchen.cellar", "no_such_package"):
         with pytest.raises(ValueError, match=name):
             digest(name)
 
 
-def test_no_import_of_this_package_is_overlooked() -> None:
+def test_no_import_of_this_package_is_overlooked():
     """Compared with what Python's own parser sees, in every module that makes or judges."""
     for name, file in code._sources("asset_factory").items():
         if ".learn" in name:
@@ -123,7 +118,7 @@ def test_no_import_of_this_package_is_overlooked() -> None:
         assert _seen_by_python(tree, name, file) <= code._imported_by(name), name
 
 
-def _seen_by_python(tree: ast.AST, name: str, file: str) -> set[str]:
+def _seen_by_python(tree, name, file):
     package = name if file.endswith("__init__.py") else name.rpartition(".")[0]
     typed = {
         id(each)
@@ -144,7 +139,7 @@ def _seen_by_python(tree: ast.AST, name: str, file: str) -> set[str]:
     return {code._home(*each) for each in own}
 
 
-def test_articulators_imported_by_name_are_among_what_the_stage_runs() -> None:
+def test_articulators_imported_by_name_are_among_what_the_stage_runs():
     (stage,) = (stage for stage in STAGES if stage.name == "articulate")
     for name in ("geometric.geometric", "seams.articulator", "auto.articulator"):
         assert any(
@@ -153,7 +148,7 @@ def test_articulators_imported_by_name_are_among_what_the_stage_runs() -> None:
         )
 
 
-def test_all_weights_that_the_package_brings_are_in_the_key_of_the_stage_that_asks_them() -> None:
+def test_all_weights_that_the_package_brings_are_in_the_key_of_the_stage_that_asks_them():
     (stage,) = (stage for stage in STAGES if stage.name == "articulate")
     files = {f"weights/{file.name}" for file in WEIGHTS.iterdir() if file.suffix != ".md"}
     # The network's own are named in the settings.
@@ -161,7 +156,7 @@ def test_all_weights_that_the_package_brings_are_in_the_key_of_the_stage_that_as
 
 
 @pytest.mark.parametrize("stage", STAGES, ids=lambda stage: stage.name)
-def test_a_stage_runs_its_own_module_and_no_page_or_command(stage) -> None:
+def test_a_stage_runs_its_own_module_and_no_page_or_command(stage):
     run = modules_run_by(*stage.code)
     assert run <= modules_run_by(PIPELINE, *stage.code)
     assert not any(
@@ -171,7 +166,7 @@ def test_a_stage_runs_its_own_module_and_no_page_or_command(stage) -> None:
     )
 
 
-def test_the_digest_imports_nothing_heavy_and_takes_no_time() -> None:
+def test_the_digest_imports_nothing_heavy_and_takes_no_time():
     script = (
         "import sys, time\n"
         "from asset_factory.factory.runtime.code import code_digest\n"

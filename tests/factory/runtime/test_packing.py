@@ -65,13 +65,13 @@ boxes = st.recursive(
 
 
 @given(boxes)
-def test_everything_comes_back_equal(box: Box) -> None:
+def test_everything_comes_back_equal(box):
     assert unpack(Box, pack(box)) == box
 
 
-def test_arrays_keep_their_bits_through_the_store(tmp_path) -> None:
+def test_arrays_keep_their_bits_through_the_store(tmp_path):
     axis = np.array([1.0, 0.0, 0.0])
-    joint = Joint("hinge", "revolute", 0, 1, axis, np.array([0.1, 1 / 3, 5e-324]), -0.0, 0.1 + 0.2)  # type: ignore[arg-type]
+    joint = Joint("hinge", "revolute", 0, 1, axis, np.array([0.1, 1 / 3, 5e-324]), -0.0, 0.1 + 0.2)
     parts = (Part("base", np.arange(5), None), Part("door", np.arange(5, 9), 0.7))
     store = Store(tmp_path)
     store.save("some-key", pack((parts, (joint,))))
@@ -85,7 +85,7 @@ def test_arrays_keep_their_bits_through_the_store(tmp_path) -> None:
     assert [part.faces.tolist() for part in back] == [part.faces.tolist() for part in parts]
 
 
-def test_a_report_comes_back_as_it_was() -> None:
+def test_a_report_comes_back_as_it_was():
     finding = Finding(
         "tilted",
         Severity.SOFT,
@@ -117,6 +117,6 @@ class Other:
 @pytest.mark.parametrize(
     "arrays", [{}, {"text": np.array("{")}, {"text": np.array("[1]")}, pack(Other(1.0))]
 )
-def test_what_was_not_packed_is_refused(arrays) -> None:
+def test_what_was_not_packed_is_refused(arrays):
     with pytest.raises(ValueError, match=r"no Box was packed here|Expecting"):
         unpack(Box, arrays)

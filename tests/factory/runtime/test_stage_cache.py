@@ -1,12 +1,8 @@
 """A stage's settings redo it and those after it, none before; what is kept equals a new run."""
 
-from __future__ import annotations
-
 import json
 import math
-from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +11,6 @@ import trimesh
 from asset_factory.factory.build import make_asset
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.registry.product import Product
 from asset_factory.factory.runtime.stages import Stages
 from asset_factory.factory.runtime.store import Store, folder_digests
 from asset_factory.sim_checks.judge import Judge
@@ -24,7 +19,7 @@ BASE = BuildConfig(simulators=())
 
 
 @pytest.fixture(scope="module")
-def cabinet(tmp_path_factory) -> Path:
+def cabinet(tmp_path_factory):
     """A board and a door, with the door's hinge."""
     folder = tmp_path_factory.mktemp("cabinet")
     for name, size, center in (
@@ -54,20 +49,20 @@ def cabinet(tmp_path_factory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def judge() -> Iterator[Judge]:
+def judge():
     with Judge(BASE.checks) as judge:
         yield judge
 
 
 @pytest.fixture(scope="module")
-def first(cabinet, judge, tmp_path_factory) -> tuple[Product, Path, Path]:
+def first(cabinet, judge, tmp_path_factory):
     """The first build of it, its cache and its staging folder."""
     cache = tmp_path_factory.mktemp("cache")
     staging = tmp_path_factory.mktemp("first")
     return make_asset(cabinet, staging, BASE, cache, judge), cache, staging
 
 
-def test_the_first_build_does_everything(first) -> None:
+def test_the_first_build_does_everything(first):
     product, _, _ = first
     assert product.entry.status == "passed", product.told.report.findings
     assert product.done == ("articulate", "finish", "inspect", "validate")
@@ -101,7 +96,7 @@ CHANGES = {
 
 
 @pytest.mark.parametrize("what", CHANGES)
-def test_a_change_redoes_its_stage_and_what_follows(what, first, cabinet, tmp_path) -> None:
+def test_a_change_redoes_its_stage_and_what_follows(what, first, cabinet, tmp_path):
     _, cache, _ = first
     config, redone = CHANGES[what]
     with Judge(config.checks) as judge:
@@ -113,7 +108,7 @@ def test_a_change_redoes_its_stage_and_what_follows(what, first, cabinet, tmp_pa
     )
 
 
-def test_what_is_kept_is_what_would_be_made(first, cabinet, judge, tmp_path) -> None:
+def test_what_is_kept_is_what_would_be_made(first, cabinet, judge, tmp_path):
     product, cache, _ = first
     again = make_asset(cabinet, tmp_path / "kept", BASE, cache, judge)
     anew = make_asset(cabinet, tmp_path / "anew", BASE, None, judge)
@@ -136,7 +131,7 @@ def _normal(data):
     return [_normal(value) for value in data] if isinstance(data, list | tuple) else data
 
 
-def test_a_pose_outside_the_range_is_built_and_kept(cabinet, judge, tmp_path) -> None:
+def test_a_pose_outside_the_range_is_built_and_kept(cabinet, judge, tmp_path):
     """The articulator moves the mesh to the nearest limit, so it differs from the loaded one."""
     ajar = cabinet.with_name("ajar.urdf")
     ajar.write_text(cabinet.read_text().replace('lower="0" upper="1.5"', 'lower="0.2" upper="1.5"'))
@@ -155,7 +150,7 @@ def test_a_pose_outside_the_range_is_built_and_kept(cabinet, judge, tmp_path) ->
     ] < -0.2 - 0.6 * math.sin(0.2)
 
 
-def test_a_damaged_cache_is_done_again(cabinet, judge, tmp_path) -> None:
+def test_a_damaged_cache_is_done_again(cabinet, judge, tmp_path):
     make_asset(cabinet, tmp_path / "one", BASE, tmp_path / "cache", judge)
     for path in (tmp_path / "cache").rglob("*.npz"):
         path.write_bytes(path.read_bytes()[:100])
@@ -164,10 +159,10 @@ def test_a_damaged_cache_is_done_again(cabinet, judge, tmp_path) -> None:
     assert product.result.reused == ()
 
 
-def test_a_rejection_is_remembered_with_its_number(tmp_path) -> None:
+def test_a_rejection_is_remembered_with_its_number(tmp_path):
     asked = []
 
-    def refuse() -> int:
+    def refuse():
         asked.append(1)
         raise InputRejected(
             "no_movable_joint", "nothing moves", value=0.0, unit="joints", limit=1.0
@@ -186,7 +181,7 @@ def test_a_rejection_is_remembered_with_its_number(tmp_path) -> None:
     assert stages.reused == ["articulate"]
 
 
-def test_what_another_try_might_better_is_not_kept(tmp_path) -> None:
+def test_what_another_try_might_better_is_not_kept(tmp_path):
     values = iter((1.0, 2.0))
     for expected in (1.0, 2.0):
         stages = Stages(BASE, Store(tmp_path))
@@ -198,7 +193,7 @@ def test_what_another_try_might_better_is_not_kept(tmp_path) -> None:
     assert Stages(BASE, Store(tmp_path)).recall("inspect", float, "inspect-00", lambda: 3.0) == 2.0
 
 
-def test_stage_times_add_up_to_the_whole() -> None:
+def test_stage_times_add_up_to_the_whole():
     stages = Stages(BASE)
     with stages.clock.stage("outer"):
         sum(np.arange(100_000).tolist())

@@ -1,7 +1,5 @@
 """Fronts that stick in something are built anew, once, and only where they were guessed."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -28,12 +26,12 @@ from asset_factory.sim_checks.report import Report
 FRONTS = Spare(fronts=frozenset({"drawer"}))
 
 
-def rejected(code: str) -> Verdict:
+def rejected(code):
     finding = Finding(code, Severity.HARD, "it does", parts=("base", "drawer"))
     return Verdict(Report("asset.urdf", findings=(finding,)))
 
 
-def drawer(proposer: Proposer) -> Articulation:
+def drawer(proposer):
     """The upper drawer of a chest, by whoever says so."""
     mesh = drawer_chest()
     own = np.isin(connected_components(mesh), (2, 4))
@@ -45,7 +43,7 @@ def drawer(proposer: Proposer) -> Articulation:
     return located(Articulation(mesh, parts, (joint,), "auto"))
 
 
-def test_a_front_that_sticks_is_built_anew_once() -> None:
+def test_a_front_that_sticks_is_built_anew_once():
     plan = next_plan(rejected("rest_penetration"), Plan(), RepairConfig(), FRONTS)
     assert plan is not None
     assert plan.build_fronts
@@ -53,17 +51,17 @@ def test_a_front_that_sticks_is_built_anew_once() -> None:
     assert next_plan(rejected("rest_penetration"), plan, RepairConfig(), FRONTS) is None
 
 
-def test_nothing_is_built_for_other_faults_or_without_fronts() -> None:
+def test_nothing_is_built_for_other_faults_or_without_fronts():
     assert next_plan(rejected("no_mass"), Plan(), RepairConfig(), FRONTS) is None
     assert next_plan(rejected("rest_penetration"), Plan(), RepairConfig(), Spare()) is None
 
 
-def test_only_guessed_fronts_are_built() -> None:
+def test_only_guessed_fronts_are_built():
     assert dispensable_joints(drawer(Proposer.RULES), 0.1).fronts == {"drawer"}
     assert not dispensable_joints(drawer(Proposer.ANNOTATION), 0.1).fronts
 
 
-def test_fronts_of_many_faces_are_built_at_once() -> None:
+def test_fronts_of_many_faces_are_built_at_once():
     chest = drawer(Proposer.RULES)
     assert first_plan(chest, FRONTS) == Plan()
     faces = np.tile(chest.mesh.faces, (MANY_FACES // len(chest.mesh.faces) + 1, 1))

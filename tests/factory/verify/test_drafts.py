@@ -1,18 +1,13 @@
 """Of several readings the likeliest that passes whole becomes the asset; the others are told."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-import pytest
 from export_samples import cabinet
 
 from asset_factory.factory.articulate import standing
 from asset_factory.factory.articulate.proposal import Hypothesis
-from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.build import build_asset
 from asset_factory.factory.config import BuildConfig, ReadingsConfig
 from asset_factory.factory.errors import InputRejected
@@ -30,17 +25,17 @@ DEEP = Finding("sweep_penetration", Severity.HARD, "5 mm deep", value=5.0, unit=
 ASSET = cabinet()
 
 
-def draft(*findings: Finding, frozen: frozenset[str] = frozenset()) -> HypothesisDraft:
+def draft(*findings, frozen=frozenset()):
     report = Report("asset.urdf", findings=findings)
     plan = Plan(frozen=frozen)
     return HypothesisDraft(ASSET.articulation, ASSET, None, plan, (), Verdict(report))
 
 
-def test_the_first_that_passes_whole_is_the_last_that_is_made() -> None:
+def test_the_first_that_passes_whole_is_the_last_that_is_made():
     rejected, whole, never = draft(DEEP), draft(), draft()
     made = []
 
-    def drafts() -> Iterator[HypothesisDraft]:
+    def drafts():
         for each in (rejected, whole, never):
             made.append(each)
             yield each
@@ -54,7 +49,7 @@ def test_the_first_that_passes_whole_is_the_last_that_is_made() -> None:
     assert all(f"{part.name} " in told.message for part in ASSET.articulation.parts[1:])
 
 
-def test_one_that_passes_without_a_joint_is_better_than_none_and_worse_than_whole() -> None:
+def test_one_that_passes_without_a_joint_is_better_than_none_and_worse_than_whole():
     lame = draft(frozen=frozenset({"hinge"}))
     assert best_of(iter([draft(DEEP), lame]))[0] is lame
     best, (told,) = best_of(iter([lame, draft()]))
@@ -62,12 +57,12 @@ def test_one_that_passes_without_a_joint_is_better_than_none_and_worse_than_whol
     assert "passes only without hinge" in told.message
 
 
-def test_where_none_passes_the_likeliest_is_rejected() -> None:
+def test_where_none_passes_the_likeliest_is_rejected():
     first = draft(DEEP)
     assert best_of(iter([first, draft(DEEP)]))[0] is first
 
 
-def _blocked(right: Articulation) -> Articulation:
+def _blocked(right):
     """The same with its first door hinged on an axis through the middle of the carcass."""
     joint = right.movable_joints[0]
     middle = right.mesh.bounds.mean(axis=0)
@@ -75,10 +70,10 @@ def _blocked(right: Articulation) -> Articulation:
     return replace(right, joints=tuple(wrong if j is joint else j for j in right.joints))
 
 
-def _reading_as(monkeypatch: pytest.MonkeyPatch, *changes: object) -> None:
+def _reading_as(monkeypatch, *changes):
     likeliest = standing.hypotheses
 
-    def hypotheses(*asked: object) -> tuple[Hypothesis, ...]:
+    def hypotheses(*asked):
         right, *_ = likeliest(*asked)
         return tuple(Hypothesis.of(change(right.articulation)) for change in changes)
 
@@ -88,7 +83,7 @@ def _reading_as(monkeypatch: pytest.MonkeyPatch, *changes: object) -> None:
 CONFIG = BuildConfig(articulator="geometric", simulators=())
 
 
-def test_a_reading_that_is_blocked_loses_to_one_that_opens(tmp_path: Path, monkeypatch) -> None:
+def test_a_reading_that_is_blocked_loses_to_one_that_opens(tmp_path, monkeypatch):
     _reading_as(monkeypatch, _blocked, lambda right: right)
     result = build_asset(EXAMPLES / "laptop.glb", tmp_path, CONFIG)
     assert result.entry.status == "passed"
@@ -98,15 +93,13 @@ def test_a_reading_that_is_blocked_loses_to_one_that_opens(tmp_path: Path, monke
     assert "is rejected" in told
 
 
-def test_beyond_the_most_work_only_the_likeliest_is_made(tmp_path: Path, monkeypatch) -> None:
+def test_beyond_the_most_work_only_the_likeliest_is_made(tmp_path, monkeypatch):
     _reading_as(monkeypatch, _blocked, lambda right: right)
     hurried = replace(CONFIG, readings=ReadingsConfig(most_work=0))
     assert build_asset(EXAMPLES / "laptop.glb", tmp_path, hurried).entry.status == "rejected"
 
 
-def test_a_reading_whose_check_hung_gives_its_place_to_no_other(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_reading_whose_check_hung_gives_its_place_to_no_other(tmp_path, monkeypatch):
     _reading_as(monkeypatch, lambda right: right, lambda right: right)
     honest = rounds.inspect
     late = Finding("check_timeout", Severity.HARD, "no answer", cause=OUT_OF_TIME)
@@ -127,9 +120,7 @@ def test_a_reading_whose_check_hung_gives_its_place_to_no_other(
     assert build_asset(EXAMPLES / "laptop.glb", tmp_path, CONFIG).entry.status == "passed"
 
 
-def test_a_simulator_that_hung_neither_rejects_nor_repairs(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_simulator_that_hung_neither_rejects_nor_repairs(tmp_path, monkeypatch):
     honest = rounds.validate
     late = Finding("simulator_timeout", Severity.HARD, "no answer", "bullet", cause=OUT_OF_TIME)
     jammed = Finding("jammed", Severity.HARD, "sapien: stuck", "sapien")
@@ -143,16 +134,16 @@ def test_a_simulator_that_hung_neither_rejects_nor_repairs(
     assert (entry.status, entry.reason) == ("unjudged", "simulator_timeout")
 
 
-def test_work_is_counted_from_what_is_made() -> None:
+def test_work_is_counted_from_what_is_made():
     hulls = ASSET.hull_count
     joints = len(ASSET.articulation.movable_joints)
     assert work_of(ASSET) == joints * (hulls + len(ASSET.articulation.mesh.faces) // FACES_PER_HULL)
 
 
-def test_a_reading_that_cannot_be_made_is_passed_over(tmp_path: Path, monkeypatch) -> None:
+def test_a_reading_that_cannot_be_made_is_passed_over(tmp_path, monkeypatch):
     made = rounds.manufacture
 
-    def manufacture(articulation: Articulation, *asked: object) -> object:
+    def manufacture(articulation, *asked):
         if articulation.notes == ("impossible",):
             raise InputRejected("too_many_hulls", "part 'lid': needs 999 convex pieces")
         return made(articulation, *asked)

@@ -7,8 +7,6 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-import pytest
-
 from asset_factory.factory.config import BuildConfig, HullsConfig
 from asset_factory.factory.manufacture.plan import Plan
 from asset_factory.factory.verify import rounds
@@ -27,16 +25,14 @@ class Draft:
     work: int = 0
 
 
-def drafted(
-    monkeypatch: pytest.MonkeyPatch, cut_off: int, refused_below: int = 0, fat: int = 0
-) -> tuple[Draft, list[int | None]]:
+def drafted(monkeypatch, cut_off, refused_below=0, fat=0):
     """Made of 150 hulls before cutting, or what is asked for; cutting adds so many.
 
     Where hulls were joined it adds ``fat`` besides: what is coarser is more in the way.
     """
     aims: list[int | None] = []
 
-    def made(self: Rounds, plan: Plan, folder: str, done: int = 0) -> Draft:
+    def made(self, plan, folder, done=0):
         aims.append(plan.fewer)
         count = 150 if plan.fewer is None else min(150, plan.fewer) + fat
         count += cut_off
@@ -53,32 +49,30 @@ def drafted(
     return draft, aims
 
 
-def test_what_cutting_adds_is_asked_for_less(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_cutting_adds_is_asked_for_less(monkeypatch):
     draft, aims = drafted(monkeypatch, cut_off=30)
     assert aims == [None, MOST, MOST - 30]
     assert draft.asset.hull_count == MOST
     assert draft.before.hull_count == 180
 
 
-def test_nothing_is_made_again_of_what_is_light(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_is_made_again_of_what_is_light(monkeypatch):
     assert drafted(monkeypatch, cut_off=-50)[1] == [None]
 
 
-def test_what_passes_with_more_only_keeps_more(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_passes_with_more_only_keeps_more(monkeypatch):
     draft, aims = drafted(monkeypatch, cut_off=30, refused_below=120)
     assert aims == [None, MOST, MOST - 30]
     assert draft.asset.hull_count == 130
 
 
-def test_where_cutting_makes_more_than_may_be_the_least_is_kept(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_where_cutting_makes_more_than_may_be_the_least_is_kept(monkeypatch):
     draft, aims = drafted(monkeypatch, cut_off=120)
     assert aims == [None, MOST]
     assert draft.asset.hull_count == 220
 
 
-def test_what_becomes_heavier_by_joining_stays_as_it_was(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_becomes_heavier_by_joining_stays_as_it_was(monkeypatch):
     draft, aims = drafted(monkeypatch, cut_off=30, fat=90)
     assert aims == [None, MOST]
     assert draft.asset.hull_count == 180

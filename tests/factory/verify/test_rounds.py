@@ -13,7 +13,6 @@ from asset_factory.factory.build import build_asset
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.report_file import read_report
-from asset_factory.factory.registry.result import Result
 from asset_factory.factory.verify import rounds
 from asset_factory.factory.verify.validate import Verdict
 from asset_factory.sim_checks import Finding, Severity
@@ -23,12 +22,12 @@ CONFIG = BuildConfig(simulators=())
 
 
 @pytest.fixture
-def guessed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+def guessed(monkeypatch):
     """The joints of the example, as guesses, the surest first."""
     names: list[str] = []
     likeliest = standing.hypotheses
 
-    def hypotheses(*asked: object) -> tuple[Hypothesis, ...]:
+    def hypotheses(*asked):
         hypothesis, *_ = likeliest(*asked)
         right = hypothesis.articulation
         joints = tuple(
@@ -42,7 +41,7 @@ def guessed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return names
 
 
-def refusing(monkeypatch: pytest.MonkeyPatch, number: int, names: list[str], code: str) -> None:
+def refusing(monkeypatch, number, names, code):
     """A simulator that says of one joint, while it is there, that it fails."""
     honest = rounds.validate
 
@@ -57,14 +56,12 @@ def refusing(monkeypatch: pytest.MonkeyPatch, number: int, names: list[str], cod
     monkeypatch.setattr(rounds, "validate", validate)
 
 
-def repairs(result: Result, output: Path) -> str:
+def repairs(result, output):
     stored = read_report(Registry(output).assets / result.entry.id)
     return " ".join(repair.sentence for repair in stored.repairs)
 
 
-def test_a_guess_that_jams_in_a_simulator_is_given_up_and_told(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, guessed: list[str]
-) -> None:
+def test_a_guess_that_jams_in_a_simulator_is_given_up_and_told(tmp_path, monkeypatch, guessed):
     refusing(monkeypatch, -1, guessed, "jammed")
     result = build_asset(CABINET, tmp_path, CONFIG)
     assert result.entry.status == "passed"
@@ -72,17 +69,13 @@ def test_a_guess_that_jams_in_a_simulator_is_given_up_and_told(
     assert f"gave up {guessed[-1]}: bullet: {guessed[-1]} is stuck" in repairs(result, tmp_path)
 
 
-def test_what_no_guess_brings_about_costs_none(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, guessed: list[str]
-) -> None:
+def test_what_no_guess_brings_about_costs_none(tmp_path, monkeypatch, guessed):
     refusing(monkeypatch, -1, guessed, "no_mass")
     entry = build_asset(CABINET, tmp_path, CONFIG).entry
     assert (entry.status, entry.reason, entry.joints) == ("rejected", "no_mass", len(guessed))
 
 
-def test_the_best_guess_is_never_given_up(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, guessed: list[str]
-) -> None:
+def test_the_best_guess_is_never_given_up(tmp_path, monkeypatch, guessed):
     refusing(monkeypatch, 0, guessed, "jammed")
     entry = build_asset(CABINET, tmp_path, CONFIG).entry
     assert (entry.status, entry.reason) == ("rejected", "jammed")

@@ -1,9 +1,5 @@
 """The way to the judge: no inspection is repeated, and two files of one asset make one report."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 from export_samples import PROVENANCE, box, boxes_asset, cabinet
 
@@ -17,15 +13,13 @@ from asset_factory.sim_checks import Finding, Report, Severity
 from asset_factory.sim_checks.judge import Examination, Judge
 
 
-def test_what_was_inspected_is_not_measured_again(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_was_inspected_is_not_measured_again(tmp_path, monkeypatch):
     pytest.importorskip("mujoco")
     bundle = export_bundle(cabinet(), PROVENANCE, tmp_path / "bundle")
     examined = []
     examine = Judge.examine
 
-    def counted(judge: Judge, path: Path) -> Examination:
+    def counted(judge, path):
         examined.append(path.name)
         return examine(judge, path)
 
@@ -39,7 +33,7 @@ def test_what_was_inspected_is_not_measured_again(
     assert verdict.report.to_json() == again.report.to_json()
 
 
-def test_simulators_that_judged_different_files_of_one_asset_can_disagree(tmp_path: Path) -> None:
+def test_simulators_that_judged_different_files_of_one_asset_can_disagree(tmp_path):
     for engine in ("sapien", "mujoco"):
         pytest.importorskip(engine)
     # A drawer 5 mm within the side of its own body.
@@ -58,22 +52,22 @@ def test_simulators_that_judged_different_files_of_one_asset_can_disagree(tmp_pa
 class Hurried:
     """A judge that runs out of time whenever it is asked for the first time."""
 
-    def __init__(self) -> None:
+    def __init__(self):
         self.examined = self.checked = 0
 
-    def examine(self, path: Path) -> Examination:
+    def examine(self, path):
         self.examined += 1
         late = Finding("check_timeout", Severity.HARD, "no answer in 120 s")
         return Examination(None, (late,) if self.examined == 1 else ())
 
-    def check(self, path: Path, simulators: tuple[str, ...], examined: Examination) -> Report:
+    def check(self, path, simulators, examined):
         self.checked += 1
         late = Finding("simulator_timeout", Severity.HARD, "no answer in 120 s", "sapien")
         first = simulators and self.checked == 1
         return Report(path.name, simulators, (*examined.findings, *((late,) if first else ())))
 
 
-def test_what_ran_out_of_time_is_asked_again_and_what_was_said_is_not(tmp_path: Path) -> None:
+def test_what_ran_out_of_time_is_asked_again_and_what_was_said_is_not(tmp_path):
     bundle = export_bundle(cabinet(), PROVENANCE, tmp_path / "bundle")
     simulators = ("sapien",)
     stages = Stages(BuildConfig(simulators=simulators), Store(tmp_path / "cache"))

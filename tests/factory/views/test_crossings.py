@@ -1,9 +1,6 @@
 """Crossings come in one order, however they are found."""
 
-from __future__ import annotations
-
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -17,9 +14,7 @@ pairs = st.lists(st.tuples(st.integers(0, 5), st.sampled_from([-0.0, 0.0, 0.25, 
 
 
 @given(pairs, st.sampled_from([1, 2**60]))
-def test_crossings_are_ordered_by_pixel_depth_and_place(
-    found: list[tuple[int, float]], scale: int
-) -> None:
+def test_crossings_are_ordered_by_pixel_depth_and_place(found, scale):
     pixel = np.array([pair[0] for pair in found], dtype=np.int64) * scale
     depth = np.array([pair[1] for pair in found], dtype=np.float64)
     order = module._nearest_first(pixel, depth)
@@ -29,7 +24,7 @@ def test_crossings_are_ordered_by_pixel_depth_and_place(
 
 
 @given(pairs)
-def test_the_nearest_are_the_first_in_that_order(found: list[tuple[int, float]]) -> None:
+def test_the_nearest_are_the_first_in_that_order(found):
     pixel = np.array([pair[0] for pair in found], dtype=np.int64)
     depth = np.array([pair[1] for pair in found], dtype=np.float64)
     order = module._nearest_first(pixel, depth)
@@ -37,9 +32,7 @@ def test_the_nearest_are_the_first_in_that_order(found: list[tuple[int, float]])
     assert module._nearest_only(pixel, depth).tolist() == first.tolist()
 
 
-def test_how_many_pairs_are_looked_at_in_one_go_changes_nothing(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_how_many_pairs_are_looked_at_in_one_go_changes_nothing(monkeypatch):
     generator = np.random.default_rng(3)
     mesh = Mesh.from_triangles(generator.random((60, 3)), np.arange(60).reshape(20, 3))
     raster = Raster.around(mesh, Side.LEFT, 40)

@@ -15,7 +15,7 @@ from asset_factory.factory.views.raster import Raster, Side
 from asset_factory.factory.views.view import elevation
 
 
-def mesh_of(shape: trimesh.Trimesh) -> Mesh:
+def mesh_of(shape):
     return Mesh.from_triangles(shape.vertices, shape.faces)
 
 
@@ -31,7 +31,7 @@ OUTWARD = {
 
 
 @pytest.mark.parametrize("side", Side)
-def test_a_frame_turns_and_looks_inward(side: Side) -> None:
+def test_a_frame_turns_and_looks_inward(side):
     assert np.allclose(side.frame @ side.frame.T, np.eye(3))
     assert np.allclose(side.frame[2], -np.array(OUTWARD[side]))
     # Right, up and away make a left-handed frame, as depth does behind any picture.
@@ -39,7 +39,7 @@ def test_a_frame_turns_and_looks_inward(side: Side) -> None:
 
 
 @pytest.mark.parametrize("side", Side)
-def test_a_box_is_a_flat_rectangle(side: Side) -> None:
+def test_a_box_is_a_flat_rectangle(side):
     seen = elevation(BOX, side, pixels=80)
     raster = seen.raster
     width, height = (np.abs(side.frame[:2]) @ BOX.extents) / raster.pixel
@@ -51,7 +51,7 @@ def test_a_box_is_a_flat_rectangle(side: Side) -> None:
 
 
 @given(st.sampled_from(list(Side)), st.integers(8, 60), st.integers(0, 1000))
-def test_pixels_and_points_are_inverse(side: Side, pixels: int, seed: int) -> None:
+def test_pixels_and_points_are_inverse(side, pixels, seed):
     raster = Raster.around(BOX, side, pixels)
     chance = np.random.default_rng(seed)
     rows = chance.integers(0, raster.rows, 5)
@@ -61,7 +61,7 @@ def test_pixels_and_points_are_inverse(side: Side, pixels: int, seed: int) -> No
     assert np.allclose(back, np.stack([rows, columns, depth], axis=1))
 
 
-def test_rays_enter_a_closed_surface_as_often_as_they_leave_it() -> None:
+def test_rays_enter_a_closed_surface_as_often_as_they_leave_it():
     shape = trimesh.creation.torus(0.5, 0.2, major_sections=40, minor_sections=20)
     crossed = crossings(mesh_of(shape), Raster.around(mesh_of(shape), Side.FRONT, 120))
     turns = np.where(crossed.inward, 1, -1)
@@ -72,7 +72,7 @@ def test_rays_enter_a_closed_surface_as_often_as_they_leave_it() -> None:
     assert length * crossed.raster.pixel**2 == pytest.approx(shape.volume, rel=0.02)
 
 
-def test_crossings_lie_on_the_triangles_they_name() -> None:
+def test_crossings_lie_on_the_triangles_they_name():
     shape = mesh_of(trimesh.creation.icosphere(subdivisions=3, radius=0.5))
     raster = Raster.around(shape, Side.RIGHT, 50)
     found = crossings(shape, raster)
@@ -81,7 +81,7 @@ def test_crossings_lie_on_the_triangles_they_name() -> None:
     assert np.allclose(points, on_face)
 
 
-def test_a_texture_is_seen_the_right_way_round() -> None:
+def test_a_texture_is_seen_the_right_way_round():
     image = Image.new("RGB", (2, 2))
     image.putdata([(255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)])
     data = io.BytesIO()

@@ -1,11 +1,8 @@
 """Datasets are brought into the cache once; what is broken is passed over with its reason."""
 
-from __future__ import annotations
-
 import importlib.util
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,7 +11,7 @@ from usda import CABINET, stage, write
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.registry import Entry, Registry
-from asset_factory.learn.datasets import Prepared, SourceSettings, prepare
+from asset_factory.learn.datasets import SourceSettings, prepare
 from asset_factory.learn.datasets.__main__ import main
 from asset_factory.learn.datasets.description import find_descriptions
 from asset_factory.learn.datasets.fronts import front_advice
@@ -34,7 +31,7 @@ HINGE = (
 )
 
 
-def cabinet(folder: Path, kind: str = "revolute", depth: float = 0.6) -> Path:
+def cabinet(folder, kind="revolute", depth=0.6):
     folder.mkdir(parents=True, exist_ok=True)
     body = BOX.format("base", "0 0 0", f"1 {depth} 0.8") + BOX.format(
         "door", "0.5 0 0", "1 0.02 0.8"
@@ -44,7 +41,7 @@ def cabinet(folder: Path, kind: str = "revolute", depth: float = 0.6) -> Path:
     return path
 
 
-def bring(tmp_path: Path, **changes: object) -> Prepared:
+def bring(tmp_path, **changes):
     return prepare(
         "description",
         tmp_path / "data",
@@ -52,7 +49,7 @@ def bring(tmp_path: Path, **changes: object) -> Prepared:
         settings=SETTINGS,
         workers=1,
         **changes,
-    )  # type: ignore[arg-type]
+    )
 
 
 @pytest.fixture

@@ -1,9 +1,6 @@
 """What counts as an object of a dataset, what it is called, and what it consists of."""
 
-from __future__ import annotations
-
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -31,7 +28,7 @@ from asset_factory.learn.objects.export import (
 )
 
 
-def touch(path: Path, text: str = "<robot/>") -> Path:
+def touch(path, text="<robot/>"):
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
     return path
@@ -110,7 +107,7 @@ def test_category_from_inventory_prefix_or_metadata(tmp_path):
     ]
 
 
-def chest() -> Articulation:
+def chest():
     material = Material("wood")
     lid = np.eye(4)
     lid[:3, 3] = 0.0, 0.0, 0.55
@@ -122,7 +119,7 @@ def chest() -> Articulation:
     )
     hinge = Joint(
         "lid", "revolute", 0, 1, np.array([-1.0, 0, 0]), np.array([0, 0.5, 0.5]), 0.0, 1.5
-    )  # type: ignore[arg-type]
+    )
     return Articulation(
         mesh, (Part("base", np.arange(12)), Part("lid", np.arange(12, 24))), (hinge,), "made"
     )

@@ -1,13 +1,9 @@
 """Datasets preprocessed by the release say the same as their originals read by us."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-from asset_factory.factory.articulation import Articulation, Joint
+from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.geometry.posing import closed
 from asset_factory.learn.datasets.description import find_descriptions, read_description
 from asset_factory.learn.datasets.item import SourceItem
@@ -20,7 +16,7 @@ DESCRIPTIONS = ("hinge_slider", "dummy_chain_both", "fixed_and_continuous", "off
 STAGES = ("usd_hinge_slider", "usd_negative_limit")
 
 
-def original(fixtures: Path, name: str) -> Articulation:
+def original(fixtures, name):
     folder = fixtures / "data_formats" / name / "in"
     if name in STAGES:
         pytest.importorskip("pxr")
@@ -30,31 +26,29 @@ def original(fixtures: Path, name: str) -> Articulation:
     return read_description(find_descriptions(folder)[0], SETTINGS)
 
 
-def published(fixtures: Path, name: str) -> Articulation:
+def published(fixtures, name):
     read = read_published(find_published(fixtures / "data_formats" / name / "out")[0], SETTINGS)
     assert isinstance(read, Articulation)
     return read
 
 
-def normalised(articulation: Articulation) -> tuple[Articulation, np.ndarray, float]:
+def normalised(articulation):
     """Closed, as the release poses an object, with the centre and longest side it divides by."""
     shut = closed(articulation)
     return shut, shut.mesh.bounds.mean(axis=0), float(shut.mesh.extents.max())
 
 
-def corners(articulation: Articulation, part: int) -> np.ndarray:
+def corners(articulation, part):
     mesh = articulation.part_mesh(part)
     return np.unique(mesh.vertices[mesh.faces].reshape(-1, 3).round(5), axis=0)
 
 
-def off_line(point: np.ndarray, joint: Joint) -> float:
+def off_line(point, joint):
     across = point - joint.origin
     return float(np.linalg.norm(across - joint.axis * (across @ joint.axis)))
 
 
-def matched(
-    ours: Articulation, theirs: Articulation, centre: np.ndarray, side: float
-) -> dict[int, int]:
+def matched(ours, theirs, centre, side):
     """Part by part, those with the same corners; carriers of joints have none."""
     found = {}
     for part in range(len(ours.parts)):

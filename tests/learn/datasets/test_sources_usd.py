@@ -1,29 +1,24 @@
 """USD: joints, bodies and units as the physics schema means them."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 pytest.importorskip("pxr")
 from usda import BASE, CABINET, DOOR, HINGE, body, joint, mesh, stage, write
 
-from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.geometry.posing import posed
 from asset_factory.learn.datasets.settings import SourceSettings
 from asset_factory.learn.datasets.usd import find_usd, read_usd
 
 
-def read(folder: Path, text: str) -> Articulation:
+def read(folder, text):
     write(folder / "thing", text)
     (item,) = find_usd(folder)
     return read_usd(item, SourceSettings())
 
 
-def refused(folder: Path, text: str) -> str:
+def refused(folder, text):
     with pytest.raises(InputRejected) as caught:
         read(folder, text)
     return caught.value.code

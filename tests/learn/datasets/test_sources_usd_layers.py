@@ -1,9 +1,6 @@
 """USD: no file outside the object's folder is composed, however it is named."""
 
-from __future__ import annotations
-
 import zipfile
-from pathlib import Path
 
 import pytest
 
@@ -16,7 +13,7 @@ from asset_factory.factory.intake.importers.usd import require_own_layers
 ROOM = 10_000_000
 
 
-def refusal(main: Path) -> str:
+def refusal(main):
     with pytest.raises(InputRejected) as caught:
         require_own_layers(main, main.parent, ROOM)
     return caught.value.code
@@ -28,7 +25,7 @@ def outside(tmp_path):
     return write(tmp_path, "secret", "outside.usda")
 
 
-def referring(folder: Path, reference: str, how: str = "references") -> Path:
+def referring(folder, reference, how="references"):
     return write(
         folder, f'#usda 1.0\n(\n)\ndef Xform "obj" (prepend {how} = @{reference}@)\n{{\n}}\n'
     )

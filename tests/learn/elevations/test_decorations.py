@@ -19,14 +19,14 @@ PLAIN = Decorations(
 WHOLE = np.zeros((80, 100), dtype=np.int64)
 
 
-def test_without_decorations_nothing_changes() -> None:
+def test_without_decorations_nothing_changes():
     found = PLAIN.on(WHOLE, np.random.default_rng(0))
 
     assert not found.height.any()
     assert (found.light == 1.0).all()
 
 
-def test_planks_are_parted_by_grooves_from_side_to_side() -> None:
+def test_planks_are_parted_by_grooves_from_side_to_side():
     planked = replace(PLAIN, planks=(20.0, 0.7, 0.6))
 
     found = planked.on(WHOLE, np.random.default_rng(0))
@@ -37,7 +37,7 @@ def test_planks_are_parted_by_grooves_from_side_to_side() -> None:
     assert not np.delete(found.height, grooves, axis=0).any()
 
 
-def test_straps_run_across_planks() -> None:
+def test_straps_run_across_planks():
     strapped = replace(PLAIN, planks=(20.0, 0.0, 1.0), straps=(0.25, 0.75))
 
     found = strapped.on(WHOLE, np.random.default_rng(0))
@@ -46,7 +46,7 @@ def test_straps_run_across_planks() -> None:
     assert proud.tolist() == [23, 24, 25, 26, 27, 73, 74, 75, 76, 77]
 
 
-def test_planks_of_single_parts_stay_on_them() -> None:
+def test_planks_of_single_parts_stay_on_them():
     part = np.repeat(np.arange(4), 25)[None].repeat(80, axis=0)
     planked = replace(PLAIN, planks=(20.0, 0.7, 0.6), overall=False)
 
@@ -57,7 +57,7 @@ def test_planks_of_single_parts_stay_on_them() -> None:
     assert not all(lined)
 
 
-def test_plates_are_as_many_as_drawn_and_inside() -> None:
+def test_plates_are_as_many_as_drawn_and_inside():
     plated = replace(PLAIN, plates=(1, 1.5, 0.5))
 
     found = plated.on(WHOLE, np.random.default_rng(1))
@@ -69,7 +69,7 @@ def test_plates_are_as_many_as_drawn_and_inside() -> None:
 
 
 @pytest.mark.parametrize("level", [True, False])
-def test_grain_is_longer_than_wide(level: bool) -> None:
+def test_grain_is_longer_than_wide(level):
     found = replace(PLAIN, grain=0.1, level=level).on(WHOLE, np.random.default_rng(2))
 
     along, across = (np.abs(np.diff(found.light, axis=axis)).mean() for axis in (1, 0))
@@ -77,7 +77,7 @@ def test_grain_is_longer_than_wide(level: bool) -> None:
     assert found.light.std() == pytest.approx(0.1, rel=0.05)
 
 
-def test_generators_differ() -> None:
+def test_generators_differ():
     drawn = [Decorations.drawn(np.random.default_rng(seed)) for seed in range(200)]
 
     assert 40 < sum(each.planks[0] > 0.0 for each in drawn) < 100

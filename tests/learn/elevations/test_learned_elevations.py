@@ -1,7 +1,5 @@
 """What the articulator of one-piece meshes learns from: pictures of objects, and their truth."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.articulate.seams.features import MOTION_NAMES, NAMES
@@ -15,7 +13,7 @@ from asset_factory.learn.objects import make_object
 SIDES = (Side.FRONT, Side.BACK, Side.TOP)
 
 
-def test_doors_of_a_fridge_are_truths_of_its_front() -> None:
+def test_doors_of_a_fridge_are_truths_of_its_front():
     fridge = make_object("fridge", 1)
     pictures = pictures_of(fridge, np.random.default_rng(0), SIDES)
     panels = truth_of(fridge, pictures)
@@ -24,13 +22,13 @@ def test_doors_of_a_fridge_are_truths_of_its_front() -> None:
     assert {panel.way for panel in panels} <= {OpensBy.LEFT, OpensBy.RIGHT}
 
 
-def test_a_lid_is_no_panel() -> None:
+def test_a_lid_is_no_panel():
     chest = make_object("chest", 1)
     pictures = pictures_of(chest, np.random.default_rng(0), SIDES)
     assert truth_of(chest, pictures) == ()
 
 
-def test_the_same_seed_shows_the_same_object() -> None:
+def test_the_same_seed_shows_the_same_object():
     drawers = make_object("filing_cabinet", 2)
     one = rows_of(drawers, np.random.default_rng(4))
     other = rows_of(drawers, np.random.default_rng(4))

@@ -1,9 +1,5 @@
 """Single sides, as the picture network learns from them."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -11,7 +7,6 @@ from asset_factory.factory.articulate.seams.sight import CUES
 from asset_factory.factory.part import OpensBy
 from asset_factory.learn.elevations.views import (
     UNKNOWN,
-    SideView,
     read_views,
     views_of,
     write_views,
@@ -20,11 +15,11 @@ from asset_factory.learn.objects import make_object
 
 
 @pytest.fixture(scope="module")
-def fridge() -> SideView:
+def fridge():
     return views_of(make_object("fridge", 1), np.random.default_rng(2))[0]
 
 
-def test_a_view_knows_what_opens_and_how(fridge: SideView) -> None:
+def test_a_view_knows_what_opens_and_how(fridge):
     panel, lid, level, upright = fridge.wanted
     assert 0.5 < panel[fridge.cues[0, ::2, ::2] > 0.0].mean() <= 1.0
     assert not lid.any()
@@ -35,13 +30,13 @@ def test_a_view_knows_what_opens_and_how(fridge: SideView) -> None:
     assert (fridge.way[~panel] == UNKNOWN).mean() > 0.95
 
 
-def test_a_lid_is_seen_from_the_front() -> None:
+def test_a_lid_is_seen_from_the_front():
     chest = views_of(make_object("chest", 1), np.random.default_rng(2))[0]
     assert chest.wanted[1].any()
     assert not chest.wanted[0].any()
 
 
-def test_a_mirrored_view_is_hinged_on_the_other_side(fridge: SideView) -> None:
+def test_a_mirrored_view_is_hinged_on_the_other_side(fridge):
     mirrored = fridge.mirrored()
     left = list(OpensBy).index(OpensBy.LEFT)
     right = list(OpensBy).index(OpensBy.RIGHT)
@@ -53,7 +48,7 @@ def test_a_mirrored_view_is_hinged_on_the_other_side(fridge: SideView) -> None:
     assert np.array_equal(back.way, fridge.way)
 
 
-def test_views_come_back_from_their_file(fridge: SideView, tmp_path: Path) -> None:
+def test_views_come_back_from_their_file(fridge, tmp_path):
     write_views(tmp_path / "one.npz", (fridge, fridge.mirrored()))
     first, second = read_views(tmp_path / "one.npz")
     assert first.cues == pytest.approx(fridge.cues, abs=2e-3)

@@ -10,7 +10,7 @@ from asset_factory.learn.evaluate.physical import physical
 from asset_factory.learn.evaluate.transfer import on_mesh, sources
 
 
-def halved(mesh: Mesh, chosen: np.ndarray) -> Mesh:
+def halved(mesh, chosen):
     """With the chosen triangles cut in two from a corner, and all of them shuffled."""
     a, b, c = mesh.faces[chosen].T
     new = len(mesh.vertices) + np.arange(len(chosen))
@@ -21,7 +21,7 @@ def halved(mesh: Mesh, chosen: np.ndarray) -> Mesh:
     return Mesh.from_triangles(np.concatenate([mesh.vertices, middles]), faces[order])
 
 
-def test_every_cut_triangle_knows_where_it_comes_from() -> None:
+def test_every_cut_triangle_knows_where_it_comes_from():
     truth = cupboard(hinge())
     cut = halved(truth.mesh, np.arange(0, len(truth.mesh.faces), 3))
     source = sources(truth.mesh, cut)
@@ -31,7 +31,7 @@ def test_every_cut_triangle_knows_where_it_comes_from() -> None:
     assert (face_parts(moved) == face_parts(truth)[source]).all()
 
 
-def test_an_answer_on_a_cut_mesh_is_scored_as_on_the_whole_one() -> None:
+def test_an_answer_on_a_cut_mesh_is_scored_as_on_the_whole_one():
     truth = cupboard(hinge())
     cut = halved(truth.mesh, np.arange(0, len(truth.mesh.faces), 2))
     answer = on_mesh(truth, cut)

@@ -1,7 +1,5 @@
 """Obvious preferences are recovered from few samples; the command writes what is read back."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -21,7 +19,7 @@ from asset_factory.learn.motions.motion_sample import MotionSample
 COUNT = 12
 
 
-def motion_sample(seed: int) -> MotionSample:
+def motion_sample(seed):
     """The largest ``turn_free`` is right; ``tall`` turns by 2 or slides by 1, else by half."""
     rng = np.random.default_rng(seed)
     numbers = np.zeros((COUNT, len(NAMES)), dtype=np.float32)

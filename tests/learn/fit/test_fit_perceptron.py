@@ -1,7 +1,5 @@
 """Small networks learn what can be learned, and are averaged and written without a loss."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -20,26 +18,26 @@ from asset_factory.learn.fit.perceptron import (
 from asset_factory.learn.fit.writing import networks_stored
 
 
-def _examples() -> Examples:
+def _examples():
     rng = np.random.default_rng(0)
     rows = rng.normal(size=(400, 3))
     wanted = (rows[:, :1] * rows[:, 1:2] > 0.0).astype(np.float64)
     return Examples(rows, wanted, np.ones(len(rows)))
 
 
-def _settings(width: int, decay: float, seed: int) -> FitSettings:
+def _settings(width, decay, seed):
     weights = dict.fromkeys(("inner", "offset", "outer", "base"), Weighing(0.5, decay))
     return FitSettings(width, 1, weights, 400, seed)
 
 
-def test_a_network_learns_what_no_line_divides() -> None:
+def test_a_network_learns_what_no_line_divides():
     examples = _examples()
     network = averaged([fit_examples(examples, _settings(6, 2e-5, seed)) for seed in range(3)])
     right = (network.scores(examples.rows) > 0.0) == (examples.wanted > 0.5)
     assert right.mean() > 0.9
 
 
-def test_the_average_of_networks_is_one_network() -> None:
+def test_the_average_of_networks_is_one_network():
     examples = _examples()
     several = [fit_examples(examples, _settings(4, 2e-3, seed)) for seed in range(3)]
     mean = np.mean([network.scores(examples.rows) for network in several], axis=0)
@@ -47,7 +45,7 @@ def test_the_average_of_networks_is_one_network() -> None:
 
 
 @pytest.mark.parametrize("answers", [1, 3])
-def test_the_slope_of_the_loss_is_its_own(answers: int) -> None:
+def test_the_slope_of_the_loss_is_its_own(answers):
     rng = np.random.default_rng(1)
     wanted = rng.random((7, answers))
     wanted = wanted / wanted.sum(axis=1, keepdims=True) if answers > 1 else wanted
@@ -61,12 +59,12 @@ def test_the_slope_of_the_loss_is_its_own(answers: int) -> None:
         assert slope[row, column] == pytest.approx((up - down) / 2e-6, abs=1e-7)
 
 
-def test_weights_past_the_hidden_layer_are_fitted_too() -> None:
+def test_weights_past_the_hidden_layer_are_fitted_too():
     rng = np.random.default_rng(2)
     rows = rng.normal(size=(300, 4))
     truth = rows @ np.array([[1.0], [-2.0], [0.0], [0.5]])
 
-    def loss(scores: np.ndarray) -> tuple[float, np.ndarray]:
+    def loss(scores):
         return float(((scores - truth) ** 2).mean()), 2.0 * (scores - truth) / len(rows)
 
     linear = fit_perceptron(rows, loss, FitSettings(0, 1, {"direct": Weighing(0.0, 0.0)}, 200))
@@ -77,7 +75,7 @@ def test_weights_past_the_hidden_layer_are_fitted_too() -> None:
     assert both.scores(rows) == pytest.approx(truth, abs=5e-2)
 
 
-def test_networks_come_back_from_their_file() -> None:
+def test_networks_come_back_from_their_file():
     shipped = {"panel": load_judge("panel", NAMES), "motion": load_judge("motion", MOTION_NAMES)}
     stored = networks_stored(shipped, {"panel": NAMES, "motion": MOTION_NAMES})
     again = Perceptron.read(stored, "motion", MOTION_NAMES)

@@ -1,9 +1,5 @@
 """The picture network learns, and goes on from where it was as if it had never stopped."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -17,7 +13,7 @@ from asset_factory.learn.train.checkpoints import read_state
 
 
 @pytest.fixture
-def views(tmp_path: Path) -> Path:
+def views(tmp_path):
     folder = tmp_path / "views"
     folder.mkdir()
     for number, kind in enumerate(("fridge", "oven")):
@@ -26,7 +22,7 @@ def views(tmp_path: Path) -> Path:
     return folder
 
 
-def test_the_network_learns(tmp_path: Path, views: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_network_learns(tmp_path, views, monkeypatch):
     monkeypatch.setattr(sides, "WARM_UP", 1)
     state = tmp_path / "state.pt"
     first, figures = sides.fit_sides(views, state, rounds=15, seed=0)
@@ -41,14 +37,12 @@ def test_the_network_learns(tmp_path: Path, views: Path, monkeypatch: pytest.Mon
     assert all(np.array_equal(again[name], first[name]) for name in first)
 
 
-def test_a_run_cut_off_ends_as_if_it_had_not_been(
-    tmp_path: Path, views: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_run_cut_off_ends_as_if_it_had_not_been(tmp_path, views, monkeypatch):
     whole, _ = sides.fit_sides(views, tmp_path / "whole.pt", rounds=2, seed=0)
     write = sides.write_state
 
-    def cut_off(path: Path, state: object) -> None:
-        write(path, state)  # type: ignore[arg-type]
+    def cut_off(path, state):
+        write(path, state)
         raise KeyboardInterrupt
 
     monkeypatch.setattr(sides, "write_state", cut_off)

@@ -1,11 +1,9 @@
 """Assemblies: chains move along, carriers turn and slide, rest poses stay in reach."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
-from asset_factory.factory.articulation import Articulation, JointKind
+from asset_factory.factory.articulation import JointKind
 from asset_factory.learn.objects.kit.assembly import (
     LEFT,
     RIGHT,
@@ -23,13 +21,13 @@ SPAN_X = (3.0, 4.0)
 SPAN_Y = (0.0, 1.0)
 
 
-def begun(hairline: float = 0.0) -> Assembly:
+def begun(hairline=0.0):
     a = Assembly(np.random.default_rng(0), hairline)
     a.body(STEEL).add(box(SPAN_X, SPAN_Y, (5.0, 6.0)))
     return a
 
 
-def pose_of(made: Articulation, part: str, values: dict[str, float]) -> np.ndarray:
+def pose_of(made, part, values):
     names = [each.name for each in made.parts]
     return made.poses(values)[names.index(part)]
 
@@ -72,7 +70,7 @@ def test_a_part_that_turns_and_slides_hangs_on_a_carrier_without_faces():
     assert sum(len(p.faces) for p in made.parts) == len(made.mesh.faces)
 
 
-def chain(rest: float) -> Articulation:
+def chain(rest):
     """A lid that turns to the left, and a tongue at its far end."""
     a = begun()
     lid = a.hinge("lid", LEFT, (3.5, 1.0, 6.0), 2.0, rest=rest)

@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from asset_factory.factory.articulation import Articulation, JointKind
-from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.articulation import JointKind
 from asset_factory.learn.objects import make_object
 from asset_factory.learn.objects.catalog import CATEGORIES, DEMO_CATEGORIES
 from asset_factory.learn.objects.kinds import (
@@ -35,7 +34,7 @@ SEEDS = (0, 1, 2, 3)
 OVERLAP_M = 0.0005
 
 
-def pieces(mesh: Mesh) -> list[manifold3d.Manifold]:
+def pieces(mesh):
     links = np.concatenate([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]]])
     graph = coo_matrix((np.ones(len(links)), links.T), shape=(len(mesh.vertices),) * 2)
     label = connected_components(graph, directed=False)[1][mesh.faces[:, 0]]
@@ -50,7 +49,7 @@ def pieces(mesh: Mesh) -> list[manifold3d.Manifold]:
     return solids
 
 
-def depth(overlap: manifold3d.Manifold) -> float:
+def depth(overlap):
     """How thick an overlap is: a plate of thickness t has 2 V / A of nearly t."""
     return max(
         (2 * p.volume() / p.surface_area() for p in overlap.decompose() if p.surface_area() > 0),
@@ -58,7 +57,7 @@ def depth(overlap: manifold3d.Manifold) -> float:
     )
 
 
-def descendants(articulation: Articulation, part: int) -> set[int]:
+def descendants(articulation, part):
     found = {part}
     for joint in articulation.joints:
         if joint.parent in found:
@@ -66,13 +65,13 @@ def descendants(articulation: Articulation, part: int) -> set[int]:
     return found
 
 
-def apart(one: manifold3d.Manifold, other: manifold3d.Manifold) -> bool:
+def apart(one, other):
     a = one.bounding_box()
     b = other.bounding_box()
     return any(a[k] > b[k + 3] or b[k] > a[k + 3] for k in range(3))
 
 
-def rest_of_others(articulation: Articulation, name: str) -> dict[str, float]:
+def rest_of_others(articulation, name):
     """Everything closed; for what lies behind a door, the doors open."""
     if not name.startswith("inner_"):
         return {}
@@ -81,7 +80,7 @@ def rest_of_others(articulation: Articulation, name: str) -> dict[str, float]:
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("category", LARGE)
-def test_parts_never_meet_anywhere_along_a_joint(category: str, seed: int) -> None:
+def test_parts_never_meet_anywhere_along_a_joint(category, seed):
     articulation = make_object(category, seed)
     solids = []
     for i in range(len(articulation.parts)):
@@ -102,7 +101,7 @@ def test_parts_never_meet_anywhere_along_a_joint(category: str, seed: int) -> No
 
 
 @pytest.mark.parametrize("category", LARGE)
-def test_objects_stand_closed_and_centred_on_the_ground(category: str) -> None:
+def test_objects_stand_closed_and_centred_on_the_ground(category):
     for seed in range(8):
         articulation = make_object(category, seed)
         low, high = articulation.mesh.bounds
@@ -115,7 +114,7 @@ def test_objects_stand_closed_and_centred_on_the_ground(category: str) -> None:
 
 
 @pytest.mark.parametrize("category", LARGE)
-def test_doors_flaps_and_drawers_open_towards_the_front(category: str) -> None:
+def test_doors_flaps_and_drawers_open_towards_the_front(category):
     for seed in range(8):
         articulation = make_object(category, seed)
         for joint in articulation.joints:
@@ -132,7 +131,7 @@ def test_doors_flaps_and_drawers_open_towards_the_front(category: str) -> None:
             assert moved[:, 1].min() < rest[:, 1].min() - 0.01, (category, seed, joint.name)
 
 
-def test_same_seed_same_object_and_other_seed_another() -> None:
+def test_same_seed_same_object_and_other_seed_another():
     for category in LARGE:
         one, again, other = (make_object(category, seed) for seed in (3, 3, 4))
         np.testing.assert_array_equal(one.mesh.vertices, again.mesh.vertices)
@@ -145,7 +144,7 @@ def test_same_seed_same_object_and_other_seed_another() -> None:
 
 @given(st.integers(0, 2**31), st.sampled_from(LARGE))
 @settings(max_examples=150, deadline=None)
-def test_any_seed_gives_an_object_without_a_face_of_no_area(seed: int, category: str) -> None:
+def test_any_seed_gives_an_object_without_a_face_of_no_area(seed, category):
     articulation = make_object(category, seed)
     corners = articulation.mesh.vertices[articulation.mesh.faces]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -153,7 +152,7 @@ def test_any_seed_gives_an_object_without_a_face_of_no_area(seed: int, category:
     assert articulation.movable_joints
 
 
-def test_large_objects_are_varied() -> None:
+def test_large_objects_are_varied():
     made = [make_object("storage_unit", seed) for seed in range(40)]
     assert len({len(a.parts) for a in made}) > 8
     sides = {
@@ -167,7 +166,7 @@ def test_large_objects_are_varied() -> None:
 
 
 @pytest.mark.parametrize(("category", "part"), [("safe", "door"), ("door", "door_0")])
-def test_what_sits_on_a_door_moves_with_it(category: str, part: str) -> None:
+def test_what_sits_on_a_door_moves_with_it(category, part):
     nested = 0
     for seed in range(10):
         articulation = make_object(category, seed)
@@ -176,13 +175,13 @@ def test_what_sits_on_a_door_moves_with_it(category: str, part: str) -> None:
     assert nested >= 5
 
 
-def test_every_name_is_made_by_one_file_and_the_demo_comes_first() -> None:
+def test_every_name_is_made_by_one_file_and_the_demo_comes_first():
     assert len(set(LARGE)) == len(LARGE)
     assert set(LARGE) <= set(CATEGORIES)
     assert CATEGORIES[:8] == DEMO_CATEGORIES
 
 
-def test_an_object_takes_milliseconds() -> None:
+def test_an_object_takes_milliseconds():
     took = []
     for seed in range(3):
         for category in LARGE:

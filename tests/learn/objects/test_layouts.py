@@ -1,7 +1,5 @@
 """Cells tile the front, and doors are trimmed to what passes."""
 
-from __future__ import annotations
-
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -29,9 +27,7 @@ MIX = {
 
 @given(st.integers(0, 10**6), st.floats(0.3, 2.5), st.floats(0.3, 2.2), st.booleans())
 @settings(max_examples=50, deadline=None)
-def test_cells_tile_the_front_and_their_insides_lie_within(
-    seed: int, width: float, height: float, bare: bool
-) -> None:
+def test_cells_tile_the_front_and_their_insides_lie_within(seed, width, height, bare):
     node = random_node(Chance(np.random.default_rng(seed)), width, height, MIX)
     cells, dividers = divided(node, (0.0, width), (0.0, height), 0.018, bare)
     area = sum((c.x[1] - c.x[0]) * (c.z[1] - c.z[0]) for c in cells)
@@ -47,7 +43,7 @@ def test_cells_tile_the_front_and_their_insides_lie_within(
     assert len(dividers) <= len(cells) - 1
 
 
-def test_shares_are_heights_and_bare_drawers_have_no_boards_between_them() -> None:
+def test_shares_are_heights_and_bare_drawers_have_no_boards_between_them():
     node = column((1.0, "drawer"), (3.0, row((1.0, "door"), (1.0, "open"))), (1.0, "drawer"))
     cells, dividers = divided(node, (0.0, 1.0), (0.0, 1.0), 0.02, True)
     assert [(c.kind, round(c.z[0], 6), round(c.z[1], 6)) for c in cells] == [
@@ -71,9 +67,7 @@ def test_shares_are_heights_and_bare_drawers_have_no_boards_between_them() -> No
     st.floats(-0.3, 1.0),
 )
 @settings(max_examples=100, deadline=None)
-def test_a_trimmed_front_turns_past_its_neighbours(
-    seed: int, thickness: float, width: float, gap: float, taste: float
-) -> None:
+def test_a_trimmed_front_turns_past_its_neighbours(seed, thickness, width, gap, taste):
     made = swing(Chance(np.random.default_rng(seed)), thickness, width, (gap, gap), taste, 92.0)
     angle = np.linspace(0.0, made.upper, 50)
     corners = [

@@ -1,7 +1,5 @@
 """Training's objects: any seed gives one, the same one again, and shares are kept."""
 
-from __future__ import annotations
-
 import collections
 
 import numpy as np
@@ -19,7 +17,7 @@ from asset_factory.learn.objects.mixture import in_character
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_any_seed_gives_a_closed_object_with_a_joint_and_the_same_one_again(seed: int) -> None:
+def test_any_seed_gives_a_closed_object_with_a_joint_and_the_same_one_again(seed):
     one = training_object(seed)
     again = training_object(seed)
     assert one.movable_joints
@@ -31,7 +29,7 @@ def test_any_seed_gives_a_closed_object_with_a_joint_and_the_same_one_again(seed
     )
 
 
-def test_a_name_says_how_to_make_the_object_again() -> None:
+def test_a_name_says_how_to_make_the_object_again():
     settings = MixtureSettings(categories=("laptop", "chest"))
     for seed in range(4):
         name, articulation = sample_object(np.random.default_rng(seed), settings)
@@ -41,7 +39,7 @@ def test_a_name_says_how_to_make_the_object_again() -> None:
         assert again.mesh.vertices.tobytes() == articulation.mesh.vertices.tobytes()
 
 
-def test_characters_come_in_their_shares() -> None:
+def test_characters_come_in_their_shares():
     settings = MixtureSettings(categories=("trash_can",), artist=0.5, generated=0.5, plain=0.5)
     drawn = [
         sample_object(np.random.default_rng(seed), settings)[0].split("-")[2] for seed in range(60)
@@ -52,15 +50,15 @@ def test_characters_come_in_their_shares() -> None:
     assert 6 <= found["artist"] <= 25
 
 
-def test_skins_are_drawn_by_their_weight() -> None:
+def test_skins_are_drawn_by_their_weight():
     settings = MixtureSettings(categories=("trash_can",), artist=0.0, generated=0.0, skin=1.0)
     name, made = sample_object(np.random.default_rng(0), settings)
     assert "-skin-" in name
     assert len(np.unique(connected_components(made.mesh))) < 5
 
 
-def test_settings_from_a_file_are_checked() -> None:
-    assert MixtureSettings(categories=["oven"]).categories == ("oven",)  # type: ignore[arg-type]
+def test_settings_from_a_file_are_checked():
+    assert MixtureSettings(categories=["oven"]).categories == ("oven",)
     with pytest.raises(ConfigError, match="there is no \\['sofa'\\]"):
         MixtureSettings(categories=("sofa",))
     with pytest.raises(ConfigError, match="one of them above"):

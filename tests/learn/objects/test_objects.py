@@ -1,7 +1,5 @@
 """The generator: exact ground truth, nothing interpenetrates, same seed same bytes."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import struct
@@ -15,8 +13,7 @@ import pytest
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from asset_factory.factory.articulation import Articulation, JointKind
-from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.articulation import JointKind
 from asset_factory.learn.objects import make_object
 from asset_factory.learn.objects.catalog import DEMO_CATEGORIES
 from asset_factory.learn.objects.kit.looks import wood
@@ -34,7 +31,7 @@ TRUTH = {
 }
 
 
-def components(mesh: Mesh) -> list[manifold3d.Manifold]:
+def components(mesh):
     links = np.concatenate([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]]])
     graph = coo_matrix((np.ones(len(links)), links.T), shape=(len(mesh.vertices),) * 2)
     label = connected_components(graph, directed=False)[1][mesh.faces[:, 0]]
@@ -45,7 +42,7 @@ def components(mesh: Mesh) -> list[manifold3d.Manifold]:
     ]
 
 
-def united(articulation: Articulation) -> list[manifold3d.Manifold]:
+def united(articulation):
     return [
         manifold3d.Manifold.batch_boolean(
             components(articulation.part_mesh(i)), manifold3d.OpType.Add
@@ -56,7 +53,7 @@ def united(articulation: Articulation) -> list[manifold3d.Manifold]:
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("category", DEMO_CATEGORIES)
-def test_parts_never_meet_anywhere_along_a_joint(category: str, seed: int) -> None:
+def test_parts_never_meet_anywhere_along_a_joint(category, seed):
     articulation = make_object(category, seed)
     solids = united(articulation)
     for joint in articulation.movable_joints:
@@ -74,7 +71,7 @@ def test_parts_never_meet_anywhere_along_a_joint(category: str, seed: int) -> No
 
 
 @pytest.mark.parametrize("category", DEMO_CATEGORIES)
-def test_every_component_is_a_closed_convex_solid_with_corners_of_its_own(category: str) -> None:
+def test_every_component_is_a_closed_convex_solid_with_corners_of_its_own(category):
     mesh = make_object(category, 0).mesh
     for solid in components(mesh):
         assert solid.status() == manifold3d.Error.NoError
@@ -84,7 +81,7 @@ def test_every_component_is_a_closed_convex_solid_with_corners_of_its_own(catego
 
 
 @pytest.mark.parametrize("category", DEMO_CATEGORIES)
-def test_objects_stand_closed_on_the_ground_and_face_minus_y(category: str) -> None:
+def test_objects_stand_closed_on_the_ground_and_face_minus_y(category):
     for seed in SEEDS:
         articulation = make_object(category, seed)
         low, high = articulation.mesh.bounds
@@ -103,13 +100,13 @@ def test_objects_stand_closed_on_the_ground_and_face_minus_y(category: str) -> N
             assert opens_ahead or opens_up or small, joint.name
 
 
-def test_a_cabinet_has_doors_and_drawers() -> None:
+def test_a_cabinet_has_doors_and_drawers():
     for seed in range(6):
         kinds = {joint.kind for joint in make_object("cabinet", seed).joints}
         assert kinds == {JointKind.REVOLUTE, JointKind.PRISMATIC}
 
 
-def test_same_seed_same_object_and_other_seed_another() -> None:
+def test_same_seed_same_object_and_other_seed_another():
     one = make_object("oven", 4)
     again = make_object("oven", 4)
     other = make_object("oven", 5)
@@ -120,14 +117,14 @@ def test_same_seed_same_object_and_other_seed_another() -> None:
     )
 
 
-def test_an_unknown_category_names_the_known_ones() -> None:
+def test_an_unknown_category_names_the_known_ones():
     with pytest.raises(ValueError, match="want one of cabinet, fridge"):
         make_object("sofa", 0)
     with pytest.raises(ValueError, match="at least 0"):
         make_object("oven", -1)
 
 
-def test_the_texture_is_a_valid_png_of_the_stated_size() -> None:
+def test_the_texture_is_a_valid_png_of_the_stated_size():
     texture = wood(3, size=32).texture
     assert texture is not None
     data = texture.data
@@ -137,7 +134,7 @@ def test_the_texture_is_a_valid_png_of_the_stated_size() -> None:
     assert len(zlib.decompress(data[41 : 41 + length])) == 32 * (1 + 3 * 32)
 
 
-def test_the_shipped_demo_meshes_are_fixed_data() -> None:
+def test_the_shipped_demo_meshes_are_fixed_data():
     """An earlier version of the generator made them; a demo of other meshes is another demo."""
     digest = hashlib.sha256()
     for path in sorted(EXAMPLES.iterdir()):
@@ -146,7 +143,7 @@ def test_the_shipped_demo_meshes_are_fixed_data() -> None:
     assert digest.hexdigest() == DIGEST
 
 
-def test_every_demo_mesh_has_a_sidecar_and_fused_ones_their_ground_truth() -> None:
+def test_every_demo_mesh_has_a_sidecar_and_fused_ones_their_ground_truth():
     meshes = [p for p in EXAMPLES.iterdir() if p.suffix in {".glb", ".obj"}]
     assert sorted(p.stem for p in meshes) == sorted(DEMO_CATEGORIES)
     annotated = 0
@@ -168,7 +165,7 @@ def test_every_demo_mesh_has_a_sidecar_and_fused_ones_their_ground_truth() -> No
     assert annotated == 3
 
 
-def _check_annotation(mesh: Path, annotation: Path, height: float) -> None:
+def _check_annotation(mesh, annotation, height):
     data = mesh.read_bytes()
     document = json.loads(data[20 : 20 + struct.unpack("<I", data[12:16])[0]])
     primitive = document["meshes"][0]["primitives"][0]

@@ -1,10 +1,7 @@
 """What is written reads back as the same object: joints to a micrometre, parts by face."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -24,12 +21,12 @@ from asset_factory.learn.objects import (
 )
 
 
-def read(path: Path) -> Articulation:
+def read(path):
     intake = load(path, IntakeConfig())
     return choose(intake, BuildConfig(articulator="annotated")).articulate(intake.mesh)
 
 
-def same_joint(read_joint: Joint, joint: Joint) -> None:
+def same_joint(read_joint, joint):
     assert read_joint.kind == joint.kind
     np.testing.assert_allclose(read_joint.axis, joint.axis, atol=1e-6)
     np.testing.assert_allclose(
@@ -41,11 +38,11 @@ def same_joint(read_joint: Joint, joint: Joint) -> None:
         np.testing.assert_allclose(off, 0.0, atol=1e-6)
 
 
-def same_object(found: Articulation, wanted: Articulation, names: bool) -> None:
+def same_object(found, wanted, names):
     """Parts may come in another order: they are matched by where they are."""
     assert len(found.parts) == len(wanted.parts)
 
-    def place(articulation: Articulation, part: int) -> np.ndarray:
+    def place(articulation, part):
         mesh = articulation.part_mesh(part)
         return np.concatenate([*mesh.bounds, [len(mesh.faces) * 1e-3]])
 
@@ -69,9 +66,7 @@ def same_object(found: Articulation, wanted: Articulation, names: bool) -> None:
 
 
 @pytest.mark.parametrize("category", ["cabinet", "laptop", "oven"])
-def test_both_files_of_an_open_sample_read_back_as_the_object(
-    category: str, tmp_path: Path
-) -> None:
+def test_both_files_of_an_open_sample_read_back_as_the_object(category, tmp_path):
     original = make_object(category, 1)
     values = {joint.name: 0.4 * joint.upper for joint in original.joints[::2]}
     write_sample(original, tmp_path, values)
@@ -81,7 +76,7 @@ def test_both_files_of_an_open_sample_read_back_as_the_object(
 
 
 @pytest.mark.parametrize("change", [artist_like, fused_like])
-def test_a_sample_of_any_character_keeps_its_parts_face_by_face(change, tmp_path: Path) -> None:
+def test_a_sample_of_any_character_keeps_its_parts_face_by_face(change, tmp_path):
     sample = change(make_object("microwave", 2), 4)
     write_sample(sample, tmp_path)
     for file in ("object.urdf", "object.glb"):
@@ -101,7 +96,7 @@ def test_a_sample_of_any_character_keeps_its_parts_face_by_face(change, tmp_path
             same_joint(joint, match)
 
 
-def turning_slider() -> Articulation:
+def turning_slider():
     grey = Material("grey")
     mesh = concatenate(
         [box((0, 1), (0, 1), (0, 1), grey), box((0.2, 0.8), (-0.1, 0), (0.2, 0.8), grey)]
@@ -113,7 +108,7 @@ def turning_slider() -> Articulation:
     return Articulation(mesh, parts, (turn, slide), "procedural")
 
 
-def test_a_part_that_turns_and_slides_is_one_row_of_the_annotation(tmp_path: Path) -> None:
+def test_a_part_that_turns_and_slides_is_one_row_of_the_annotation(tmp_path):
     write_sample(turning_slider(), tmp_path, {"slide": 0.02})
     truth = np.load(tmp_path / "pred.npz")
     np.testing.assert_array_equal(truth["motion_hierarchy"], [[0, 1]])
@@ -131,7 +126,7 @@ def test_a_part_that_turns_and_slides_is_one_row_of_the_annotation(tmp_path: Pat
         )
 
 
-def test_a_carrier_of_two_parts_is_refused(tmp_path: Path) -> None:
+def test_a_carrier_of_two_parts_is_refused(tmp_path):
     from dataclasses import replace
 
     one = turning_slider()
@@ -145,14 +140,14 @@ def test_a_carrier_of_two_parts_is_refused(tmp_path: Path) -> None:
         write_sample(replace(one, parts=parts, joints=(*one.joints, second)), tmp_path)
 
 
-def test_a_value_beyond_its_limits_is_refused(tmp_path: Path) -> None:
+def test_a_value_beyond_its_limits_is_refused(tmp_path):
     with pytest.raises(ValueError, match="outside"):
         write_sample(turning_slider(), tmp_path, {"slide": 0.2})
     with pytest.raises(KeyError, match="no joint"):
         write_sample(turning_slider(), tmp_path, {"push": 0.0})
 
 
-def test_the_command_writes_the_same_files_for_the_same_options(tmp_path: Path) -> None:
+def test_the_command_writes_the_same_files_for_the_same_options(tmp_path):
     module = "asset_factory.learn.objects"
     options = ["--category", "chest", "--seed", "2", "--character", "artist", "--open", "0.5"]
     for name in ("one", "two"):

@@ -1,7 +1,5 @@
 """Forms: closed, outward, and of the volume that geometry says."""
 
-from __future__ import annotations
-
 import manifold3d
 import numpy as np
 import pytest
@@ -10,7 +8,6 @@ from hypothesis import strategies as st
 
 from asset_factory.learn.objects.kit.outlines import arc, rounded
 from asset_factory.learn.objects.kit.shapes import (
-    Form,
     ball,
     block,
     box,
@@ -36,12 +33,12 @@ from asset_factory.learn.objects.kit.spans import (
 )
 
 
-def bounds(forms: list[Form]) -> np.ndarray:
+def bounds(forms):
     corners = np.concatenate([form.vertices for form in forms])
     return np.stack([corners.min(axis=0), corners.max(axis=0)], axis=1)
 
 
-def solid(form: Form) -> manifold3d.Manifold:
+def solid(form):
     body = manifold3d.Manifold(
         manifold3d.Mesh64(np.ascontiguousarray(form.vertices), form.faces.astype(np.uint64))
     )
@@ -49,7 +46,7 @@ def solid(form: Form) -> manifold3d.Manifold:
     return body
 
 
-def polygon(sides: int) -> float:
+def polygon(sides):
     """Area of a regular polygon of circumradius 1."""
     return 0.5 * sides * np.sin(2 * np.pi / sides)
 

@@ -1,15 +1,12 @@
 """Small and odd objects: closed solids, nothing interpenetrates, same seed same bytes; varied."""
 
-from __future__ import annotations
-
 import manifold3d
 import numpy as np
 import pytest
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from asset_factory.factory.articulation import Articulation, JointKind
-from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.articulation import JointKind
 from asset_factory.learn.objects.catalog import DEMO_CATEGORIES
 from asset_factory.learn.objects.kinds import (
     bins,
@@ -42,13 +39,13 @@ LIES_UNDER = {"seat": ("lid",), "magazine": ("cover",), "flap_x": ("flap_y",)}
 TOUCH_M3 = 1e-10
 
 
-def made(category: str, seed: int) -> Articulation:
+def made(category, seed):
     assembly = Assembly(np.random.default_rng([7, seed]))
     MAKERS[category](assembly)
     return assembly.articulation()
 
 
-def solids(mesh: Mesh) -> list[manifold3d.Manifold]:
+def solids(mesh):
     links = np.concatenate([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]]])
     graph = coo_matrix((np.ones(len(links)), links.T), shape=(len(mesh.vertices),) * 2)
     label = connected_components(graph, directed=False)[1][mesh.faces[:, 0]]
@@ -59,7 +56,7 @@ def solids(mesh: Mesh) -> list[manifold3d.Manifold]:
     ]
 
 
-def kept_apart(one: str, other: str) -> bool:
+def kept_apart(one, other):
     pairs = ((one, other), (other, one))
     return not any(
         a.startswith(low) and b.startswith(up)

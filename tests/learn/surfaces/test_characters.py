@@ -1,7 +1,5 @@
 """Characters: other surfaces, same parts and joints; a pass does what it says, nothing else."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 
@@ -47,13 +45,11 @@ from asset_factory.learn.surfaces.united import all_united, grown, parts_united
 GREY = Material("grey")
 
 
-def rng(seed: int = 0) -> np.random.Generator:
+def rng(seed=0):
     return np.random.default_rng(seed)
 
 
-def solids(
-    *spans: tuple[tuple[float, float], ...], part: tuple[int, ...] | None = None
-) -> Labelled:
+def solids(*spans, part=None):
     """Boxes, each of its own part if none is given."""
     made = []
     for index, (x, y, z) in enumerate(spans):
@@ -64,12 +60,12 @@ def solids(
     return joined(made)
 
 
-def volume(mesh: Labelled) -> float:
+def volume(mesh):
     a, b, c = mesh.corners.transpose(1, 0, 2)
     return float(np.einsum("ij,ij->", np.cross(a, b), c)) / 6.0
 
 
-def component_count(mesh: Labelled) -> int:
+def component_count(mesh):
     return int(connected_components(Mesh.from_triangles(mesh.vertices, mesh.faces)).max()) + 1
 
 
@@ -78,7 +74,7 @@ BESIDE = ((1.0, 2.0), (0.0, 1.0), (0.0, 0.5))
 
 
 @cache
-def oven() -> Articulation:
+def oven():
     return make_object("oven", 3)
 
 
@@ -88,7 +84,7 @@ CHANGES = tuple(dict.fromkeys(change for change, _ in PASSES))
 @pytest.mark.parametrize(
     "change", CHANGES, ids=lambda change: getattr(change, "func", change).__name__
 )
-def test_a_pass_keeps_every_part_and_changes_no_argument(change) -> None:
+def test_a_pass_keeps_every_part_and_changes_no_argument(change):
     mesh = Labelled.of(oven())
     before = mesh.vertices.copy(), mesh.faces.copy(), mesh.part.copy()
     changed = change(mesh, rng(5))
@@ -105,7 +101,7 @@ def test_a_pass_keeps_every_part_and_changes_no_argument(change) -> None:
 
 @settings(max_examples=25)
 @given(st.sampled_from(["cabinet", "laptop", "trash_can", "chest"]), st.integers(0, 10_000))
-def test_artist_like_keeps_names_tree_and_kinds_and_is_repeatable(category: str, seed: int) -> None:
+def test_artist_like_keeps_names_tree_and_kinds_and_is_repeatable(category, seed):
     original = make_object(category, seed % 7)
     changed = artist_like(original, seed)
     again = artist_like(original, seed)
@@ -124,14 +120,14 @@ def test_artist_like_keeps_names_tree_and_kinds_and_is_repeatable(category: str,
     assert all(material.texture is None for material in changed.mesh.materials)
 
 
-def test_uniting_a_part_gives_one_closed_skin_of_the_same_volume() -> None:
+def test_uniting_a_part_gives_one_closed_skin_of_the_same_volume():
     mesh = parts_united(solids(UNIT, BESIDE, part=(0, 0)), rng(), share=1.0)
     assert volume(mesh) == pytest.approx(1.5)
     assert component_count(mesh) == 1
     assert mesh.areas.sum() == pytest.approx(6.0 + 4.0 - 2 * 0.5)
 
 
-def test_uniting_everything_gives_one_component_of_several_parts() -> None:
+def test_uniting_everything_gives_one_component_of_several_parts():
     apart = ((1.003, 2.0), (0.0, 1.0), (0.0, 0.5))
     mesh = all_united(solids(UNIT, apart), rng())
     assert component_count(mesh) == 1
@@ -139,14 +135,14 @@ def test_uniting_everything_gives_one_component_of_several_parts() -> None:
     assert component_count(parts_united(solids(UNIT, apart), rng(), share=1.0)) == 2
 
 
-def test_growing_moves_every_side_by_as_much_and_nothing_turns_inside_out() -> None:
+def test_growing_moves_every_side_by_as_much_and_nothing_turns_inside_out():
     thin = ((0.0, 1.0), (0.0, 0.002), (0.0, 1.0))
     low, high = grown(solids(UNIT, BESIDE), 0.01).boxes()
     np.testing.assert_allclose([low[0], high[0]], [[-0.01] * 3, [1.01] * 3], atol=1e-12)
     assert volume(grown(solids(thin), -0.01)) > 0.0
 
 
-def test_doubling_leaves_no_volume_and_twice_the_surface_in_as_many_components() -> None:
+def test_doubling_leaves_no_volume_and_twice_the_surface_in_as_many_components():
     mesh = solids(UNIT, BESIDE)
     twice = doubled(mesh, rng())
     assert volume(twice) == pytest.approx(0.0, abs=1e-12)
@@ -154,13 +150,13 @@ def test_doubling_leaves_no_volume_and_twice_the_surface_in_as_many_components()
     assert component_count(twice) == component_count(solids(UNIT, BESIDE))
 
 
-def test_exploding_makes_every_side_a_component_of_its_own() -> None:
+def test_exploding_makes_every_side_a_component_of_its_own():
     mesh = exploded(solids(UNIT), rng(), share=1.0)
     assert component_count(mesh) == 6
     assert len(mesh.faces) == 12
 
 
-def test_a_side_cut_finer_than_its_neighbours_comes_off_and_a_whole_piece_does_not() -> None:
+def test_a_side_cut_finer_than_its_neighbours_comes_off_and_a_whole_piece_does_not():
     side = patched(solids(UNIT), rng(1), share=0.5)
     assert component_count(side) > 1
     whole = subdivided(solids(UNIT), rng(), share=1.0)
@@ -169,7 +165,7 @@ def test_a_side_cut_finer_than_its_neighbours_comes_off_and_a_whole_piece_does_n
     assert volume(whole) == pytest.approx(1.0)
 
 
-def test_quartering_some_faces_keeps_area_and_labels() -> None:
+def test_quartering_some_faces_keeps_area_and_labels():
     mesh = solids(UNIT, BESIDE)
     finer = quartered(mesh, mesh.part == 1)
     assert len(finer.faces) == 12 + 48
@@ -178,7 +174,7 @@ def test_quartering_some_faces_keeps_area_and_labels() -> None:
     )
 
 
-def test_a_flattened_panel_is_one_sheet_in_the_plane_of_its_front() -> None:
+def test_a_flattened_panel_is_one_sheet_in_the_plane_of_its_front():
     panel = ((0.0, 1.0), (0.0, 0.02), (0.0, 1.0))
     mesh = flattened(solids(UNIT, panel, part=(0, 1)), rng(), share=1.0)
     sheet = mesh.corners[mesh.part == 1]
@@ -187,14 +183,14 @@ def test_a_flattened_panel_is_one_sheet_in_the_plane_of_its_front() -> None:
     assert (mesh.part == 0).sum() == 12
 
 
-def test_opening_drops_whole_sides_of_boxes() -> None:
+def test_opening_drops_whole_sides_of_boxes():
     mesh = opened(solids(*[UNIT] * 40, part=(0,) * 40), rng(), share=1.0)
     kept = np.bincount(mesh.piece)
     assert set(kept) <= {2, 4, 6, 8, 10, 12}
     assert (kept < 12).mean() > 0.5
 
 
-def test_no_part_is_dropped_however_hidden_it_is() -> None:
+def test_no_part_is_dropped_however_hidden_it_is():
     inner = ((0.4, 0.6), (0.4, 0.6), (0.4, 0.6))
     both = solids(UNIT, inner)
     hidden = hidden_faces(both, rng())
@@ -205,7 +201,7 @@ def test_no_part_is_dropped_however_hidden_it_is() -> None:
     assert set(without_sides(both, rng()).part) == {0, 1}
 
 
-def test_a_part_that_would_lose_nearly_all_loses_nothing() -> None:
+def test_a_part_that_would_lose_nearly_all_loses_nothing():
     mesh = solids(UNIT, BESIDE)
     dropped = np.zeros(24, dtype=bool)
     dropped[:11] = True
@@ -216,7 +212,7 @@ def test_a_part_that_would_lose_nearly_all_loses_nothing() -> None:
     assert len(mesh.without(dropped).faces) == 22
 
 
-def test_bevelled_boxes_stay_closed_and_inside_their_box() -> None:
+def test_bevelled_boxes_stay_closed_and_inside_their_box():
     mesh = bevelled(solids(UNIT, BESIDE), rng(), share=1.0)
     assert component_count(mesh) == 2
     assert len(mesh.faces) == 88
@@ -224,7 +220,7 @@ def test_bevelled_boxes_stay_closed_and_inside_their_box() -> None:
     np.testing.assert_allclose(mesh.boxes(), solids(UNIT, BESIDE).boxes(), atol=1e-12)
 
 
-def test_a_curved_front_bulges_forwards_and_the_body_does_not() -> None:
+def test_a_curved_front_bulges_forwards_and_the_body_does_not():
     mesh = curved(solids(UNIT, ((0.0, 1.0), (-0.02, 0.0), (0.0, 1.0))), rng(), share=1.0)
     front = mesh.corners[mesh.part == 1]
     body = mesh.corners[mesh.part == 0]
@@ -232,14 +228,14 @@ def test_a_curved_front_bulges_forwards_and_the_body_does_not() -> None:
     assert body[:, :, 1].min() == 0.0
 
 
-def test_snapping_lays_vertices_on_a_grid_and_leaves_no_face_without_area() -> None:
+def test_snapping_lays_vertices_on_a_grid_and_leaves_no_face_without_area():
     mesh = snapped(Labelled.of(oven()), rng())
     steps = mesh.vertices[np.unique(mesh.faces)] / 0.001
     np.testing.assert_allclose(steps, np.round(steps), atol=1e-6)
     assert mesh.areas.min() > 0.0
 
 
-def test_lettering_lies_just_outside_and_looks_outwards() -> None:
+def test_lettering_lies_just_outside_and_looks_outwards():
     for seed in range(8):
         mesh = lettered(solids(UNIT), rng(seed))
         corners = mesh.corners[12:]
@@ -249,7 +245,7 @@ def test_lettering_lies_just_outside_and_looks_outwards() -> None:
         assert (np.einsum("ij,ij->i", crosses, corners.mean(axis=1) - 0.5) > 0.0).all()
 
 
-def test_handles_go_and_doors_stay() -> None:
+def test_handles_go_and_doors_stay():
     door = ((0.0, 1.0), (-0.02, 0.0), (0.0, 1.0))
     grip = ((0.4, 0.6), (-0.06, -0.02), (0.5, 0.52))
     mesh = solids(UNIT, door, grip, part=(0, 1, 1))
@@ -258,7 +254,7 @@ def test_handles_go_and_doors_stay() -> None:
     assert {0, 1, 2} in gone
 
 
-def test_stretched_and_mirrored_objects_move_as_their_stretched_and_mirrored_motions() -> None:
+def test_stretched_and_mirrored_objects_move_as_their_stretched_and_mirrored_motions():
     original = make_object("cabinet", 2)
     changes = (
         (stretched(original, [1.2, 0.9, 1.1]), [1.2, 0.9, 1.1]),
@@ -281,7 +277,7 @@ def test_stretched_and_mirrored_objects_move_as_their_stretched_and_mirrored_mot
     np.testing.assert_allclose(mirrored(mirrored(original)).mesh.vertices, original.mesh.vertices)
 
 
-def test_an_object_with_a_hinge_aslant_is_only_scaled_evenly() -> None:
+def test_an_object_with_a_hinge_aslant_is_only_scaled_evenly():
     original = make_object("laptop", 0)
     aslant = replace(original.joints[0], axis=np.array([0.6, 0.8, 0.0]))
     changed = stretched(replace(original, joints=(aslant,)), [2.0, 1.0, 0.5])
@@ -291,7 +287,7 @@ def test_an_object_with_a_hinge_aslant_is_only_scaled_evenly() -> None:
 
 
 @pytest.mark.parametrize("category", ["chest", "microwave", "laptop"])
-def test_a_fused_object_is_closed_near_the_original_and_keeps_every_part(category: str) -> None:
+def test_a_fused_object_is_closed_near_the_original_and_keeps_every_part(category):
     original = make_object(category, 1)
     fused = fused_like(original, 2)
     mesh = Labelled.of(fused)
@@ -312,7 +308,7 @@ def test_a_fused_object_is_closed_near_the_original_and_keeps_every_part(categor
     assert fused.mesh.vertices.tobytes() == again.mesh.vertices.tobytes()
 
 
-def nested(part: tuple[int, ...], parents: tuple[int, ...]) -> Articulation:
+def nested(part, parents):
     """A unit cube, a small one inside it and a drawer in front, of these parts, which slide."""
     inner = ((0.4, 0.6), (0.4, 0.6), (0.4, 0.6))
     drawer = ((0.0, 1.0), (-0.1, 0.0), (0.0, 1.0))
@@ -328,7 +324,7 @@ def nested(part: tuple[int, ...], parents: tuple[int, ...]) -> Articulation:
     )
 
 
-def test_a_part_that_nobody_sees_is_not_in_a_fused_object() -> None:
+def test_a_part_that_nobody_sees_is_not_in_a_fused_object():
     fused = fused_like(nested((0, 1, 2), (0, 0)), 0)
     assert [part.name for part in fused.parts] == ["part_0", "part_2"]
     assert [(joint.name, joint.parent, joint.child) for joint in fused.joints] == [
@@ -337,16 +333,14 @@ def test_a_part_that_nobody_sees_is_not_in_a_fused_object() -> None:
 
 
 @pytest.mark.parametrize(("part", "parents"), [((0, 1, 0), (0,)), ((0, 1, 2), (0, 1))])
-def test_what_hangs_on_something_hidden_cannot_be_fused_and_becomes_an_artists(
-    part, parents
-) -> None:
+def test_what_hangs_on_something_hidden_cannot_be_fused_and_becomes_an_artists(part, parents):
     articulation = nested(part, parents)
     with pytest.raises(ValueError, match="the rest needs them"):
         fused_like(articulation, 0)
     assert in_character(articulation, "generated", 0)[1] == "artist"
 
 
-def test_what_turns_all_round_stays_round() -> None:
+def test_what_turns_all_round_stays_round():
     for seed in range(12):
         changed = artist_like(oven(), seed)
         was = oven().mesh.extents
@@ -355,7 +349,7 @@ def test_what_turns_all_round_stays_round() -> None:
         assert now[0] / was[0] == pytest.approx(now[2] / was[2], rel=0.06)
 
 
-def test_an_open_piece_is_never_united() -> None:
+def test_an_open_piece_is_never_united():
     two = solids(((0, 1), (0, 1), (0, 1)), ((0.5, 1.5), (0, 1), (0, 1)))
     open_ = two.chosen(np.arange(len(two.faces)) != 0)
     found = parts_united(open_, rng(), share=1.0)
@@ -364,7 +358,7 @@ def test_an_open_piece_is_never_united() -> None:
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
-def test_a_skin_is_one_closed_surface_around_the_object(seed: int) -> None:
+def test_a_skin_is_one_closed_surface_around_the_object(seed):
     original = make_object("fridge", 3)
     made = skin_like(original, seed, cells=96)
     surface = Surface.of(made.mesh.vertices, made.mesh.faces)
@@ -376,7 +370,7 @@ def test_a_skin_is_one_closed_surface_around_the_object(seed: int) -> None:
     assert [joint.name for joint in made.joints] == [joint.name for joint in original.joints]
 
 
-def test_faces_of_a_skin_belong_to_the_part_that_is_nearest() -> None:
+def test_faces_of_a_skin_belong_to_the_part_that_is_nearest():
     original = make_object("dishwasher", 4)
     made = skin_like(original, 5, cells=96)
     part = face_parts(original)
@@ -389,7 +383,7 @@ def test_faces_of_a_skin_belong_to_the_part_that_is_nearest() -> None:
     assert agreed.mean() > 0.95
 
 
-def test_seams_that_are_engraved_part_a_skin_into_its_parts() -> None:
+def test_seams_that_are_engraved_part_a_skin_into_its_parts():
     original = make_object("fridge", 3)
     skins = [skin_like(original, seed, cells=128) for seed in range(6)]
     alone = []

@@ -13,34 +13,32 @@ from hypothesis import strategies as st
 
 from asset_factory.sim_checks.checks.cause import Cause, CauseEvidence, Way, likely_cause
 from asset_factory.sim_checks.checks.penetration import check_penetration
-from asset_factory.sim_checks.checks.result import CheckResult
 from asset_factory.sim_checks.config import PenetrationConfig
-from asset_factory.sim_checks.description import Description, Link
 from asset_factory.sim_checks.report import Finding
 
 CONFIG = PenetrationConfig()
 
 
-def check(description: Description) -> CheckResult:
+def check(description):
     return check_penetration(description, CONFIG)
 
 
-def causes(description: Description) -> list[tuple[str, str | None]]:
+def causes(description):
     return [(finding.code, finding.cause) for finding in check(description).findings]
 
 
-def shown_as(description: Description, name: str, visible: Description) -> Description:
+def shown_as(description, name, visible):
     """One link with what another description shows of it."""
     seen = next(link for link in visible.links if link.name == name)
     return with_link(description, name, visuals=seen.visuals)
 
 
-def with_piece(link: Link, piece: Box, origin: tuple[float, float, float]) -> Link:
+def with_piece(link, piece, origin):
     shape = box_shape(np.subtract(piece[0], origin), piece[1])
     return replace(link, collisions=(*link.collisions, shape), visuals=(*link.visuals, shape))
 
 
-def room(way: float, back: float = -10.0) -> Description:
+def room(way, back=-10.0):
     """A box that slides 0.5 m along x; a wall stands ``way`` off, perhaps another behind it."""
     walls: list[Box] = [
         ((0.2 + way, 0.0, 0.0), (0.2, 1.0, 1.0)),
@@ -51,49 +49,49 @@ def room(way: float, back: float = -10.0) -> Description:
     return described([body("walls", walls), box], [slide])
 
 
-def test_fat_hulls_around_a_drawer_that_fits_are_to_blame() -> None:
+def test_fat_hulls_around_a_drawer_that_fits_are_to_blame():
     assert causes(shown_as(cabinet("wide"), "drawer", cabinet())) == [
         ("rest_penetration", "hull_inflation")
     ]
 
 
-def test_a_drawer_that_is_really_too_wide_overlaps() -> None:
+def test_a_drawer_that_is_really_too_wide_overlaps():
     assert causes(cabinet("wide")) == [("rest_penetration", "parts_overlap")]
 
 
-def test_fat_hulls_along_the_way_are_to_blame_too() -> None:
+def test_fat_hulls_along_the_way_are_to_blame_too():
     hulls = room(0.3)
     thin = replace(hulls.links[0], visuals=(box_shape((0.55, 0.0, 0.0), (0.01, 1.0, 1.0)),))
     slim = with_joint(replace(hulls, links=(thin, hulls.links[1])), "slide", upper=0.4)
     assert causes(slim) == [("sweep_penetration", "hull_inflation")]
 
 
-def test_a_door_that_opens_inwards_has_the_wrong_axis() -> None:
+def test_a_door_that_opens_inwards_has_the_wrong_axis():
     assert set(causes(cabinet("axis_flip"))) == {("sweep_penetration", "wrong_axis")}
 
 
-def test_a_hinge_inside_the_edge_is_the_wrong_axis() -> None:
+def test_a_hinge_inside_the_edge_is_the_wrong_axis():
     assert causes(cabinet("hinge_inside")) == [("sweep_penetration", "wrong_axis")]
 
 
-def test_a_slide_the_wrong_way_has_the_wrong_axis() -> None:
+def test_a_slide_the_wrong_way_has_the_wrong_axis():
     assert causes(room(0.1)) == [("sweep_penetration", "wrong_axis")]
 
 
-def test_a_way_that_only_ends_in_a_wall_is_too_long() -> None:
+def test_a_way_that_only_ends_in_a_wall_is_too_long():
     assert causes(room(0.4)) == [("sweep_penetration", "limit_too_long")]
 
 
-def test_a_way_that_ends_before_the_wall_is_sound() -> None:
+def test_a_way_that_ends_before_the_wall_is_sound():
     assert causes(room(0.51)) == []
 
 
-def test_a_way_blocked_early_on_both_sides_has_no_cause_that_can_be_told() -> None:
+def test_a_way_blocked_early_on_both_sides_has_no_cause_that_can_be_told():
     assert causes(room(0.1, back=0.0)) == [("sweep_penetration", None)]
 
 
-def test_without_visible_surfaces_only_the_way_is_told() -> None:
-    def bare(description: Description) -> Description:
+def test_without_visible_surfaces_only_the_way_is_told():
+    def bare(description):
         return replace(
             description, links=tuple(replace(link, visuals=()) for link in description.links)
         )
@@ -105,20 +103,20 @@ def test_without_visible_surfaces_only_the_way_is_told() -> None:
     )
 
 
-def test_a_pair_that_may_touch_says_nothing_of_the_axis() -> None:
+def test_a_pair_that_may_touch_says_nothing_of_the_axis():
     excluded = replace(
         cabinet("hinge_inside"), excluded=frozenset({frozenset({"carcass", "door"})})
     )
     assert causes(excluded) == [("excluded_penetration", None)]
 
 
-def test_a_hinge_at_the_wrong_edge_has_the_wrong_axis() -> None:
+def test_a_hinge_at_the_wrong_edge_has_the_wrong_axis():
     """A wall at its right and one before it: it can only hang at its left and open backwards."""
     walls = body(
         "walls", [((0.32, 0.0, 0.0), (0.02, 0.3, 0.4)), ((0.0, -0.2, 0.0), (0.7, 0.02, 0.4))]
     )
 
-    def hung(x: float, up: float) -> Description:
+    def hung(x, up):
         leaf = body("leaf", [((0.0, 0.0, 0.0), (0.6, 0.02, 0.3))], (x, -0.01, 0.0))
         hinge = joint(
             "hinge", "revolute", "walls", "leaf", (x, -0.01, 0.0), (0.0, 0.0, up), (0.0, 1.5)
@@ -132,7 +130,7 @@ def test_a_hinge_at_the_wrong_edge_has_the_wrong_axis() -> None:
 HINGE = (-0.3, -0.202, 0.6)
 
 
-def with_piece_on_the_door(piece: Box) -> Description:
+def with_piece_on_the_door(piece):
     sound = cabinet()
     return replace(
         sound,
@@ -142,18 +140,18 @@ def with_piece_on_the_door(piece: Box) -> Description:
     )
 
 
-def test_a_chip_of_the_carcass_that_is_called_the_doors_has_leaked() -> None:
+def test_a_chip_of_the_carcass_that_is_called_the_doors_has_leaked():
     found = causes(with_piece_on_the_door(((0.291, -0.19, 0.6), (0.03, 0.012, 0.03))))
     assert ("rest_penetration", "leaked_segment") in found
 
 
-def test_a_peg_on_the_door_that_is_in_the_way_has_not() -> None:
+def test_a_peg_on_the_door_that_is_in_the_way_has_not():
     found = causes(with_piece_on_the_door(((0.291, -0.195, 0.6), (0.03, 0.014, 0.03))))
     assert ("rest_penetration", "parts_overlap") in found
     assert "leaked_segment" not in [cause for _, cause in found]
 
 
-def test_finding_and_measurements_say_the_same_and_the_message_says_why() -> None:
+def test_finding_and_measurements_say_the_same_and_the_message_says_why():
     result = check(cabinet("wide"))
     (finding,) = result.findings
     (measured,) = [item for item in result.measurements["rest"] if item["depth_mm"] > 2.0]
@@ -163,7 +161,7 @@ def test_finding_and_measurements_say_the_same_and_the_message_says_why() -> Non
     assert json.loads(json.dumps(result.measurements)) == result.measurements
 
 
-def test_a_joints_visible_clearance_stands_beside_its_hulls() -> None:
+def test_a_joints_visible_clearance_stands_beside_its_hulls():
     """The drawer's hulls leave 2 mm, what is seen of it 3 mm."""
     slim = cabinet()
     visuals = tuple(
@@ -176,7 +174,7 @@ def test_a_joints_visible_clearance_stands_beside_its_hulls() -> None:
     assert slide["visual_clearance_mm"] == pytest.approx(3.0, abs=0.05)
 
 
-def test_a_sound_cabinet_needs_no_explanation() -> None:
+def test_a_sound_cabinet_needs_no_explanation():
     measured = check(cabinet()).measurements
     contacts = [*measured["rest"], *(pair for item in measured["joints"] for pair in item["pairs"])]
     assert contacts
@@ -187,7 +185,7 @@ WAY = Way(clear=0.2, excess=0.03, otherwise=0.03, at_rest=0.0)
 DEEP = CauseEvidence(depth=0.03, allowed=0.001, visual=-0.03, way=WAY)
 
 
-def cause(evidence: CauseEvidence) -> Cause | None:
+def cause(evidence):
     return likely_cause(evidence, CONFIG.rest_m, CONFIG.excess_m)
 
 
@@ -212,12 +210,12 @@ def cause(evidence: CauseEvidence) -> Cause | None:
         (replace(DEEP, visual=None, way=replace(WAY, otherwise=0.0)), None),
     ],
 )
-def test_what_the_numbers_say(evidence: CauseEvidence, expected: Cause | None) -> None:
+def test_what_the_numbers_say(evidence, expected):
     assert cause(evidence) is expected
 
 
 @given(depth=st.floats(0.0021, 1.0), share=st.floats(-1.0, 1.0), leaked=st.booleans())
-def test_at_rest_what_is_seen_always_decides(depth: float, share: float, leaked: bool) -> None:
+def test_at_rest_what_is_seen_always_decides(depth, share, leaked):
     """The deeper the visible surfaces lie, the less the hulls are to blame."""
     seen = CauseEvidence(depth, CONFIG.rest_m, share * depth, leaked=leaked, at_rest=True)
     deeper = replace(seen, visual=min(0.0, share * depth) - CONFIG.rest_m - 1e-6)
@@ -225,7 +223,7 @@ def test_at_rest_what_is_seen_always_decides(depth: float, share: float, leaked:
     assert cause(deeper) is (Cause.LEAKED_SEGMENT if leaked else Cause.PARTS_OVERLAP)
 
 
-def test_a_cause_goes_into_a_report_as_a_plain_word() -> None:
+def test_a_cause_goes_into_a_report_as_a_plain_word():
     (finding,) = check(cabinet("wide")).findings
     assert isinstance(finding, Finding)
     assert json.dumps(finding.cause) == '"parts_overlap"'

@@ -1,7 +1,5 @@
 """Depth and gap of two shapes whose distance is known in closed form, in any pose, from a file."""
 
-from __future__ import annotations
-
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
@@ -38,7 +36,7 @@ sizes = st.floats(0.3, 0.8)
 Placed = tuple[str, Rotation, Sequence[float]]
 
 
-def measured(first: Placed, second: Placed, whole: Rotation) -> float:
+def measured(first, second, whole):
     """Depth at rest [m] as the judge reads it from a URDF, the whole turned; negative is a gap."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -65,12 +63,12 @@ def measured(first: Placed, second: Placed, whole: Rotation) -> float:
         return float(contact["depth_mm"]) / 1000.0
 
 
-def mesh(kind: str, *numbers: float) -> str:
+def mesh(kind, *numbers):
     """The same body as a mesh file, named by what it is."""
     return f'<mesh filename="{kind}_{"_".join(repr(number) for number in numbers)}.obj"/>'
 
 
-def _write_mesh(element: str, folder: Path) -> None:
+def _write_mesh(element, folder):
     if "filename" not in element:
         return
     file = element.split('"')[1]
@@ -84,16 +82,16 @@ def _write_mesh(element: str, folder: Path) -> None:
     (folder / file).write_text(made.export(file_type="obj", digits=12))
 
 
-def box_element(size: Sequence[float], as_mesh: bool) -> str:
+def box_element(size, as_mesh):
     return mesh("box", *size) if as_mesh else f'<box size="{words(size)}"/>'
 
 
-def half_height(rotation: Rotation, size: Sequence[float]) -> float:
+def half_height(rotation, size):
     """How far a turned box reaches below its centre [m]."""
     return 0.5 * float(np.abs(rotation.as_matrix()[2]) @ np.asarray(size))
 
 
-def agrees(found: float, true: float, sag: float = 0.0) -> bool:
+def agrees(found, true, sag=0.0):
     """Within 2 % or 0.02 mm, and short by a tessellation's sag at most [m]."""
     slack = max(2e-5, 0.02 * abs(true))
     return true - sag - slack <= found <= true + slack
@@ -111,9 +109,7 @@ UPRIGHT = Rotation.identity()
     size=st.tuples(sizes, sizes, sizes),
     as_mesh=st.booleans(),
 )
-def test_a_box_in_any_pose_on_a_slab(
-    depth: float, whole: Rotation, turn: Rotation, size: tuple, as_mesh: bool
-) -> None:
+def test_a_box_in_any_pose_on_a_slab(depth, whole, turn, size, as_mesh):
     height = 0.5 + half_height(turn, size) - depth
     slab = box_element(SLAB, not as_mesh)
     block = box_element(size, as_mesh)
@@ -124,7 +120,7 @@ def test_a_box_in_any_pose_on_a_slab(
 
 @settings(max_examples=25)
 @given(depth=depths, whole=rotations, a=sizes, b=sizes)
-def test_two_boxes_edge_on_edge(depth: float, whole: Rotation, a: float, b: float) -> None:
+def test_two_boxes_edge_on_edge(depth, whole, a, b):
     below = Rotation.from_euler("x", np.pi / 4)
     above = Rotation.from_euler("y", np.pi / 4)
     lower = box_element((2.0, a, a), False)
@@ -142,9 +138,7 @@ def test_two_boxes_edge_on_edge(depth: float, whole: Rotation, a: float, b: floa
     radius=st.floats(0.02, 0.5),
     as_mesh=st.booleans(),
 )
-def test_a_ball_on_a_slab(
-    depth: float, whole: Rotation, turn: Rotation, radius: float, as_mesh: bool
-) -> None:
+def test_a_ball_on_a_slab(depth, whole, turn, radius, as_mesh):
     # A ball sunk deeper than its centre still has its shortest way out upwards.
     ball = mesh("ball", radius) if as_mesh else f'<sphere radius="{radius!r}"/>'
     sag = radius * (0.02 if as_mesh else RING_SAG + SIDE_SAG)
@@ -164,9 +158,7 @@ def test_a_ball_on_a_slab(
     radius=st.floats(0.05, 0.3),
     as_mesh=st.booleans(),
 )
-def test_a_rod_at_any_slant_on_a_slab(
-    depth: float, whole: Rotation, turn: Rotation, radius: float, as_mesh: bool
-) -> None:
+def test_a_rod_at_any_slant_on_a_slab(depth, whole, turn, radius, as_mesh):
     length = 0.7
     lean = abs(float(turn.as_matrix()[2, 2]))
     reach = radius * np.sqrt(1.0 - lean**2) + 0.5 * length * lean
@@ -182,7 +174,7 @@ def test_a_rod_at_any_slant_on_a_slab(
 
 @settings(max_examples=20)
 @given(depth=depths, whole=rotations, angle=st.floats(0.3, np.pi - 0.3), spin=st.floats(0.0, 6.0))
-def test_two_crossed_rods(depth: float, whole: Rotation, angle: float, spin: float) -> None:
+def test_two_crossed_rods(depth, whole, angle, spin):
     first = 0.15
     second = 0.2
     lying = Rotation.from_euler("y", np.pi / 2)
@@ -194,7 +186,7 @@ def test_two_crossed_rods(depth: float, whole: Rotation, angle: float, spin: flo
 
 @settings(max_examples=4)
 @given(depth=depths, whole=rotations, turn=rotations, direction=rotations)
-def test_two_balls(depth: float, whole: Rotation, turn: Rotation, direction: Rotation) -> None:
+def test_two_balls(depth, whole, turn, direction):
     first = 0.12
     second = 0.07
     center = direction.apply([0.0, 0.0, first + second - depth])
@@ -205,7 +197,7 @@ def test_two_balls(depth: float, whole: Rotation, turn: Rotation, direction: Rot
 
 
 @pytest.mark.parametrize("depth", [1e-5, 1e-4, 1e-3, 1e-2, 0.1])
-def test_a_ball_with_a_thousand_corners_in_another(depth: float) -> None:
+def test_a_ball_with_a_thousand_corners_in_another(depth):
     """Many edge pairs take another road to the depth; it must lead to the same place."""
     ball = mesh("ball", 0.2)
     lifted = (0.0, 0.0, 0.4 - depth)

@@ -1,12 +1,9 @@
 """Sweeps of known answer: drawers, doors, pins, hinges, nests; and what changes no number."""
 
-from __future__ import annotations
-
 import tempfile
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +11,6 @@ from fault_corpus.broken_motion import knuckle, screw_in_the_way
 from fault_corpus.good_things import cabinet, nested, turned
 from fault_corpus.things import (
     Body,
-    FloatArray,
     Move,
     Thing,
     at,
@@ -30,7 +26,6 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from asset_factory.sim_checks.checks.penetration import check_penetration
-from asset_factory.sim_checks.checks.result import CheckResult
 from asset_factory.sim_checks.config import PenetrationConfig
 from asset_factory.sim_checks.read.read import read_here
 from asset_factory.sim_checks.report import Severity
@@ -43,22 +38,20 @@ SURE = 0.02
 Writer = Callable[[Thing, Path], Path]
 
 
-def judged(
-    thing: Thing, config: PenetrationConfig = CONFIG, write: Writer = write_urdf
-) -> CheckResult:
+def judged(thing, config=CONFIG, write=write_urdf):
     with tempfile.TemporaryDirectory() as folder:
         return check_penetration(read_here(write(thing, Path(folder))), config)
 
 
-def joint(result: CheckResult, name: str) -> dict[str, Any]:
+def joint(result, name):
     return next(item for item in result.measurements["joints"] if item["joint"] == name)
 
 
-def hard(result: CheckResult) -> list[str]:
+def hard(result):
     return [finding.code for finding in result.findings if finding.severity is Severity.HARD]
 
 
-def tray(side: float, top: float, back: float, travel: float = 0.3) -> Thing:
+def tray(side, top, back, travel=0.3):
     """A block in a bay 0.4 wide, 0.3 deep, 0.2 high, with these gaps [m]; 20 mm below it."""
     bay = (
         box((-0.25, 0.15, 0.1), (0.1, 0.5, 0.4)),
@@ -81,7 +74,7 @@ def tray(side: float, top: float, back: float, travel: float = 0.3) -> Thing:
 @pytest.mark.parametrize(
     ("side", "top", "back"), [(2e-3, 4e-3, 6e-3), (9e-3, 1e-4, 1e-3), (0.02, 0.015, 3e-4)]
 )
-def test_a_drawer_s_clearance_is_its_narrowest_gap(side: float, top: float, back: float) -> None:
+def test_a_drawer_s_clearance_is_its_narrowest_gap(side, top, back):
     result = judged(tray(side, top, back), WIDE)
     assert result.findings == ()
     assert joint(result, "slide")["clearance_mm"] == pytest.approx(
@@ -92,9 +85,7 @@ def test_a_drawer_s_clearance_is_its_narrowest_gap(side: float, top: float, back
 @pytest.mark.parametrize(
     ("side", "top", "back"), [(-5e-3, 4e-3, 6e-3), (9e-3, -3e-3, 1e-3), (0.02, 0.015, -0.013)]
 )
-def test_a_drawer_s_overlap_is_its_depth_and_never_counts_as_excess(
-    side: float, top: float, back: float
-) -> None:
+def test_a_drawer_s_overlap_is_its_depth_and_never_counts_as_excess(side, top, back):
     result = judged(tray(side, top, back))
     assert hard(result) == ["rest_penetration"]
     assert result.findings[0].value == pytest.approx(-1000 * min(side, top, back), rel=1e-3)
@@ -102,7 +93,7 @@ def test_a_drawer_s_overlap_is_its_depth_and_never_counts_as_excess(
 
 
 @pytest.mark.parametrize("beyond", [1.1e-3, 5e-3, 0.05])
-def test_a_drawer_driven_into_a_post_goes_as_deep_as_its_travel_is_too_long(beyond: float) -> None:
+def test_a_drawer_driven_into_a_post_goes_as_deep_as_its_travel_is_too_long(beyond):
     thing = tray(3e-3, 3e-3, 3e-3, travel=0.2 + beyond)
     post = box((0.0, -0.25, 0.1), (0.1, 0.1, 0.3))
     result = judged(with_body(thing, "bay", pieces=(*thing.bodies[0].pieces, post)))
@@ -120,7 +111,7 @@ def test_a_drawer_driven_into_a_post_goes_as_deep_as_its_travel_is_too_long(beyo
 
 @pytest.mark.parametrize("gap", [5e-5, 2e-4, 4e-4])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_a_door_s_corner_cuts_the_jamb_where_the_circle_says(gap: float, sign: float) -> None:
+def test_a_door_s_corner_cuts_the_jamb_where_the_circle_says(gap, sign):
     """Hinged at its front edge: its back corner first swings outwards on the diagonal's circle."""
     width = 0.6
     thick = 0.05
@@ -150,7 +141,7 @@ def test_a_door_s_corner_cuts_the_jamb_where_the_circle_says(gap: float, sign: f
 
 @pytest.mark.parametrize("step", [3.5, 11.4, 31.5, 42.6, 60.5])
 @pytest.mark.parametrize("size", [0.002, 0.0015])
-def test_a_pin_that_meets_a_fin_between_two_samples_of_a_slide(step: float, size: float) -> None:
+def test_a_pin_that_meets_a_fin_between_two_samples_of_a_slide(step, size):
     """Of 64 poses 4.8 mm apart none sees it: the pin is 2 mm, the fin 1 mm."""
     place = step * 0.3 / 63
     assert abs(place - 0.3 / 63 * round(step)) > (size + 0.001) / 2
@@ -163,7 +154,7 @@ def test_a_pin_that_meets_a_fin_between_two_samples_of_a_slide(step: float, size
 
 
 @pytest.mark.parametrize("step", [2.5, 17.4, 33.5, 55.6])
-def test_a_pin_on_a_door_that_meets_a_thread_between_two_samples_of_a_turn(step: float) -> None:
+def test_a_pin_on_a_door_that_meets_a_thread_between_two_samples_of_a_turn(step):
     arm = 0.5
     angle = step * 1.5 / 63
     size = 0.002
@@ -183,7 +174,7 @@ def test_a_pin_on_a_door_that_meets_a_thread_between_two_samples_of_a_turn(step:
 
 
 @pytest.mark.parametrize("write", [write_urdf, write_mjcf])
-def test_a_knuckle_is_as_deep_as_its_leaves_are_thick(write: Writer) -> None:
+def test_a_knuckle_is_as_deep_as_its_leaves_are_thick(write):
     result = judged(knuckle(0.05), write=write)
     (found,) = [finding for finding in result.findings if finding.code == "hinge_overlap"]
     assert found.value == pytest.approx(12.0, rel=1e-3)
@@ -192,9 +183,7 @@ def test_a_knuckle_is_as_deep_as_its_leaves_are_thick(write: Writer) -> None:
 
 
 @pytest.mark.parametrize("beyond", [2e-3, 0.02])
-def test_a_tray_in_a_swinging_door_hits_the_back_behind_it_unless_the_door_is_open(
-    beyond: float,
-) -> None:
+def test_a_tray_in_a_swinging_door_hits_the_back_behind_it_unless_the_door_is_open(beyond):
     # 272 mm from the tray to the back of the carcass.
     result = judged(with_move(nested(), "slide", upper=0.272 + beyond))
     assert hard(result) == []
@@ -206,7 +195,7 @@ def test_a_tray_in_a_swinging_door_hits_the_back_behind_it_unless_the_door_is_op
 @pytest.mark.parametrize(
     "thing", [cabinet(), turned(), nested(), screw_in_the_way(), tray(-4e-3, 2e-3, 2e-3)]
 )
-def test_the_same_thing_gives_the_same_numbers_from_both_formats(thing: Thing) -> None:
+def test_the_same_thing_gives_the_same_numbers_from_both_formats(thing):
     urdf, mjcf = (judged(thing, WIDE, write) for write in (write_urdf, write_mjcf))
     assert [finding.code for finding in urdf.findings] == [
         finding.code for finding in mjcf.findings
@@ -214,7 +203,7 @@ def test_the_same_thing_gives_the_same_numbers_from_both_formats(thing: Thing) -
     assert numbers(mjcf) == pytest.approx(numbers(urdf), abs=2 * SURE, rel=0.02)
 
 
-def test_link_frames_are_nobody_s_business() -> None:
+def test_link_frames_are_nobody_s_business():
     assert numbers(judged(turned(), WIDE)) == pytest.approx(
         numbers(judged(cabinet(), WIDE)), abs=2 * SURE, rel=0.02
     )
@@ -236,9 +225,7 @@ SAMPLES = (
     shift=st.tuples(*[st.floats(-10.0, 10.0)] * 3),
     power=st.floats(-1.0, 1.0),
 )
-def test_neither_place_nor_pose_nor_size_changes_the_verdict(
-    thing: Thing, seed: int, shift: tuple[float, float, float], power: float
-) -> None:
+def test_neither_place_nor_pose_nor_size_changes_the_verdict(thing, seed, shift, power):
     generator = np.random.default_rng(seed)
     scale = 10.0**power
     pose = at(*shift)
@@ -261,7 +248,7 @@ def test_neither_place_nor_pose_nor_size_changes_the_verdict(
     assert numbers(after) / scale == pytest.approx(numbers(before), abs=slack, rel=0.03)
 
 
-def numbers(result: CheckResult) -> FloatArray:
+def numbers(result):
     """Depths at rest, and excess and clearance of every joint [mm]."""
     rest = [contact["depth_mm"] for contact in result.measurements["rest"]]
     swept = [
@@ -270,7 +257,7 @@ def numbers(result: CheckResult) -> FloatArray:
     return np.array([*rest, *(-1.0 if number is None else number for number in swept)])
 
 
-def _reframed(body: Body, generator: np.random.Generator) -> Body:
+def _reframed(body, generator):
     """The link's own axes turned anyhow; its joint stays where it is."""
     turn = np.eye(4)
     turn[:3, :3] = Rotation.random(random_state=generator).as_matrix()

@@ -3,16 +3,10 @@
 It says why only where the judge's own numbers bear it out.
 """
 
-from __future__ import annotations
-
-from collections.abc import Mapping
-from pathlib import Path
-from typing import Any
-
 import pytest
 import trimesh
 
-from asset_factory.sim_checks import Disagreement, Finding, Report, Severity, run_checks
+from asset_factory.sim_checks import Finding, Report, Severity, run_checks
 from asset_factory.sim_checks.checks.disagreement import disagreements
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS, installed
 
@@ -25,13 +19,11 @@ NO = {
 }
 
 
-def motion(joint: str = "slide", **changes: Any) -> dict[str, Any]:
+def motion(joint="slide", **changes):
     return {"joint": joint, **FINE, "finite": True, "range": 0.3, "pushed": None, **changes}
 
 
-def said(
-    *motions: dict[str, Any], drift: float = 0.0, coupled: tuple[str, ...] = ()
-) -> dict[str, Any]:
+def said(*motions, drift=0.0, coupled=()):
     rest = [
         {"joint": entry["joint"], "drift": 0.3 * drift, "share": drift, "finite": True}
         for entry in motions
@@ -40,9 +32,7 @@ def said(
     return {"loading": {"worst_position_m": 0.0}, "motion": moving}
 
 
-def contact(
-    depth: float, *, links: tuple[str, str] = ("drawer", "shell"), excess: float = 0.0, **more: Any
-) -> Any:
+def contact(depth, *, links=("drawer", "shell"), excess=0.0, **more):
     return {
         "links": links,
         "shapes": ["a", "b"],
@@ -53,18 +43,12 @@ def contact(
     }
 
 
-def measured(*pairs: Mapping[str, Any], unit: str = "m", **engines: Any) -> dict[str, Any]:
+def measured(*pairs, unit="m", **engines):
     sweep = {"joint": "slide", "unit": unit, "pairs": list(pairs)}
     return {"penetration": {"rest": list(pairs), "joints": [sweep]}, **engines}
 
 
-def no(
-    code: str,
-    *simulators: str,
-    joint: str | None = "slide",
-    joints: tuple[str, ...] = (),
-    message: str = "",
-) -> list[Finding]:
+def no(code, *simulators, joint="slide", joints=(), message=""):
     parts = ("shell", "drawer") if joint else ()
     return [
         Finding(code, Severity.HARD, message, simulator, joint, parts, joints=joints)
@@ -72,25 +56,25 @@ def no(
     ]
 
 
-def engines(code: str, *failing: str) -> dict[str, Any]:
+def engines(code, *failing):
     return {name: said(motion(**(NO[code] if name in failing else {}))) for name in ALL}
 
 
-def only(findings: list[Finding], measurements: Mapping[str, Any]) -> Disagreement:
+def only(findings, measurements):
     (found,) = disagreements(findings, measurements, ALL)
     return found
 
 
-def jam(*failing: str, pairs: tuple[Any, ...] = (), unit: str = "m") -> Disagreement:
+def jam(*failing, pairs=(), unit="m"):
     return only(no("jammed", *failing), measured(*pairs, unit=unit, **engines("jammed", *failing)))
 
 
-def test_engines_that_agree_are_not_spoken_of() -> None:
+def test_engines_that_agree_are_not_spoken_of():
     assert disagreements([], measured(**engines("jammed")), ALL) == ()
     assert disagreements(no("jammed", *ALL), measured(**engines("jammed", *ALL)), ALL) == ()
 
 
-def test_who_said_what_with_its_number() -> None:
+def test_who_said_what_with_its_number():
     found = jam("mujoco")
     assert (found.question, found.joint, found.unit) == ("opens", "slide", "of range")
     assert found.verdicts == {"sapien": "pass", "mujoco": "jammed", "pybullet": "pass"}
@@ -98,7 +82,7 @@ def test_who_said_what_with_its_number() -> None:
     assert found.reason == "unknown"
 
 
-def test_an_engine_that_did_not_open_a_joint_has_no_say_on_its_return() -> None:
+def test_an_engine_that_did_not_open_a_joint_has_no_say_on_its_return():
     findings = [*no("jammed", "mujoco"), *no("not_returned", "pybullet")]
     measurements = engines("not_returned", "pybullet") | {
         "mujoco": said(motion(reached=0.2, returned=0.2))
@@ -109,7 +93,7 @@ def test_an_engine_that_did_not_open_a_joint_has_no_say_on_its_return() -> None:
 
 
 @pytest.mark.parametrize("absent", ["simulator_missing", "crashed"])
-def test_an_engine_that_took_no_part_is_left_out(absent: str) -> None:
+def test_an_engine_that_took_no_part_is_left_out(absent):
     findings = no("jammed", "mujoco")
     measurements = engines("jammed", "mujoco") | {"pybullet": {}}
     if absent == "simulator_missing":
@@ -144,15 +128,15 @@ SOFT = "soft contacts give way"
     ],
 )
 def test_a_known_trait_is_the_reason_only_where_depths_and_gaps_bear_it_out(
-    failing: tuple[str, ...], pair: Any, unit: str, reason: str
-) -> None:
+    failing, pair, unit, reason
+):
     found = jam(*failing, pairs=(pair,), unit=unit).reason
     assert reason in found
     if reason in (PARENT_CHILD, SLIDE, MARGIN, SOFT):
         assert f"{max(0.0, abs(pair['depth_mm'])):.2f} mm" in found
 
 
-def test_the_parts_that_block_the_joint_count_and_not_the_deepest_of_all() -> None:
+def test_the_parts_that_block_the_joint_count_and_not_the_deepest_of_all():
     pairs = (contact(9.0, links=("one", "two")), contact(-1.5))
     measurements = measured(*pairs, unit="rad", **engines("jammed", "pybullet"))
     assert only(no("jammed", "pybullet"), measurements).reason == "unknown"
@@ -160,7 +144,7 @@ def test_the_parts_that_block_the_joint_count_and_not_the_deepest_of_all() -> No
     assert MARGIN in only(no("jammed", "pybullet"), measurements).reason
 
 
-def test_a_soft_limit_is_mujoco_s_only_while_it_is_a_spring() -> None:
+def test_a_soft_limit_is_mujoco_s_only_while_it_is_a_spring():
     for overshoot, reason in ((0.009, "gave way by 3.0% of the range"), (0.3, "unknown")):
         measurements = engines("jammed") | {"mujoco": said(motion(overshoot=overshoot))}
         found = only(no("limit_overshoot", "mujoco"), measurements)
@@ -171,7 +155,7 @@ def test_a_soft_limit_is_mujoco_s_only_while_it_is_a_spring() -> None:
         assert reason in found.reason
 
 
-def test_dropped_friction_is_the_reason_where_nothing_is_in_the_way() -> None:
+def test_dropped_friction_is_the_reason_where_nothing_is_in_the_way():
     measurements = engines("not_returned", "mujoco", "pybullet")
     findings = no("not_returned", "mujoco", "pybullet")
     assert only(findings, measurements).reason == "unknown"
@@ -179,7 +163,7 @@ def test_dropped_friction_is_the_reason_where_nothing_is_in_the_way() -> None:
     assert "drops the file's joint friction" in only(findings, measurements).reason
 
 
-def test_a_joint_that_follows_in_one_engine_and_not_in_another() -> None:
+def test_a_joint_that_follows_in_one_engine_and_not_in_another():
     pushed = motion(others_moved=0.6, pushed="leaf")
     measurements = {
         "sapien": said(motion(), coupled=("leaf",)),
@@ -194,14 +178,14 @@ def test_a_joint_that_follows_in_one_engine_and_not_in_another() -> None:
     )
 
 
-def test_nan_in_one_engine_is_its_verdict() -> None:
+def test_nan_in_one_engine_is_its_verdict():
     measurements = engines("jammed") | {"pybullet": said(motion(finite=False))}
     first = disagreements(no("not_finite", "pybullet"), measurements, ALL)[0]
     assert (first.verdicts["pybullet"], first.values["pybullet"]) == ("not_finite", None)
 
 
 @pytest.mark.parametrize(("gap", "told"), [(0.0, True), (-0.3, False)])
-def test_parts_that_touch_flush_are_a_matter_of_rounding(gap: float, told: bool) -> None:
+def test_parts_that_touch_flush_are_a_matter_of_rounding(gap, told):
     jammed = said(motion(**NO["jammed"], blocked_by=["shell", "drawer"]))
     found = only(
         no("jammed", "mujoco"), measured(contact(gap), **(engines("jammed") | {"mujoco": jammed}))
@@ -209,14 +193,14 @@ def test_parts_that_touch_flush_are_a_matter_of_rounding(gap: float, told: bool)
     assert ("touch without a gap" in found.reason) is told
 
 
-def test_parts_in_one_another_drive_a_joint_past_its_limit() -> None:
+def test_parts_in_one_another_drive_a_joint_past_its_limit():
     wild = engines("jammed") | {"pybullet": said(motion(overshoot=0.3 * 0.9))}
     found = only(no("limit_overshoot", "pybullet"), measured(contact(13.0, excess=2.0), **wild))
     assert found.question == "keeps_limits"
     assert PARENT_CHILD in found.reason
 
 
-def test_damping_that_explodes_in_bullet_alone() -> None:
+def test_damping_that_explodes_in_bullet_alone():
     stiff = Finding("damping_stiff", Severity.SOFT, "", None, "slide", ("shell", "drawer"), 13.5)
     found = only([stiff, *no("jammed", "pybullet")], measured(**engines("jammed", "pybullet")))
     assert "13.5 times the speed" in found.reason
@@ -226,7 +210,7 @@ def test_damping_that_explodes_in_bullet_alone() -> None:
     )
 
 
-def test_loading_and_link_poses_are_questions_of_the_whole_file() -> None:
+def test_loading_and_link_poses_are_questions_of_the_whole_file():
     found = only(
         no("load_failed", "pybullet", joint=None),
         {"mujoco": said(), "sapien": said(), "pybullet": {}},
@@ -239,12 +223,12 @@ def test_loading_and_link_poses_are_questions_of_the_whole_file() -> None:
     assert (poses.question, poses.values["sapien"], poses.reason) == ("link_poses", 0.02, "unknown")
 
 
-def test_who_cannot_read_the_format_gave_no_verdict_to_disagree_with() -> None:
+def test_who_cannot_read_the_format_gave_no_verdict_to_disagree_with():
     findings = no("format_not_loaded", "sapien", "pybullet", joint=None)
     assert disagreements(findings, {"mujoco": said(), "sapien": {}, "pybullet": {}}, ALL) == ()
 
 
-def slider(folder: Path, shell: Any, drawer: Any, upper: float) -> Path:
+def slider(folder, shell, drawer, upper):
     """Two boxes as meshes, one sliding along x: centre and size [m] each."""
     links = []
     for name, (center, size) in {"shell": shell, "drawer": drawer}.items():
@@ -268,14 +252,14 @@ def slider(folder: Path, shell: Any, drawer: Any, upper: float) -> Path:
 
 
 @pytest.fixture
-def every_engine() -> None:
+def every_engine():
     missing = [name for name in SIMULATORS if not installed(name)]
     if missing:
         pytest.skip(f"needs {', '.join(missing)}")
 
 
 @pytest.mark.usefixtures("every_engine")
-def test_a_drawer_stuck_in_its_own_carcass(tmp_path: Path) -> None:
+def test_a_drawer_stuck_in_its_own_carcass(tmp_path):
     path = slider(tmp_path, ((0, 0.3, 0), (0.4, 0.1, 0.4)), ((0, 0.16, 0), (0.4, 0.2, 0.4)), 0.3)
     report = run_checks(path, ALL)
     (found,) = report.disagreements
@@ -287,7 +271,7 @@ def test_a_drawer_stuck_in_its_own_carcass(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("every_engine")
-def test_a_button_a_millimetre_before_its_panel(tmp_path: Path) -> None:
+def test_a_button_a_millimetre_before_its_panel(tmp_path):
     path = slider(tmp_path, ((0.1, 0, 0), (0.1, 0.2, 0.2)), ((0.171, 0, 0), (0.04, 0.2, 0.2)), 0.02)
     (found,) = run_checks(path, ALL).disagreements
     assert (found.question, found.verdicts["pybullet"]) == ("rests", "pushed_at_rest")

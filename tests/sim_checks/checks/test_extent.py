@@ -1,9 +1,6 @@
 """A file beyond the bounds of work is not judged, says what was not looked at, and never passes."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from box_world import cabinet, write_urdf
@@ -29,7 +26,7 @@ SLIDE = (
     ("bounds", "counted"),
     [({"hulls": 24}, "25 collision shapes"), ({"moved_links": 23}, "move 24 links")],
 )
-def test_a_file_beyond_a_bound_is_not_looked_at(bounds: dict[str, int], counted: str) -> None:
+def test_a_file_beyond_a_bound_is_not_looked_at(bounds, counted):
     keys = keyboard(24)
     assert oversized(keys, PLENTY) is None
     found = oversized(keys, replace(PLENTY, **bounds))
@@ -38,14 +35,14 @@ def test_a_file_beyond_a_bound_is_not_looked_at(bounds: dict[str, int], counted:
     assert Report("keys.urdf", findings=(found,)).status is Status.UNJUDGED
 
 
-def test_a_chain_moves_half_the_square_of_its_links() -> None:
+def test_a_chain_moves_half_the_square_of_its_links():
     links = 20
     moved = links * (links - 1) // 2
     assert oversized(chain(links), replace(PLENTY, moved_links=moved)) is None
     assert oversized(chain(links), replace(PLENTY, moved_links=moved - 1)) is not None
 
 
-def test_too_many_looks_are_no_verdict() -> None:
+def test_too_many_looks_are_no_verdict():
     description = cabinet()
     judged = check_penetration(description, PenetrationConfig())
     assert not judged.findings
@@ -54,7 +51,7 @@ def test_too_many_looks_are_no_verdict() -> None:
     assert (found.value, found.limit) == (4, 3)
 
 
-def test_a_simulator_is_not_asked_for_more_than_it_can_drive() -> None:
+def test_a_simulator_is_not_asked_for_more_than_it_can_drive():
     description = keyboard(24)
     work = 24 * 25
     assert undriven(description, "mujoco", replace(PLENTY, driven_links=work)) is None
@@ -63,7 +60,7 @@ def test_a_simulator_is_not_asked_for_more_than_it_can_drive() -> None:
     assert (found.code, found.simulator) == ("too_large_to_judge", "mujoco")
 
 
-def test_what_is_too_large_never_passes(tmp_path: Path) -> None:
+def test_what_is_too_large_never_passes(tmp_path):
     path = write_urdf(
         tmp_path, {name: ((x, 0.0, 0.1), (0.2, 0.2, 0.2)) for x, name in BOXES}, SLIDE
     )

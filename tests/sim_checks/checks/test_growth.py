@@ -1,28 +1,21 @@
 """What the static checks do grows with the pairs that can meet, not with all pairs."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-
 import pytest
 from many_joints import chain, keyboard
 
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.checks.standing import check_standing
 from asset_factory.sim_checks.config import PenetrationConfig, StandingConfig
-from asset_factory.sim_checks.description import Description
 from asset_factory.sim_checks.geometry import kinematics
 from asset_factory.sim_checks.geometry.collision import Collider
 from asset_factory.sim_checks.geometry.path import Orbit
 
 
-def counted(
-    monkeypatch: pytest.MonkeyPatch, owner: object, name: str, work: Callable[[], object]
-) -> int:
+def counted(monkeypatch, owner, name, work):
     calls = 0
     original = getattr(owner, name)
 
-    def call(*args: object, **named: object) -> object:
+    def call(*args, **named):
         nonlocal calls
         calls += 1
         return original(*args, **named)
@@ -38,15 +31,10 @@ def counted(
     ("owner", "name"),
     [(Collider, "stand"), (Orbit, "swept_bounds"), (kinematics, "joint_motion")],
 )
-def test_twice_the_links_take_twice_the_work(
-    make: Callable[[int], Description],
-    owner: object,
-    name: str,
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_twice_the_links_take_twice_the_work(make, owner, name, monkeypatch):
     config = PenetrationConfig(combinations=0)
 
-    def work(description: Description) -> int:
+    def work(description):
         return counted(monkeypatch, owner, name, lambda: check_penetration(description, config))
 
     small = work(make(12))
@@ -54,8 +42,8 @@ def test_twice_the_links_take_twice_the_work(
     assert work(make(24)) <= 2.5 * small
 
 
-def test_standing_poses_only_what_a_joint_moves(monkeypatch: pytest.MonkeyPatch) -> None:
-    def work(description: Description) -> int:
+def test_standing_poses_only_what_a_joint_moves(monkeypatch):
+    def work(description):
         return counted(
             monkeypatch,
             kinematics,

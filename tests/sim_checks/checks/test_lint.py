@@ -1,7 +1,5 @@
 """The static lint where the fault corpus, one broken thing for each code, does not look."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -20,40 +18,36 @@ HARD = Severity.HARD
 SOFT = Severity.SOFT
 
 
-def found(description: Description) -> dict[str, Severity]:
+def found(description):
     return {
         finding.code: finding.severity for finding in check_lint(description, LintConfig()).findings
     }
 
 
-def inertia(
-    mass: float = 2.0, moments: tuple[float, float, float] = (0.01, 0.01, 0.01), at: float = -0.2
-) -> Break:
+def inertia(mass=2.0, moments=(0.01, 0.01, 0.01), at=-0.2):
     value = LinkInertia(mass, np.array([0.0, at, 0.2]), np.diag(moments))
     return lambda item: with_link(item, "drawer", inertia=value)
 
 
-def drawer_collisions(
-    change: Callable[[tuple[DescribedShape, ...]], tuple[DescribedShape, ...]],
-) -> Break:
-    def broken(item: Description) -> Description:
+def drawer_collisions(change):
+    def broken(item):
         shapes = next(link for link in item.links if link.name == "drawer").collisions
         return with_link(item, "drawer", collisions=change(shapes))
 
     return broken
 
 
-def hollow(shapes: tuple[DescribedShape, ...]) -> tuple[DescribedShape, ...]:
+def hollow(shapes):
     vertices = np.vstack([shape.vertices for shape in shapes])
     faces = np.vstack([shape.faces + 8 * i for i, shape in enumerate(shapes)])
     return (DescribedShape("drawer.obj", "mesh", vertices, faces),)
 
 
-def scaled(shape: DescribedShape, factor: float) -> DescribedShape:
+def scaled(shape, factor):
     return replace(shape, vertices=shape.vertices * factor)
 
 
-def fine_ball(corners: int) -> DescribedShape:
+def fine_ball(corners):
     """A ball of radius 1 around the origin, as many corners spread evenly."""
     index = np.arange(corners) + 0.5
     height = 1.0 - 2.0 * index / corners
@@ -63,7 +57,7 @@ def fine_ball(corners: int) -> DescribedShape:
     return DescribedShape("ball", "mesh", points, ConvexHull(points).simplices.astype(np.int64))
 
 
-def test_a_sound_cabinet_has_no_findings() -> None:
+def test_a_sound_cabinet_has_no_findings():
     assert found(cabinet()) == {}
 
 
@@ -90,13 +84,11 @@ def test_a_sound_cabinet_has_no_findings() -> None:
         ),
     ],
 )
-def test_numbers_at_the_end_of_their_range_have_a_code_too(
-    broken: Break, code: str, severity: Severity
-) -> None:
+def test_numbers_at_the_end_of_their_range_have_a_code_too(broken, code, severity):
     assert found(broken(cabinet())).get(code) is severity
 
 
-def wedge(start: float, end: float) -> DescribedShape:
+def wedge(start, end):
     """A panel of 600 x 6 x 400 mm, thinner from one x to another [m], an edge there."""
     shape = box_shape((0.0, 0.0, 0.0), (0.6, 0.006, 0.4))
     far = shape.vertices[:, 0] > 0.0
@@ -110,9 +102,7 @@ def wedge(start: float, end: float) -> DescribedShape:
     [([(-0.3, 0.0)], 0.5167), ([(-0.3, 0.0), (0.3, 0.0)], 1.0), ([(-0.3, 0.3)], 1.0)],
     ids=["half of it", "two that meet", "all of it"],
 )
-def test_what_lies_beyond_a_knife_s_edge_is_not_covered(
-    wedges: list[tuple[float, float]], covered: float
-) -> None:
+def test_what_lies_beyond_a_knife_s_edge_is_not_covered(wedges, covered):
     panel = body("panel", [((0.0, 0.0, 0.0), (0.6, 0.006, 0.4))])
     panel = replace(panel, collisions=tuple(wedge(*ends) for ends in wedges))
     result = check_lint(described([panel], []), LintConfig())
@@ -122,13 +112,13 @@ def test_what_lies_beyond_a_knife_s_edge_is_not_covered(
     assert codes == ({"collision_gap"} if covered < 0.9 else set())
 
 
-def test_the_ratio_of_hull_to_mesh_volume_is_told() -> None:
+def test_the_ratio_of_hull_to_mesh_volume_is_told():
     result = check_lint(drawer_collisions(hollow)(cabinet()), LintConfig())
     finding = next(item for item in result.findings if item.code == "nonconvex_collision")
     assert finding.value == pytest.approx(4.5, abs=1.5)
 
 
-def test_a_file_without_any_collision_is_told_once() -> None:
+def test_a_file_without_any_collision_is_told_once():
     description = cabinet()
     for name in ("carcass", "drawer", "door"):
         description = with_link(description, name, collisions=())
@@ -141,7 +131,7 @@ def test_a_file_without_any_collision_is_told_once() -> None:
     assert findings[0].parts == ()
 
 
-def test_a_free_root_is_no_fault_but_a_free_limb_is() -> None:
+def test_a_free_root_is_no_fault_but_a_free_limb_is():
     cubes = [body(name, [((0, 0, 0), (0.1, 0.1, 0.1))]) for name in ("world", "body", "limb")]
     free = joint("free", "floating", "world", "body", (0, 0, 0), (1, 0, 0), None)
     assert found(described(cubes[:2], [free]))["unknown_joint_type"] is SOFT
@@ -155,9 +145,7 @@ def test_a_free_root_is_no_fault_but_a_free_limb_is() -> None:
 @pytest.mark.parametrize(
     ("factor", "code"), [(0.2, None), (0.09, "collision_scale"), (11.0, "collision_scale")]
 )
-def test_only_a_collision_shape_of_another_scale_is_another_s(
-    factor: float, code: str | None
-) -> None:
+def test_only_a_collision_shape_of_another_scale_is_another_s(factor, code):
     description = drawer_collisions(lambda s: tuple(scaled(x, factor) for x in s))(cabinet())
     finding = next(
         (x for x in check_lint(description, LintConfig()).findings if x.code == "collision_scale"),
@@ -167,7 +155,7 @@ def test_only_a_collision_shape_of_another_scale_is_another_s(
     assert finding is None or finding.value == pytest.approx(factor, rel=1e-3)
 
 
-def test_every_number_told_of_a_link_shrunk_to_nothing_can_be_written() -> None:
+def test_every_number_told_of_a_link_shrunk_to_nothing_can_be_written():
     description = drawer_collisions(lambda s: tuple(scaled(x, 1e-200) for x in s))(cabinet())
     result = check_lint(inertia(mass=1e-300, moments=(1e-5, 1e-5, 1e-5))(description), LintConfig())
     text = Report("x", (), result.findings, result.measurements).to_json()

@@ -1,7 +1,5 @@
 """From which degree on masses, centres of mass and missing inertias reject."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -10,8 +8,7 @@ from box_world import body, box_shape, described, joint, with_link
 
 from asset_factory.sim_checks.checks.lint import check_lint
 from asset_factory.sim_checks.config import LintConfig
-from asset_factory.sim_checks.description import Description, Link, LinkInertia
-from asset_factory.sim_checks.report import Finding
+from asset_factory.sim_checks.description import Link, LinkInertia
 
 #: A block of 0.3 x 0.4 x 1.2 m: 144 litres, diagonal 1.3 m.
 SIZE = (0.3, 0.4, 1.2)
@@ -19,13 +16,13 @@ LITRES = 144.0
 DIAGONAL = 1.3
 
 
-def block(mass: float = 50.0, center: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Link:
+def block(mass=50.0, center=(0.0, 0.0, 0.0)):
     tensor = mass * np.diag([1.6, 1.53, 0.25]) / 12.0
     inertia = LinkInertia(mass, np.array(center), tensor)
     return replace(body("block", [((0.0, 0.0, 0.0), SIZE)]), inertia=inertia)
 
 
-def thing(moved: Link, *more: Link, kind: str = "prismatic") -> Description:
+def thing(moved, *more, kind="prismatic"):
     """A post, what slides on it, and what is fixed to that."""
     links = [body("post", [((0.0, -1.0, 0.0), (0.5,) * 3)]), moved, *more]
     joints = [joint("slide", kind, "post", moved.name, (0.0,) * 3, (1, 0, 0), (0.0, 0.3))]
@@ -36,11 +33,11 @@ def thing(moved: Link, *more: Link, kind: str = "prismatic") -> Description:
     return described(links, joints)
 
 
-def told(description: Description, code: str) -> list[Finding]:
+def told(description, code):
     return [item for item in check_lint(description, LintConfig()).findings if item.code == code]
 
 
-def severities(description: Description, code: str) -> list[str]:
+def severities(description, code):
     return [str(item.severity) for item in told(description, code)]
 
 
@@ -48,14 +45,12 @@ def severities(description: Description, code: str) -> list[str]:
     ("outside", "severity"),
     [(0.0, []), (0.049, []), (0.051, ["soft"]), (0.099, ["soft"]), (0.101, ["hard"])],
 )
-def test_a_centre_of_mass_counts_by_the_share_of_the_diagonal(
-    outside: float, severity: list[str]
-) -> None:
+def test_a_centre_of_mass_counts_by_the_share_of_the_diagonal(outside, severity):
     moved = block(center=(0.15 + outside * DIAGONAL, 0.0, 0.0))
     assert severities(thing(moved), "center_outside") == severity
 
 
-def test_of_a_thing_of_centimetres_ten_millimetres_are_a_warning() -> None:
+def test_of_a_thing_of_centimetres_ten_millimetres_are_a_warning():
     small = body("block", [((0.0, 0.0, 0.0), (0.03, 0.03, 0.03))])
     assert small.inertia is not None
     for outside, severity in ((0.009, "soft"), (0.011, "hard")):
@@ -64,7 +59,7 @@ def test_of_a_thing_of_centimetres_ten_millimetres_are_a_warning() -> None:
         assert severities(thing(moved), "center_outside") == [severity]
 
 
-def test_a_centre_within_what_is_only_visible_is_inside() -> None:
+def test_a_centre_within_what_is_only_visible_is_inside():
     moved = block(center=(0.5, 0.0, 0.0))
     leg = box_shape((0.5, 0.0, 0.0), (0.8, 0.1, 0.1))
     assert severities(thing(moved), "center_outside") == ["hard"]
@@ -84,13 +79,13 @@ def test_a_centre_within_what_is_only_visible_is_inside() -> None:
         (103000.0, ["hard"]),
     ],
 )
-def test_a_density_rejects_beyond_the_densest_material(density: float, severity: list[str]) -> None:
+def test_a_density_rejects_beyond_the_densest_material(density, severity):
     found = told(thing(block(density * LITRES / 1000.0)), "density_implausible")
     assert [str(item.severity) for item in found] == severity
     assert [item.value for item in found] == pytest.approx([density] * len(severity), rel=1e-3)
 
 
-def test_hulls_cut_back_from_a_heavy_thing_do_not_condemn_it() -> None:
+def test_hulls_cut_back_from_a_heavy_thing_do_not_condemn_it():
     """720 kg of steel in 144 visible litres: 5,000 kg/m3, but 40,000 in an eighth of them."""
     moved = block(720.0)
     cut = replace(moved, collisions=(box_shape((0, 0, 0), (0.15, 0.2, 0.6)),))
@@ -99,7 +94,7 @@ def test_hulls_cut_back_from_a_heavy_thing_do_not_condemn_it() -> None:
     assert severities(thing(heavier), "density_implausible") == ["hard"]
 
 
-def test_sheet_metal_without_thickness_is_no_impossible_density() -> None:
+def test_sheet_metal_without_thickness_is_no_impossible_density():
     """A square metre of 1 mm steel weighs 7.8 kg; its hull here is a tenth of that thick."""
     sheet = box_shape((0.0, 0.0, 0.0), (1.0, 1.0, 1e-4))
     inertia = LinkInertia(7.8, np.zeros(3), np.diag([0.65, 0.65, 1.29]))
@@ -107,26 +102,26 @@ def test_sheet_metal_without_thickness_is_no_impossible_density() -> None:
     assert severities(thing(moved), "density_implausible") == ["soft"]
 
 
-def test_what_moves_must_state_its_inertia() -> None:
+def test_what_moves_must_state_its_inertia():
     bare = replace(block(), inertia=None)
     assert severities(thing(bare), "missing_inertia") == ["hard"]
     assert severities(thing(bare, kind="fixed"), "missing_inertia") == ["soft"]
     assert severities(replace(thing(bare), format="mjcf"), "missing_inertia") == []
 
 
-def test_every_solid_link_of_a_moving_part_must_but_not_a_bare_frame() -> None:
+def test_every_solid_link_of_a_moving_part_must_but_not_a_bare_frame():
     handle = replace(body("handle", [((0.0, 0.3, 0.0), (0.1,) * 3)]), inertia=None)
     frame = Link("frame", None, (), ())
     found = told(thing(block(), handle, frame), "missing_inertia")
     assert [(item.parts, str(item.severity)) for item in found] == [(("handle",), "hard")]
 
 
-def test_a_bare_frame_that_moves_by_itself_must_too() -> None:
+def test_a_bare_frame_that_moves_by_itself_must_too():
     frame = Link("frame", None, (), ())
     found = told(thing(frame), "missing_inertia")
     assert [(item.parts, str(item.severity)) for item in found] == [(("frame",), "hard")]
 
 
-def test_without_a_tree_nobody_knows_what_moves() -> None:
+def test_without_a_tree_nobody_knows_what_moves():
     torn = replace(thing(block()), joints=())
     assert severities(with_link(torn, "block", inertia=None), "missing_inertia") == ["soft"]

@@ -1,9 +1,6 @@
 """What is hollow must stay hollow: the free inside of a link that its collision shapes leave."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,7 +13,7 @@ from hypothesis import strategies as st
 
 from asset_factory.sim_checks.checks.lint_interior import interior_findings
 from asset_factory.sim_checks.config import LintConfig
-from asset_factory.sim_checks.description import DescribedShape, FloatArray, Link
+from asset_factory.sim_checks.description import DescribedShape, Link
 from asset_factory.sim_checks.geometry.hull import convex_hull
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
 from asset_factory.sim_checks.read.primitives import cylinder
@@ -48,29 +45,29 @@ DRAWER = (
 )
 
 
-def seen_and_touched(seen: object, touched: object) -> Link:
-    visuals, collisions = (body("part", boxes).visuals for boxes in (seen, touched))  # type: ignore[arg-type]
+def seen_and_touched(seen, touched):
+    visuals, collisions = (body("part", boxes).visuals for boxes in (seen, touched))
     return Link("part", None, collisions, as_meshes(visuals))
 
 
-def as_meshes(shapes: tuple[DescribedShape, ...]) -> tuple[DescribedShape, ...]:
+def as_meshes(shapes):
     return tuple(replace(shape, kind="mesh") for shape in shapes)
 
 
-def told(link: Link, down: FloatArray = DOWN) -> tuple[list[Severity], dict[str, float | None]]:
+def told(link, down=DOWN):
     hulls = [convex_hull(shape.vertices) for shape in link.collisions]
     findings, numbers = interior_findings(link, hulls, down, LintConfig())
     assert {finding.code for finding in findings} <= {"interior_filled"}
     return [finding.severity for finding in findings], numbers
 
 
-def test_boards_as_hulls_leave_the_whole_inside_free() -> None:
+def test_boards_as_hulls_leave_the_whole_inside_free():
     severities, numbers = told(seen_and_touched(BOARDS, BOARDS))
     assert severities == []
     assert numbers == {"interior_kept": 1.0, "pocket_kept": 1.0}
 
 
-def test_one_hull_over_the_whole_carcass_leaves_nothing() -> None:
+def test_one_hull_over_the_whole_carcass_leaves_nothing():
     severities, numbers = told(seen_and_touched(BOARDS, SOLID))
     assert severities == [Severity.HARD]
     assert numbers == {"interior_kept": 0.0, "pocket_kept": 0.0}
@@ -78,7 +75,7 @@ def test_one_hull_over_the_whole_carcass_leaves_nothing() -> None:
 
 @given(share=st.floats(0.0, 1.0))
 @settings(max_examples=15, deadline=None)
-def test_the_share_kept_is_the_share_of_the_height_left_free(share: float) -> None:
+def test_the_share_kept_is_the_share_of_the_height_left_free(share):
     block = ((0.0, 0.0, 0.8 * share / 2), (0.6, 0.4, max(0.8 * share, 0.01)))
     severities, numbers = told(seen_and_touched(BOARDS, (*BOARDS, block)))
     # Of the inside, 18 mm to 782 mm high, less a voxel or two along the boards.
@@ -87,21 +84,21 @@ def test_the_share_kept_is_the_share_of_the_height_left_free(share: float) -> No
     assert (severities == [Severity.HARD]) == (numbers["pocket_kept"] < 0.5)
 
 
-def test_a_table_is_no_container_so_its_filled_underside_is_only_reported() -> None:
+def test_a_table_is_no_container_so_its_filled_underside_is_only_reported():
     severities, numbers = told(seen_and_touched(TABLE, (((0.0, 0.0, 0.36), (1.2, 0.8, 0.71)),)))
     assert severities == [Severity.SOFT]
     assert numbers == {"interior_kept": 0.0, "pocket_kept": None}
 
 
 @pytest.mark.parametrize("boxes", [SOLID, (((0.0, 0.0, 0.0), (0.01, 0.02, 0.03)),)])
-def test_a_solid_has_no_inside(boxes: object) -> None:
+def test_a_solid_has_no_inside(boxes):
     assert told(seen_and_touched(boxes, boxes)) == (
         [],
         {"interior_kept": None, "pocket_kept": None},
     )
 
 
-def test_the_gap_behind_a_handle_is_not_worth_a_word() -> None:
+def test_the_gap_behind_a_handle_is_not_worth_a_word():
     door = (((0.0, 0.0, 0.4), (0.6, T, 0.8)),)
     handle = (((0.2, -0.04, 0.3), (0.02, 0.06, 0.02)), ((0.2, -0.04, 0.5), (0.02, 0.06, 0.02)))
     grip = (((0.2, -0.065, 0.4), (0.02, 0.02, 0.22)),)
@@ -111,7 +108,7 @@ def test_the_gap_behind_a_handle_is_not_worth_a_word() -> None:
     assert numbers["pocket_kept"] is None
 
 
-def test_a_closed_box_has_an_inside_that_nobody_reaches() -> None:
+def test_a_closed_box_has_an_inside_that_nobody_reaches():
     closed = (*BOARDS, ((0.0, -0.191, 0.4), (0.564, T, 0.764)))
     assert told(seen_and_touched(closed, SOLID)) == (
         [],
@@ -119,7 +116,7 @@ def test_a_closed_box_has_an_inside_that_nobody_reaches() -> None:
     )
 
 
-def test_a_slot_too_narrow_for_a_hand_is_no_pocket() -> None:
+def test_a_slot_too_narrow_for_a_hand_is_no_pocket():
     small = tuple((np.multiply(center, 0.06), np.multiply(size, 0.06)) for center, size in DRAWER)
     severities, numbers = told(
         seen_and_touched(small, (((0.0, 0.0, 0.006), (0.024, 0.024, 0.012)),))
@@ -128,13 +125,13 @@ def test_a_slot_too_narrow_for_a_hand_is_no_pocket() -> None:
     assert numbers["pocket_kept"] is None
 
 
-def test_a_cap_open_below_is_no_pocket_but_the_same_as_a_drawer_is() -> None:
+def test_a_cap_open_below_is_no_pocket_but_the_same_as_a_drawer_is():
     filled = seen_and_touched(DRAWER, (((0.0, 0.0, 0.1), (0.418, 0.418, 0.2)),))
     assert told(filled, DOWN)[0] == [Severity.HARD]
     assert told(filled, -DOWN)[0] == [Severity.SOFT]
 
 
-def test_thin_sheets_do_not_leak_whatever_their_direction() -> None:
+def test_thin_sheets_do_not_leak_whatever_their_direction():
     turn = rotation_about(np.array([0.36, 0.48, 0.8]), 0.7)
     vertices, faces = cylinder(0.3, 0.6)
     tube = DescribedShape("tube", "mesh", vertices @ turn.T, faces)
@@ -142,14 +139,14 @@ def test_thin_sheets_do_not_leak_whatever_their_direction() -> None:
     assert told(link) == ([], {"interior_kept": None, "pocket_kept": None})
 
 
-def test_shapes_that_are_seen_as_they_are_touched_need_no_look() -> None:
+def test_shapes_that_are_seen_as_they_are_touched_need_no_look():
     link = body("part", BOARDS)
     assert told(link) == ([], {"interior_kept": None, "pocket_kept": None})
     mirrored = replace(link, visuals=(*link.visuals, box_shape((0, -0.19, 0.4), (0.5, 0.01, 0.1))))
     assert told(mirrored)[1]["interior_kept"] == 1.0
 
 
-def test_a_dense_round_mesh_costs_no_more_memory_than_its_points() -> None:
+def test_a_dense_round_mesh_costs_no_more_memory_than_its_points():
     ball = trimesh.creation.icosphere(subdivisions=6, radius=0.3)
     shape = DescribedShape(
         "ball", "mesh", np.array(ball.vertices), np.array(ball.faces, dtype=np.int64)
@@ -167,7 +164,7 @@ def test_a_dense_round_mesh_costs_no_more_memory_than_its_points() -> None:
     assert numbers["pocket_kept"] == 0.0
 
 
-def bowl(radius: float) -> tuple[FloatArray, ...]:
+def bowl(radius):
     """Staves around a floor, [m]."""
     turns = np.linspace(0.0, 2.0 * np.pi, 13)
     rings = [
@@ -195,9 +192,7 @@ def bowl(radius: float) -> tuple[FloatArray, ...]:
     ],
 )
 @pytest.mark.parametrize("share", [0.5, 0.7])
-def test_both_formats_of_an_asset_leave_the_same_share_free(
-    looks: tuple[FloatArray, ...], share: float, tmp_path: Path
-) -> None:
+def test_both_formats_of_an_asset_leave_the_same_share_free(looks, share, tmp_path):
     low, high = np.min(looks, axis=(0, 1)), np.max(looks, axis=(0, 1))
     size = (high - low) * [1.0, 1.0, share]
     block = box(low + size / 2.0, size)
@@ -212,7 +207,7 @@ def test_both_formats_of_an_asset_leave_the_same_share_free(
     assert mjcf == pytest.approx(urdf, abs=5e-4)
 
 
-def test_corners_that_a_format_repeats_change_nothing() -> None:
+def test_corners_that_a_format_repeats_change_nothing():
     # So many posts under a dome that their outline is thinned where each triangle has its own.
     places = 0.05 * (np.arange(11.0) - 5.0)
     heights = 0.3 - 0.3 * np.add.outer(places**2, places**2)

@@ -1,7 +1,5 @@
 """Ranges, axes and drives of a size that no such object has."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -10,17 +8,16 @@ from box_world import body, cabinet, described, joint, with_joint
 
 from asset_factory.sim_checks.checks.lint import check_lint
 from asset_factory.sim_checks.config import LintConfig
-from asset_factory.sim_checks.description import Description
-from asset_factory.sim_checks.report import Finding, Report, Severity
+from asset_factory.sim_checks.report import Report, Severity
 
 
-def finding(description: Description, code: str) -> Finding | None:
+def finding(description, code):
     return next(
         (item for item in check_lint(description, LintConfig()).findings if item.code == code), None
     )
 
 
-def hinged(distance: float, rest: float = 0.0) -> Description:
+def hinged(distance, rest=0.0):
     """A 0.4 x 0.3 x 0.02 m flap beside a cube, hinged at its edge or ``distance`` [m] off both."""
     links = [
         body("base", [((0.3 - rest, 0.0, 0.0), (0.2, 0.2, 0.2))]),
@@ -37,19 +34,19 @@ def hinged(distance: float, rest: float = 0.0) -> Description:
     [(3.0, ""), (300.0, "millimetres"), (1e9, ""), (1e308, "")],
     ids=["3 m", "300 m", "far", "off"],
 )
-def test_a_drawer_that_leaves_for_good_is_refused(upper: float, reason: str) -> None:
+def test_a_drawer_that_leaves_for_good_is_refused(upper, reason):
     found = finding(with_joint(cabinet(), "slide", upper=upper), "range_implausible")
     assert found is not None
     assert (found.severity, found.joint, found.value) == (Severity.HARD, "slide", upper)
     assert ("millimetres" in found.message) == bool(reason)
 
 
-def test_limits_whose_difference_is_no_number_can_be_told() -> None:
+def test_limits_whose_difference_is_no_number_can_be_told():
     result = check_lint(with_joint(cabinet(), "slide", lower=-1e308, upper=1e308), LintConfig())
     assert "range_implausible" in Report("x", (), result.findings).to_json()
 
 
-def test_the_longest_fair_slide_is_two_diagonals() -> None:
+def test_the_longest_fair_slide_is_two_diagonals():
     diagonal = float(np.linalg.norm([0.6, 0.422, 0.8]))
     assert (
         finding(with_joint(cabinet(), "slide", upper=1.98 * diagonal), "range_implausible") is None
@@ -61,14 +58,14 @@ def test_the_longest_fair_slide_is_two_diagonals() -> None:
 
 
 @pytest.mark.parametrize(("upper", "reason"), [(90.0, "degrees"), (1e6, "")])
-def test_a_door_that_turns_and_turns_is_refused(upper: float, reason: str) -> None:
+def test_a_door_that_turns_and_turns_is_refused(upper, reason):
     found = finding(with_joint(cabinet(), "hinge", upper=upper), "range_implausible")
     assert found is not None
     assert found.limit == pytest.approx(4.0 * math.pi, rel=1e-5)
     assert ("degrees" in found.message) == bool(reason)
 
 
-def test_a_tap_of_two_turns_and_a_wheel_without_end_are_fair() -> None:
+def test_a_tap_of_two_turns_and_a_wheel_without_end_are_fair():
     assert finding(with_joint(cabinet(), "hinge", upper=4.0 * math.pi), "range_implausible") is None
     endless = with_joint(cabinet(), "hinge", kind="continuous", lower=None, upper=None)
     assert finding(endless, "range_implausible") is None
@@ -83,7 +80,7 @@ def test_a_tap_of_two_turns_and_a_wheel_without_end_are_fair() -> None:
         ("hinge", 0.01, False),
     ],
 )
-def test_a_range_that_opens_nothing_is_told(name: str, upper: float, tiny: bool) -> None:
+def test_a_range_that_opens_nothing_is_told(name, upper, tiny):
     found = finding(with_joint(cabinet(), name, upper=upper), "range_tiny")
     assert (found is not None) == tiny
     assert found is None or found.severity is Severity.SOFT
@@ -91,14 +88,14 @@ def test_a_range_that_opens_nothing_is_told(name: str, upper: float, tiny: bool)
 
 @pytest.mark.parametrize("number", [0.0, -1.0, float("nan")])
 @pytest.mark.parametrize("word", ["effort", "velocity"])
-def test_a_drive_that_cannot_drive_is_told(word: str, number: float) -> None:
+def test_a_drive_that_cannot_drive_is_told(word, number):
     found = finding(with_joint(cabinet(), "slide", **{word: number}), "invalid_effort")
     assert found is not None
     assert (found.severity, found.joint) == (Severity.SOFT, "slide")
     assert word in found.message
 
 
-def test_a_drive_that_drives_is_fair() -> None:
+def test_a_drive_that_drives_is_fair():
     assert (
         finding(with_joint(cabinet(), "slide", effort=50.0, velocity=2.0), "invalid_effort") is None
     )
@@ -108,16 +105,14 @@ def test_a_drive_that_drives_is_fair() -> None:
     ("distance", "severity"),
     [(0.0, None), (0.45, None), (0.55, Severity.SOFT), (1.1, Severity.HARD)],
 )
-def test_a_hinge_axis_far_from_everything_is_told(
-    distance: float, severity: Severity | None
-) -> None:
+def test_a_hinge_axis_far_from_everything_is_told(distance, severity):
     """The flap is 0.5 m across, the axis lies as far beyond it as told; the cube is farther."""
     found = finding(hinged(distance), "axis_remote")
     assert (found and found.severity) == severity
     assert found is None or found.value == pytest.approx(distance, rel=0.02)
 
 
-def test_a_long_arm_from_a_hinge_on_the_base_is_fair() -> None:
+def test_a_long_arm_from_a_hinge_on_the_base_is_fair():
     links = [
         body("base", [((0, 0, 0), (0.2, 0.2, 0.2))]),
         body("tip", [((3.0, 0.0, 0.0), (0.1, 0.1, 0.1))]),
@@ -126,11 +121,11 @@ def test_a_long_arm_from_a_hinge_on_the_base_is_fair() -> None:
     assert finding(described(links, [hinge]), "axis_remote") is None
 
 
-def test_a_slide_has_no_axis_that_could_be_far() -> None:
+def test_a_slide_has_no_axis_that_could_be_far():
     assert finding(with_joint(hinged(2.0), "hinge", kind="prismatic"), "axis_remote") is None
 
 
-def lamp(gap: float) -> Description:
+def lamp(gap):
     """A 0.2 m cube that turns on the spot, ``gap`` [m] beside a 0.4 x 0.3 x 0.02 m shelf."""
     links = [
         body("shelf", [((-0.2, 0.0, 0.0), (0.4, 0.3, 0.02))]),
@@ -142,7 +137,7 @@ def lamp(gap: float) -> Description:
 
 
 @pytest.mark.parametrize(("gap", "told"), [(0.0, False), (0.49, False), (0.51, True), (30.0, True)])
-def test_a_part_further_off_than_the_larger_is_across_is_no_part(gap: float, told: bool) -> None:
+def test_a_part_further_off_than_the_larger_is_across_is_no_part(gap, told):
     found = finding(lamp(gap), "part_remote")
     assert (found is not None) is told
     if found is not None:

@@ -1,7 +1,5 @@
 """Joints that no hand opens, and damping that no explicit engine survives."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest
@@ -9,19 +7,18 @@ from box_world import body, described, joint
 
 from asset_factory.sim_checks.checks.lint import check_lint
 from asset_factory.sim_checks.config import LintConfig
-from asset_factory.sim_checks.description import Description
-from asset_factory.sim_checks.report import Finding, Severity
+from asset_factory.sim_checks.report import Severity
 
 REACH = 0.5
 
 
-def finding(description: Description, code: str) -> Finding | None:
+def finding(description, code):
     return next(
         (item for item in check_lint(description, LintConfig()).findings if item.code == code), None
     )
 
 
-def door(friction: float = 0.0, damping: float = 0.0) -> Description:
+def door(friction=0.0, damping=0.0):
     """A thin door 0.5 m wide that turns by 1.5 rad, hinged at its edge."""
     links = [
         body("frame", [((-0.1, 0.0, 0.0), (0.1, 0.1, 1.0))]),
@@ -34,9 +31,7 @@ def door(friction: float = 0.0, damping: float = 0.0) -> Description:
 @pytest.mark.parametrize(
     ("force", "severity"), [(29.0, None), (31.0, Severity.SOFT), (101.0, Severity.HARD)]
 )
-def test_friction_counts_as_the_pull_at_the_far_edge(
-    force: float, severity: Severity | None
-) -> None:
+def test_friction_counts_as_the_pull_at_the_far_edge(force, severity):
     found = finding(door(friction=force * REACH), "friction_excessive")
     assert (None if found is None else found.severity) == severity
     if found is not None:
@@ -46,14 +41,12 @@ def test_friction_counts_as_the_pull_at_the_far_edge(
 @pytest.mark.parametrize(
     ("force", "severity"), [(29.0, None), (31.0, Severity.SOFT), (101.0, Severity.HARD)]
 )
-def test_damping_counts_as_the_pull_that_opens_it_in_three_seconds(
-    force: float, severity: Severity | None
-) -> None:
+def test_damping_counts_as_the_pull_that_opens_it_in_three_seconds(force, severity):
     found = finding(door(damping=force * REACH / 0.5), "damping_excessive")
     assert (None if found is None else found.severity) == severity
 
 
-def test_a_slide_needs_no_lever() -> None:
+def test_a_slide_needs_no_lever():
     links = [
         body("frame", [((0.0, 0.0, 0.0), (0.1,) * 3)]),
         body("drawer", [((0.0, 0.2, 0.0), (0.1,) * 3)]),
@@ -65,7 +58,7 @@ def test_a_slide_needs_no_lever() -> None:
 
 
 @pytest.mark.parametrize(("share", "told"), [(0.9, False), (1.1, True)])
-def test_damping_that_turns_the_speed_round_in_one_step_is_told(share: float, told: bool) -> None:
+def test_damping_that_turns_the_speed_round_in_one_step_is_told(share, told):
     thing = door()
     inertia = thing.links[1].inertia
     assert inertia is not None

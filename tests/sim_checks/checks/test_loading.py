@@ -1,9 +1,6 @@
 """Every difference between what the file says and what an engine holds has its own code."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,7 +11,7 @@ from asset_factory.sim_checks.checks import in_simulator
 from asset_factory.sim_checks.checks.agreement import pose_samples
 from asset_factory.sim_checks.checks.loading import check_loading
 from asset_factory.sim_checks.config import CheckConfig, ChildConfig
-from asset_factory.sim_checks.description import Description, LinkInertia, Mimic
+from asset_factory.sim_checks.description import LinkInertia, Mimic
 from asset_factory.sim_checks.geometry.kinematics import sound_mimics
 from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.report import UNJUDGED_CODES, Report, Severity
@@ -25,11 +22,11 @@ NAN = float("nan")
 
 
 @pytest.fixture
-def description(tmp_path: Path) -> Description:
+def description(tmp_path):
     return read_description(write_urdf(tmp_path))
 
 
-def test_a_faithful_engine_has_no_findings(description: Description) -> None:
+def test_a_faithful_engine_has_no_findings(description):
     assert found(description, faithful(description)) == []
 
 
@@ -43,18 +40,14 @@ def test_a_faithful_engine_has_no_findings(description: Description) -> None:
         ({"center": (0.0, 0.0, 0.0)}, "center_mismatch"),
     ],
 )
-def test_each_lie_about_a_link_is_named(
-    description: Description, changes: dict[str, object], code: str
-) -> None:
+def test_each_lie_about_a_link_is_named(description, changes, code):
     assert found(description, with_link(faithful(description), "drawer", **changes)) == [code]
 
 
 @pytest.mark.parametrize(
     ("held", "codes"), [(3, []), (2, ["shape_dropped"]), (1, ["shape_dropped"])]
 )
-def test_one_shape_of_many_that_is_dropped_is_named_too(
-    description: Description, held: int, codes: list[str]
-) -> None:
+def test_one_shape_of_many_that_is_dropped_is_named_too(description, held, codes):
     links = tuple(replace(link, collisions=3 * link.collisions) for link in description.links)
     threefold = replace(description, links=links)
     observation = with_link(faithful(threefold), "drawer", shapes=held)
@@ -73,13 +66,11 @@ def test_one_shape_of_many_that_is_dropped_is_named_too(
         ({"follows": "hinge"}, "mimic_mismatch"),
     ],
 )
-def test_each_lie_about_a_joint_is_named(
-    description: Description, changes: dict[str, object], code: str
-) -> None:
+def test_each_lie_about_a_joint_is_named(description, changes, code):
     assert found(description, with_joint(faithful(description), "slide", **changes)) == [code]
 
 
-def test_what_has_another_name_is_missing_and_too_much(description: Description) -> None:
+def test_what_has_another_name_is_missing_and_too_much(description):
     observation = faithful(description)
     assert found(description, with_link(observation, "drawer", name="other"))[:2] == [
         "link_missing",
@@ -91,9 +82,7 @@ def test_what_has_another_name_is_missing_and_too_much(description: Description)
     ]
 
 
-def test_an_axis_that_is_told_by_none_or_turned_by_rounding_is_no_lie(
-    description: Description,
-) -> None:
+def test_an_axis_that_is_told_by_none_or_turned_by_rounding_is_no_lie(description):
     observation = faithful(description)
     assert found(description, with_joint(observation, "slide", axis=None)) == []
     assert found(description, with_joint(observation, "slide", axis=(-1.0, 5e-5, 0.0))) == []
@@ -106,7 +95,7 @@ def test_an_axis_that_is_told_by_none_or_turned_by_rounding_is_no_lie(
     assert (finding.code, finding.value, finding.unit) == ("axis_mismatch", 180.0, "deg")
 
 
-def test_the_ground_is_no_link_too_many(description: Description) -> None:
+def test_the_ground_is_no_link_too_many(description):
     observation = faithful(description)
     ground = LoadedLink("world", 0.0, 0, None, static=True)
     with_ground = replace(
@@ -115,21 +104,19 @@ def test_the_ground_is_no_link_too_many(description: Description) -> None:
     assert found(description, with_ground) == []
 
 
-def test_the_mass_of_a_base_that_never_moves_is_compared_where_it_is_held(
-    description: Description,
-) -> None:
+def test_the_mass_of_a_base_that_never_moves_is_compared_where_it_is_held(description):
     lighter = with_link(faithful(description), "carcass", mass=1.0, static=True)
     (finding,) = check_loading(description, "engine", lighter, CheckConfig()).findings
     assert (finding.code, finding.severity) == ("mass_mismatch", Severity.SOFT)
 
 
-def test_single_precision_is_no_lie(description: Description) -> None:
+def test_single_precision_is_no_lie(description):
     observation = with_joint(faithful(description), "hinge", upper=float(np.float32(1.57)))
     observation = with_link(observation, "drawer", mass=float(np.float32(3.0)))
     assert found(description, observation) == []
 
 
-def test_a_static_link_s_mass_is_nobody_s_business(description: Description) -> None:
+def test_a_static_link_s_mass_is_nobody_s_business(description):
     assert (
         found(
             description,
@@ -140,9 +127,7 @@ def test_a_static_link_s_mass_is_nobody_s_business(description: Description) -> 
 
 
 @pytest.mark.parametrize(("offset", "expected"), [(9e-6, []), (1.1e-5, ["pose_mismatch"])])
-def test_a_link_a_hundredth_of_a_millimetre_off_is_seen(
-    description: Description, offset: float, expected: list[str]
-) -> None:
+def test_a_link_a_hundredth_of_a_millimetre_off_is_seen(description, offset, expected):
     observation = faithful(description)
     poses = {name: pose.copy() for name, pose in observation.poses[0].poses.items()}
     poses["door"][0, 3] += offset
@@ -150,7 +135,7 @@ def test_a_link_a_hundredth_of_a_millimetre_off_is_seen(
     assert found(description, moved) == expected
 
 
-def test_a_base_put_elsewhere_is_no_disagreement(description: Description) -> None:
+def test_a_base_put_elsewhere_is_no_disagreement(description):
     observation = faithful(description)
     shift = np.eye(4)
     shift[:3, 3] = (1.0, 2.0, 3.0)
@@ -172,9 +157,7 @@ def test_a_base_put_elsewhere_is_no_disagreement(description: Description) -> No
         ({"center": (0.0, NAN, 0.0)}, "center_mismatch"),
     ],
 )
-def test_what_an_engine_makes_no_number_of_is_a_lie_that_can_be_written(
-    description: Description, changes: dict[str, object], code: str
-) -> None:
+def test_what_an_engine_makes_no_number_of_is_a_lie_that_can_be_written(description, changes, code):
     result = check_loading(
         description, "engine", with_link(faithful(description), "drawer", **changes), CheckConfig()
     )
@@ -182,13 +165,13 @@ def test_what_an_engine_makes_no_number_of_is_a_lie_that_can_be_written(
     assert Report("x", ("engine",), result.findings, {"engine": result.measurements}).to_json()
 
 
-def test_a_limit_that_is_no_number_is_a_lie(description: Description) -> None:
+def test_a_limit_that_is_no_number_is_a_lie(description):
     assert found(description, with_joint(faithful(description), "slide", upper=NAN)) == [
         "limit_mismatch"
     ]
 
 
-def test_a_link_put_nowhere_is_a_lie_that_can_be_written(description: Description) -> None:
+def test_a_link_put_nowhere_is_a_lie_that_can_be_written(description):
     observation = faithful(description)
     for nowhere, lost in (("door", ["door"]), ("carcass", ["carcass", "drawer", "door"])):
         poses = {name: pose.copy() for name, pose in observation.poses[0].poses.items()}
@@ -211,9 +194,7 @@ def test_a_link_put_nowhere_is_a_lie_that_can_be_written(description: Descriptio
         LinkInertia(3.0, np.zeros(3), np.diag([1e300, 1.0, 1.0])),
     ],
 )
-def test_an_engine_is_not_held_to_numbers_that_are_none(
-    description: Description, inertia: LinkInertia
-) -> None:
+def test_an_engine_is_not_held_to_numbers_that_are_none(description, inertia):
     links = tuple(
         replace(x, inertia=inertia) if x.name == "drawer" else x for x in description.links
     )
@@ -223,9 +204,7 @@ def test_an_engine_is_not_held_to_numbers_that_are_none(
 @pytest.mark.parametrize(
     "mimic", [Mimic("hinge", float("inf")), Mimic("hinge", 1.0, NAN), Mimic("hinge", 1e300)]
 )
-def test_a_joint_that_follows_by_no_number_follows_nothing(
-    description: Description, mimic: Mimic
-) -> None:
+def test_a_joint_that_follows_by_no_number_follows_nothing(description, mimic):
     joints = tuple(replace(x, mimic=mimic) if x.name == "slide" else x for x in description.joints)
     broken = replace(description, joints=joints)
     assert sound_mimics(broken) == {}
@@ -234,22 +213,20 @@ def test_a_joint_that_follows_by_no_number_follows_nothing(
 
 
 @pytest.mark.parametrize("upper", [NAN, float("inf"), 1e308])
-def test_poses_are_compared_where_there_are_any(description: Description, upper: float) -> None:
+def test_poses_are_compared_where_there_are_any(description, upper):
     joints = tuple(replace(x, upper=upper) if x.name == "slide" else x for x in description.joints)
     samples = pose_samples(replace(description, joints=joints))
     assert all(abs(sample["slide"]) <= 1.0 for sample in samples)
 
 
-def test_an_engine_that_is_not_installed_is_named_with_its_install_line(
-    description: Description, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_engine_that_is_not_installed_is_named_with_its_install_line(description, monkeypatch):
     monkeypatch.setattr(in_simulator, "installed", lambda name: False)
     (finding,) = in_simulator.judge_in_simulator(description, "mujoco", CheckConfig()).findings
     assert finding.code == "simulator_missing"
     assert "pip install 'asset-factory[mujoco]'" in finding.message
 
 
-def test_an_engine_that_does_not_answer_in_time_is_a_finding(description: Description) -> None:
+def test_an_engine_that_does_not_answer_in_time_is_a_finding(description):
     pytest.importorskip("mujoco")
     config = CheckConfig(child=ChildConfig(wall_s=0.01))
     (finding,) = in_simulator.judge_in_simulator(description, "mujoco", config).findings
@@ -257,14 +234,14 @@ def test_an_engine_that_does_not_answer_in_time_is_a_finding(description: Descri
     assert finding.code in UNJUDGED_CODES
 
 
-def test_an_unknown_engine_is_answered_with_the_ones_there_are() -> None:
+def test_an_unknown_engine_is_answered_with_the_ones_there_are():
     with pytest.raises(
         ValueError, match=r"sapien, mujoco, pybullet, newton; did you mean 'mujoco'\?"
     ):
         simulator("mujcoo")
 
 
-def test_every_engine_has_an_install_line() -> None:
+def test_every_engine_has_an_install_line():
     assert [install_line(name) for name in SIMULATORS] == [
         f"pip install 'asset-factory[{name}]'"
         for name in ("sapien", "mujoco", "pybullet", "newton")

@@ -1,9 +1,6 @@
 """Joints that follow other joints: read, judged and moved along."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +12,7 @@ from small_cabinet import write_urdf
 from asset_factory.sim_checks.checks.agreement import pose_samples
 from asset_factory.sim_checks.checks.lint import check_lint
 from asset_factory.sim_checks.config import LintConfig
-from asset_factory.sim_checks.description import Description, DescriptionError, Mimic
+from asset_factory.sim_checks.description import DescriptionError, Mimic
 from asset_factory.sim_checks.geometry.kinematics import build_tree, coupled_range
 from asset_factory.sim_checks.read.mjcf import read_mjcf
 from asset_factory.sim_checks.read.read import read_description
@@ -24,7 +21,7 @@ from asset_factory.sim_checks.report import Severity
 NAMES = ("a", "b", "c")
 
 
-def three(**mimics: Mimic) -> Description:
+def three(**mimics):
     """A base with three slides along x, side by side along y, each with a range of 1 m."""
     links = [
         body(name, [((0.0, float(y), 0.0), (0.1, 0.1, 0.1))])
@@ -37,26 +34,24 @@ def three(**mimics: Mimic) -> Description:
     return described(links, [replace(item, mimic=mimics.get(item.name)) for item in joints])
 
 
-def places(description: Description, values: dict[str, float]) -> list[float]:
+def places(description, values):
     poses = build_tree(description).link_poses(values)
     return [float(poses[name][0, 3]) for name in NAMES]
 
 
 @given(value=st.floats(0, 1), multiplier=st.floats(-3, 3), offset=st.floats(-1, 1))
-def test_a_follower_goes_by_its_leader_and_a_chain_by_its_head(
-    value: float, multiplier: float, offset: float
-) -> None:
+def test_a_follower_goes_by_its_leader_and_a_chain_by_its_head(value, multiplier, offset):
     description = three(b=Mimic("a", multiplier, offset), c=Mimic("b", -2.0, 0.5))
     b = multiplier * value + offset
     assert places(description, {"a": value}) == pytest.approx([value, b, -2.0 * b + 0.5])
 
 
-def test_a_follower_s_own_value_counts_where_it_is_given() -> None:
+def test_a_follower_s_own_value_counts_where_it_is_given():
     description = three(b=Mimic("a", 2.0), c=Mimic("b"))
     assert places(description, {"a": 0.1, "b": 0.7}) == [0.1, 0.7, 0.7]
 
 
-def test_only_free_joints_are_chosen_and_each_knows_who_follows_it() -> None:
+def test_only_free_joints_are_chosen_and_each_knows_who_follows_it():
     tree = build_tree(three(b=Mimic("a"), c=Mimic("b")))
     a, b, c = tree.moving
     assert tree.free == (a,)
@@ -78,16 +73,14 @@ def test_only_free_joints_are_chosen_and_each_knows_who_follows_it() -> None:
         (Mimic("a", -1.0), None),
     ],
 )
-def test_a_leader_goes_as_far_as_its_followers_can(
-    mimic: Mimic, expected: tuple[float, float] | None
-) -> None:
+def test_a_leader_goes_as_far_as_its_followers_can(mimic, expected):
     tree = build_tree(three(b=mimic))
     found = coupled_range(tree, tree.free[0])
     assert found == (None if expected is None else pytest.approx(expected))
 
 
 @pytest.mark.parametrize("kind", ["continuous", "revolute"])
-def test_a_follower_that_turns_far_enough_does_not_stop_its_leader(kind: str) -> None:
+def test_a_follower_that_turns_far_enough_does_not_stop_its_leader(kind):
     description = three(b=Mimic("a", -1.0))
     bounds = (-10.0, 10.0) if kind == "revolute" else (None, None)
     lines = [
@@ -102,7 +95,7 @@ def test_a_follower_that_turns_far_enough_does_not_stop_its_leader(kind: str) ->
     ] == []
 
 
-def test_followers_that_agree_with_their_leader_but_not_with_each_other_hold_it_fast() -> None:
+def test_followers_that_agree_with_their_leader_but_not_with_each_other_hold_it_fast():
     description = three(b=Mimic("a", 1.0, 0.6), c=Mimic("a", 1.0, -0.6))
     tree = build_tree(description)
     assert coupled_range(tree, tree.free[0]) is None
@@ -124,9 +117,7 @@ def test_followers_that_agree_with_their_leader_but_not_with_each_other_hold_it_
         ({"b": Mimic("a", -1.0)}, "mimic_limits", Severity.HARD, 1.0),
     ],
 )
-def test_each_fault_of_a_follower_has_its_code(
-    mimics: dict[str, Mimic], code: str, severity: Severity, value: float | None
-) -> None:
+def test_each_fault_of_a_follower_has_its_code(mimics, code, severity, value):
     findings = [
         f for f in check_lint(three(**mimics), LintConfig()).findings if f.code.startswith("mimic")
     ]
@@ -137,17 +128,17 @@ def test_each_fault_of_a_follower_has_its_code(
 @pytest.mark.parametrize(
     "mimics", [{"b": Mimic("a", -1.0, 1.0)}, {"b": Mimic("a", 0.5), "c": Mimic("b", 2.0)}]
 )
-def test_a_sound_follower_has_no_findings(mimics: dict[str, Mimic]) -> None:
+def test_a_sound_follower_has_no_findings(mimics):
     assert [
         f.code for f in check_lint(three(**mimics), LintConfig()).findings if "mimic" in f.code
     ] == []
 
 
-def test_a_follower_of_nobody_moves_freely() -> None:
+def test_a_follower_of_nobody_moves_freely():
     assert places(three(b=Mimic("ghost", 1.0, 0.3), c=Mimic("c")), {"c": 0.5}) == [0.0, 0.0, 0.5]
 
 
-def test_urdf_says_who_follows_whom(tmp_path: Path) -> None:
+def test_urdf_says_who_follows_whom(tmp_path):
     path = write_urdf(
         tmp_path, replace={'velocity="2"/></joint>': 'velocity="2"/><mimic joint="slide"/></joint>'}
     )
@@ -161,7 +152,7 @@ def test_urdf_says_who_follows_whom(tmp_path: Path) -> None:
     assert read_description(path).joints[-1].mimic == Mimic("slide", -5.0, 1.0)
 
 
-def test_a_mimic_without_a_joint_cannot_be_read(tmp_path: Path) -> None:
+def test_a_mimic_without_a_joint_cannot_be_read(tmp_path):
     path = write_urdf(
         tmp_path,
         replace={'velocity="2"/></joint>': 'velocity="2"/><mimic multiplier="2"/></joint>'},
@@ -177,7 +168,7 @@ MJCF = """<mujoco><option gravity="0 0 0"/><compiler angle="radian"/><worldbody>
   <equality><joint joint1="led" joint2="lead" polycoef="0.1 -2 0 0 0"/></equality></mujoco>"""
 
 
-def test_mjcf_s_equality_holds_where_mujoco_settles(tmp_path: Path) -> None:
+def test_mjcf_s_equality_holds_where_mujoco_settles(tmp_path):
     mujoco = pytest.importorskip("mujoco")
     path = tmp_path / "pair.xml"
     path.write_text(MJCF)
@@ -194,7 +185,7 @@ def test_mjcf_s_equality_holds_where_mujoco_settles(tmp_path: Path) -> None:
     assert build_tree(description).value_of("led", {"lead": lead}) == pytest.approx(slid, abs=1e-4)
 
 
-def test_an_equality_that_is_off_or_locks_one_joint_is_no_leader(tmp_path: Path) -> None:
+def test_an_equality_that_is_off_or_locks_one_joint_is_no_leader(tmp_path):
     pytest.importorskip("mujoco")
     path = tmp_path / "pair.xml"
     for old, new in (('joint2="lead"', 'joint2="lead" active="false"'), ('joint2="lead"', "")):
@@ -202,7 +193,7 @@ def test_an_equality_that_is_off_or_locks_one_joint_is_no_leader(tmp_path: Path)
         assert [item.mimic for item in read_mjcf(path).joints] == [None, None]
 
 
-def test_pose_samples_put_followers_where_their_leaders_take_them() -> None:
+def test_pose_samples_put_followers_where_their_leaders_take_them():
     for sample in pose_samples(three(b=Mimic("a", -1.0, 1.0))):
         assert set(sample) == set(NAMES)
         assert sample["b"] == pytest.approx(1.0 - sample["a"])

@@ -13,7 +13,7 @@ from sliders import CONFIG, Sliders
 
 from asset_factory.sim_checks.checks.motion import check_motion
 from asset_factory.sim_checks.config import CheckConfig
-from asset_factory.sim_checks.description import Description, FloatArray
+from asset_factory.sim_checks.description import Description
 from asset_factory.sim_checks.simulators.drive import sweep
 from asset_factory.sim_checks.simulators.rest import fall, let_go, rest
 from asset_factory.sim_checks.simulators.simulator import (
@@ -24,18 +24,17 @@ from asset_factory.sim_checks.simulators.simulator import (
     Observation,
     RestMotion,
     Touch,
-    World,
 )
 
 
-def only(world: World) -> JointMotion:
+def only(world):
     (motion,) = sweep(world, CONFIG)
     return motion
 
 
 @pytest.mark.parametrize("mass", [0.001, 0.1, 5.0, 80.0])
 @pytest.mark.parametrize("weight", [0.0, 1.0])
-def test_a_free_slider_of_any_mass_goes_all_the_way_and_back(mass: float, weight: float) -> None:
+def test_a_free_slider_of_any_mass_goes_all_the_way_and_back(mass, weight):
     motion = only(Sliders([mass], weight=weight * 9.81 * mass))
     assert motion.reached > 0.999
     assert motion.returned < 0.001
@@ -44,19 +43,19 @@ def test_a_free_slider_of_any_mass_goes_all_the_way_and_back(mass: float, weight
 
 
 @pytest.mark.parametrize("friction", [0.5, 5.0, 50.0])
-def test_the_file_s_own_friction_never_jams(friction: float) -> None:
+def test_the_file_s_own_friction_never_jams(friction):
     motion = only(Sliders([2.0], friction=friction))
     assert motion.reached > 0.98
     assert motion.returned < 0.02
 
 
-def test_a_wall_is_reached_and_not_passed() -> None:
+def test_a_wall_is_reached_and_not_passed():
     world = Sliders([2.0])
     world.wall = 0.12
     assert only(world).reached == pytest.approx(0.4, abs=1e-6)
 
 
-def test_a_jam_says_where_and_between_whom() -> None:
+def test_a_jam_says_where_and_between_whom():
     world = Sliders([2.0])
     world.wall = 0.12
     motion = only(world)
@@ -71,7 +70,7 @@ def test_a_jam_says_where_and_between_whom() -> None:
     assert {"block0", "post"} <= set(finding.parts)
 
 
-def test_a_joint_that_opens_is_blocked_by_nobody_and_tells_the_force_it_took() -> None:
+def test_a_joint_that_opens_is_blocked_by_nobody_and_tells_the_force_it_took():
     motion = only(Sliders([2.0], weight=6.0))
     assert (motion.blocked_by, motion.stuck_at) == (None, None)
     # Along half a cosine, acceleration is greatest at its start; the drive's drag adds the lag of
@@ -85,7 +84,7 @@ def test_a_joint_that_opens_is_blocked_by_nobody_and_tells_the_force_it_took() -
     assert (motion.weight_closed, motion.weight_open) == (6.0, 6.0)
 
 
-def test_the_hand_never_pulls_harder_than_its_bound() -> None:
+def test_the_hand_never_pulls_harder_than_its_bound():
     world = Sliders([2.0])
     world.wall = 0.12
     only(world)
@@ -95,7 +94,7 @@ def test_the_hand_never_pulls_harder_than_its_bound() -> None:
     )
 
 
-def test_a_slider_behind_another_opens_once_the_other_is_open() -> None:
+def test_a_slider_behind_another_opens_once_the_other_is_open():
     world = Sliders([2.0, 2.0])
     world.gate = True
     first, second = sweep(world, CONFIG)
@@ -106,15 +105,13 @@ def test_a_slider_behind_another_opens_once_the_other_is_open() -> None:
 class Barred(Sliders):
     """Each block stops at 5 cm unless all ``until`` are open and all ``unless`` are shut."""
 
-    def __init__(
-        self, until: dict[int, set[int]], unless: dict[int, set[int]] | None = None
-    ) -> None:
+    def __init__(self, until, unless=None):
         super().__init__([2.0] * len(until))
         self._until = until
         self._unless = unless or {}
         self._met: dict[tuple[str, str], Touch] = {}
 
-    def step(self, forces: FloatArray) -> None:
+    def step(self, forces):
         before = self._q.copy()
         super().step(forces)
         opened = {i for i, q in enumerate(before) if q > 0.2}
@@ -126,30 +123,30 @@ class Barred(Sliders):
                 self._v[i] = 0.0
                 self._met[f"block{i}", f"block{bars[0]}"] = Touch(20.0, 0.0)
 
-    def contacts(self) -> dict[tuple[str, str], Touch]:
+    def contacts(self):
         return self._met
 
 
-def opening(world: World) -> dict[str, tuple[bool, tuple[str, ...]]]:
+def opening(world):
     return {item.joint: (item.reached > 0.99, item.needs_open) for item in sweep(world, CONFIG)}
 
 
-def test_two_that_bar_each_other_never_open() -> None:
+def test_two_that_bar_each_other_never_open():
     found = opening(Barred({0: {1}, 1: {0}, 2: set()}))
     assert found == {"j0": (False, ()), "j1": (False, ()), "j2": (True, ())}
 
 
-def test_a_chain_opens_from_its_outer_end_and_each_names_whom_it_needs() -> None:
+def test_a_chain_opens_from_its_outer_end_and_each_names_whom_it_needs():
     found = opening(Barred({0: {1}, 1: {2}, 2: set()}))
     assert found == {"j0": (True, ("j1", "j2")), "j1": (True, ("j2",)), "j2": (True, ())}
 
 
-def test_who_would_only_be_in_the_way_stays_shut() -> None:
+def test_who_would_only_be_in_the_way_stays_shut():
     found = opening(Barred({0: {1}, 1: set(), 2: set()}, unless={0: {2}}))
     assert found["j0"] == (True, ("j1",))
 
 
-def test_what_stands_behind_what_makes_way_makes_way_too() -> None:
+def test_what_stands_behind_what_makes_way_makes_way_too():
     found = opening(Barred({0: {1, 2}, 1: set(), 2: set(), 3: set()}, unless={0: {3}}))
     assert found["j0"] == (True, ("j1", "j2"))
 
@@ -159,11 +156,11 @@ class Latched(Barred):
 
     caught = False
 
-    def place(self, positions: FloatArray) -> None:
+    def place(self, positions):
         super().place(positions)
         self.caught = False
 
-    def step(self, forces: FloatArray) -> None:
+    def step(self, forces):
         super().step(forces)
         self.caught = self.caught or self._q[-1] > 0.25
         if self.caught and self._q[-1] < 0.2:
@@ -171,7 +168,7 @@ class Latched(Barred):
             self._v[-1] = 0.0
 
 
-def test_a_joint_that_does_not_come_back_is_refused_and_makes_no_way_for_another() -> None:
+def test_a_joint_that_does_not_come_back_is_refused_and_makes_no_way_for_another():
     world = Latched({0: {1}, 1: set()})
     barred, latched = sweep(world, CONFIG)
     assert (latched.reached, latched.returned) == pytest.approx((1.0, 2.0 / 3.0), abs=1e-3)
@@ -185,8 +182,8 @@ def test_a_joint_that_does_not_come_back_is_refused_and_makes_no_way_for_another
 
 @pytest.mark.parametrize(("lid_waits_for", "opens"), [(set(), True), ({0}, False)])
 def test_a_flap_opens_with_its_lid_alone_where_the_unfolded_side_would_stop_it(
-    lid_waits_for: set[int], opens: bool
-) -> None:
+    lid_waits_for, opens
+):
     """The side carries the lid; a lid that itself waits for the flap lets neither open."""
     world = Barred({0: {1}, 1: lid_waits_for, 2: set()}, unless={0: {2}})
     world.carried = (*world.carried[:2], frozenset({"block1", "block2"}))
@@ -199,10 +196,10 @@ def test_a_flap_opens_with_its_lid_alone_where_the_unfolded_side_would_stop_it(
     ("gives_way", "needs", "code"), [(True, ("j1",), []), (False, (), ["others_moved"])]
 )
 def test_a_drawer_that_can_push_its_door_open_needs_it_open_if_it_opens_alone(
-    gives_way: bool, needs: tuple[str, ...], code: list[str]
-) -> None:
+    gives_way, needs, code
+):
     class Pushed(Sliders):
-        def step(self, forces: FloatArray) -> None:
+        def step(self, forces):
             super().step(forces)
             if not gives_way and self._q[1] > self._q[0]:
                 self._q[0] = self._q[1]
@@ -220,9 +217,9 @@ def test_a_drawer_that_can_push_its_door_open_needs_it_open_if_it_opens_alone(
     assert [item.code for item in found.findings if item.joint == "j0"] == code
 
 
-def test_of_joints_that_move_together_one_that_opens_speaks_for_all() -> None:
+def test_of_joints_that_move_together_one_that_opens_speaks_for_all():
     class Coupled(Sliders):
-        def step(self, forces: FloatArray) -> None:
+        def step(self, forces):
             super().step(np.full(2, forces[1]))
 
     world = Coupled([2.0, 2.0])
@@ -232,7 +229,7 @@ def test_of_joints_that_move_together_one_that_opens_speaks_for_all() -> None:
     assert rest(world, CONFIG) == ()
 
 
-def test_what_only_contact_moves_is_seen_at_rest() -> None:
+def test_what_only_contact_moves_is_seen_at_rest():
     calm = Sliders([2.0], weight=20.0)
     assert rest(calm, CONFIG)[0].drift == 0.0
     pushed = Sliders([2.0])
@@ -246,7 +243,7 @@ def test_what_only_contact_moves_is_seen_at_rest() -> None:
 
 @settings(max_examples=40, deadline=None)
 @given(push=st.floats(1e-8, 1e-2), mass=st.floats(0.01, 50.0))
-def test_stopping_early_hides_no_drift_that_would_be_reported(push: float, mass: float) -> None:
+def test_stopping_early_hides_no_drift_that_would_be_reported(push, mass):
     world = Sliders([mass])
     world.push = push
     whole = min(0.5 * push / mass * CONFIG.rest_s**2, 0.3) / 0.3
@@ -254,15 +251,15 @@ def test_stopping_early_hides_no_drift_that_would_be_reported(push: float, mass:
     assert seen == pytest.approx(whole, rel=0.02, abs=0.1 * CONFIG.drift_soft)
 
 
-def test_what_stands_still_is_not_watched_for_long() -> None:
+def test_what_stands_still_is_not_watched_for_long():
     world = Sliders([2.0], weight=20.0)
     rest(world, CONFIG)
     assert world.steps * world.time_step == pytest.approx(CONFIG.still_s)
 
 
-def test_a_block_that_starts_to_roll_off_a_hilltop_is_watched_to_the_end() -> None:
+def test_a_block_that_starts_to_roll_off_a_hilltop_is_watched_to_the_end():
     class Hilltop(Sliders):
-        def step(self, forces: FloatArray) -> None:
+        def step(self, forces):
             # Thirty times further every second: a crawl for two seconds, and open after three.
             self.push = 11.5 * self._q[0] + 1e-6
             super().step(forces)
@@ -273,13 +270,13 @@ def test_a_block_that_starts_to_roll_off_a_hilltop_is_watched_to_the_end() -> No
 @pytest.mark.parametrize(
     ("weight", "opened"), [(20.0, 0.0), (0.0, 0.0), (-0.04, 0.5 * 0.02 * CONFIG.rest_s**2)]
 )
-def test_a_block_opens_by_itself_where_its_weight_opens_it(weight: float, opened: float) -> None:
+def test_a_block_opens_by_itself_where_its_weight_opens_it(weight, opened):
     fallen = fall(Sliders([2.0], weight=weight), CONFIG)
     assert fallen.joints[0].moved == pytest.approx(opened, rel=0.02)
     assert fallen.energy == pytest.approx(0.0, abs=1e-12)
 
 
-def test_energy_from_nowhere_is_seen_in_a_fall_and_after_letting_go() -> None:
+def test_energy_from_nowhere_is_seen_in_a_fall_and_after_letting_go():
     world = Sliders([2.0], weight=0.5)
     world.push = 1.0
     fallen = fall(world, CONFIG)
@@ -310,16 +307,14 @@ GOOD = JointMotion("j", 1.0, 0.0, 0.0, 0.0, 1.0, finite=True, range=0.3, pushed=
         ({"energy": 0.009, "energy_height": 9.0}, []),
     ],
 )
-def test_each_fault_of_a_motion_is_named_with_its_number(
-    changes: dict[str, float], expected: list[tuple[str, str, float | None]]
-) -> None:
-    observation = Observation(LoadedModel((), (), ()), motions=(replace(GOOD, **changes),))  # type: ignore[arg-type]
+def test_each_fault_of_a_motion_is_named_with_its_number(changes, expected):
+    observation = Observation(LoadedModel((), (), ()), motions=(replace(GOOD, **changes),))
     findings = check_motion(nothing(), "engine", observation, CheckConfig()).findings
     assert [(f.code, str(f.severity), f.value) for f in findings] == expected
 
 
 @pytest.mark.parametrize(("share", "expected"), [(0.01, []), (0.05, ["soft"]), (0.5, ["hard"])])
-def test_parts_that_push_each_other_at_rest_are_named(share: float, expected: list[str]) -> None:
+def test_parts_that_push_each_other_at_rest_are_named(share, expected):
     observation = Observation(
         LoadedModel((), (), ()), rest=(RestMotion("j", 0.3 * share, share, finite=True),)
     )
@@ -327,7 +322,7 @@ def test_parts_that_push_each_other_at_rest_are_named(share: float, expected: li
     assert [str(f.severity) for f in findings if f.code == "pushed_at_rest"] == expected
 
 
-def test_made_up_energy_is_a_number_in_joules_against_what_is_allowed() -> None:
+def test_made_up_energy_is_a_number_in_joules_against_what_is_allowed():
     resting = RestMotion("j", 0.0, 0.0, finite=True, energy=2.0, energy_height=0.1)
     falling = Fall(energy=4.0, energy_height=0.4)
     for rests, joint, value, limit in (((resting,), "j", 2.0, 1.0), ((), None, 4.0, 0.5)):
@@ -345,9 +340,7 @@ def test_made_up_energy_is_a_number_in_joules_against_what_is_allowed() -> None:
 @pytest.mark.parametrize(
     ("pushed", "expected"), [(0.0, ["opens_by_itself"]), (0.03, ["pushed_at_rest"])]
 )
-def test_only_what_weight_moves_is_said_to_open_by_its_weight(
-    pushed: float, expected: list[str]
-) -> None:
+def test_only_what_weight_moves_is_said_to_open_by_its_weight(pushed, expected):
     resting = RestMotion("j", 0.3 * pushed, pushed, finite=True, pushed_by=("door", "shelf"))
     observation = Observation(
         LoadedModel((), (), ()),
@@ -359,17 +352,17 @@ def test_only_what_weight_moves_is_said_to_open_by_its_weight(
     assert all("'door' and 'shelf'" in f.message for f in findings if f.code == "pushed_at_rest")
 
 
-def test_a_fall_to_infinity_is_hard() -> None:
+def test_a_fall_to_infinity_is_hard():
     observation = Observation(LoadedModel((), (), ()), fall=Fall(finite=False))
     (finding,) = check_motion(nothing(), "engine", observation, CheckConfig()).findings
     assert (finding.code, str(finding.severity)) == ("not_finite", "hard")
 
 
-def nothing() -> Description:
+def nothing():
     return Description(Path("nothing.urdf"), "urdf", (), ())
 
 
-def test_joints_that_cannot_meet_are_driven_at_the_same_time_and_to_the_same_end() -> None:
+def test_joints_that_cannot_meet_are_driven_at_the_same_time_and_to_the_same_end():
     together, one_by_one = Sliders([1.0, 2.0, 40.0]), Sliders([1.0, 2.0, 40.0])
     names = tuple(joint.name for joint in together.joints)
     motions = sweep(together, CONFIG, (names,))
@@ -377,7 +370,7 @@ def test_joints_that_cannot_meet_are_driven_at_the_same_time_and_to_the_same_end
     assert together.steps < 0.5 * one_by_one.steps
 
 
-def test_of_joints_driven_together_one_that_jams_is_driven_again_alone() -> None:
+def test_of_joints_driven_together_one_that_jams_is_driven_again_alone():
     world, alone = Sliders([1.0, 2.0]), Sliders([1.0, 2.0])
     world.wall = alone.wall = 0.12
     names = tuple(joint.name for joint in world.joints)

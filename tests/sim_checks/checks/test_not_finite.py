@@ -1,10 +1,5 @@
 """Numbers that are not finite give a verdict, never a traceback: on paper and in any engine."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
-from pathlib import Path
-
 import pytest
 from small_cabinet import write_urdf
 
@@ -16,7 +11,7 @@ LIMIT = '<limit lower="0" upper="0.3"'
 
 
 @pytest.fixture(scope="module")
-def judge() -> Iterator[Judge]:
+def judge():
     for engine in ENGINES:
         pytest.importorskip(engine)
     with Judge() as judge:
@@ -35,9 +30,7 @@ def judge() -> Iterator[Judge]:
         (LIMIT, '<limit lower="0" upper="1e9"', "range_implausible"),
     ],
 )
-def test_a_number_that_is_none_is_a_verdict(
-    tmp_path: Path, judge: Judge, old: str, new: str, code: str
-) -> None:
+def test_a_number_that_is_none_is_a_verdict(tmp_path, judge, old, new, code):
     report = judge.check(write_urdf(tmp_path, replace={old: new}), ENGINES)
     assert report.hard[0].code == code
     assert report.status is not Status.UNJUDGED
@@ -45,9 +38,7 @@ def test_a_number_that_is_none_is_a_verdict(
 
 
 @pytest.mark.parametrize("size", ['radius="nan"', 'radius="1e300"', 'radius="-1"'])
-def test_a_size_that_is_none_is_refused_before_any_engine(
-    tmp_path: Path, judge: Judge, size: str
-) -> None:
+def test_a_size_that_is_none_is_refused_before_any_engine(tmp_path, judge, size):
     path = write_urdf(tmp_path, replace={'<mesh filename="door_0.obj"/>': f"<sphere {size}/>"})
     report = judge.check(path, ENGINES)
     assert [finding.code for finding in report.findings] == [
@@ -55,5 +46,5 @@ def test_a_size_that_is_none_is_refused_before_any_engine(
     ]
 
 
-def test_a_sound_cabinet_passes(tmp_path: Path, judge: Judge) -> None:
+def test_a_sound_cabinet_passes(tmp_path, judge):
     assert judge.check(write_urdf(tmp_path), ENGINES).passed

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 from box_world import Box, body, described, joint
 from fault_corpus.broken_motion import deadlock
 from fault_corpus.exhibits import urdf
 
 from asset_factory.sim_checks.checks.penetration import check_penetration
-from asset_factory.sim_checks.checks.result import CheckResult
 from asset_factory.sim_checks.config import PenetrationConfig
-from asset_factory.sim_checks.description import Description, JointLine, Link
 from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.report import Severity
 
@@ -21,19 +17,14 @@ BASE = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1))])
 OUT = (0.0, -1.0, 0.0)
 
 
-def gate(
-    name: str,
-    at: tuple[float, float, float],
-    size: tuple[float, float, float],
-    axis: tuple[float, ...],
-) -> Any:
+def gate(name, at, size, axis):
     """A board that slides by 1 m along an axis."""
     return body(name, [(at, size)]), joint(
         f"{name}_slide", "prismatic", "base", name, (0, 0, 0), axis, (0.0, 1.0)
     )
 
 
-def drawer(x: float = 0.0, z: float = 0.0) -> tuple[Link, JointLine]:
+def drawer(x=0.0, z=0.0):
     """Comes out along -y by 0.5 m; its front is at y = 0."""
     boxes: list[Box] = [((x, 0.25, z), (0.4, 0.5, 0.2))]
     return body("drawer", boxes), joint(
@@ -41,16 +32,16 @@ def drawer(x: float = 0.0, z: float = 0.0) -> tuple[Link, JointLine]:
     )
 
 
-def built(*parts: tuple[Link, JointLine]) -> Description:
+def built(*parts):
     return described([BASE, *(link for link, _ in parts)], [line for _, line in parts])
 
 
-def checked(description: Description) -> tuple[CheckResult, dict[str, dict[str, Any]]]:
+def checked(description):
     result = check_penetration(description, CONFIG)
     return result, {item["joint"]: item for item in result.measurements["joints"]}
 
 
-def hard(result: CheckResult) -> list[tuple[str, str | None]]:
+def hard(result):
     return [(item.code, item.joint) for item in result.findings if item.severity is Severity.HARD]
 
 
@@ -58,7 +49,7 @@ def hard(result: CheckResult) -> list[tuple[str, str | None]]:
 DOOR = gate("door", (0.0, -0.05, 0.0), (0.6, 0.04, 0.4), (1.0, 0.0, 0.0))
 
 
-def test_a_drawer_behind_a_door_needs_the_door_open() -> None:
+def test_a_drawer_behind_a_door_needs_the_door_open():
     result, joints = checked(built(DOOR, drawer()))
     assert hard(result) == []
     assert joints["drawer_slide"]["needs_open"] == ["door_slide"]
@@ -68,7 +59,7 @@ def test_a_drawer_behind_a_door_needs_the_door_open() -> None:
     assert "with door_slide open" in found.message
 
 
-def test_two_that_bar_each_other_never_open(tmp_path: Any) -> None:
+def test_two_that_bar_each_other_never_open(tmp_path):
     result, joints = checked(read_description(urdf(deadlock())(tmp_path)))
     assert hard(result) == [("sweep_penetration", "along_x"), ("sweep_penetration", "along_y")]
     assert joints["along_x"]["waits_for"] == ["along_y"]
@@ -77,7 +68,7 @@ def test_two_that_bar_each_other_never_open(tmp_path: Any) -> None:
     assert 0.04 < joints["along_x"]["clear_until"] < 0.06
 
 
-def test_a_chain_of_three_opens_from_its_outer_end() -> None:
+def test_a_chain_of_three_opens_from_its_outer_end():
     """The bar goes up, then the door aside, then the drawer comes out."""
     bar = gate("bar", (0.45, -0.05, 0.0), (0.1, 0.04, 0.3), (0.0, 0.0, 1.0))
     result, joints = checked(built(drawer(), DOOR, bar))
@@ -87,7 +78,7 @@ def test_a_chain_of_three_opens_from_its_outer_end() -> None:
     assert joints["drawer_slide"]["needs_open"] == ["bar_slide", "door_slide"]
 
 
-def test_who_would_only_be_in_the_way_stays_shut() -> None:
+def test_who_would_only_be_in_the_way_stays_shut():
     """The lid opens to before the drawer, which with all others at upper would not come out."""
     lid = gate("lid", (0.0, -0.2, 1.0), (0.3, 0.04, 0.2), (0.0, 0.0, -1.0))
     result, joints = checked(built(DOOR, lid, drawer()))
@@ -95,7 +86,7 @@ def test_who_would_only_be_in_the_way_stays_shut() -> None:
     assert joints["drawer_slide"]["needs_open"] == ["door_slide"]
 
 
-def test_a_drawer_behind_two_doors_needs_both() -> None:
+def test_a_drawer_behind_two_doors_needs_both():
     left = gate("left", (-0.15, -0.05, 0.0), (0.28, 0.04, 0.4), (-1.0, 0.0, 0.0))
     right = gate("right", (0.15, -0.05, 0.0), (0.28, 0.04, 0.4), (1.0, 0.0, 0.0))
     result, joints = checked(built(drawer(), left, right))
@@ -103,14 +94,14 @@ def test_a_drawer_behind_two_doors_needs_both() -> None:
     assert joints["drawer_slide"]["needs_open"] == ["left_slide", "right_slide"]
 
 
-def test_a_drawer_behind_two_doors_one_behind_the_other_needs_both() -> None:
+def test_a_drawer_behind_two_doors_one_behind_the_other_needs_both():
     outer = gate("outer", (0.0, -0.3, 0.0), (0.6, 0.04, 0.4), (-1.0, 0.0, 0.0))
     result, joints = checked(built(drawer(), DOOR, outer))
     assert hard(result) == []
     assert joints["drawer_slide"]["needs_open"] == ["door_slide", "outer_slide"]
 
 
-def test_what_waits_for_a_door_that_never_opens_is_stuck_too() -> None:
+def test_what_waits_for_a_door_that_never_opens_is_stuck_too():
     post = body(
         "base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1)), ((0.5, -0.05, 0.0), (0.05, 0.04, 2.0))]
     )
@@ -127,7 +118,7 @@ def test_what_waits_for_a_door_that_never_opens_is_stuck_too() -> None:
     )
 
 
-def test_doors_that_open_only_one_at_a_time_do_not_free_what_needs_both() -> None:
+def test_doors_that_open_only_one_at_a_time_do_not_free_what_needs_both():
     """Each opens alone, but both end in one place: what is behind the two stays shut."""
     left = gate("left", (-0.15, -0.05, 0.0), (0.28, 0.04, 0.4), (0.0, 0.0, 1.0))
     boxes: list[Box] = [

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,7 +10,6 @@ from box_world import write_urdf
 
 from asset_factory.sim_checks.config import MotionConfig
 from asset_factory.sim_checks.simulators.catalog import installed, simulator
-from asset_factory.sim_checks.simulators.simulator import PairRules
 
 ENGINES = [
     pytest.param(
@@ -55,7 +53,7 @@ APART = {
 }
 
 
-def write_world(folder: Path, kind: str) -> Path:
+def write_world(folder, kind):
     places, joints = WORLDS[kind]
     text = "".join(
         f'<joint name="{child}_joint" type="{word}"><parent link="{parent}"/>'
@@ -66,9 +64,7 @@ def write_world(folder: Path, kind: str) -> Path:
     return write_urdf(folder, {name: ((x, 0.0, 0.0), CUBE) for name, x in places.items()}, text)
 
 
-def look(
-    path: Path, engine: str, *, parents_touch: bool = True
-) -> tuple[set[tuple[str, str]], PairRules]:
+def look(path, engine, *, parents_touch=True):
     """Pairs that press on each other in the first step, and what the engine is said to enforce."""
     world = simulator(engine).open(path, replace(MotionConfig(), parents_touch=parents_touch))
     try:
@@ -85,9 +81,7 @@ def look(
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("parents_touch", [True, False])
 @pytest.mark.parametrize("kind", WORLDS)
-def test_what_is_said_to_touch_is_seen_to_press(
-    tmp_path: Path, engine: str, kind: str, parents_touch: bool
-) -> None:
+def test_what_is_said_to_touch_is_seen_to_press(tmp_path, engine, kind, parents_touch):
     pressing, rules = look(write_world(tmp_path, kind), engine, parents_touch=parents_touch)
     assert pressing == (set() if kind in APART[engine, parents_touch] else {("a", "b")})
     assert bool(pressing) == {
@@ -104,7 +98,7 @@ def test_what_is_said_to_touch_is_seen_to_press(
         '<default><geom contype="2" conaffinity="4"/></default>',
     ],
 )
-def test_what_an_mjcf_exempts_is_named_and_does_not_touch(tmp_path: Path, exemption: str) -> None:
+def test_what_an_mjcf_exempts_is_named_and_does_not_touch(tmp_path, exemption):
     pytest.importorskip("mujoco")
     path = tmp_path / "boxes.xml"
     text = """<mujoco>EXEMPTION<worldbody>
@@ -121,7 +115,7 @@ def test_what_an_mjcf_exempts_is_named_and_does_not_touch(tmp_path: Path, exempt
     assert rules.words()["excluded"] == [["a", "b"]]
 
 
-def test_what_an_srdf_exempts_is_named_and_does_not_touch_in_sapien(tmp_path: Path) -> None:
+def test_what_an_srdf_exempts_is_named_and_does_not_touch_in_sapien(tmp_path):
     pytest.importorskip("sapien")
     path = write_world(tmp_path, "siblings")
     path.with_suffix(".srdf").write_text(

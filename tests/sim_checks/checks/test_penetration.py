@@ -1,7 +1,5 @@
 """Penetration at rest and along joints: each fault has its code, sound furniture none."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 
@@ -10,31 +8,29 @@ import pytest
 from box_world import body, cabinet, described, joint, with_joint
 
 from asset_factory.sim_checks.checks.penetration import check_penetration
-from asset_factory.sim_checks.checks.result import CheckResult
 from asset_factory.sim_checks.config import PenetrationConfig
-from asset_factory.sim_checks.description import Description
-from asset_factory.sim_checks.report import Finding, Severity
+from asset_factory.sim_checks.report import Severity
 
 CONFIG = PenetrationConfig()
 
 
-def check(description: Description) -> CheckResult:
+def check(description):
     return check_penetration(description, CONFIG)
 
 
-def hard(result: CheckResult) -> list[Finding]:
+def hard(result):
     return [finding for finding in result.findings if finding.severity is Severity.HARD]
 
 
-def codes(result: CheckResult) -> list[str]:
+def codes(result):
     return [finding.code for finding in result.findings]
 
 
-def sweep_of(result: CheckResult, name: str) -> dict[str, float]:
+def sweep_of(result, name):
     return next(item for item in result.measurements["joints"] if item["joint"] == name)
 
 
-def test_a_sound_cabinet_passes_and_its_clearances_are_measured() -> None:
+def test_a_sound_cabinet_passes_and_its_clearances_are_measured():
     result = check(cabinet())
     assert result.findings == ()
     assert sweep_of(result, "slide")["clearance_mm"] == pytest.approx(2.0, abs=0.05)
@@ -50,21 +46,19 @@ def test_a_sound_cabinet_passes_and_its_clearances_are_measured() -> None:
         ("hinge_inside", "sweep_penetration", "hinge", {"carcass", "door"}, 18.0),
     ],
 )
-def test_each_defect_is_caught_by_its_own_code(
-    defect: str, code: str, name: str | None, parts: set[str], depth: float
-) -> None:
+def test_each_defect_is_caught_by_its_own_code(defect, code, name, parts, depth):
     found = next(finding for finding in hard(check(cabinet(defect))) if finding.code == code)
     assert (found.joint, set(found.parts), found.unit) == (name, parts, "mm")
     assert found.value == pytest.approx(depth, rel=0.02)
 
 
-def test_a_door_that_opens_inwards_is_caught_along_its_joint() -> None:
+def test_a_door_that_opens_inwards_is_caught_along_its_joint():
     found = [finding for finding in hard(check(cabinet("axis_flip"))) if finding.joint == "hinge"]
     assert {finding.code for finding in found} == {"sweep_penetration"}
     assert max(finding.value or 0.0 for finding in found) > 15.0
 
 
-def test_a_drawer_whose_way_is_too_long_hits_the_wall_behind() -> None:
+def test_a_drawer_whose_way_is_too_long_hits_the_wall_behind():
     wall = body("room", [((0.0, -1.0, 0.5), (2.0, 0.1, 1.0))])
     box = body("drawer", [((0.0, -0.2, 0.5), (0.4, 0.4, 0.2))])
     slide = joint("slide", "prismatic", "room", "drawer", (0, 0, 0), (0.0, -1.0, 0.0), (0.0, 0.56))
@@ -76,7 +70,7 @@ def test_a_drawer_whose_way_is_too_long_hits_the_wall_behind() -> None:
     ] == pytest.approx(0.56, abs=1e-3)
 
 
-def test_a_part_wholly_inside_another_is_caught() -> None:
+def test_a_part_wholly_inside_another_is_caught():
     block = body("block", [((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))])
     inner = body("inner", [((0.1, 0.0, 0.0), (0.2, 0.2, 0.2))])
     slide = joint("slide", "prismatic", "block", "inner", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.05))
@@ -84,7 +78,7 @@ def test_a_part_wholly_inside_another_is_caught() -> None:
     assert (found.code, found.value) == ("rest_penetration", pytest.approx(500.0))
 
 
-def test_a_drawer_behind_a_door_is_a_dependency_not_a_fault() -> None:
+def test_a_drawer_behind_a_door_is_a_dependency_not_a_fault():
     frame = body("frame", [((0.35, 0.0, 0.0), (0.05, 0.4, 0.4))])
     door = body("door", [((0.0, -0.25, 0.0), (0.6, 0.02, 0.4))], (-0.32, -0.26, 0.0))
     drawer = body("drawer", [((0.0, 0.0, 0.0), (0.5, 0.4, 0.1))])
@@ -100,7 +94,7 @@ def test_a_drawer_behind_a_door_is_a_dependency_not_a_fault() -> None:
     assert (found.joint, set(found.parts)) == ("slide", {"drawer", "door"})
 
 
-def test_two_parts_that_only_meet_when_both_are_open_are_reported_softly() -> None:
+def test_two_parts_that_only_meet_when_both_are_open_are_reported_softly():
     base = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1))])
     left = body("left", [((-0.6, 0.0, 0.0), (0.2, 0.2, 0.2))])
     right = body("right", [((0.6, 0.0, 0.0), (0.2, 0.2, 0.2))])
@@ -113,7 +107,7 @@ def test_two_parts_that_only_meet_when_both_are_open_are_reported_softly() -> No
     assert hard(result) == []
 
 
-def test_two_parts_that_only_meet_when_both_are_half_open_are_reported_too() -> None:
+def test_two_parts_that_only_meet_when_both_are_half_open_are_reported_too():
     base = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1))])
     left = body("left", [((-1.0, 0.0, 0.0), (0.8, 0.8, 0.2))])
     front = body("front", [((0.0, -1.0, 0.0), (0.8, 0.8, 0.2))])
@@ -126,7 +120,7 @@ def test_two_parts_that_only_meet_when_both_are_half_open_are_reported_too() -> 
     assert set(finding.parts) == {"left", "front"}
 
 
-def knuckled(length: float, reach: float = 0.006) -> Description:
+def knuckled(length, reach=0.006):
     """A door on an axle that sits in its frame for ``length`` of the hinge's 0.6 m."""
     frame = body(
         "frame",
@@ -140,30 +134,30 @@ def knuckled(length: float, reach: float = 0.006) -> Description:
     return described([frame, door], [hinge])
 
 
-def test_a_knuckle_on_the_axis_is_reported_not_rejected() -> None:
+def test_a_knuckle_on_the_axis_is_reported_not_rejected():
     result = check(knuckled(0.05))
     assert hard(result) == []
     assert "hinge_overlap" in codes(result)
 
 
-def test_an_overlap_along_the_whole_hinge_side_is_no_knuckle() -> None:
+def test_an_overlap_along_the_whole_hinge_side_is_no_knuckle():
     assert "rest_penetration" in [finding.code for finding in hard(check(knuckled(0.5)))]
 
 
-def test_a_pair_that_the_file_excludes_is_measured_and_reported_softly() -> None:
+def test_a_pair_that_the_file_excludes_is_measured_and_reported_softly():
     description = replace(cabinet("wide"), excluded=frozenset({frozenset({"carcass", "drawer"})}))
     result = check(description)
     assert hard(result) == []
     assert codes(result) == ["excluded_penetration"]
 
 
-def test_an_excluded_pair_excuses_no_other_pair_of_its_links() -> None:
+def test_an_excluded_pair_excuses_no_other_pair_of_its_links():
     excluded = frozenset({frozenset({"carcass", "door"}), frozenset({"drawer", "door"})})
     description = replace(cabinet("wide"), excluded=excluded)
     assert "rest_penetration" in [finding.code for finding in hard(check(description))]
 
 
-def test_links_joined_rigidly_are_one_body() -> None:
+def test_links_joined_rigidly_are_one_body():
     base = body("base", [((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))])
     plinth = body("plinth", [((0.0, 0.0, -0.4), (1.0, 1.0, 1.0))])
     weld = joint("weld", "fixed", "base", "plinth", (0, 0, 0), (1.0, 0.0, 0.0), None)
@@ -172,7 +166,7 @@ def test_links_joined_rigidly_are_one_body() -> None:
     assert result.measurements["parts"] == [["base", "plinth"]]
 
 
-def test_the_pose_a_file_was_drawn_in_counts_too() -> None:
+def test_the_pose_a_file_was_drawn_in_counts_too():
     """Rest is where the joint is at lower; a simulator starts at 0."""
     base = body("base", [((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))])
     slider = body("slider", [((0.99, 0.0, 0.0), (1.0, 1.0, 1.0))])
@@ -184,7 +178,7 @@ def test_the_pose_a_file_was_drawn_in_counts_too() -> None:
     assert "at 0" in hard(result)[0].message
 
 
-def test_a_continuous_joint_is_swept_over_a_whole_turn() -> None:
+def test_a_continuous_joint_is_swept_over_a_whole_turn():
     base = body("base", [((-0.5, 0.0, 0.0), (0.02, 0.02, 0.02))])
     arm = body("arm", [((0.3, 0.0, 0.0), (0.4, 0.01, 0.01))])
     spin = joint("spin", "continuous", "base", "arm", (0, 0, 0), (0.0, 0.0, 1.0), None)
@@ -193,13 +187,13 @@ def test_a_continuous_joint_is_swept_over_a_whole_turn() -> None:
     assert codes(result) == ["sweep_penetration"]
 
 
-def test_the_same_file_gives_the_same_numbers() -> None:
+def test_the_same_file_gives_the_same_numbers():
     first, second = (check(cabinet("hinge_inside")) for _ in range(2))
     assert first.findings == second.findings
     assert json.dumps(first.measurements) == json.dumps(second.measurements)
 
 
-def test_turning_the_joint_around_finds_the_same_overlap() -> None:
+def test_turning_the_joint_around_finds_the_same_overlap():
     """Lower = closed or upper = closed: what meets, meets."""
     forward = cabinet("hinge_inside")
     backward = with_joint(forward, "hinge", axis=np.array([0.0, 0.0, 1.0]), lower=-1.57, upper=0.0)

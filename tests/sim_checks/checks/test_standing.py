@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -16,7 +15,7 @@ from hypothesis import strategies as st
 from asset_factory.sim_checks.checks.result import CheckResult
 from asset_factory.sim_checks.checks.standing import check_standing
 from asset_factory.sim_checks.config import StandingConfig
-from asset_factory.sim_checks.description import Description, Link, LinkInertia, Mimic
+from asset_factory.sim_checks.description import LinkInertia, Mimic
 
 #: 0.6 m wide, 0.4 m deep, 0.8 m high; the front looks along -y.
 CARCASS: Box = ((0.0, 0.0, 0.4), (0.6, 0.4, 0.8))
@@ -24,7 +23,7 @@ DOOR: Box = ((0.0, -0.21, 0.4), (0.6, 0.02, 0.7))
 HINGE = (-0.3, -0.2, 0.4)
 
 
-def weighing(link: Link, mass: float) -> Link:
+def weighing(link, mass):
     assert link.inertia is not None
     share = mass / link.inertia.mass
     return replace(
@@ -32,7 +31,7 @@ def weighing(link: Link, mass: float) -> Link:
     )
 
 
-def with_door(door_mass: float, carcass_mass: float = 10.0) -> Description:
+def with_door(door_mass, carcass_mass=10.0):
     links = [
         weighing(body("carcass", [CARCASS]), carcass_mass),
         weighing(body("door", [DOOR], HINGE), door_mass),
@@ -42,9 +41,7 @@ def with_door(door_mass: float, carcass_mass: float = 10.0) -> Description:
     )
 
 
-def with_drawer(
-    mass: float, reach: float = 0.4, box: Box = ((0.0, 0.0, 0.4), (0.5, 0.4, 0.2))
-) -> Description:
+def with_drawer(mass, reach=0.4, box=((0.0, 0.0, 0.4), (0.5, 0.4, 0.2))):
     links = [weighing(body("carcass", [CARCASS]), 10.0), weighing(body("drawer", [box]), mass)]
     return described(
         links,
@@ -56,17 +53,17 @@ def with_drawer(
     )
 
 
-def judged(description: Description) -> CheckResult:
+def judged(description):
     result = check_standing(description, StandingConfig())
     json.dumps(dict(result.measurements), allow_nan=False)
     return result
 
 
-def codes(result: CheckResult) -> list[tuple[str, str | None]]:
+def codes(result):
     return [(finding.code, finding.joint) for finding in result.findings]
 
 
-def test_a_box_tilts_by_its_half_width_over_its_half_height() -> None:
+def test_a_box_tilts_by_its_half_width_over_its_half_height():
     result = judged(described([body("box", [CARCASS])], []))
     assert codes(result) == []
     assert result.measurements["closed"] == {
@@ -77,9 +74,7 @@ def test_a_box_tilts_by_its_half_width_over_its_half_height() -> None:
 
 @given(mass=st.floats(0.1, 40.0), reach=st.floats(0.05, 0.8))
 @settings(max_examples=30, deadline=None)
-def test_a_drawer_takes_the_centre_of_mass_along_by_its_share_of_the_weight(
-    mass: float, reach: float
-) -> None:
+def test_a_drawer_takes_the_centre_of_mass_along_by_its_share_of_the_weight(mass, reach):
     result = judged(with_drawer(mass, reach))
     (row,) = result.measurements["joints"]
     assert row["worst_at"] == pytest.approx(reach, abs=1e-6)
@@ -89,7 +84,7 @@ def test_a_drawer_takes_the_centre_of_mass_along_by_its_share_of_the_weight(
     assert (("topples", "slide") in codes(result)) == (row["margin_mm"] < 5.0)
 
 
-def test_a_door_is_worst_where_its_centre_is_farthest_out_not_at_the_end_of_its_range() -> None:
+def test_a_door_is_worst_where_its_centre_is_farthest_out_not_at_the_end_of_its_range():
     result = judged(with_door(10.0))
     (row,) = result.measurements["joints"]
     # About the hinge the door's centre lies (0.3, -0.01) away; it is farthest along -y where that
@@ -103,7 +98,7 @@ def test_a_door_is_worst_where_its_centre_is_farthest_out_not_at_the_end_of_its_
     assert "50.1 mm outside" in result.findings[0].message
 
 
-def test_all_joints_open_may_topple_what_each_alone_does_not() -> None:
+def test_all_joints_open_may_topple_what_each_alone_does_not():
     left = [((x, 0.0, 0.4), (0.25, 0.4, 0.2)) for x in (-0.15, 0.15)]
     links = [
         weighing(body("carcass", [CARCASS]), 10.0),
@@ -111,14 +106,14 @@ def test_all_joints_open_may_topple_what_each_alone_does_not() -> None:
     ]
     links = [links[0], *(weighing(link, 5.0) for link in links[1:])]
     ways = [(0, 0, 0), (0.0, -1.0, 0.0), (0.0, 0.45)]
-    joints = [joint(f"slide{i}", "prismatic", "carcass", f"drawer{i}", *ways) for i in (0, 1)]  # type: ignore[arg-type]
+    joints = [joint(f"slide{i}", "prismatic", "carcass", f"drawer{i}", *ways) for i in (0, 1)]
     result = judged(described(links, joints))
     assert [row["margin_mm"] for row in result.measurements["joints"]] == [pytest.approx(87.5)] * 2
     assert result.measurements["all_upper"]["margin_mm"] == pytest.approx(-25.0)
     assert codes(result) == [("topples", None)]
 
 
-def test_a_leg_on_the_moving_part_carries_it() -> None:
+def test_a_leg_on_the_moving_part_carries_it():
     heavy = with_drawer(20.0, 0.4)
     assert ("topples", "slide") in codes(judged(heavy))
     legged = with_drawer(20.0, 0.4, ((0.0, 0.0, 0.25), (0.5, 0.4, 0.5)))
@@ -127,7 +122,7 @@ def test_a_leg_on_the_moving_part_carries_it() -> None:
     assert result.measurements["joints"][0]["margin_mm"] == pytest.approx(200.0)
 
 
-def test_a_part_that_would_go_below_the_floor_rests_on_it() -> None:
+def test_a_part_that_would_go_below_the_floor_rests_on_it():
     links = [
         weighing(body("carcass", [CARCASS]), 10.0),
         weighing(body("lift", [((0.0, -0.3, 0.4), (0.5, 0.1, 0.2))]), 1.0),
@@ -140,7 +135,7 @@ def test_a_part_that_would_go_below_the_floor_rests_on_it() -> None:
 
 
 @pytest.mark.parametrize("mass", [0.5, 3.0])
-def test_the_pull_that_tips_is_weight_times_margin_over_height(mass: float) -> None:
+def test_the_pull_that_tips_is_weight_times_margin_over_height(mass):
     result = judged(with_drawer(mass, 0.2))
     (row,) = result.measurements["joints"]
     # Pulled at the drawer's upper front edge, 0.5 m high, along the floor; worst with the drawer
@@ -149,7 +144,7 @@ def test_the_pull_that_tips_is_weight_times_margin_over_height(mass: float) -> N
     assert row["tipping_force_n"] == pytest.approx(9.81 * (10.0 + mass) * margin / 0.5, rel=1e-4)
 
 
-def test_a_light_tall_thing_is_pulled_over_by_a_hand() -> None:
+def test_a_light_tall_thing_is_pulled_over_by_a_hand():
     thin: Box = ((0.0, 0.0, 0.75), (0.3, 0.1, 1.5))
     links = [
         weighing(body("tower", [thin]), 3.0),
@@ -164,7 +159,7 @@ def test_a_light_tall_thing_is_pulled_over_by_a_hand() -> None:
     assert finding.value < finding.limit == 20.0
 
 
-def test_what_lifts_straight_up_cannot_be_pulled_over_from_within() -> None:
+def test_what_lifts_straight_up_cannot_be_pulled_over_from_within():
     links = [
         weighing(body("chest", [CARCASS]), 10.0),
         weighing(body("plug", [((0.0, 0.0, 0.85), (0.1, 0.1, 0.1))]), 1.0),
@@ -175,7 +170,7 @@ def test_what_lifts_straight_up_cannot_be_pulled_over_from_within() -> None:
     assert row["tipping_force_n"] == pytest.approx(9.81 * 11.0 * 0.2 / 0.25, rel=1e-4)
 
 
-def test_a_follower_leans_out_with_its_leader() -> None:
+def test_a_follower_leans_out_with_its_leader():
     pair = with_drawer(5.0, 0.4)
     second = weighing(body("drawer2", [((0.0, 0.0, 0.65), (0.5, 0.4, 0.2))]), 5.0)
     line = joint(
@@ -187,7 +182,7 @@ def test_a_follower_leans_out_with_its_leader() -> None:
     assert row["margin_mm"] == pytest.approx(200.0 - 1000.0 * 10.0 * 0.4 / 20.0, abs=1e-3)
 
 
-def test_a_point_or_an_edge_is_no_footing() -> None:
+def test_a_point_or_an_edge_is_no_footing():
     turned = body("roof", [((0.0, 0.0, 0.0), (0.3, 0.3, 0.3))])
     angle = math.pi / 4
     turn = np.array(
@@ -199,9 +194,7 @@ def test_a_point_or_an_edge_is_no_footing() -> None:
 
 
 @pytest.mark.parametrize(("bump", "margin"), [(0.003, 200.0), (0.02, None)])
-def test_an_underside_may_be_uneven_by_a_fraction_of_a_degree(
-    bump: float, margin: float | None
-) -> None:
+def test_an_underside_may_be_uneven_by_a_fraction_of_a_degree(bump, margin):
     box = body("box", [CARCASS])
     (shape,) = box.collisions
     lowered = shape.vertices.copy()
@@ -210,7 +203,7 @@ def test_an_underside_may_be_uneven_by_a_fraction_of_a_degree(
     assert judged(described([rough], [])).measurements["closed"]["margin_mm"] == margin
 
 
-def test_closed_and_already_falling_is_said_once() -> None:
+def test_closed_and_already_falling_is_said_once():
     overhung = weighing(body("box", [CARCASS]), 10.0)
     assert overhung.inertia is not None
     falling = replace(
@@ -222,20 +215,20 @@ def test_closed_and_already_falling_is_said_once() -> None:
     ) == [("topples", None)]
 
 
-def test_without_masses_there_is_no_verdict() -> None:
+def test_without_masses_there_is_no_verdict():
     door = with_door(1.0)
     result = judged(replace(door, links=(door.links[0], replace(door.links[1], inertia=None))))
     assert result.findings == ()
     assert result.measurements == {"unweighed": ["door"]}
 
 
-def test_what_is_no_tree_is_left_to_the_lint() -> None:
+def test_what_is_no_tree_is_left_to_the_lint():
     door = with_door(1.0)
     assert judged(replace(door, joints=())) == CheckResult()
 
 
-def free_based(carcass_mass: float, door_mass: float, angle: float) -> str:
-    def geom(box: Box, at: Sequence[float], mass: float) -> str:
+def free_based(carcass_mass, door_mass, angle):
+    def geom(box, at, mass):
         place = np.subtract(box[0], at)
         size = np.asarray(box[1]) / 2.0
         return f'<geom type="box" mass="{mass}" pos="{_words(place)}" size="{_words(size)}"/>'
@@ -248,12 +241,12 @@ def free_based(carcass_mass: float, door_mass: float, angle: float) -> str:
       <contact><exclude body1="carcass" body2="door"/></contact></mujoco>"""
 
 
-def _words(values: object) -> str:
+def _words(values):
     return " ".join(repr(float(value)) for value in np.asarray(values))
 
 
 @pytest.mark.parametrize("door_mass", [4.0, 6.0, 7.0, 10.0])
-def test_mujoco_with_a_free_base_falls_exactly_where_the_closed_form_says(door_mass: float) -> None:
+def test_mujoco_with_a_free_base_falls_exactly_where_the_closed_form_says(door_mass):
     mujoco = pytest.importorskip("mujoco")
     result = judged(with_door(door_mass))
     (row,) = result.measurements["joints"]
@@ -269,7 +262,7 @@ def test_mujoco_with_a_free_base_falls_exactly_where_the_closed_form_says(door_m
 
 
 @pytest.mark.parametrize(("share", "falls"), [(0.97, False), (1.03, True)])
-def test_mujoco_is_pulled_over_by_exactly_the_tipping_force(share: float, falls: bool) -> None:
+def test_mujoco_is_pulled_over_by_exactly_the_tipping_force(share, falls):
     mujoco = pytest.importorskip("mujoco")
     drawer: Box = ((0.0, 0.0, 0.4), (0.5, 0.4, 0.2))
     (row,) = judged(with_drawer(3.0, 0.2, drawer)).measurements["joints"]

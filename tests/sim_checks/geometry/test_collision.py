@@ -1,7 +1,5 @@
 """Whether hulls meet, and how far apart they are when not."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from box_world import box_hull
@@ -16,21 +14,21 @@ from asset_factory.sim_checks.geometry.kinematics import rotation_about
 UNIT = (1.0, 1.0, 1.0)
 
 
-def shifted(x: float) -> np.ndarray:
+def shifted(x):
     pose = np.eye(4)
     pose[0, 3] = x
     return pose
 
 
 @pytest.mark.parametrize("gap", [1e-5, 1e-4, 1e-3, 0.1])
-def test_distance_of_two_boxes(gap: float) -> None:
+def test_distance_of_two_boxes(gap):
     first = Collider(box_hull((0, 0, 0), UNIT))
     second = Collider(box_hull((0, 0, 0), UNIT))
     second.place(shifted(1.0 + gap))
     assert first.stand(second).depth == pytest.approx(-gap, rel=1e-3, abs=1e-8)
 
 
-def test_distance_between_corners_is_along_the_diagonal() -> None:
+def test_distance_between_corners_is_along_the_diagonal():
     first = Collider(box_hull((0, 0, 0), UNIT))
     second = Collider(box_hull((2, 2, 2), UNIT))
     found = first.stand(second)
@@ -39,7 +37,7 @@ def test_distance_between_corners_is_along_the_diagonal() -> None:
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_touching_boxes_anywhere_neither_crash_nor_overlap(seed: int) -> None:
+def test_touching_boxes_anywhere_neither_crash_nor_overlap(seed):
     generator = np.random.default_rng(seed)
     size = generator.uniform(0.01, 1.0, size=3)
     first = Collider(box_hull((0, 0, 0), size))
@@ -47,13 +45,13 @@ def test_touching_boxes_anywhere_neither_crash_nor_overlap(seed: int) -> None:
     assert first.stand(second).depth == pytest.approx(0.0, abs=1e-9)
 
 
-def test_a_hull_inside_another_is_found() -> None:
+def test_a_hull_inside_another_is_found():
     outer = Collider(box_hull((0, 0, 0), UNIT))
     inner = Collider(box_hull((0, 0, 0), (0.1, 0.1, 0.1)))
     assert outer.stand(inner).depth == pytest.approx(0.55)
 
 
-def test_moving_a_collider_in_place_is_the_same_as_building_it_there() -> None:
+def test_moving_a_collider_in_place_is_the_same_as_building_it_there():
     generator = np.random.default_rng(2)
     points = generator.normal(size=(20, 3))
     others = generator.normal(size=(20, 3))
@@ -68,7 +66,7 @@ def test_moving_a_collider_in_place_is_the_same_as_building_it_there() -> None:
 
 @pytest.mark.parametrize("angle", [0.05, 0.7, 1.5])
 @pytest.mark.parametrize("gap", [1e-4, 1e-2])
-def test_long_crossed_rods_are_as_far_apart_as_they_are(angle: float, gap: float) -> None:
+def test_long_crossed_rods_are_as_far_apart_as_they_are(angle, gap):
     """Two rods of 3 m on edge, crossed in any pose: a direction off by 1e-4 costs 0.3 mm."""
     half = np.array(
         [[x, y, z] for x in (-1.5, 1.5) for y, z in ((0.01, 0), (-0.01, 0), (0, 0.01), (0, -0.01))]
@@ -87,7 +85,7 @@ def test_long_crossed_rods_are_as_far_apart_as_they_are(angle: float, gap: float
 
 @settings(max_examples=30, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1))
-def test_the_widest_gap_is_the_distance(seed: int) -> None:
+def test_the_widest_gap_is_the_distance(seed):
     """No point is nearer to the other hull than the gap; no nearby direction separates more."""
     generator = np.random.default_rng(seed)
     a = convex_hull(generator.normal(size=(12, 3)))

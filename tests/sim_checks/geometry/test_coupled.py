@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import pytest
@@ -16,7 +15,7 @@ from asset_factory.sim_checks.checks.joint_sweep import JointCourse, Rest
 from asset_factory.sim_checks.checks.pairs import Pairs
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
-from asset_factory.sim_checks.description import Description, JointLine, Mimic
+from asset_factory.sim_checks.description import JointLine, Mimic
 from asset_factory.sim_checks.geometry.coupled_path import CoupledPath
 from asset_factory.sim_checks.geometry.kinematics import build_tree
 from asset_factory.sim_checks.geometry.path import Path
@@ -26,9 +25,7 @@ CONFIG = PenetrationConfig()
 Z = (0.0, 0.0, 1.0)
 
 
-def doors(
-    width: float, *, mimic: Mimic | None, gap: float = 1.0, reach: float = 3.14
-) -> Description:
+def doors(width, *, mimic, gap=1.0, reach=3.14):
     """Two doors hinged ``gap`` apart, open to the sides at first; they turn together and past."""
     base = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1))])
     half = gap / 2
@@ -46,12 +43,12 @@ def doors(
     return described([base, left, right], lines)
 
 
-def checked(description: Description) -> tuple[list[tuple[str, str, str | None]], dict[str, Any]]:
+def checked(description):
     result = check_penetration(description, CONFIG)
     return [(f.code, str(f.severity), f.joint) for f in result.findings], result.measurements
 
 
-def test_coupled_doors_that_meet_on_their_way_are_caught_where_geometry_says() -> None:
+def test_coupled_doors_that_meet_on_their_way_are_caught_where_geometry_says():
     """At angle a, the far edges pass the middle by w |cos a| - g/2 and more: worst when shut."""
     findings, measured = checked(doors(0.51, mimic=Mimic("lead")))
     assert findings == [("sweep_penetration", "hard", "lead")]
@@ -65,7 +62,7 @@ def test_coupled_doors_that_meet_on_their_way_are_caught_where_geometry_says() -
     assert meets - 0.2 < sweep["clear_until"] < meets + 0.02
 
 
-def test_coupled_doors_that_leave_room_pass_and_their_clearance_is_measured() -> None:
+def test_coupled_doors_that_leave_room_pass_and_their_clearance_is_measured():
     findings, measured = checked(doors(0.4985, mimic=Mimic("lead")))
     assert findings == []
     (sweep,) = measured["joints"]
@@ -74,7 +71,7 @@ def test_coupled_doors_that_leave_room_pass_and_their_clearance_is_measured() ->
     assert sweep["clearance_mm"] == pytest.approx(2000 * (0.5 - np.hypot(0.4985, 0.01)), abs=0.05)
 
 
-def test_coupled_doors_that_would_only_meet_at_different_angles_pass() -> None:
+def test_coupled_doors_that_would_only_meet_at_different_angles_pass():
     """One follows at half the angle: when the first is shut, the second stands straight out."""
     findings, measured = checked(doors(0.6, mimic=Mimic("lead", 0.5)))
     assert findings == []
@@ -83,7 +80,7 @@ def test_coupled_doors_that_would_only_meet_at_different_angles_pass() -> None:
     assert [code for code, _, _ in free] == ["combination_penetration"]
 
 
-def test_a_follower_that_runs_ahead_at_rest_stands_where_its_leader_puts_it() -> None:
+def test_a_follower_that_runs_ahead_at_rest_stands_where_its_leader_puts_it():
     """With an offset of pi the follower is shut at the leader's rest, and hits what is there."""
     turned = doors(0.6, mimic=Mimic("lead", -1.0, 3.14))
     post = body(
@@ -93,7 +90,7 @@ def test_a_follower_that_runs_ahead_at_rest_stands_where_its_leader_puts_it() ->
     assert ("rest_penetration", "hard", None) in findings
 
 
-def test_two_slides_that_follow_one_another_are_measured_exactly() -> None:
+def test_two_slides_that_follow_one_another_are_measured_exactly():
     """Blocks run towards one another, one twice as fast: they overlap by 10 mm at the end."""
     base = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1))])
     left = body("left", [((-0.4, 0.0, 0.0), (0.2, 0.2, 0.2))])
@@ -110,7 +107,7 @@ def test_two_slides_that_follow_one_another_are_measured_exactly() -> None:
     assert measured["joints"][0]["pairs"][0]["depth_mm"] == pytest.approx(10.0, rel=0.02)
 
 
-def test_a_coupled_drawer_needs_a_door_that_opens_alone() -> None:
+def test_a_coupled_drawer_needs_a_door_that_opens_alone():
     base = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1))])
     door = body("door", [((0.0, -0.05, 0.0), (0.6, 0.04, 0.4))])
     tray = body("tray", [((-2.0, 0.25, 0.0), (0.2, 0.5, 0.2))])
@@ -132,7 +129,7 @@ def test_a_coupled_drawer_needs_a_door_that_opens_alone() -> None:
     }
 
 
-def arm(multipliers: tuple[float, float]) -> Description:
+def arm(multipliers):
     """A chain of a turn, a slide and a turn, and a fourth link beside it; all follow the first."""
     names = ("base", "upper", "middle", "hand", "beside")
     links = [
@@ -158,9 +155,7 @@ def arm(multipliers: tuple[float, float]) -> Description:
 
 @settings(max_examples=15, deadline=None)
 @given(first=st.floats(-2.0, 2.0), second=st.floats(-2.0, 2.0), start=st.floats(-1.0, 1.0))
-def test_what_one_link_sees_of_another_is_what_the_kinematics_say(
-    first: float, second: float, start: float
-) -> None:
+def test_what_one_link_sees_of_another_is_what_the_kinematics_say(first, second, start):
     description = arm((first, second))
     tree = build_tree(description)
     solids = Solids(description, tree)
@@ -182,10 +177,10 @@ def test_what_one_link_sees_of_another_is_what_the_kinematics_say(
 
 @settings(max_examples=40, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1))
-def test_no_point_gets_beyond_the_bounds_between_two_places(seed: int) -> None:
+def test_no_point_gets_beyond_the_bounds_between_two_places(seed):
     generator = np.random.default_rng(seed)
 
-    def line() -> tuple[Path, float]:
+    def line():
         axis = generator.normal(size=3)
         turning = bool(generator.integers(2))
         return Path(
@@ -211,7 +206,7 @@ def test_no_point_gets_beyond_the_bounds_between_two_places(seed: int) -> None:
                 assert np.linalg.norm(there - points, axis=1).max() <= way.travel(points) + 1e-9
 
 
-def test_the_inverse_undoes_the_motion() -> None:
+def test_the_inverse_undoes_the_motion():
     steps = (
         (Path(True, np.ones(3), np.array(Z), 1.0), 0.7),
         (Path(False, np.zeros(3), np.array(Z), 1.0), -2.0),
@@ -221,7 +216,7 @@ def test_the_inverse_undoes_the_motion() -> None:
     assert path.unturned(path.pose(0.6)[:3, 0], 0.6) == pytest.approx([1.0, 0.0, 0.0], abs=1e-12)
 
 
-def tangle(seed: int) -> Description:
+def tangle(seed):
     """Four blocks hung on one another at random, by turns and slides that all follow the first."""
     generator = np.random.default_rng(seed)
     names = ("base", "l1", "l2", "l3", "l4")
@@ -245,7 +240,7 @@ def tangle(seed: int) -> Description:
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_no_pose_on_the_way_is_worse_than_what_is_found(seed: int) -> None:
+def test_no_pose_on_the_way_is_worse_than_what_is_found(seed):
     description = tangle(seed)
     tree = build_tree(description)
     solids = Solids(description, tree)

@@ -1,9 +1,6 @@
 """Coupled double doors in every engine: they start shut, open together and push nobody."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,12 +15,11 @@ from asset_factory.sim_checks.config import CheckConfig, MotionConfig
 from asset_factory.sim_checks.description import Mimic
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
 from asset_factory.sim_checks.read.read import read_description
-from asset_factory.sim_checks.report import Finding, Severity
+from asset_factory.sim_checks.report import Severity
 from asset_factory.sim_checks.simulators.catalog import installed, simulator
 from asset_factory.sim_checks.simulators.drive import sweep
 from asset_factory.sim_checks.simulators.joints import ranges
 from asset_factory.sim_checks.simulators.observe import observe
-from asset_factory.sim_checks.simulators.simulator import JointMotion
 
 CONFIG = MotionConfig()
 ENGINES = [
@@ -36,7 +32,7 @@ ENGINES = [
 OPEN = 1.8
 
 
-def doors(mimic: Mimic, width: float, *, drawer: bool) -> Thing:
+def doors(mimic, width, *, drawer):
     """Two doors before a 1 m carcass, shut with the leader at 0; a drawer wider than either."""
     sign = 1.0 if mimic.multiplier > 0.0 else -1.0
     hinge = np.array([0.5, -0.03, 0.0])
@@ -66,9 +62,7 @@ def doors(mimic: Mimic, width: float, *, drawer: bool) -> Thing:
     return Thing("doors", tuple(bodies), tuple(moves))
 
 
-def coupled(
-    folder: Path, mimic: Mimic, width: float = 0.47, *, drawer: bool = True, kind: str = "urdf"
-) -> Path:
+def coupled(folder, mimic, width=0.47, *, drawer=True, kind="urdf"):
     thing = doors(mimic, width, drawer=drawer)
     path = (write_urdf if kind == "urdf" else write_mjcf)(thing, folder)
     text = path.read_text()
@@ -86,7 +80,7 @@ def coupled(
     return path
 
 
-def judged(path: Path, engine: str) -> tuple[list[Finding], dict[str, JointMotion]]:
+def judged(path, engine):
     description = read_description(path)
     seen = observe(engine, path, CONFIG, ())
     findings = (
@@ -98,7 +92,7 @@ def judged(path: Path, engine: str) -> tuple[list[Finding], dict[str, JointMotio
     }
 
 
-def hard(findings: list[Finding]) -> set[str]:
+def hard(findings):
     return {finding.code for finding in findings if finding.severity is Severity.HARD}
 
 
@@ -107,7 +101,7 @@ def hard(findings: list[Finding]) -> set[str]:
     "mimic", [Mimic("lead", -1.0), Mimic("lead", 1.0), Mimic("lead", -1.0, 0.5)]
 )
 @pytest.mark.parametrize("drawer", [False, True])
-def test_sound_coupled_doors_pass(tmp_path: Path, engine: str, mimic: Mimic, drawer: bool) -> None:
+def test_sound_coupled_doors_pass(tmp_path, engine, mimic, drawer):
     findings, motions = judged(coupled(tmp_path, mimic, drawer=drawer), engine)
     assert [f.code for f in findings] == (["mimic_ignored"] if engine == "pybullet" else [])
     for motion in motions.values():
@@ -123,7 +117,7 @@ def test_sound_coupled_doors_pass(tmp_path: Path, engine: str, mimic: Mimic, dra
 @pytest.mark.parametrize(
     "mimic", [Mimic("lead", -1.0), Mimic("lead", 1.0), Mimic("lead", -1.0, 0.5)]
 )
-def test_coupled_doors_that_overlap_fail(tmp_path: Path, engine: str, mimic: Mimic) -> None:
+def test_coupled_doors_that_overlap_fail(tmp_path, engine, mimic):
     findings, _ = judged(coupled(tmp_path, mimic, width=0.52, drawer=False), engine)
     assert hard(findings) & {"jammed", "not_returned"}
 
@@ -132,9 +126,7 @@ def test_coupled_doors_that_overlap_fail(tmp_path: Path, engine: str, mimic: Mim
 @pytest.mark.parametrize(
     "mimic", [Mimic("lead", -1.0), Mimic("lead", 1.0, 0.5), Mimic("lead", -0.9, 0.2)]
 )
-def test_doors_that_an_mjcf_equality_couples_pass_and_fail_alike(
-    tmp_path: Path, mimic: Mimic
-) -> None:
+def test_doors_that_an_mjcf_equality_couples_pass_and_fail_alike(tmp_path, mimic):
     (tmp_path / "wide").mkdir()
     assert judged(coupled(tmp_path, mimic, kind="mjcf"), "mujoco")[0] == []
     assert "jammed" in hard(
@@ -144,9 +136,7 @@ def test_doors_that_an_mjcf_equality_couples_pass_and_fail_alike(
 
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("mimic", [Mimic("lead", 1.0, 0.5), Mimic("lead", -0.9, 0.0)])
-def test_only_sapien_couples_two_doors_of_one_carcass_the_wrong_way_round(
-    tmp_path: Path, engine: str, mimic: Mimic
-) -> None:
+def test_only_sapien_couples_two_doors_of_one_carcass_the_wrong_way_round(tmp_path, engine, mimic):
     findings, _ = judged(coupled(tmp_path, mimic, drawer=False), engine)
     wrong = [f for f in findings if f.code == "mimic_mismatch"]
     assert [(f.joint, f.severity) for f in wrong] == (
@@ -155,7 +145,7 @@ def test_only_sapien_couples_two_doors_of_one_carcass_the_wrong_way_round(
     assert hard(findings) <= {"mimic_mismatch"}
 
 
-def chain(parents: tuple[str, str], mimics: tuple[Mimic, Mimic]) -> str:
+def chain(parents, mimics):
     """Three slides on a post, the second and third of which follow another."""
     links = "".join(
         f'<link name="{name}"><inertial><mass value="1"/>'
@@ -191,9 +181,7 @@ def chain(parents: tuple[str, str], mimics: tuple[Mimic, Mimic]) -> str:
         (("post", "b"), (Mimic("ja", -1.0, 0.1), Mimic("jb", 1.5))),
     ],
 )
-def test_joints_are_where_the_engine_is_said_to_force_them(
-    tmp_path: Path, engine: str, parents: tuple[str, str], mimics: tuple[Mimic, Mimic]
-) -> None:
+def test_joints_are_where_the_engine_is_said_to_force_them(tmp_path, engine, parents, mimics):
     path = tmp_path / "chain.urdf"
     path.write_text(chain(parents, mimics))
     world = simulator(engine).open(path, CONFIG)
@@ -213,7 +201,7 @@ def test_joints_are_where_the_engine_is_said_to_force_them(
 
 
 @pytest.mark.parametrize("engine", ENGINES[1:])
-def test_one_that_follows_at_no_rate_stops_nobody(tmp_path: Path, engine: str) -> None:
+def test_one_that_follows_at_no_rate_stops_nobody(tmp_path, engine):
     path = coupled(tmp_path, Mimic("lead", 0.0, 0.3), drawer=False)
     path.write_text(path.read_text().replace('lower="0.3" upper="0.3"', 'lower="0" upper="1.8"'))
     findings, motions = judged(path, engine)
@@ -222,7 +210,7 @@ def test_one_that_follows_at_no_rate_stops_nobody(tmp_path: Path, engine: str) -
 
 
 @pytest.mark.skipif(not installed("sapien"), reason="SAPIEN is not installed")
-def test_what_sapien_leaves_free_is_not_held_to_be_coupled(tmp_path: Path) -> None:
+def test_what_sapien_leaves_free_is_not_held_to_be_coupled(tmp_path):
     path = tmp_path / "chain.urdf"
     path.write_text(chain(("post", "b"), (Mimic("ja"), Mimic("ja"))))
     findings, motions = judged(path, "sapien")
@@ -238,9 +226,7 @@ def test_what_sapien_leaves_free_is_not_held_to_be_coupled(tmp_path: Path) -> No
     offsets=st.tuples(*[st.floats(-0.2, 0.2)] * 2),
     lower=st.floats(-0.3, 0.0),
 )
-def test_whoever_moves_together_begins_and_ends_together_within_all_limits(
-    rates: tuple[float, float], offsets: tuple[float, float], lower: float
-) -> None:
+def test_whoever_moves_together_begins_and_ends_together_within_all_limits(rates, offsets, lower):
     world = Sliders([1.0, 1.0, 1.0])
     free = [replace(joint, lower=lower) for joint in world.joints]
     mimics = [None, *(Mimic(f"j{i}", rates[i], offsets[i]) for i in (0, 1))]
@@ -257,20 +243,20 @@ def test_whoever_moves_together_begins_and_ends_together_within_all_limits(
 class Mirrored(Sliders):
     """A block that a second one mirrors: the second is at 0.3 m when the first is at 0."""
 
-    def __init__(self, wall: float = np.inf) -> None:
+    def __init__(self, wall=np.inf):
         super().__init__([2.0, 2.0])
         one, two = self.joints
         self.joints = (one, two.following(Mimic("j0", -1.0, 0.3)))
         self.wall = wall
 
-    def step(self, forces: np.ndarray) -> None:
+    def step(self, forces):
         both = 0.5 * (forces[0] - forces[1])
         super().step(np.array([both, -both]))
         self._q[1] = 0.3 - self._q[0]
         self._v[1] = -self._v[0]
 
 
-def test_a_joint_that_is_driven_backwards_is_measured_from_where_it_begins() -> None:
+def test_a_joint_that_is_driven_backwards_is_measured_from_where_it_begins():
     lead, led = sweep(Mirrored(), CONFIG)
     for motion in (lead, led):
         assert motion.reached > 0.999

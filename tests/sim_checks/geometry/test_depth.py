@@ -1,7 +1,5 @@
 """Penetration depth of convex polyhedra is exact."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from box_world import box_hull
@@ -10,45 +8,45 @@ from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
 from asset_factory.sim_checks.geometry.depth import contact_region, overlap, overlap_along
-from asset_factory.sim_checks.geometry.hull import CollisionHull, FlatHull, convex_hull
+from asset_factory.sim_checks.geometry.hull import FlatHull, convex_hull
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
 
 UNIT = (1.0, 1.0, 1.0)
 
 
-def by_minkowski_difference(a: CollisionHull, b: CollisionHull) -> float:
+def by_minkowski_difference(a, b):
     """The depth another way: distance of the origin to the hull of all differences of corners."""
     difference = ConvexHull((a.vertices[:, None] - b.vertices[None]).reshape(-1, 3))
     return float((-difference.equations[:, 3]).min())
 
 
 @pytest.mark.parametrize("depth", [1e-5, 1e-4, 1e-3, 1e-2, 0.1])
-def test_depth_of_two_boxes_is_the_overlap_of_their_faces(depth: float) -> None:
+def test_depth_of_two_boxes_is_the_overlap_of_their_faces(depth):
     found = overlap(box_hull((0, 0, 0), UNIT), box_hull((1.0 - depth, 0.1, 0.2), UNIT))
     assert found.depth == pytest.approx(depth, abs=1e-12)
     assert found.direction == pytest.approx([1.0, 0.0, 0.0])
 
 
 @pytest.mark.parametrize("gap", [1e-5, 1e-3, 0.1])
-def test_a_gap_is_never_a_depth(gap: float) -> None:
+def test_a_gap_is_never_a_depth(gap):
     assert overlap(
         box_hull((0, 0, 0), UNIT), box_hull((1.0 + gap, 0.1, 0.2), UNIT)
     ).depth == pytest.approx(-gap)
 
 
-def test_exact_touch_has_no_depth() -> None:
+def test_exact_touch_has_no_depth():
     assert overlap(
         box_hull((0, 0, 0), UNIT), box_hull((1.0, 0.0, 0.0), UNIT)
     ).depth == pytest.approx(0.0, abs=1e-12)
 
 
-def test_a_box_wholly_inside_another_is_as_deep_as_its_way_out() -> None:
+def test_a_box_wholly_inside_another_is_as_deep_as_its_way_out():
     assert overlap(
         box_hull((0, 0, 0), UNIT), box_hull((0.1, 0, 0), (0.2, 0.2, 0.2))
     ).depth == pytest.approx(0.5)
 
 
-def test_crossing_edges_are_found_although_no_face_is_near() -> None:
+def test_crossing_edges_are_found_although_no_face_is_near():
     roof = box_hull((0, 0, 0), UNIT, rotation_about(np.array([1.0, 0.0, 0.0]), np.pi / 4))
     keel = box_hull(
         (0, 0, np.sqrt(2.0) - 0.01), UNIT, rotation_about(np.array([0.0, 1.0, 0.0]), np.pi / 4)
@@ -60,9 +58,7 @@ def test_crossing_edges_are_found_although_no_face_is_near() -> None:
 
 @settings(max_examples=60, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1), corners=st.integers(4, 30), reach=st.floats(0.0, 2.5))
-def test_depth_is_the_distance_out_of_the_minkowski_difference(
-    seed: int, corners: int, reach: float
-) -> None:
+def test_depth_is_the_distance_out_of_the_minkowski_difference(seed, corners, reach):
     generator = np.random.default_rng(seed)
     a = convex_hull(generator.normal(size=(corners, 3)))
     b = convex_hull(generator.normal(size=(corners, 3)) + np.array([reach, 0.0, 0.0]))
@@ -77,7 +73,7 @@ def test_depth_is_the_distance_out_of_the_minkowski_difference(
 
 @settings(max_examples=20, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1))
-def test_depth_does_not_depend_on_where_the_world_is(seed: int) -> None:
+def test_depth_does_not_depend_on_where_the_world_is(seed):
     generator = np.random.default_rng(seed)
     a, b = (convex_hull(generator.normal(size=(12, 3))) for _ in range(2))
     pose = np.eye(4)
@@ -89,7 +85,7 @@ def test_depth_does_not_depend_on_where_the_world_is(seed: int) -> None:
     assert overlap(b, a).depth == pytest.approx(overlap(a, b).depth, abs=1e-12)
 
 
-def test_round_hulls_of_a_thousand_corners_are_still_exact() -> None:
+def test_round_hulls_of_a_thousand_corners_are_still_exact():
     generator = np.random.default_rng(5)
     points = generator.normal(size=(1000, 3))
     ball = convex_hull(points / np.linalg.norm(points, axis=1)[:, None])
@@ -102,20 +98,20 @@ def test_round_hulls_of_a_thousand_corners_are_still_exact() -> None:
     assert overlap_along(ball, other, tried).min() >= found.depth - 1e-12
 
 
-def test_contact_region_of_two_boxes_is_their_common_box() -> None:
+def test_contact_region_of_two_boxes_is_their_common_box():
     region = contact_region(box_hull((0, 0, 0), UNIT), box_hull((0.9, 0.8, 0.0), UNIT))
     assert region.min(axis=0) == pytest.approx([0.4, 0.3, -0.5])
     assert region.max(axis=0) == pytest.approx([0.5, 0.5, 0.5])
 
 
-def test_contact_region_of_a_box_inside_another_is_the_inner_box() -> None:
+def test_contact_region_of_a_box_inside_another_is_the_inner_box():
     region = contact_region(box_hull((0, 0, 0), UNIT), box_hull((0.1, 0, 0), (0.2, 0.2, 0.2)))
     assert np.ptp(region, axis=0) == pytest.approx([0.2, 0.2, 0.2])
 
 
 @settings(max_examples=40, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1))
-def test_contact_region_of_flush_boxes_is_whole_however_they_are_turned(seed: int) -> None:
+def test_contact_region_of_flush_boxes_is_whole_however_they_are_turned(seed):
     generator = np.random.default_rng(seed)
     axis = generator.normal(size=3)
     pose = np.eye(4)
@@ -127,16 +123,16 @@ def test_contact_region_of_flush_boxes_is_whole_however_they_are_turned(seed: in
     assert np.ptp(region, axis=0) == pytest.approx([0.1, 1.0, 1.0], abs=1e-7)
 
 
-def test_apart_hulls_have_no_contact_region() -> None:
+def test_apart_hulls_have_no_contact_region():
     assert len(contact_region(box_hull((0, 0, 0), UNIT), box_hull((1.1, 0, 0), UNIT))) == 0
 
 
-def test_points_in_a_plane_are_no_hull() -> None:
+def test_points_in_a_plane_are_no_hull():
     with pytest.raises(FlatHull, match="one plane"):
         convex_hull(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]]))
 
 
-def test_a_box_has_six_faces_and_twelve_edges() -> None:
+def test_a_box_has_six_faces_and_twelve_edges():
     hull = box_hull((5.0, 6.0, 7.0), (0.1, 0.2, 0.3))
     assert (len(hull.normals), len(hull.edges), len(hull.vertices)) == (6, 12, 8)
     assert hull.volume == pytest.approx(0.006)

@@ -1,7 +1,5 @@
 """Convex hulls: exact while small, thinned within bounds when large, none from nothing."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -14,7 +12,7 @@ from asset_factory.sim_checks.geometry.hull import (
 from asset_factory.sim_checks.read.primitives import box
 
 
-def ball(corners: int) -> np.ndarray:
+def ball(corners):
     index = np.arange(corners) + 0.5
     height = 1.0 - 2.0 * index / corners
     turn = np.pi * (1.0 + np.sqrt(5.0)) * index
@@ -22,7 +20,7 @@ def ball(corners: int) -> np.ndarray:
     return np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
 
 
-def test_a_hull_of_few_corners_is_exact() -> None:
+def test_a_hull_of_few_corners_is_exact():
     points = ball(MOST_CORNERS)
     hull = convex_hull(points)
     assert hull.corners == len(hull.vertices) == MOST_CORNERS
@@ -30,9 +28,7 @@ def test_a_hull_of_few_corners_is_exact() -> None:
 
 
 @pytest.mark.parametrize("stretch", [(1.0, 1.0, 1.0), (1.0, 0.1, 0.02)])
-def test_a_hull_of_many_corners_is_thinned_and_loses_little(
-    stretch: tuple[float, float, float],
-) -> None:
+def test_a_hull_of_many_corners_is_thinned_and_loses_little(stretch):
     points = ball(20_000) * stretch
     hull = convex_hull(points)
     assert hull.corners == 20_000
@@ -47,13 +43,13 @@ def test_a_hull_of_many_corners_is_thinned_and_loses_little(
     assert (farthest_along(whole, directions) - farthest_along(thinned, directions)).max() < 0.005
 
 
-def test_the_same_points_give_the_same_hull_again_and_others_another() -> None:
+def test_the_same_points_give_the_same_hull_again_and_others_another():
     points = ball(10_000)
     assert convex_hull(points).vertices.tobytes() == convex_hull(points.copy()).vertices.tobytes()
     assert convex_hull(2.0 * points).volume == pytest.approx(8.0 * convex_hull(points).volume)
 
 
-def test_points_within_do_not_count_as_corners() -> None:
+def test_points_within_do_not_count_as_corners():
     points = np.vstack([box(np.array([3.0, 3.0, 3.0]))[0], ball(10_000)])
     assert convex_hull(points).corners == 8
 
@@ -70,6 +66,6 @@ def test_points_within_do_not_count_as_corners() -> None:
     ids=["few", "flat", "nothing", "nan", "infinite"],
 )
 @pytest.mark.filterwarnings("ignore:invalid value")
-def test_what_spans_no_volume_is_said_to(points: np.ndarray) -> None:
+def test_what_spans_no_volume_is_said_to(points):
     with pytest.raises(FlatHull):
         convex_hull(points)

@@ -1,7 +1,5 @@
 """The judge's own forward kinematics."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -22,7 +20,7 @@ from asset_factory.sim_checks.geometry.path import Path
 CUBE = [((0.0, 0.0, 0.0), (0.1, 0.1, 0.1))]
 
 
-def arm() -> object:
+def arm():
     """Two links of 1 m in a plane, and a slide at the tip."""
     links = [body(name, CUBE) for name in ("base", "upper", "fore", "tip")]
     joints = [
@@ -34,7 +32,7 @@ def arm() -> object:
 
 
 @given(a=st.floats(-3, 3), b=st.floats(-3, 3), d=st.floats(0, 0.5))
-def test_a_planar_arm_reaches_where_trigonometry_says(a: float, b: float, d: float) -> None:
+def test_a_planar_arm_reaches_where_trigonometry_says(a, b, d):
     tip = arm().link_poses({"shoulder": a, "elbow": b, "wrist": d})["tip"]
     expected = [np.cos(a) + (1 + d) * np.cos(a + b), np.sin(a) + (1 + d) * np.sin(a + b), 0.0]
     assert tip[:3, 3] == pytest.approx(expected, abs=1e-12)
@@ -48,9 +46,7 @@ def test_a_planar_arm_reaches_where_trigonometry_says(a: float, b: float, d: flo
         max_size=5,
     )
 )
-def test_posing_again_gives_the_digits_of_posing_for_the_first_time(
-    samples: list[dict[str, float]],
-) -> None:
+def test_posing_again_gives_the_digits_of_posing_for_the_first_time(samples):
     tree = arm()
     poser = Poser(tree)
     for values in samples:
@@ -59,7 +55,7 @@ def test_posing_again_gives_the_digits_of_posing_for_the_first_time(
         assert all(np.array_equal(again[name], first[name]) for name in first)
 
 
-def test_links_that_no_changed_joint_moves_keep_their_pose() -> None:
+def test_links_that_no_changed_joint_moves_keep_their_pose():
     poser = Poser(arm())
     before = poser.link_poses({"shoulder": 0.3})
     after = poser.link_poses({"shoulder": 0.3, "elbow": 0.5})
@@ -67,12 +63,12 @@ def test_links_that_no_changed_joint_moves_keep_their_pose() -> None:
     assert after["fore"] is not before["fore"]
 
 
-def test_what_hangs_below_a_joint_moves_with_it() -> None:
+def test_what_hangs_below_a_joint_moves_with_it():
     tree = arm()
     assert tree.below(next(item for item in tree.order if item.name == "elbow")) == {"fore", "tip"}
 
 
-def test_a_path_moves_points_as_the_kinematics_do() -> None:
+def test_a_path_moves_points_as_the_kinematics_do():
     description = cabinet()
     tree = build_tree(description)
     hinge = next(item for item in tree.moving if item.name == "hinge")
@@ -93,13 +89,13 @@ def test_a_path_moves_points_as_the_kinematics_do() -> None:
         ("abc", [("b", "c"), ("c", "b")], "loop"),
     ],
 )
-def test_what_is_no_tree_is_refused(links: str, pairs: list[tuple[str, str]], message: str) -> None:
+def test_what_is_no_tree_is_refused(links, pairs, message):
     joints = [joint(f"{a}{b}", "fixed", a, b, (0, 0, 0), (1, 0, 0), None) for a, b in pairs]
     with pytest.raises(NotATree, match=message):
         build_tree(described([body(name, CUBE) for name in links], joints))
 
 
-def test_ranges_that_cannot_be_swept_are_none_and_a_turn_is_one_turn() -> None:
+def test_ranges_that_cannot_be_swept_are_none_and_a_turn_is_one_turn():
     good = joint("j", "revolute", "a", "b", (0, 0, 0), (0, 0, 1), (0.0, 1.0))
     assert sweep_range(good) == (0.0, 1.0)
     assert sweep_range(replace(good, lower=1.0, upper=0.0)) is None

@@ -1,7 +1,5 @@
 """How far points lie outside hulls: closed forms, and the nearest point of every triangle."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import trimesh
@@ -9,7 +7,7 @@ from box_world import box_hull
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asset_factory.sim_checks.geometry.hull import CollisionHull, convex_hull
+from asset_factory.sim_checks.geometry.hull import convex_hull
 from asset_factory.sim_checks.geometry.outside import distance_outside
 
 CUBE = box_hull((0.0, 0.0, 0.0), (2.0, 2.0, 2.0))
@@ -32,18 +30,18 @@ WEDGE = convex_hull(
     ],
     ids=["inside", "face", "before a face", "beside an edge", "beyond a corner"],
 )
-def test_a_cube_s_distances_are_exact(point: tuple[float, float, float], distance: float) -> None:
+def test_a_cube_s_distances_are_exact(point, distance):
     assert distance_outside(np.array([point]), [CUBE]) == pytest.approx([distance], abs=1e-15)
 
 
-def test_beyond_a_knife_s_edge_the_distance_is_that_of_the_edge() -> None:
+def test_beyond_a_knife_s_edge_the_distance_is_that_of_the_edge():
     point = np.array([[0.7, 0.5, 0.0]])
     # No face plane is nearly as far: each passes within 8 mm.
     assert (point @ WEDGE.normals.T - WEDGE.offsets).max() < 0.008
     assert distance_outside(point, [WEDGE]) == pytest.approx([0.3], abs=1e-12)
 
 
-def test_of_several_hulls_the_nearest_counts() -> None:
+def test_of_several_hulls_the_nearest_counts():
     # The wedge's planes pass nearer to the point than the cube's, but the cube is nearer.
     cube = box_hull((0.7, 0.5, 0.12), (0.2, 0.2, 0.2))
     point = np.array([[0.7, 0.5, 0.0]])
@@ -51,7 +49,7 @@ def test_of_several_hulls_the_nearest_counts() -> None:
     assert distance_outside(point, [cube, WEDGE]) == pytest.approx([0.02], abs=1e-12)
 
 
-def to_triangles(points: np.ndarray, hull: CollisionHull) -> np.ndarray:
+def to_triangles(points, hull):
     """Distances to the nearest of a hull's triangles, of points outside it."""
     # Trimesh takes what is smaller than 1e-8 for nothing.
     corners = 1e5 * hull.vertices[hull.triangles]
@@ -67,9 +65,7 @@ def to_triangles(points: np.ndarray, hull: CollisionHull) -> np.ndarray:
     away=st.floats(0.0, 10.0),
 )
 @settings(deadline=None)
-def test_no_triangle_is_nearer_and_one_is_as_near(
-    seed: int, corners: int, size: tuple[float, float, float], away: float
-) -> None:
+def test_no_triangle_is_nearer_and_one_is_as_near(seed, corners, size, away):
     generator = np.random.default_rng(seed)
     hulls = [
         convex_hull(away + (generator.normal(size=(corners, 3)) + shift) * size)

@@ -1,9 +1,5 @@
 """Visible surfaces of any mesh: the gap where they are apart, the way out where they meet."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 from box_world import box_hull
@@ -13,7 +9,6 @@ from hypothesis import strategies as st
 from asset_factory.sim_checks.geometry import gaps
 from asset_factory.sim_checks.geometry.depth import contact_region, overlap
 from asset_factory.sim_checks.geometry.gaps import visible_gap
-from asset_factory.sim_checks.geometry.hull import CollisionHull
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
 from asset_factory.sim_checks.geometry.loose import strayed
 from asset_factory.sim_checks.geometry.surfaces import SurfaceMeeting, VisibleSurface, patches
@@ -23,7 +18,7 @@ POSES = np.array([np.eye(4), np.eye(4)])
 MARGIN = 0.005
 
 
-def boxes(*items: tuple[tuple[float, float, float], tuple[float, float, float]]) -> VisibleSurface:
+def boxes(*items):
     """Boxes of centre and size [m] as one surface."""
     parts = [
         (vertices + center, faces)
@@ -33,13 +28,13 @@ def boxes(*items: tuple[tuple[float, float, float], tuple[float, float, float]])
     return joined([VisibleSurface(vertices, faces.astype(np.int64)) for vertices, faces in parts])
 
 
-def joined(surfaces: list[VisibleSurface]) -> VisibleSurface:
+def joined(surfaces):
     starts = np.cumsum([0, *(len(item.vertices) for item in surfaces[:-1])])
     faces = [item.faces + start for item, start in zip(surfaces, starts, strict=True)]
     return VisibleSurface(np.vstack([item.vertices for item in surfaces]), np.vstack(faces))
 
 
-def finer(surface: VisibleSurface, times: int = 5) -> VisibleSurface:
+def finer(surface, times=5):
     """Every triangle in four, so many times."""
     for _ in range(times):
         a, b, c = surface.vertices[surface.faces].transpose(1, 0, 2)
@@ -53,7 +48,7 @@ def finer(surface: VisibleSurface, times: int = 5) -> VisibleSurface:
     return surface
 
 
-def opened(surface: VisibleSurface) -> VisibleSurface:
+def opened(surface):
     """Without the face that looks along +x."""
     corners = surface.vertices[surface.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -62,15 +57,15 @@ def opened(surface: VisibleSurface) -> VisibleSurface:
     )
 
 
-def doubled(surface: VisibleSurface) -> VisibleSurface:
+def doubled(surface):
     return VisibleSurface(surface.vertices, np.vstack([surface.faces, surface.faces[:, ::-1]]))
 
 
-def inverted(surface: VisibleSurface) -> VisibleSurface:
+def inverted(surface):
     return VisibleSurface(surface.vertices, surface.faces[:, ::-1])
 
 
-def met(a: CollisionHull, b: CollisionHull) -> SurfaceMeeting:
+def met(a, b):
     found = overlap(a, b)
     region = contact_region(a, b)
     if len(region) == 0:
@@ -84,9 +79,7 @@ def met(a: CollisionHull, b: CollisionHull) -> SurfaceMeeting:
     )
 
 
-def stand(
-    one: VisibleSurface, other: VisibleSurface, meeting: SurfaceMeeting, poses: np.ndarray = POSES
-) -> float:
+def stand(one, other, meeting, poses=POSES):
     return visible_gap(one, other, poses, meeting)
 
 
@@ -97,9 +90,7 @@ SECOND = box_hull((0.26, 0.0, 0.0), (0.3, 0.2, 0.2))
 
 @pytest.mark.parametrize("seen", [doubled, finer, inverted, opened, lambda surface: surface])
 @pytest.mark.parametrize("depth", [0.0004, 0.003, 0.012, 0.03])
-def test_depth_is_how_far_one_must_be_pulled_whatever_the_mesh_is_like(
-    depth: float, seen: Callable[[VisibleSurface], VisibleSurface]
-) -> None:
+def test_depth_is_how_far_one_must_be_pulled_whatever_the_mesh_is_like(depth, seen):
     one = boxes(((0.0, 0.0, 0.0), (0.26, 0.15, 0.15)))
     other = seen(boxes(((0.26 - depth, 0.01, 0.02), (0.26, 0.1, 0.1))))
     assert stand(one, other, met(FIRST, SECOND)) == pytest.approx(-depth, rel=0.05, abs=2e-5)
@@ -108,15 +99,13 @@ def test_depth_is_how_far_one_must_be_pulled_whatever_the_mesh_is_like(
 
 @pytest.mark.parametrize("seen", [doubled, finer, inverted, lambda surface: surface])
 @pytest.mark.parametrize("gap", [1e-5, 0.002, 0.0049])
-def test_a_gap_is_the_distance(
-    gap: float, seen: Callable[[VisibleSurface], VisibleSurface]
-) -> None:
+def test_a_gap_is_the_distance(gap, seen):
     one = boxes(((0.0, 0.0, 0.0), (0.26, 0.15, 0.15)))
     other = seen(boxes(((0.26 + gap, 0.0, 0.0), (0.26, 0.1, 0.1))))
     assert stand(one, other, met(FIRST, SECOND)) == pytest.approx(gap, abs=1e-7)
 
 
-def test_wider_gaps_are_not_measured() -> None:
+def test_wider_gaps_are_not_measured():
     one = boxes(((0.0, 0.0, 0.0), (0.2, 0.2, 0.2)))
     other = boxes(((0.3, 0.0, 0.0), (0.2, 0.2, 0.2)))
     assert stand(one, other, met(FIRST, SECOND)) == MARGIN
@@ -125,7 +114,7 @@ def test_wider_gaps_are_not_measured() -> None:
 @settings(max_examples=25, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1), depth=st.floats(-0.004, 0.01))
 @example(seed=527, depth=0.0)
-def test_where_the_world_is_does_not_matter(seed: int, depth: float) -> None:
+def test_where_the_world_is_does_not_matter(seed, depth):
     generator = np.random.default_rng(seed)
     axis = generator.normal(size=3)
     pose = np.eye(4)
@@ -137,7 +126,7 @@ def test_where_the_world_is_does_not_matter(seed: int, depth: float) -> None:
     assert found == pytest.approx(-depth, rel=0.05, abs=3e-5)
 
 
-def test_crossing_plates_are_as_deep_as_the_way_out() -> None:
+def test_crossing_plates_are_as_deep_as_the_way_out():
     """No corner of either lies inside the other, and half the thickness says nothing."""
     one = ((0.0, 0.0, 0.0), (0.001, 0.1, 0.1))
     other = ((0.04, 0.0, 0.0), (0.1, 0.001, 0.05))
@@ -145,7 +134,7 @@ def test_crossing_plates_are_as_deep_as_the_way_out() -> None:
     assert found == pytest.approx(-0.0105, rel=0.05)
 
 
-def test_a_drawer_too_wide_for_two_walls_lies_deep_in_neither() -> None:
+def test_a_drawer_too_wide_for_two_walls_lies_deep_in_neither():
     """One hull fills the hollow: the way out of it is long, but each wall is entered by 3 mm."""
     walls = boxes(((-0.2, 0.0, 0.0), (0.02, 0.4, 0.3)), ((0.2, 0.0, 0.0), (0.02, 0.4, 0.3)))
     drawer = boxes(((0.0, -0.05, 0.0), (0.386, 0.4, 0.2)))
@@ -157,7 +146,7 @@ def test_a_drawer_too_wide_for_two_walls_lies_deep_in_neither() -> None:
     assert stand(drawer, walls, met(*hulls)) == pytest.approx(-0.003, rel=0.05)
 
 
-def test_what_lies_wholly_inside_a_solid_is_deep_and_inside_an_open_box_is_not() -> None:
+def test_what_lies_wholly_inside_a_solid_is_deep_and_inside_an_open_box_is_not():
     inner = ((0.1, 0.0, 0.0), (0.1, 0.1, 0.1))
     outer = ((0.0, 0.0, 0.0), (0.4, 0.4, 0.4))
     meeting = met(box_hull(*inner), box_hull(*outer))
@@ -165,14 +154,14 @@ def test_what_lies_wholly_inside_a_solid_is_deep_and_inside_an_open_box_is_not()
     assert stand(boxes(inner), opened(boxes(outer)), meeting) == MARGIN
 
 
-def test_a_pin_flush_with_its_block_is_buried() -> None:
+def test_a_pin_flush_with_its_block_is_buried():
     pin = ((0.1, 0.0, 0.0), (0.2, 0.02, 0.02))
     block = ((0.0, 0.0, 0.0), (0.4, 0.2, 0.2))
     found = stand(boxes(pin), boxes(block), met(box_hull(*pin), box_hull(*block)))
     assert found < -0.05
 
 
-def test_only_faces_near_the_meeting_are_looked_at() -> None:
+def test_only_faces_near_the_meeting_are_looked_at():
     one = finer(boxes(((0.0, 0.0, 0.0), (0.26, 0.15, 0.15))), 7)
     assert len(one.faces) > 190_000
     found = patches(one, boxes(((0.262, 0.0, 0.0), (0.26, 0.02, 0.02))), POSES, met(FIRST, SECOND))
@@ -180,7 +169,7 @@ def test_only_faces_near_the_meeting_are_looked_at() -> None:
     assert len(found[0].rows) < 5000
 
 
-def test_an_open_surface_is_not_closed() -> None:
+def test_an_open_surface_is_not_closed():
     solid = boxes(((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)))
     rows = np.arange(12)
     assert solid.closed(rows)
@@ -188,7 +177,7 @@ def test_an_open_surface_is_not_closed() -> None:
     assert not opened(solid).closed(np.arange(10))
 
 
-def test_pieces_are_what_hangs_together() -> None:
+def test_pieces_are_what_hangs_together():
     both = finer(boxes(((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), ((3.0, 0.0, 0.0), (1.0, 1.0, 1.0))), 2)
     assert sorted(np.unique(both.pieces, return_counts=True)[1].tolist()) == [192, 192]
 
@@ -198,7 +187,7 @@ BOARD = ((0.0, 0.05, 0.0), (0.5, 0.02, 0.5))
 DOOR = ((0.0, 0.02, 0.0), (0.5, 0.02, 0.5))
 
 
-def loose(chip: tuple[tuple[float, float, float], tuple[float, float, float]]) -> bool:
+def loose(chip):
     door = boxes(DOOR, chip)
     board = boxes(BOARD)
     meeting = met(box_hull(*chip), box_hull(*BOARD))
@@ -209,21 +198,19 @@ def loose(chip: tuple[tuple[float, float, float], tuple[float, float, float]]) -
     return strayed((here, there), meeting, POSES, 0.002)
 
 
-def test_a_chip_that_lies_in_the_other_part_has_strayed() -> None:
+def test_a_chip_that_lies_in_the_other_part_has_strayed():
     assert loose(((0.1, 0.042, 0.1), (0.03, 0.01, 0.03)))
 
 
-def test_a_peg_on_its_own_part_has_not() -> None:
+def test_a_peg_on_its_own_part_has_not():
     assert not loose(((0.1, 0.04, 0.1), (0.03, 0.021, 0.03)))
 
 
-def test_a_large_piece_is_no_chip() -> None:
+def test_a_large_piece_is_no_chip():
     assert not loose(((0.0, 0.042, 0.0), (0.45, 0.01, 0.45)))
 
 
-def test_faces_that_touch_only_beside_where_the_hulls_meet_still_get_a_number(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_faces_that_touch_only_beside_where_the_hulls_meet_still_get_a_number(monkeypatch):
     # Long faces of a half-open door were seen to leave no place that shows both.
     monkeypatch.setattr(gaps, "_zones", lambda *_: iter(()))
     block = boxes(((0, 0, 0), (0.1, 0.1, 0.1)))

@@ -10,22 +10,20 @@ from hypothesis import strategies as st
 
 from asset_factory.sim_checks.geometry.collision import Collider
 from asset_factory.sim_checks.geometry.depth import overlap
-from asset_factory.sim_checks.geometry.hull import CollisionHull, convex_hull
+from asset_factory.sim_checks.geometry.hull import convex_hull
 from asset_factory.sim_checks.geometry.path import Path
-from asset_factory.sim_checks.geometry.sweep import Candidate, Sweep, Tolerance, Worst
+from asset_factory.sim_checks.geometry.sweep import Candidate, Sweep, Tolerance
 
 Z = np.array([0.0, 0.0, 1.0])
 SLIDE = Path(turning=False, origin=np.zeros(3), axis=np.array([1.0, 0.0, 0.0]), length=1.0)
 
 
-def worst(
-    path: Path, moving: CollisionHull, standing: CollisionHull, steps: int = 8, **tolerance: float
-) -> Worst | None:
+def worst(path, moving, standing, steps=8, **tolerance):
     sweep = Sweep(path, [Collider(moving)], [Collider(standing)], steps)
     return sweep.worst([Candidate(0, 0, 0.0)], Tolerance(**tolerance))
 
 
-def test_a_thin_plate_passed_between_two_poses_is_found() -> None:
+def test_a_thin_plate_passed_between_two_poses_is_found():
     needle = box_hull((0.0, 0.0, 0.0), (0.002, 0.002, 0.002))
     plate = box_hull((0.4321, 0.0, 0.0), (0.0005, 1.0, 1.0))
     found = worst(SLIDE, needle, plate)
@@ -34,7 +32,7 @@ def test_a_thin_plate_passed_between_two_poses_is_found() -> None:
     assert found.at == pytest.approx(0.4321, abs=1e-4)
 
 
-def test_a_pin_that_turns_through_a_plate_is_found() -> None:
+def test_a_pin_that_turns_through_a_plate_is_found():
     pin = box_hull((0.5, 0.0, 0.0), (0.002, 0.002, 0.002))
     angle = 1.2345
     plate = box_hull((0.5 * np.cos(angle), 0.5 * np.sin(angle), 0.0), (0.0004, 0.0004, 1.0))
@@ -44,7 +42,7 @@ def test_a_pin_that_turns_through_a_plate_is_found() -> None:
     assert found.at == pytest.approx(angle, abs=1e-3)
 
 
-def test_the_corner_of_a_turning_door_cuts_its_frame_where_geometry_says() -> None:
+def test_the_corner_of_a_turning_door_cuts_its_frame_where_geometry_says():
     """A door of thickness t hinged in front: its back corner's circle passes the frame's face."""
     width = 0.6
     thickness = 0.03
@@ -59,7 +57,7 @@ def test_the_corner_of_a_turning_door_cuts_its_frame_where_geometry_says() -> No
     assert found.at == pytest.approx(np.arctan2(thickness, width), abs=5e-3)
 
 
-def test_no_search_ends_before_it_knows_on_which_side_of_the_limit_it_falls() -> None:
+def test_no_search_ends_before_it_knows_on_which_side_of_the_limit_it_falls():
     """A door's back corner at x = w cos + t sin meets a jamb: 1 mm deep at a known angle."""
     width = 0.6
     thickness = 0.05
@@ -81,7 +79,7 @@ def test_no_search_ends_before_it_knows_on_which_side_of_the_limit_it_falls() ->
         assert past.excess > limit
 
 
-def test_a_parallel_slide_keeps_its_clearance_and_needs_few_looks() -> None:
+def test_a_parallel_slide_keeps_its_clearance_and_needs_few_looks():
     sweep = Sweep(
         SLIDE,
         [Collider(box_hull((0.0, 0.0, 0.0), (0.1, 0.1, 0.1)))],
@@ -94,7 +92,7 @@ def test_a_parallel_slide_keeps_its_clearance_and_needs_few_looks() -> None:
     assert sweep.looks <= 2
 
 
-def test_what_stays_wider_apart_than_the_floor_is_not_measured() -> None:
+def test_what_stays_wider_apart_than_the_floor_is_not_measured():
     assert (
         worst(
             SLIDE, box_hull((0, 0, 0), (0.1, 0.1, 0.1)), box_hull((0.5, 0.2, 0.0), (1.0, 0.1, 0.1))
@@ -103,7 +101,7 @@ def test_what_stays_wider_apart_than_the_floor_is_not_measured() -> None:
     )
 
 
-def test_an_overlap_that_does_not_grow_is_no_excess() -> None:
+def test_an_overlap_that_does_not_grow_is_no_excess():
     rail = box_hull((0.5, 0.095, 0.0), (2.0, 0.1, 1.0))
     sweep = Sweep(SLIDE, [Collider(box_hull((0, 0, 0), (0.1, 0.1, 0.1)))], [Collider(rail)], 64)
     found = sweep.worst([Candidate(0, 0, 0.005)], Tolerance())
@@ -112,7 +110,7 @@ def test_an_overlap_that_does_not_grow_is_no_excess() -> None:
     assert found.depth == pytest.approx(0.005)
 
 
-def test_a_moving_hull_that_disappears_inside_another_is_found() -> None:
+def test_a_moving_hull_that_disappears_inside_another_is_found():
     found = worst(
         SLIDE, box_hull((0, 0, 0), (0.01, 0.01, 0.01)), box_hull((0.5, 0, 0), (0.4, 0.4, 0.4))
     )
@@ -122,9 +120,7 @@ def test_a_moving_hull_that_disappears_inside_another_is_found() -> None:
 
 @settings(max_examples=25, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1), turning=st.booleans())
-def test_no_sampled_pose_is_worse_than_the_bound_and_the_worst_is_real(
-    seed: int, turning: bool
-) -> None:
+def test_no_sampled_pose_is_worse_than_the_bound_and_the_worst_is_real(seed, turning):
     generator = np.random.default_rng(seed)
     axis = generator.normal(size=3)
     axis /= np.linalg.norm(axis)
@@ -157,9 +153,7 @@ def test_no_sampled_pose_is_worse_than_the_bound_and_the_worst_is_real(
     floor=st.floats(0.0, 0.05),
 )
 @settings(max_examples=60, deadline=None)
-def test_no_hull_that_comes_near_is_left_out(
-    turning: bool, length: float, where: list[tuple[float, float, float]], floor: float
-) -> None:
+def test_no_hull_that_comes_near_is_left_out(turning, length, where, floor):
     path = Path(turning, np.array([0.1, -0.2, 0.0]), Z, length)
     moving = [Collider(box_hull(at, (0.3, 0.1, 0.2))) for at in where[::2]]
     standing = [Collider(box_hull(at, (0.1, 0.4, 0.2))) for at in where[1::2]]
@@ -173,9 +167,7 @@ def test_no_hull_that_comes_near_is_left_out(
                 assert near[row, column] or apart >= floor
 
 
-def test_a_hull_far_from_everything_is_told_without_a_fine_look(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_hull_far_from_everything_is_told_without_a_fine_look(monkeypatch):
     far = Collider(box_hull((5.0, 0.0, 0.0), (0.1, 0.1, 0.1)))
     close = Collider(box_hull((0.5, 0.0, 0.0), (0.1, 0.1, 0.1)))
     sweep = Sweep(SLIDE, [far, close], [Collider(box_hull((1.0, 0.0, 0.0), (0.1, 0.1, 0.1)))], 16)

@@ -1,7 +1,5 @@
 """What a process leaves when it is killed is found and removed; what a living one has is not."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess
@@ -44,11 +42,11 @@ def asker(tmp_path):
         process.kill()
 
 
-def names(folder: Path) -> list[str]:
+def names(folder):
     return sorted(path.name for path in folder.iterdir())
 
 
-def test_whoever_ends_leaves_nothing(asker, tmp_path) -> None:
+def test_whoever_ends_leaves_nothing(asker, tmp_path):
     (own,) = names(tmp_path / "tmp")
     assert own.startswith(PREFIX)
     assert sweep(tmp_path / "tmp") == 0
@@ -57,7 +55,7 @@ def test_whoever_ends_leaves_nothing(asker, tmp_path) -> None:
     assert names(tmp_path / "tmp") == []
 
 
-def test_what_a_killed_process_leaves_is_swept(asker, tmp_path) -> None:
+def test_what_a_killed_process_leaves_is_swept(asker, tmp_path):
     (tmp_path / "tmp" / "of-somebody-else").mkdir()
     asker.send_signal(signal.SIGKILL)
     asker.wait()
@@ -66,7 +64,7 @@ def test_what_a_killed_process_leaves_is_swept(asker, tmp_path) -> None:
     assert names(tmp_path / "tmp") == ["of-somebody-else"]
 
 
-def test_sockets_have_a_short_way_where_temporary_files_have_a_long_one(tmp_path) -> None:
+def test_sockets_have_a_short_way_where_temporary_files_have_a_long_one(tmp_path):
     far = tmp_path / ("deep" * 25)
     far.mkdir()
     script = tmp_path / "asks.py"

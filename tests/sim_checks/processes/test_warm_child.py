@@ -21,17 +21,17 @@ GENEROUS = cold.GENEROUS
 SEEN: list[int] = []
 
 
-def remember(value: int) -> int:
+def remember(value):
     """How many were asked before: what a verdict must not depend on."""
     SEEN.append(value)
     return len(SEEN)
 
 
-def process_id() -> int:
+def process_id():
     return os.getpid()
 
 
-def first_or_nothing(path: str) -> str:
+def first_or_nothing(path):
     """Works in a new child only, as a library does that was worn out by earlier calls."""
     SEEN.append(0)
     if len(SEEN) > 1:
@@ -39,7 +39,7 @@ def first_or_nothing(path: str) -> str:
     return Path(path).name
 
 
-def hold(size: int) -> int:
+def hold(size):
     SEEN.append(len(HELD))
     HELD.append(b"x" * size)
     return os.getpid()
@@ -48,52 +48,52 @@ def hold(size: int) -> int:
 HELD: list[bytes] = []
 
 
-def burn(seconds: float) -> int:
+def burn(seconds):
     end = time.process_time() + seconds
     while time.process_time() < end:
         pass
     return os.getpid()
 
 
-def say(words: str) -> None:
+def say(words):
     print(words)
 
 
-def leave_a_file_and_die() -> None:
+def leave_a_file_and_die():
     tempfile.mkdtemp(prefix="left-behind-")
     cold.crash()
 
 
 class TellsTwoThings(Exception):
-    def __init__(self, one: str, other: str) -> None:
+    def __init__(self, one, other):
         super().__init__(one + other)
 
 
-def raise_what_does_not_come_back() -> None:
+def raise_what_does_not_come_back():
     raise TellsTwoThings("one", "other")
 
 
-def keep_asking(path: str) -> None:
+def keep_asking(path):
     with WarmChild() as child:
         child.call(cold.double, 1, limits=GENEROUS)
         Path(path).write_text(str(child.pid))
         cold.spin()
 
 
-def ask_and_die(path: str) -> None:
+def ask_and_die(path):
     child = WarmChild()
     child.call(cold.double, 1, limits=GENEROUS)
     Path(path).write_text(str(child.pid))
     os.kill(os.getpid(), signal.SIGKILL)
 
 
-def test_one_process_answers_many_calls() -> None:
+def test_one_process_answers_many_calls():
     with WarmChild() as child:
         answers = [child.call(remember, i, limits=GENEROUS).unwrap() for i in range(4)]
     assert answers == [1, 2, 3, 4]
 
 
-def test_after_a_crash_a_new_process_answers() -> None:
+def test_after_a_crash_a_new_process_answers():
     with WarmChild() as child:
         before = child.call(process_id, limits=GENEROUS).unwrap()
         assert "SIGSEGV" in child.call(cold.crash, limits=GENEROUS).detail
@@ -101,7 +101,7 @@ def test_after_a_crash_a_new_process_answers() -> None:
         assert child.call(process_id, limits=GENEROUS).unwrap() not in (before, os.getpid())
 
 
-def test_every_failure_is_told_in_the_words_of_a_cold_child() -> None:
+def test_every_failure_is_told_in_the_words_of_a_cold_child():
     tight = Limits(wall_s=5.0, cpu_s=1.0, memory_bytes=1_000_000_000)
     for function, limits in (
         (cold.crash, GENEROUS),
@@ -118,7 +118,7 @@ def test_every_failure_is_told_in_the_words_of_a_cold_child() -> None:
         assert child.call(cold.allocate, limits=GENEROUS).value == 2_000_000_000
 
 
-def test_processor_time_is_counted_by_call() -> None:
+def test_processor_time_is_counted_by_call():
     limits = Limits(wall_s=30.0, cpu_s=1.0)
     with WarmChild() as child:
         burners = {child.call(burn, 0.6, limits=limits).unwrap() for _ in range(3)}
@@ -126,7 +126,7 @@ def test_processor_time_is_counted_by_call() -> None:
         assert "1 s of processor time" in child.call(cold.spin, limits=limits).detail
 
 
-def test_a_failure_in_a_used_child_is_not_believed(tmp_path: Path) -> None:
+def test_a_failure_in_a_used_child_is_not_believed(tmp_path):
     with WarmChild() as child:
         for _ in range(3):
             assert (
@@ -134,7 +134,7 @@ def test_a_failure_in_a_used_child_is_not_believed(tmp_path: Path) -> None:
             )
 
 
-def die_once(path: str) -> str:
+def die_once(path):
     """Killed the first time, as by somebody who looks for memory."""
     if not Path(path).exists():
         Path(path).touch()
@@ -142,17 +142,17 @@ def die_once(path: str) -> str:
     return "alive"
 
 
-def die() -> None:
+def die():
     os.kill(os.getpid(), signal.SIGKILL)
 
 
-def lose_the_fork_server(path: str) -> str:
+def lose_the_fork_server(path):
     """Ask in a child whose fork server is killed at first; the process has a server of its own."""
     with WarmChild() as child:
         return child.call(kill_the_parent_once, path, limits=GENEROUS).unwrap()
 
 
-def kill_the_parent_once(path: str) -> str:
+def kill_the_parent_once(path):
     if not Path(path).exists():
         Path(path).touch()
         os.kill(os.getppid(), signal.SIGKILL)
@@ -161,44 +161,44 @@ def kill_the_parent_once(path: str) -> str:
 
 
 @pytest.mark.parametrize("function", [die_once, lose_the_fork_server])
-def test_somebody_who_kills_processes_does_not_change_an_answer(function, tmp_path: Path) -> None:
+def test_somebody_who_kills_processes_does_not_change_an_answer(function, tmp_path):
     outcome = run_isolated(function, str(tmp_path / "note"), limits=GENEROUS)
     assert (outcome.value, outcome.killed) == ("alive", False)
 
 
-def test_who_is_killed_again_and_again_is_told_from_one_that_crashes() -> None:
+def test_who_is_killed_again_and_again_is_told_from_one_that_crashes():
     killed, crashed = (run_isolated(function, limits=GENEROUS) for function in (die, cold.crash))
     assert (killed.failure, killed.killed, killed.tries) == ("crashed", True, 2)
     assert "killed by SIGKILL" in killed.detail
     assert (crashed.failure, crashed.killed, crashed.tries) == ("crashed", False, 1)
 
 
-def test_a_child_is_replaced_after_so_many_calls() -> None:
+def test_a_child_is_replaced_after_so_many_calls():
     with WarmChild(calls=2) as child:
         answers = [child.call(remember, i, limits=GENEROUS).unwrap() for i in range(5)]
     assert answers == [1, 2, 1, 2, 1]
 
 
-def test_a_child_that_has_grown_is_replaced() -> None:
+def test_a_child_that_has_grown_is_replaced():
     with WarmChild(resident_bytes=400_000_000) as child:
         first = child.call(hold, 1000, limits=GENEROUS).unwrap()
         assert child.call(hold, 500_000_000, limits=GENEROUS).unwrap() == first
         assert child.call(hold, 1000, limits=GENEROUS).unwrap() != first
 
 
-def test_what_one_call_wrote_does_not_turn_up_in_the_next() -> None:
+def test_what_one_call_wrote_does_not_turn_up_in_the_next():
     with WarmChild() as child:
         assert child.call(say, "first", limits=GENEROUS).output == "first"
         assert child.call(say, "second", limits=GENEROUS).output == "second"
 
 
-def test_an_exception_that_cannot_be_read_is_told_and_not_raised() -> None:
+def test_an_exception_that_cannot_be_read_is_told_and_not_raised():
     outcome = run_isolated(raise_what_does_not_come_back, limits=GENEROUS)
     assert outcome.failure == "raised"
     assert "cannot be read" in outcome.detail
 
 
-def test_a_question_that_cannot_travel_is_the_caller_s_mistake_and_costs_nothing() -> None:
+def test_a_question_that_cannot_travel_is_the_caller_s_mistake_and_costs_nothing():
     with WarmChild() as child:
         first = child.call(process_id, limits=GENEROUS).unwrap()
         with pytest.raises((AttributeError, TypeError)):
@@ -206,7 +206,7 @@ def test_a_question_that_cannot_travel_is_the_caller_s_mistake_and_costs_nothing
         assert child.call(process_id, limits=GENEROUS).unwrap() == first
 
 
-def resources() -> tuple[int, int, int]:
+def resources():
     """Scratch files, open descriptors and shared memory (mapped semaphores) of this process."""
     gc.collect()
     files = os.listdir(scratch())
@@ -214,7 +214,7 @@ def resources() -> tuple[int, int, int]:
     return len(files), len(descriptors), Path("/proc/self/maps").read_text().count("/dev/shm")  # noqa: S108
 
 
-def test_nothing_is_left_behind() -> None:
+def test_nothing_is_left_behind():
     run_isolated(cold.double, 1, limits=GENEROUS)
     before = resources()
     with WarmChild(calls=3) as child:
@@ -229,13 +229,13 @@ def test_nothing_is_left_behind() -> None:
     assert all(cold.wait_until_gone(pid) for pid in pids)
 
 
-def test_a_warm_child_dies_with_its_parent(tmp_path: Path) -> None:
+def test_a_warm_child_dies_with_its_parent(tmp_path):
     note = tmp_path / "pid"
     assert run_isolated(ask_and_die, str(note), limits=GENEROUS).failure
     assert cold.wait_until_gone(int(note.read_text()))
 
 
-def test_an_idle_child_does_not_survive_a_killed_job(tmp_path: Path) -> None:
+def test_an_idle_child_does_not_survive_a_killed_job(tmp_path):
     note = tmp_path / "pid"
     script = tmp_path / "job.py"
     script.write_text(

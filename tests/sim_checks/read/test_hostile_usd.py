@@ -1,10 +1,7 @@
 """A damaged USD file gets a verdict in a sentence, whatever its library makes of it."""
 
-from __future__ import annotations
-
 import os
 import signal
-from pathlib import Path
 
 import pytest
 
@@ -52,27 +49,27 @@ def test_prims_that_multiply_are_counted_before_they_are_composed(tmp_path):
 
 
 class Unpicklable(Exception):
-    def __reduce__(self) -> None:
+    def __reduce__(self):
         raise TypeError("no pickle")
 
 
-def die(times: Path) -> None:
+def die(times):
     with times.open("a") as file:
         file.write("x")
     os.kill(os.getpid(), signal.SIGSEGV)
 
 
-def raise_oddly(folder: Path) -> None:
+def raise_oddly(folder):
     with refusing("thing.usd", folder):
         raise Unpicklable(f"something of {folder}/thing.usd")
 
 
-def take_memory(folder: Path) -> None:
+def take_memory(folder):
     with refusing("thing.usd", folder), memory_bounded(2**28):
         bytearray(2**30)
 
 
-def be_killed(folder: Path) -> None:
+def be_killed(folder):
     os.kill(os.getpid(), signal.SIGKILL)
 
 

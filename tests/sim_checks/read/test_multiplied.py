@@ -1,10 +1,7 @@
 """A short MJCF that becomes a million bodies is refused by counting or by memory, never by time."""
 
-from __future__ import annotations
-
 import time
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -23,11 +20,11 @@ GEOM = '<geom size="0.1"/>'
 BODY = f"<body>{GEOM}</body>"
 
 
-def replicated(count: int, inside: str) -> str:
+def replicated(count, inside):
     return f'<replicate count="{count}">{inside}</replicate>'
 
 
-def written(folder: Path, world: str, before: str = "", **documents: str) -> Path:
+def written(folder, world, before="", **documents):
     for name, text in documents.items():
         (folder / f"{name}.xml").write_text(text)
     path = folder / "scene.xml"
@@ -35,7 +32,7 @@ def written(folder: Path, world: str, before: str = "", **documents: str) -> Pat
     return path
 
 
-def attaching(folder: Path, depth: int, times: int) -> Path:
+def attaching(folder, depth, times):
     """Models that each attach the one before so many times."""
     inner = f"<worldbody><body name='b'>{GEOM}</body></worldbody>"
     (folder / "m0.xml").write_text(f"<mujoco>{inner}</mujoco>")

@@ -1,9 +1,5 @@
 """MJCF is read as MuJoCo compiles it, and gives the same kinematics."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 import trimesh
 
@@ -28,13 +24,13 @@ MODEL = """<mujoco><compiler angle="radian"/><worldbody><geom type="plane" size=
 
 
 @pytest.fixture
-def model_path(tmp_path: Path) -> Path:
+def model_path(tmp_path):
     path = tmp_path / "model.xml"
     path.write_text(MODEL)
     return path
 
 
-def test_bodies_joints_and_geoms_arrive(model_path: Path) -> None:
+def test_bodies_joints_and_geoms_arrive(model_path):
     description = read_description(model_path)
     assert [link.name for link in description.links if not link.virtual] == [
         "world",
@@ -53,7 +49,7 @@ def test_bodies_joints_and_geoms_arrive(model_path: Path) -> None:
 
 
 @pytest.mark.parametrize("values", [(0.0, 0.0, 0.0), (1.2, 0.1, -2.0), (-0.7, 0.2, 0.5)])
-def test_link_poses_are_mujocos_own(model_path: Path, values: tuple[float, float, float]) -> None:
+def test_link_poses_are_mujocos_own(model_path, values):
     names = ("hinge", "slide", "twist")
     poses = build_tree(read_mjcf(model_path)).link_poses(dict(zip(names, values, strict=True)))
     model = mujoco.MjModel.from_xml_path(str(model_path))
@@ -66,7 +62,7 @@ def test_link_poses_are_mujocos_own(model_path: Path, values: tuple[float, float
         assert poses[body][:3, :3] == pytest.approx(data.body(body).xmat.reshape(3, 3), abs=1e-9)
 
 
-def test_meshes_lie_where_they_were_drawn(tmp_path: Path) -> None:
+def test_meshes_lie_where_they_were_drawn(tmp_path):
     box = trimesh.creation.box(extents=(0.1, 0.2, 0.3))
     box.apply_translation((1.0, 2.0, 3.0))
     box.export(tmp_path / "part.stl")
@@ -80,7 +76,7 @@ def test_meshes_lie_where_they_were_drawn(tmp_path: Path) -> None:
     assert shape.vertices.max(axis=0) == pytest.approx([1.05, 2.1, 3.15], abs=1e-6)
 
 
-def test_bodies_whose_contact_bits_never_meet_are_excluded(tmp_path: Path) -> None:
+def test_bodies_whose_contact_bits_never_meet_are_excluded(tmp_path):
     path = tmp_path / "model.xml"
     path.write_text(
         '<mujoco><worldbody><body name="a"><geom size="0.1" contype="1" conaffinity="2"/></body>'
@@ -115,7 +111,7 @@ def test_bodies_whose_contact_bits_never_meet_are_excluded(tmp_path: Path) -> No
         ("<mujoco><include file='/etc/hosts'/></mujoco>", "outside_folder"),
     ],
 )
-def test_unreadable_models_say_why(tmp_path: Path, text: str, code: str) -> None:
+def test_unreadable_models_say_why(tmp_path, text, code):
     path = tmp_path / "model.xml"
     path.write_text(text)
     with pytest.raises(DescriptionError) as caught:

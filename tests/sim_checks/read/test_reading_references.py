@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-from pathlib import Path
 
 import pytest
 import trimesh
@@ -22,7 +21,7 @@ BOX_URDF = (
 
 
 @pytest.fixture
-def folder(tmp_path: Path) -> Path:
+def folder(tmp_path):
     """The asset's folder, with good files in it and the same outside."""
     inner = tmp_path / "asset"
     (inner / "meshes").mkdir(parents=True)
@@ -34,7 +33,7 @@ def folder(tmp_path: Path) -> Path:
     return inner
 
 
-def code_of(folder: Path, text: str, name: str = "asset.xml") -> str | None:
+def code_of(folder, text, name="asset.xml"):
     path = folder / name
     path.write_text(text)
     try:
@@ -63,7 +62,7 @@ def code_of(folder: Path, text: str, name: str = "asset.xml") -> str | None:
         ),
     ],
 )
-def test_every_element_that_names_a_file_is_looked_at(folder: Path, element: str) -> None:
+def test_every_element_that_names_a_file_is_looked_at(folder, element):
     for away in ("../", "meshes/../../", f"{folder.parent}/", "..\\", f"file://{folder.parent}/"):
         assert code_of(folder, MODEL.format(element.format(away))) == "outside_folder"
     inner = MODEL.format(element.format("../"))
@@ -93,11 +92,11 @@ def test_every_element_that_names_a_file_is_looked_at(folder: Path, element: str
         "<compiler strippath='true'/><asset><mesh name='m' file='C:\\Users\\me\\box.obj'/></asset>",
     ],
 )
-def test_what_lies_in_the_folder_is_read(folder: Path, element: str) -> None:
+def test_what_lies_in_the_folder_is_read(folder, element):
     assert code_of(folder, MODEL.format(element)) is None
 
 
-def test_a_link_that_leads_out_is_followed_before_it_is_judged(folder: Path) -> None:
+def test_a_link_that_leads_out_is_followed_before_it_is_judged(folder):
     (folder / "linked.obj").symlink_to(folder.parent / "box.obj")
     (folder / "linked.xml").symlink_to(folder.parent / "more.xml")
     assert (
@@ -109,7 +108,7 @@ def test_a_link_that_leads_out_is_followed_before_it_is_judged(folder: Path) -> 
     assert code_of(folder, MODEL.format("<asset><mesh file='around.obj'/></asset>")) is not None
 
 
-def test_documents_nested_without_end_are_refused(folder: Path) -> None:
+def test_documents_nested_without_end_are_refused(folder):
     assert code_of(folder, MODEL.format("<include file='asset.xml'/>")) == "nested_too_deep"
     (folder / "a.xml").write_text("<mujoco><include file='b.xml'/></mujoco>")
     (folder / "b.xml").write_text("<mujoco><asset><model name='a' file='a.xml'/></asset></mujoco>")
@@ -144,9 +143,7 @@ def test_documents_nested_without_end_are_refused(folder: Path) -> None:
         ),
     ],
 )
-def test_every_file_that_a_urdf_names_is_looked_at(
-    folder: Path, parts: tuple[str, str, str]
-) -> None:
+def test_every_file_that_a_urdf_names_is_looked_at(folder, parts):
     text = BOX_URDF.format(*parts)
     for away in ("../", f"{folder.parent}/", f"file://{folder.parent}/", "https://example.org/"):
         assert code_of(folder, text.format(away), "asset.urdf") == "outside_folder"
@@ -154,7 +151,7 @@ def test_every_file_that_a_urdf_names_is_looked_at(
         assert code_of(folder, text.format(near), "asset.urdf") is None
 
 
-def test_a_plugin_s_library_is_no_file_of_the_asset(folder: Path) -> None:
+def test_a_plugin_s_library_is_no_file_of_the_asset(folder):
     plugin = '<gazebo><plugin name="p" filename="/opt/lib/libx.so"/></gazebo>'
     assert (
         code_of(folder, BOX_URDF.format('<mesh filename="box.obj"/>', "", plugin), "asset.urdf")
@@ -162,7 +159,7 @@ def test_a_plugin_s_library_is_no_file_of_the_asset(folder: Path) -> None:
     )
 
 
-def test_a_planning_file_beside_it_that_leads_out_is_refused(folder: Path) -> None:
+def test_a_planning_file_beside_it_that_leads_out_is_refused(folder):
     (folder.parent / "asset.srdf").write_text("<robot/>")
     (folder / "asset.srdf").symlink_to(folder.parent / "asset.srdf")
     assert (
@@ -171,7 +168,7 @@ def test_a_planning_file_beside_it_that_leads_out_is_refused(folder: Path) -> No
     )
 
 
-def test_what_a_mesh_file_names_is_looked_at_too(folder: Path) -> None:
+def test_what_a_mesh_file_names_is_looked_at_too(folder):
     text = BOX_URDF.format('<mesh filename="box.obj"/>', "", "")
     plain = (folder / "box.obj").read_text()
     for line, code in (("mtllib ../all.mtl", "outside_folder"), ("mtllib all.mtl", None)):
@@ -186,7 +183,7 @@ def test_what_a_mesh_file_names_is_looked_at_too(folder: Path) -> None:
 
 
 @pytest.mark.parametrize("element", ["init_from", "c:init_from", "ref"])
-def test_the_pictures_of_a_collada_file_are_looked_at_too(folder: Path, element: str) -> None:
+def test_the_pictures_of_a_collada_file_are_looked_at_too(folder, element):
     pytest.importorskip("collada", reason="pycollada is not installed")
     text = BOX_URDF.format('<mesh filename="box.dae"/>', "", "")
     plain = trimesh.exchange.dae.export_collada(trimesh.creation.box()).decode()
@@ -203,15 +200,13 @@ def test_the_pictures_of_a_collada_file_are_looked_at_too(folder: Path, element:
         assert code_of(folder, text, "asset.urdf") == code
 
 
-def test_a_reader_of_meshes_opens_no_file_beside_it(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_reader_of_meshes_opens_no_file_beside_it(folder, monkeypatch):
     (folder / "box.obj").write_text("mtllib all.mtl\n" + (folder / "box.obj").read_text())
     (folder / "all.mtl").write_text("newmtl a\nmap_Kd pixel.png\n")
     opened: list[str] = []
     listening = True
 
-    def hear(event: str, words: tuple[object, ...]) -> None:
+    def hear(event, words):
         if listening and event == "open":
             opened.append(os.fsdecode(words[0]) if isinstance(words[0], str | bytes) else "")
 

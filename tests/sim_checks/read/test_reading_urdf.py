@@ -1,9 +1,5 @@
 """URDF is read as written, and nothing outside its folder is opened."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 import trimesh
@@ -16,19 +12,19 @@ LINK = '<link name="base"><collision><geometry>{}</geometry></collision></link>'
 MESH = LINK.format('<mesh filename="{}"/>')
 
 
-def urdf(folder: Path, content: str, name: str = "asset.urdf") -> Path:
+def urdf(folder, content, name="asset.urdf"):
     path = folder / name
     path.write_text(f'<?xml version="1.0"?><robot name="r">{content}</robot>')
     return path
 
 
-def code_of(path: Path) -> str:
+def code_of(path):
     with pytest.raises(DescriptionError) as caught:
         read_description(path)
     return caught.value.code
 
 
-def test_everything_written_is_read(tmp_path: Path) -> None:
+def test_everything_written_is_read(tmp_path):
     trimesh.creation.box(extents=(1, 2, 3)).export(tmp_path / "part.obj")
     content = """
       <link name="base"><inertial>
@@ -64,7 +60,7 @@ def test_everything_written_is_read(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("suffix", ["obj", "stl", "glb", "ply"])
-def test_every_mesh_format_gives_the_same_triangles(tmp_path: Path, suffix: str) -> None:
+def test_every_mesh_format_gives_the_same_triangles(tmp_path, suffix):
     trimesh.creation.box(extents=(1, 2, 3)).export(tmp_path / f"part.{suffix}")
     description = read_description(urdf(tmp_path, MESH.format(f"part.{suffix}")))
     shape = description.links[0].collisions[0]
@@ -72,7 +68,7 @@ def test_every_mesh_format_gives_the_same_triangles(tmp_path: Path, suffix: str)
     assert np.ptp(shape.vertices, axis=0) == pytest.approx([1, 2, 3])
 
 
-def test_package_paths_are_found_by_their_tail(tmp_path: Path) -> None:
+def test_package_paths_are_found_by_their_tail(tmp_path):
     (tmp_path / "meshes").mkdir()
     trimesh.creation.box().export(tmp_path / "meshes" / "part.stl")
     description = read_description(
@@ -82,7 +78,7 @@ def test_package_paths_are_found_by_their_tail(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("scale", ["1e200 1 1", "nan 1 1", "1e7 1 1"])
-def test_a_mesh_scaled_beyond_all_measure_is_refused(tmp_path: Path, scale: str) -> None:
+def test_a_mesh_scaled_beyond_all_measure_is_refused(tmp_path, scale):
     trimesh.creation.box().export(tmp_path / "part.stl")
     assert (
         code_of(urdf(tmp_path, LINK.format(f'<mesh filename="part.stl" scale="{scale}"/>')))
@@ -90,7 +86,7 @@ def test_a_mesh_scaled_beyond_all_measure_is_refused(tmp_path: Path, scale: str)
     )
 
 
-def test_a_mesh_far_beyond_all_measure_is_refused(tmp_path: Path) -> None:
+def test_a_mesh_far_beyond_all_measure_is_refused(tmp_path):
     mesh = trimesh.creation.box()
     mesh.apply_scale(1e5).export(tmp_path / "part.obj")
     assert (
@@ -106,7 +102,7 @@ def test_a_mesh_far_beyond_all_measure_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "where", ['<origin xyz="1e300 0 0"/>', '<origin rpy="0 inf 0"/>', '<axis xyz="0 nan 1"/>']
 )
-def test_a_joint_that_is_nowhere_is_refused(tmp_path: Path, where: str) -> None:
+def test_a_joint_that_is_nowhere_is_refused(tmp_path, where):
     joint = '<joint name="j" type="fixed"><parent link="a"/><child link="b"/>{}</joint>'
     links = '<link name="a"/><link name="b"/>'
     assert code_of(urdf(tmp_path, links + joint.format(where))) == "not_finite"
@@ -115,7 +111,7 @@ def test_a_joint_that_is_nowhere_is_refused(tmp_path: Path, where: str) -> None:
     ).joints
 
 
-def test_what_may_drive_a_joint_is_kept(tmp_path: Path) -> None:
+def test_what_may_drive_a_joint_is_kept(tmp_path):
     content = '<link name="a"/><link name="b"/>' + "".join(
         f'<joint name="{name}" type="prismatic"><parent link="a"/><child link="b"/>'
         f'<limit upper="1"{more}/></joint>'
@@ -125,7 +121,7 @@ def test_what_may_drive_a_joint_is_kept(tmp_path: Path) -> None:
     assert (driven.effort, driven.velocity, free.effort, free.velocity) == (5.0, 0.0, None, None)
 
 
-def test_primitives_have_their_sizes(tmp_path: Path) -> None:
+def test_primitives_have_their_sizes(tmp_path):
     shapes = {
         '<box size="1 2 3"/>': (1, 2, 3),
         '<cylinder radius="0.5" length="2"/>': (1, 1, 2),
@@ -140,7 +136,7 @@ def test_primitives_have_their_sizes(tmp_path: Path) -> None:
         assert closed.volume > 0
 
 
-def test_a_file_outside_the_folder_is_never_opened(tmp_path: Path) -> None:
+def test_a_file_outside_the_folder_is_never_opened(tmp_path):
     inner = tmp_path / "inner"
     inner.mkdir()
     trimesh.creation.box().export(tmp_path / "secret.stl")
@@ -155,7 +151,7 @@ def test_a_file_outside_the_folder_is_never_opened(tmp_path: Path) -> None:
     assert code_of(urdf(inner, MESH.format("https://example.org/a.stl"))) == "outside_folder"
 
 
-def test_entities_are_refused(tmp_path: Path) -> None:
+def test_entities_are_refused(tmp_path):
     path = tmp_path / "bomb.urdf"
     path.write_text(
         '<!DOCTYPE r [<!ENTITY a "aaaa">]><robot name="&a;"><link name="base"/></robot>'
@@ -191,19 +187,19 @@ def test_entities_are_refused(tmp_path: Path) -> None:
         ("<link", "invalid_xml"),
     ],
 )
-def test_each_unreadable_file_says_why(tmp_path: Path, content: str, code: str) -> None:
+def test_each_unreadable_file_says_why(tmp_path, content, code):
     assert code_of(urdf(tmp_path, content)) == code
 
 
 @pytest.mark.parametrize(
     ("text", "code"), [("", "empty_mesh"), ("v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "not_finite")]
 )
-def test_useless_meshes_say_why(tmp_path: Path, text: str, code: str) -> None:
+def test_useless_meshes_say_why(tmp_path, text, code):
     (tmp_path / "part.obj").write_text(text)
     assert code_of(urdf(tmp_path, MESH.format("part.obj"))) == code
 
 
-def test_other_documents_are_named(tmp_path: Path) -> None:
+def test_other_documents_are_named(tmp_path):
     path = tmp_path / "page.xml"
     path.write_text("<html/>")
     assert code_of(path) == "unknown_format"
@@ -218,9 +214,7 @@ def test_other_documents_are_named(tmp_path: Path) -> None:
         ('<capsule radius="0.5" length="1"/>', np.pi / 4.0 + np.pi / 6.0),
     ],
 )
-def test_round_primitives_sag_by_a_thousandth_of_their_radius_at_most(
-    tmp_path: Path, text: str, volume: float
-) -> None:
+def test_round_primitives_sag_by_a_thousandth_of_their_radius_at_most(tmp_path, text, volume):
     shape = read_description(urdf(tmp_path, LINK.format(text))).links[0].collisions[0]
     hull = convex_hull(shape.vertices)
     # The nearest faces to the middle are on the round side, at the radius but for what they sag.

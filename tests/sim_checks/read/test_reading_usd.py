@@ -1,9 +1,6 @@
 """A USD asset is judged as the URDF that says the same."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,14 +12,14 @@ from export_samples import PROVENANCE, box, boxes_asset, cabinet
 from asset_factory.factory.articulation import Joint
 from asset_factory.factory.export import export_bundle
 from asset_factory.sim_checks import Status
-from asset_factory.sim_checks.description import Description, DescriptionError
+from asset_factory.sim_checks.description import DescriptionError
 from asset_factory.sim_checks.geometry.kinematics import build_tree
 from asset_factory.sim_checks.judge import Judge
 from asset_factory.sim_checks.read.read import read_here
 from asset_factory.sim_checks.read.usd.as_urdf import write_as_urdf
 
 
-def read(path: Path, folder: Path) -> Description:
+def read(path, folder):
     folder.mkdir()
     return read_here(write_as_urdf(path, folder))
 
@@ -56,7 +53,7 @@ def test_what_is_written_in_both_formats_reads_alike(make, tmp_path):
             assert np.allclose(points, same, atol=2e-5)
 
 
-def posed(description: Description, share: float):
+def posed(description, share):
     """Corners of every link's collision geometry, and its centre of mass, in the root's frame."""
     values = {
         joint.name: joint.lower + share * (joint.upper - joint.lower)
@@ -88,7 +85,7 @@ def test_units_and_the_up_axis_of_a_stage_are_heeded(tmp_path):
     assert not base.collisions
 
 
-def volume(shape) -> float:
+def volume(shape):
     """Return the signed volume of triangles [m3]: positive where they face outwards."""
     a, b, c = (shape.vertices[shape.faces[:, corner]] for corner in range(3))
     return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)

@@ -1,10 +1,6 @@
 """Whatever a loader is known to drop, swap or invent without a word, somebody here says it."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +11,7 @@ from asset_factory.sim_checks.checks.agreement import pose_samples
 from asset_factory.sim_checks.checks.lint import check_lint
 from asset_factory.sim_checks.checks.loading import check_loading
 from asset_factory.sim_checks.config import CheckConfig, LintConfig, MotionConfig
-from asset_factory.sim_checks.description import Description, DescriptionError
+from asset_factory.sim_checks.description import DescriptionError
 from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.simulators.catalog import simulator
 from asset_factory.sim_checks.simulators.simulator import LoadedJoint, Observation, PoseSample
@@ -47,9 +43,7 @@ MIMIC = {
         ),
     ],
 )
-def test_what_the_file_itself_tells(
-    tmp_path: Path, drop: str, changes: dict[str, str] | None, code: str
-) -> None:
+def test_what_the_file_itself_tells(tmp_path, drop, changes, code):
     path = write_urdf(tmp_path, replace=changes, joints=changes is not None)
     try:
         codes = {
@@ -60,20 +54,20 @@ def test_what_the_file_itself_tells(
     assert code in codes, drop
 
 
-def scaled(observation: Observation) -> Observation:
+def scaled(observation):
     links = tuple(replace(link, mass=8.0 * link.mass) for link in observation.model.links)
     joints = tuple(replace(joint, upper=2.0 * joint.upper) for joint in observation.model.joints)
     return replace(observation, model=replace(observation.model, links=links, joints=joints))
 
 
-def with_extra_dofs(observation: Observation) -> Observation:
+def with_extra_dofs(observation):
     extra = tuple(LoadedJoint(f"planar{i}", "prismatic", 0.0, 1.0, 0.0, 0.0) for i in range(2))
     return replace(
         observation, model=replace(observation.model, joints=(*observation.model.joints, *extra))
     )
 
 
-def without_root(observation: Observation) -> Observation:
+def without_root(observation):
     links = tuple(link for link in observation.model.links if link.name != "carcass")
     return replace(observation, model=replace(observation.model, links=links))
 
@@ -165,20 +159,14 @@ DYNAMICS = {LIMIT: f'{LIMIT}<dynamics damping="2" friction="3"/>'}
         ),
     ],
 )
-def test_what_the_engine_made_of_it(
-    tmp_path: Path,
-    drop: str,
-    changes: dict[str, str],
-    lie: Callable[[Observation], Observation],
-    code: str,
-) -> None:
+def test_what_the_engine_made_of_it(tmp_path, drop, changes, lie, code):
     description = read_description(write_urdf(tmp_path, replace=changes))
     honest = faithful(description)
     assert code not in found(description, honest) or code == "inertia_invented"
     assert code in found(description, lie(honest)), drop
 
 
-def loaded(description: Description, name: str) -> Observation:
+def loaded(description, name):
     """What a real engine holds, and where it puts links; nothing is driven."""
     world = simulator(name).open(description.path, MotionConfig())
     samples = []
@@ -189,9 +177,7 @@ def loaded(description: Description, name: str) -> Observation:
 
 
 @pytest.mark.parametrize("name", ["sapien", "mujoco", "pybullet"])
-def test_real_engines_agree_on_poses_and_tell_whether_they_couple_joints(
-    tmp_path: Path, name: str
-) -> None:
+def test_real_engines_agree_on_poses_and_tell_whether_they_couple_joints(tmp_path, name):
     pytest.importorskip(name)
     description = read_description(write_urdf(tmp_path, replace=MIMIC))
     observation = loaded(description, name)

@@ -1,12 +1,7 @@
 """Every engine's world alike: weight, energy, axis, friction, named blockers, no trace left."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +9,6 @@ from box_world import write_urdf as write_boxes
 from small_cabinet import PARTS, codes, write_lid, write_urdf
 
 from asset_factory.sim_checks.checks.motion import check_motion
-from asset_factory.sim_checks.checks.result import CheckResult
 from asset_factory.sim_checks.config import CheckConfig, MotionConfig
 from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 from asset_factory.sim_checks.read.read import read_description
@@ -22,7 +16,6 @@ from asset_factory.sim_checks.report import Severity
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS, installed, simulator
 from asset_factory.sim_checks.simulators.observe import observe
 from asset_factory.sim_checks.simulators.rest import fall, rest
-from asset_factory.sim_checks.simulators.simulator import Observation, World
 
 CONFIG = MotionConfig()
 ENGINES = [
@@ -41,7 +34,7 @@ PENDULUM = """<robot name="pendulum"><link name="post"><inertial><mass value="1"
 
 
 @contextmanager
-def opened(path: Path, engine: str) -> Iterator[World]:
+def opened(path, engine):
     world = simulator(engine).open(path, CONFIG)
     try:
         yield world
@@ -49,25 +42,25 @@ def opened(path: Path, engine: str) -> Iterator[World]:
         world.close()
 
 
-def judged(path: Path, engine: str) -> CheckResult:
+def judged(path, engine):
     """The motion check in this process, where each engine is imported but once."""
     return check_motion(
         read_description(path), engine, observe(engine, path, CONFIG, ()), CheckConfig()
     )
 
 
-def moved(result: CheckResult, joint: str) -> dict[str, Any]:
+def moved(result, joint):
     return next(motion for motion in result.measurements["joints"] if motion["joint"] == joint)
 
 
-def written(folder: Path, text: str, name: str = "object.urdf") -> Path:
+def written(folder, text, name="object.urdf"):
     path = folder / name
     path.write_text(text)
     return path
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_what_has_no_limits_turns_on_after_a_whole_turn(tmp_path: Path, engine: str) -> None:
+def test_what_has_no_limits_turns_on_after_a_whole_turn(tmp_path, engine):
     spinner = PENDULUM.replace('type="revolute"', 'type="continuous"').replace(
         'axis xyz="0 1 0"', 'axis xyz="0 0 1"'
     )
@@ -82,9 +75,7 @@ def test_what_has_no_limits_turns_on_after_a_whole_turn(tmp_path: Path, engine: 
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_a_pendulum_keeps_its_energy_and_a_weightless_one_its_place(
-    tmp_path: Path, engine: str
-) -> None:
+def test_a_pendulum_keeps_its_energy_and_a_weightless_one_its_place(tmp_path, engine):
     with opened(written(tmp_path, PENDULUM), engine) as world:
         world.place(np.array([0.3]))
         before = world.energy()
@@ -107,9 +98,7 @@ def test_a_pendulum_keeps_its_energy_and_a_weightless_one_its_place(
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_kinetic_energy_is_half_the_moment_of_inertia_times_speed_squared(
-    tmp_path: Path, engine: str
-) -> None:
+def test_kinetic_energy_is_half_the_moment_of_inertia_times_speed_squared(tmp_path, engine):
     with opened(written(tmp_path, PENDULUM), engine) as world:
         world.weigh(False)
         world.place(np.array([0.3]))
@@ -123,7 +112,7 @@ def test_kinetic_energy_is_half_the_moment_of_inertia_times_speed_squared(
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_nothing_is_put_to_sleep(tmp_path: Path, engine: str) -> None:
+def test_nothing_is_put_to_sleep(tmp_path, engine):
     with opened(written(tmp_path, PENDULUM), engine) as world:
         world.weigh(False)
         world.place(np.array([0.3]))
@@ -140,8 +129,8 @@ def test_nothing_is_put_to_sleep(tmp_path: Path, engine: str) -> None:
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_an_arm_opens_by_its_weight_and_neither_rests_nor_falls_with_made_up_energy(
-    tmp_path: Path, engine: str
-) -> None:
+    tmp_path, engine
+):
     with opened(written(tmp_path, PENDULUM), engine) as world:
         (resting,) = rest(world, CONFIG)
         fallen = fall(world, CONFIG)
@@ -153,7 +142,7 @@ def test_an_arm_opens_by_its_weight_and_neither_rests_nor_falls_with_made_up_ene
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_what_hangs_on_its_stop_does_not_open_by_itself(tmp_path: Path, engine: str) -> None:
+def test_what_hangs_on_its_stop_does_not_open_by_itself(tmp_path, engine):
     result = judged(write_lid(tmp_path), engine)
     assert "opens_by_itself" not in codes(result, Severity.SOFT)
     # 20 kg, 0.3 m from the hinge.
@@ -162,9 +151,7 @@ def test_what_hangs_on_its_stop_does_not_open_by_itself(tmp_path: Path, engine: 
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_the_axis_arrives_in_the_child_s_frame_and_friction_with_the_shape(
-    tmp_path: Path, engine: str
-) -> None:
+def test_the_axis_arrives_in_the_child_s_frame_and_friction_with_the_shape(tmp_path, engine):
     text = PENDULUM.replace('<axis xyz="0 1 0"/>', '<axis xyz="0.6 0 -0.8"/>').replace(
         "</inertial></link>\n  <joint",
         (
@@ -185,7 +172,7 @@ def test_the_axis_arrives_in_the_child_s_frame_and_friction_with_the_shape(
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_a_jam_names_the_stopper(tmp_path: Path, engine: str) -> None:
+def test_a_jam_names_the_stopper(tmp_path, engine):
     stopper = (((-0.31, 0.0, 0.6), (0.02, 0.5, 0.3)),)
     result = judged(write_urdf(tmp_path, {**PARTS, "stopper": stopper}), engine)
     motion = moved(result, "slide")
@@ -197,7 +184,7 @@ def test_a_jam_names_the_stopper(tmp_path: Path, engine: str) -> None:
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_siblings_that_lie_in_one_another_push_and_are_named(tmp_path: Path, engine: str) -> None:
+def test_siblings_that_lie_in_one_another_push_and_are_named(tmp_path, engine):
     slides = "".join(
         f'<joint name="{name}_slide" type="prismatic"><parent link="base"/><child link="{name}"/>'
         f'<axis xyz="{x} 0 0"/>'
@@ -219,9 +206,7 @@ def test_siblings_that_lie_in_one_another_push_and_are_named(tmp_path: Path, eng
 # The others never let a link touch the one that it is jointed to.
 @pytest.mark.parametrize("engine", ENGINES[1:3])
 @pytest.mark.parametrize(("depth", "expected"), [(0.02, []), (0.07, ["soft"]), (0.2, ["hard"])])
-def test_a_part_shot_out_of_another_made_energy_from_nowhere(
-    tmp_path: Path, engine: str, depth: float, expected: list[str]
-) -> None:
+def test_a_part_shot_out_of_another_made_energy_from_nowhere(tmp_path, engine, depth, expected):
     cube = (0.8, 0.8, 0.8)
     slide = (
         '<joint name="slide" type="prismatic"><parent link="base"/>'
@@ -239,7 +224,7 @@ def test_a_part_shot_out_of_another_made_energy_from_nowhere(
         assert shot.value > 0.05 * 9.81
 
 
-def flat(seen: Observation) -> tuple[object, ...]:
+def flat(seen):
     """Every number of an observation in full."""
     poses = [
         (dict(s.values), {name: pose.tobytes() for name, pose in s.poses.items()})
@@ -256,7 +241,7 @@ def flat(seen: Observation) -> tuple[object, ...]:
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_what_was_looked_at_before_leaves_no_trace(tmp_path: Path, engine: str) -> None:
+def test_what_was_looked_at_before_leaves_no_trace(tmp_path, engine):
     # One that jams and pushes, so that contact solvers have much to remember.
     wide = (((-0.015, 0.0, 0.5955), (0.37, 0.574, 0.363)),)
     stopper = (((-0.31, 0.0, 0.6), (0.02, 0.5, 0.3)),)
@@ -271,18 +256,14 @@ def test_what_was_looked_at_before_leaves_no_trace(tmp_path: Path, engine: str) 
     assert in_turn[2] == in_turn[0]
 
 
-def observed_in_turn(
-    engine: str, paths: tuple[Path, ...], samples: Any
-) -> tuple[tuple[object, ...], ...]:
+def observed_in_turn(engine, paths, samples):
     """Everything seen of each file by one new process: other tests leave settings in this one."""
     return run_isolated(
         observe_in_turn, engine, paths, samples, limits=Limits(wall_s=60.0)
     ).unwrap()
 
 
-def observe_in_turn(
-    engine: str, paths: tuple[Path, ...], samples: Any
-) -> tuple[tuple[object, ...], ...]:
+def observe_in_turn(engine, paths, samples):
     return tuple(flat(observe(engine, path, CONFIG, samples)) for path in paths)
 
 
@@ -311,8 +292,8 @@ STOP = """<collision><origin xyz="0 -1.75 -0.07"/><geometry><box size="0.1 0.4 0
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize(("stop", "seen"), [("", False), (STOP, True)], ids=["free", "pressed"])
 def test_a_button_that_rides_on_a_door_is_moved_by_what_presses_it_only(
-    tmp_path: Path, engine: str, stop: str, seen: bool
-) -> None:
+    tmp_path, engine, stop, seen
+):
     text = BUTTON_DOOR.replace("{stop}", stop)
     result = judged(written(tmp_path, text), engine)
     hinge = moved(result, "hinge")
@@ -321,7 +302,7 @@ def test_a_button_that_rides_on_a_door_is_moved_by_what_presses_it_only(
     assert (hinge["reached"] > 0.99, hinge["others_moved"] < 0.5) == (True, True)
 
 
-def chain(links: int) -> str:
+def chain(links):
     """Boxes of 0.1 m, each hinged to the one before, 1 cm apart."""
     text = ""
     for i in range(links):
@@ -337,9 +318,7 @@ def chain(links: int) -> str:
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_a_joint_of_a_chain_is_driven_without_shaking_the_others(
-    tmp_path: Path, engine: str
-) -> None:
+def test_a_joint_of_a_chain_is_driven_without_shaking_the_others(tmp_path, engine):
     result = judged(written(tmp_path, chain(10)), engine)
     assert [finding for finding in result.findings if finding.severity is Severity.HARD] == []
     assert max(row["others_moved"] for row in result.measurements["joints"]) < 0.01

@@ -72,9 +72,7 @@ def test_contacts_do_not_depend_on_the_order_of_faces(seed):
 
 
 @given(st.integers(0, 10_000), st.integers(1, 6), st.floats(0.01, 0.5))
-def test_contacts_are_counted_as_if_every_pair_were_listed(
-    seed: int, owners: int, reach: float
-) -> None:
+def test_contacts_are_counted_as_if_every_pair_were_listed(seed, owners, reach):
     chance = np.random.default_rng(seed)
     points = chance.uniform(size=(60, 3))
     owner = np.sort(chance.integers(0, owners, 60)) * 3
@@ -91,7 +89,7 @@ def test_contacts_are_counted_as_if_every_pair_were_listed(
     }
 
 
-def test_dense_boards_that_lie_in_one_another_take_no_memory() -> None:
+def test_dense_boards_that_lie_in_one_another_take_no_memory():
     board = trimesh.creation.box((1.0, 1.0, 0.001))
     for _ in range(6):
         board = board.subdivide()

@@ -1,7 +1,5 @@
 """One-piece meshes are read from their sides; what is unsure stays fixed; others are not asked."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -14,20 +12,20 @@ from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.learn.objects import make_object
 
 
-def crumb(mesh: Mesh, size: float) -> Mesh:
+def crumb(mesh, size):
     """The same with a small tetrahedron beside it."""
     corners = np.vstack([np.zeros(3), size * np.eye(3)]) + mesh.bounds[1]
     sides = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
     return concatenate([mesh, Mesh.from_triangles(corners, sides)])
 
 
-def bumpy(mesh: Mesh) -> Mesh:
+def bumpy(mesh):
     """The same with every vertex a little off."""
     rng = np.random.default_rng(0)
     return replace(mesh, vertices=mesh.vertices + rng.normal(0.0, 1e-3, mesh.vertices.shape))
 
 
-def test_one_surface_with_crumbs_is_one_piece_and_an_assembly_is_not() -> None:
+def test_one_surface_with_crumbs_is_one_piece_and_an_assembly_is_not():
     whole = plain_box()
     assert MeshOrigin.of(whole).one_piece
     assert MeshOrigin.of(crumb(whole, 0.05)).one_piece
@@ -35,19 +33,19 @@ def test_one_surface_with_crumbs_is_one_piece_and_an_assembly_is_not() -> None:
     assert not MeshOrigin.of(make_object("cabinet", 0).mesh).one_piece
 
 
-def test_only_what_bends_a_little_everywhere_is_a_skin() -> None:
+def test_only_what_bends_a_little_everywhere_is_a_skin():
     assert not MeshOrigin.of(drawers()).is_generated
     assert MeshOrigin.of(bumpy(drawers())).is_generated
     assert not MeshOrigin.of(bumpy(make_object("cabinet", 0).mesh)).is_generated
 
 
-def test_auto_reads_a_skin_by_its_seams() -> None:
+def test_auto_reads_a_skin_by_its_seams():
     found = WithoutNetwork(AutoConfig()).articulate(drawers())
     assert [joint.kind for joint in found.joints] == ["prismatic"] * 3
     assert found.articulator == "auto"
 
 
-def test_what_is_unsure_stays_with_the_base() -> None:
+def test_what_is_unsure_stays_with_the_base():
     mesh = drawers()
     every = seam_hypotheses(mesh, 0.0, "auto")[0].articulation
     confidences = sorted(part.confidence or 0.0 for part in every.parts[1:])
@@ -58,7 +56,7 @@ def test_what_is_unsure_stays_with_the_base() -> None:
     assert not none.articulation.movable_joints
 
 
-def test_other_hypotheses_differ_from_the_likeliest() -> None:
+def test_other_hypotheses_differ_from_the_likeliest():
     found = WithoutNetwork(AutoConfig(least_confidence=0.0)).hypotheses(bin_with_lid())
     told = [
         [(joint.kind, joint.axis.tolist()) for joint in each.articulation.joints] for each in found

@@ -113,7 +113,7 @@ def test_the_shipped_trust_believes_more_where_more_speaks_for_it():
     assert 0.05 < trust.least < 0.9
 
 
-def box(low: float, high: float) -> np.ndarray:
+def box(low, high):
     return np.array([[low] * 3, [high] * 3])
 
 

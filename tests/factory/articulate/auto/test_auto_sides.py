@@ -1,7 +1,5 @@
 """Meshes of several pieces are read from their sides: whole pieces, or parts of solid ones."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -10,13 +8,13 @@ from modelled_furniture import board, bookcase, creased_cupboard, drawer_chest, 
 
 from asset_factory.factory.articulate.auto.articulator import AutoArticulator
 from asset_factory.factory.articulate.auto.hidden import without_hidden
-from asset_factory.factory.articulate.auto.sides import Sightings, sightings
+from asset_factory.factory.articulate.auto.sides import sightings
 from asset_factory.factory.articulate.auto.trust import load_trust
 from asset_factory.factory.articulate.proposal import Motion, Proposal
-from asset_factory.factory.articulation import Articulation, JointKind
+from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import AutoConfig, BuildConfig
 from asset_factory.factory.geometry.components import connected_components
-from asset_factory.factory.mesh import FloatArray, Mesh, concatenate
+from asset_factory.factory.mesh import concatenate
 from asset_factory.factory.part import PartKind, Proposer
 from asset_factory.factory.views.view import Views
 
@@ -26,21 +24,21 @@ UP = (0.0, 0.0, 1.0)
 class SeesNothing(AutoArticulator):
     """The automatic articulator with neither network nor rules of shape."""
 
-    def proposals(self, mesh: Mesh, areas: FloatArray) -> tuple[Proposal, ...]:
+    def proposals(self, mesh, areas):
         return ()
 
 
-def shown(mesh: Mesh) -> Sightings:
+def shown(mesh):
     return sightings(Views(mesh, connected_components(mesh)))[0]
 
 
-def by_sides_alone(mesh: Mesh) -> tuple[Articulation, ...]:
+def by_sides_alone(mesh):
     config = BuildConfig()
-    nobody = SeesNothing(None, (), load_trust(), config.particulate, AutoConfig())  # type: ignore[arg-type]
+    nobody = SeesNothing(None, (), load_trust(), config.particulate, AutoConfig())
     return tuple(each.articulation for each in nobody.hypotheses(mesh))
 
 
-def test_a_drawer_is_its_plate_and_knob_whole() -> None:
+def test_a_drawer_is_its_plate_and_knob_whole():
     mesh = drawer_chest()
     pieces = connected_components(mesh)
     seen = shown(mesh)
@@ -51,7 +49,7 @@ def test_a_drawer_is_its_plate_and_knob_whole() -> None:
     assert all(np.allclose(each.motion.axis, (0, -1, 0)) for each in seen.found)
 
 
-def test_both_doors_of_a_fridge_open_away_from_their_handles() -> None:
+def test_both_doors_of_a_fridge_open_away_from_their_handles():
     (found, *_) = by_sides_alone(fridge())
     assert [joint.kind for joint in found.movable_joints] == ["revolute"] * 2
     for joint in found.movable_joints:
@@ -59,7 +57,7 @@ def test_both_doors_of_a_fridge_open_away_from_their_handles() -> None:
         assert joint.origin[0] == pytest.approx(0.6, abs=0.02)
 
 
-def test_doors_of_one_piece_are_cut_apart_at_their_crease() -> None:
+def test_doors_of_one_piece_are_cut_apart_at_their_crease():
     mesh = creased_cupboard()
     seen = shown(mesh)
     assert len(seen.mesh.faces) > len(mesh.faces)
@@ -71,14 +69,14 @@ def test_doors_of_one_piece_are_cut_apart_at_their_crease() -> None:
     assert min(middles) < 0.45 < max(middles)
 
 
-def test_nothing_is_cut_out_of_what_has_an_inside() -> None:
+def test_nothing_is_cut_out_of_what_has_an_inside():
     assert not any(
         each.found for each in sightings(Views(bookcase(), connected_components(bookcase())))
     )
     assert not by_sides_alone(bookcase())[0].movable_joints
 
 
-def two_faced(mesh: Mesh) -> Mesh:
+def two_faced(mesh):
     """A mesh whose every triangle is there once each way round: it has no inside."""
     twin = replace(mesh, faces=mesh.faces[:, ::-1], corner_uv=None, corner_normals=None)
     whole = concatenate((mesh, twin))
@@ -87,7 +85,7 @@ def two_faced(mesh: Mesh) -> Mesh:
     return replace(whole, vertices=mesh.vertices, faces=shared)
 
 
-def test_doors_are_cut_out_of_a_box_of_two_faced_sheets_but_not_of_shelves_in_one() -> None:
+def test_doors_are_cut_out_of_a_box_of_two_faced_sheets_but_not_of_shelves_in_one():
     sheets = two_faced(creased_cupboard())
     assert len(sheets.faces) == 2 * len(creased_cupboard().faces)
     assert len(shown(sheets).found) == 2
@@ -95,7 +93,7 @@ def test_doors_are_cut_out_of_a_box_of_two_faced_sheets_but_not_of_shelves_in_on
     assert not any(each.found for each in sightings(Views(shelves, connected_components(shelves))))
 
 
-def test_proposals_are_carried_to_the_cut_mesh() -> None:
+def test_proposals_are_carried_to_the_cut_mesh():
     mesh = creased_cupboard()
     seen = shown(mesh)
     first = Proposal(
@@ -106,7 +104,7 @@ def test_proposals_are_carried_to_the_cut_mesh() -> None:
     assert np.ptp(knob.reshape(-1, 3), axis=0) == pytest.approx([0.03, 0.032, 0.03], abs=1e-6)
 
 
-def test_the_front_of_a_drawer_that_is_known_is_no_drawer_of_its_own() -> None:
+def test_the_front_of_a_drawer_that_is_known_is_no_drawer_of_its_own():
     mesh = drawer_chest()
     pieces = connected_components(mesh)
     seen = shown(mesh)
@@ -115,19 +113,19 @@ def test_the_front_of_a_drawer_that_is_known_is_no_drawer_of_its_own() -> None:
     assert len(seen.beyond(seen.found, ())) == 2
 
 
-def test_a_knob_goes_with_the_plate_that_it_alone_touches() -> None:
+def test_a_knob_goes_with_the_plate_that_it_alone_touches():
     mesh = drawer_chest()
     pieces = connected_components(mesh)
     seen = shown(mesh).found[0]
     bare = np.isin(pieces, np.setdiff1d(pieces[seen.faces], (3, 4)))
     config = BuildConfig()
-    nobody = SeesNothing(None, (), load_trust(), config.particulate, AutoConfig())  # type: ignore[arg-type]
+    nobody = SeesNothing(None, (), load_trust(), config.particulate, AutoConfig())
     found = nobody.decide(Views(mesh), (replace(seen, faces=bare),))
     plate, knob = sorted(set(pieces[found.parts[1].faces]))
     assert (plate, knob) in {(1, 3), (2, 4)}
 
 
-def test_beside_a_known_front_only_whole_pieces_are_added() -> None:
+def test_beside_a_known_front_only_whole_pieces_are_added():
     seen = shown(fridge())
     lower, upper = seen.found
     assert seen.beside([lower], [upper.faces]) == [lower]
@@ -140,7 +138,7 @@ def test_beside_a_known_front_only_whole_pieces_are_added() -> None:
     assert cut.beside([left], [known]) == []
 
 
-def test_a_little_piece_that_no_side_shows_is_no_mover_by_the_networks_word_alone() -> None:
+def test_a_little_piece_that_no_side_shows_is_no_mover_by_the_networks_word_alone():
     chest = drawer_chest()
     runner = board((0.1, 0.1, 0.3), (0.12, 0.4, 0.32))
     mesh = concatenate([chest, runner])
@@ -149,7 +147,7 @@ def test_a_little_piece_that_no_side_shows_is_no_mover_by_the_networks_word_alon
     hidden = np.arange(len(mesh.faces)) >= len(chest.faces)
     knob = connected_components(mesh) == 3
     config = BuildConfig()
-    nobody = SeesNothing(None, (), load_trust(), config.particulate, AutoConfig(least_confidence=0))  # type: ignore[arg-type]
+    nobody = SeesNothing(None, (), load_trust(), config.particulate, AutoConfig(least_confidence=0))
     made = [
         replace(seen, faces=faces, signs=word, proposer=Proposer.NETWORK)
         for faces in (hidden, knob)
@@ -159,7 +157,7 @@ def test_a_little_piece_that_no_side_shows_is_no_mover_by_the_networks_word_alon
     assert knob[found.parts[joint.child].faces].all()
 
 
-def test_a_rack_behind_a_door_may_move_and_a_pair_of_runners_may_not() -> None:
+def test_a_rack_behind_a_door_may_move_and_a_pair_of_runners_may_not():
     oven = board((0.0, 0.0, 0.0), (0.6, 0.6, 0.8))
     bars = [board((x, 0.1, 0.4), (x + 0.01, 0.5, 0.41)) for x in np.linspace(0.1, 0.49, 9)]
     for pieces, kept in ((bars, True), (bars[::8], False)):

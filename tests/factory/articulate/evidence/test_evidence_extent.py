@@ -1,7 +1,5 @@
 """An open drawer goes back as far as it stands out; what is closed, upright or pressed does not."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from evidence_worlds import chest, cupboard, oven, partition
@@ -18,7 +16,7 @@ THICK = 0.021
 """Of the chest's front, which stands before its carcass."""
 
 
-def drawn(by: float):
+def drawn(by):
     """The chest with its drawer pulled out [m]."""
     return partition(posed(chest(), {chest().joints[0].name: by}))
 

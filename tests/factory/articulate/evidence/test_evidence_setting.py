@@ -1,7 +1,5 @@
 """What holds a part is told from movable neighbours; ranges come in the right unit."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from evidence_worlds import WOOD, chest, cupboard, partition
@@ -22,7 +20,7 @@ from asset_factory.factory.mesh import Mesh
 OUT = np.array([0.0, -1.0, 0.0])
 
 
-def _with_box(whole: Partition, x, y, z) -> Partition:
+def _with_box(whole, x, y, z):
     """One more part, a box on the root."""
     extra = box(x, y, z, WOOD)
     count = len(whole.mesh.vertices)
@@ -35,7 +33,7 @@ def _with_box(whole: Partition, x, y, z) -> Partition:
     return Partition(mesh, labels, np.append(whole.parents, 0))
 
 
-def _tried(whole: Partition, part: int, axis: np.ndarray):
+def _tried(whole, part, axis):
     """The slide of a part along an axis: its body, itself, and its evidence."""
     body = body_of(whole, part)
     found = find_candidates(body, NOTHING)

@@ -1,7 +1,5 @@
 """One-piece meshes as they should not be: a reading or none, and never a crash."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -9,11 +7,10 @@ import pytest
 from tests.samples import one_piece
 
 from asset_factory.factory.articulate.seams import SeamsArticulator
-from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.mesh import Mesh
 
 
-def kept(mesh: Mesh, faces: np.ndarray) -> Mesh:
+def kept(mesh, faces):
     return replace(
         mesh,
         faces=mesh.faces[faces],
@@ -23,7 +20,7 @@ def kept(mesh: Mesh, faces: np.ndarray) -> Mesh:
     )
 
 
-def joined(*meshes: Mesh) -> Mesh:
+def joined(*meshes):
     start = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     return Mesh.from_triangles(
         np.concatenate([mesh.vertices for mesh in meshes]),
@@ -31,13 +28,13 @@ def joined(*meshes: Mesh) -> Mesh:
     )
 
 
-def moved(mesh: Mesh, *by: float) -> Mesh:
+def moved(mesh, *by):
     place = np.eye(4)
     place[:3, 3] = by
     return mesh.transformed(place)
 
 
-def require_sound(found: Articulation) -> None:
+def require_sound(found):
     """Every triangle has one part, every joint is finite, and nothing that moves is empty."""
     owned = np.concatenate([part.faces for part in found.parts])
     assert np.array_equal(np.sort(owned), np.arange(len(found.mesh.faces)))
@@ -48,12 +45,12 @@ def require_sound(found: Articulation) -> None:
     assert found.joints or found.notes
 
 
-def motions(found: Articulation) -> list[tuple[str, list[float]]]:
+def motions(found):
     return sorted((joint.kind.value, joint.axis.round(3).tolist()) for joint in found.joints)
 
 
 @pytest.mark.parametrize("name", ["fridge", "drawers", "chest"])
-def test_inside_out_is_read_as_the_right_way_round(name: str) -> None:
+def test_inside_out_is_read_as_the_right_way_round(name):
     mesh = getattr(one_piece, name)()
     turned = replace(mesh, faces=mesh.faces[:, ::-1], corner_normals=None)
     wanted = motions(SeamsArticulator().articulate(mesh))
@@ -63,14 +60,14 @@ def test_inside_out_is_read_as_the_right_way_round(name: str) -> None:
 
 @pytest.mark.parametrize("axis", range(3))
 @pytest.mark.parametrize("name", ["fridge", "chest"])
-def test_half_a_skin_has_a_reading_or_none(name: str, axis: int) -> None:
+def test_half_a_skin_has_a_reading_or_none(name, axis):
     mesh = getattr(one_piece, name)()
     middle = mesh.vertices[mesh.faces].mean(axis=1)[:, axis]
     half = kept(mesh, middle < mesh.bounds[:, axis].mean())
     require_sound(SeamsArticulator().articulate(half))
 
 
-def test_small_holes_hide_nothing() -> None:
+def test_small_holes_hide_nothing():
     mesh = one_piece.drawers()
     rng = np.random.default_rng(3)
     torn = kept(mesh, rng.random(len(mesh.faces)) > 0.01)
@@ -79,7 +76,7 @@ def test_small_holes_hide_nothing() -> None:
     assert motions(found) == motions(SeamsArticulator().articulate(mesh))
 
 
-def test_a_ground_plate_is_no_part_of_the_front() -> None:
+def test_a_ground_plate_is_no_part_of_the_front():
     mesh = one_piece.fridge()
     low, high = mesh.bounds
     plate = one_piece.mesh_of(
@@ -91,12 +88,12 @@ def test_a_ground_plate_is_no_part_of_the_front() -> None:
     assert motions(found) == motions(SeamsArticulator().articulate(mesh))
 
 
-def test_several_objects_in_one_file_have_a_reading_or_none() -> None:
+def test_several_objects_in_one_file_have_a_reading_or_none():
     pair = joined(one_piece.fridge(), moved(one_piece.chest(), 1.5, 0.4, 0.0))
     require_sound(SeamsArticulator().articulate(pair))
 
 
-def test_a_door_that_stands_open_has_a_reading_or_none() -> None:
+def test_a_door_that_stands_open_has_a_reading_or_none():
     shut = SeamsArticulator().articulate(one_piece.fridge())
     mesh = shut.mesh
     vertices = mesh.vertices[mesh.faces].reshape(-1, 3).copy()
@@ -108,6 +105,6 @@ def test_a_door_that_stands_open_has_a_reading_or_none() -> None:
     require_sound(SeamsArticulator().articulate(opened))
 
 
-def test_needles_and_points_are_rigid() -> None:
+def test_needles_and_points_are_rigid():
     needle = Mesh.from_triangles([[0, 0, 0], [0.001, 0, 0], [0, 0.001, 1]], [[0, 1, 2], [2, 1, 0]])
     assert not SeamsArticulator().articulate(needle).joints

@@ -1,7 +1,5 @@
 """Cuts along planes: same surface, closed as before, appearance kept."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -12,22 +10,21 @@ from one_piece import fridge
 
 from asset_factory.factory.articulate.seams.cutting import Region, cut_around, inside, uncut
 from asset_factory.factory.geometry.triangles import face_areas
-from asset_factory.factory.mesh import Mesh
 
 
-def box_region(low: list[float], high: list[float]) -> Region:
+def box_region(low, high):
     normals = np.concatenate([np.eye(3), -np.eye(3)])
     return Region(normals, np.concatenate([high, -np.array(low)]))
 
 
-def open_edges(mesh: Mesh) -> int:
+def open_edges(mesh):
     """Edges that are not there exactly once in each direction."""
     edges = mesh.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
     forward = {(int(a), int(b)) for a, b in edges}
     return sum((b, a) not in forward for a, b in forward) + len(edges) - len(forward)
 
 
-def painted(mesh: Mesh) -> Mesh:
+def painted(mesh):
     """The mesh with texture coordinates and normals that are linear in the position."""
     corners = mesh.vertices[mesh.faces]
     normals = np.broadcast_to(np.array([0.0, 0.6, 0.8]), corners.shape)
@@ -39,7 +36,7 @@ def painted(mesh: Mesh) -> Mesh:
     low=st.lists(st.floats(-0.1, 0.5), min_size=3, max_size=3),
     size=st.lists(st.floats(0.02, 0.6), min_size=3, max_size=3),
 )
-def test_a_cut_keeps_the_surface(low: list[float], size: list[float]) -> None:
+def test_a_cut_keeps_the_surface(low, size):
     mesh = painted(fridge())
     region = box_region(low, [a + b for a, b in zip(low, size, strict=True)])
     cut = cut_around(uncut(mesh), region)
@@ -53,7 +50,7 @@ def test_a_cut_keeps_the_surface(low: list[float], size: list[float]) -> None:
     assert (mesh.face_material[cut.source] == cut.mesh.face_material).all()
 
 
-def test_no_triangle_is_on_both_sides() -> None:
+def test_no_triangle_is_on_both_sides():
     mesh = fridge()
     region = box_region([0.1, -1.0, 0.2], [0.45, 0.1, 1.3])
     cut = cut_around(uncut(mesh), region)
@@ -69,7 +66,7 @@ def test_no_triangle_is_on_both_sides() -> None:
     assert not (np.abs(outside - center) < half - slack).all(axis=1).any()
 
 
-def test_what_needs_no_cut_is_not_cut() -> None:
+def test_what_needs_no_cut_is_not_cut():
     mesh = fridge()
     everything = box_region([-1.0, -1.0, -1.0], [2.0, 2.0, 2.0])
     assert cut_around(uncut(mesh), everything).mesh is mesh

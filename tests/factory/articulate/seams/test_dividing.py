@@ -1,7 +1,5 @@
 """Panels without a seam between them are cut where their handles say."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -13,7 +11,7 @@ HEIGHT = 300
 NO_LINES = Lines(np.zeros(0, dtype=np.int64), *(np.zeros((0, HEIGHT + 1)),) * 3)
 
 
-def cuts_between(places: list[int]) -> list[int]:
+def cuts_between(places):
     """Rows where a tall rectangle is cut that has bars of ten rows from ``places`` on."""
     whole = Rectangle(np.array([0, 0]), np.array([HEIGHT, 100]), np.ones(4), np.ones(4))
     bars = [Protrusion(np.array([at, 30]), np.array([at + 9, 70]), 8.0, 1.0) for at in places]
@@ -31,7 +29,5 @@ def cuts_between(places: list[int]) -> list[int]:
         ([100, 190], [150]),  # a tall door under another: beside the seam
     ],
 )
-def test_every_panel_has_its_handle_where_the_outermost_has(
-    places: list[int], cuts: list[int]
-) -> None:
+def test_every_panel_has_its_handle_where_the_outermost_has(places, cuts):
     assert cuts_between(places) == pytest.approx(cuts, abs=2)

@@ -1,7 +1,5 @@
 """What is no panel, and when doubts about panels count."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -29,7 +27,7 @@ from asset_factory.factory.views.raster import Side
 from asset_factory.factory.views.view import Views
 
 
-def test_slivers_are_no_doors() -> None:
+def test_slivers_are_no_doors():
     scene = fronts_of(reliefs_of(Views(one_piece.plain_box())))[Side.FRONT].scene
     bottom, top, left, _ = scene.relief.box
     tall = top - bottom - 20
@@ -45,7 +43,7 @@ def test_slivers_are_no_doors() -> None:
     assert usable(scene, [door, sliver], STRICT) == [door]
 
 
-def test_a_front_may_show_nothing_but_pieces_between_handles() -> None:
+def test_a_front_may_show_nothing_but_pieces_between_handles():
     scene = fronts_of(reliefs_of(Views(one_piece.plain_box())))[Side.FRONT].scene
     whole = whole_side(scene)
     middle = (whole.low[0] + whole.high[0]) // 2
@@ -63,8 +61,8 @@ def test_a_front_may_show_nothing_but_pieces_between_handles() -> None:
     ],
 )
 def test_doubtful_panels_yield_to_a_lid_unless_the_network_sees_them_or_they_are_evident(
-    monkeypatch: pytest.MonkeyPatch, shown: float, shut: float, wanted: list[str]
-) -> None:
+    monkeypatch, shown, shut, wanted
+):
     monkeypatch.setattr(hypotheses, "SHUT", shut)
     seen = hypotheses._Sides.of(reliefs_of(Views(one_piece.doors())))
     assert len(seen.panels) == 2
@@ -82,28 +80,28 @@ def test_doubtful_panels_yield_to_a_lid_unless_the_network_sees_them_or_they_are
 @pytest.mark.parametrize(("seen", "beside_panels", "wanted"), [
     (0.1, False, False), (0.25, False, True), (0.25, True, False), (0.35, True, True),
 ])  # fmt: skip
-def test_lids_are_seen_by_the_network(seen: float, beside_panels: bool, wanted: bool) -> None:
+def test_lids_are_seen_by_the_network(seen, beside_panels, wanted):
     assert Lid(3, 5.0, seen, ()).is_seen(beside_panels=beside_panels) is wanted
 
 
-def _rectangle(*corners: int) -> Rectangle:
+def _rectangle(*corners):
     bottom, left, top, right = corners
     return Rectangle(np.array([bottom, left]), np.array([top, right]), np.ones(4), np.ones(4))
 
 
-def _group(value: float, *corners: int) -> Group:
+def _group(value, *corners):
     rectangle = _rectangle(*corners)
     return Group(rectangle, (FrontPanel(rectangle, (), value),))
 
 
-def test_several_small_panels_beat_a_large_one_that_is_worth_more_than_each() -> None:
+def test_several_small_panels_beat_a_large_one_that_is_worth_more_than_each():
     rows = [_group(3.0, 10 * row, 0, 10 * row + 10, 40) for row in range(3)]
     assert together([_group(6.0, 0, 0, 30, 40), *rows]) == rows
     whole = _group(10.0, 0, 0, 30, 40)
     assert together([whole, *rows]) == [whole]
 
 
-def test_what_ends_far_behind_its_middle_is_no_panel() -> None:
+def test_what_ends_far_behind_its_middle_is_no_panel():
     scene = fronts_of(reliefs_of(Views(one_piece.plain_box())))[Side.FRONT].scene
     bottom, top, left, right = scene.relief.box
     edge = (bottom + 3 * top) // 4
@@ -114,12 +112,12 @@ def test_what_ends_far_behind_its_middle_is_no_panel() -> None:
     assert steps_back(scene, both).tolist() == [True, False]
 
 
-def _handle(row: int, column: int, rows: int, columns: int) -> Protrusion:
+def _handle(row, column, rows, columns):
     high = np.array([row + rows - 1, column + columns - 1])
     return Protrusion(np.array([row, column]), high, 6.0, 1.0)
 
 
-def test_a_narrow_panel_with_a_knob_beside_a_door_with_a_bar_is_for_controls() -> None:
+def test_a_narrow_panel_with_a_knob_beside_a_door_with_a_bar_is_for_controls():
     door = FrontPanel(_rectangle(0, 0, 100, 120), (_handle(20, 110, 60, 5),), 1.0)
     narrow = _rectangle(0, 120, 100, 170)
     knob = FrontPanel(narrow, (_handle(80, 140, 12, 12),), 1.0)
@@ -129,9 +127,7 @@ def test_a_narrow_panel_with_a_knob_beside_a_door_with_a_bar_is_for_controls() -
 
 
 @pytest.mark.parametrize(("parted", "wanted"), [(False, True), (True, False)])
-def test_knobs_far_apart_on_one_strip_turn_unless_seams_part_them(
-    parted: bool, wanted: bool
-) -> None:
+def test_knobs_far_apart_on_one_strip_turn_unless_seams_part_them(parted, wanted):
     knobs = tuple(_handle(90, column, 8, 8) for column in (20, 90, 160))
     face = Face(np.zeros((120, 200)), np.zeros((120, 200), np.bool_), knobs)
     level = _lines([75, 110], 200)
@@ -139,7 +135,7 @@ def test_knobs_far_apart_on_one_strip_turn_unless_seams_part_them(
     assert all(each.control is wanted for each in with_strips(face, level, upright).handles)
 
 
-def _lines(at: list[int], length: int) -> Lines:
+def _lines(at, length):
     sums = np.tile(np.arange(length + 1.0), (len(at), 1))
     return Lines(np.array(at, np.int64), sums, sums, sums)
 
@@ -147,9 +143,7 @@ def _lines(at: list[int], length: int) -> Lines:
 @pytest.mark.parametrize(("closed", "pulled", "wanted"), [
     (0.91, True, True), (0.85, True, False), (1.0, False, False),
 ])  # fmt: skip
-def test_a_groove_all_around_a_handle_needs_no_network(
-    closed: float, pulled: bool, wanted: bool
-) -> None:
+def test_a_groove_all_around_a_handle_needs_no_network(closed, pulled, wanted):
     front = fronts_of(reliefs_of(Views(one_piece.plain_box())))[Side.FRONT]
     front.__dict__["sight"] = replace(front.sight, panel=np.zeros_like(front.sight.panel))
     sides = np.array([closed, 1.0, 1.0, 1.0])

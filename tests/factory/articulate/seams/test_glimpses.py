@@ -1,7 +1,5 @@
 """Panels that the picture network alone is sure of, and how it counts among three judges."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -9,13 +7,13 @@ import pytest
 from tests.samples import one_piece
 
 from asset_factory.factory.articulate.seams import fronts as fronts_module
-from asset_factory.factory.articulate.seams.fronts import Front, fronts_of
+from asset_factory.factory.articulate.seams.fronts import fronts_of
 from asset_factory.factory.articulate.seams.glimpses import glimpsed
 from asset_factory.factory.articulate.seams.groups import FrontPanel
 from asset_factory.factory.articulate.seams.hypotheses import hypotheses_of_reliefs
 from asset_factory.factory.articulate.seams.motions import openings_of
 from asset_factory.factory.articulate.seams.rectangles import Rectangle
-from asset_factory.factory.articulate.seams.relief import Relief, reliefs_of
+from asset_factory.factory.articulate.seams.relief import reliefs_of
 from asset_factory.factory.articulate.seams.sight import SQUARE, Sight
 from asset_factory.factory.part import OpensBy
 from asset_factory.factory.views.raster import Side
@@ -25,7 +23,7 @@ from asset_factory.factory.views.view import Views
 DOORS = (((10, 12), (90, 42)), ((10, 43), (90, 73)))
 
 
-def seen_as(relief: Relief, panel: float = 0.95, end: float = 0.95) -> Sight:
+def seen_as(relief, panel=0.95, end=0.95):
     """Two doors beside each other on every side, hinged on their left."""
     shape = tuple(-(-length // SQUARE) for length in relief.shape)
     nothing = np.zeros(shape)
@@ -40,18 +38,18 @@ def seen_as(relief: Relief, panel: float = 0.95, end: float = 0.95) -> Sight:
 
 
 @pytest.fixture
-def box() -> Front:
+def box():
     """Of a box on which nothing is seen but what a test says."""
     return fronts_of(reliefs_of(Views(one_piece.plain_box())))[Side.FRONT]
 
 
-def with_sight(front: Front, **seen: float) -> Front:
+def with_sight(front, **seen):
     told = replace(front)
     told.__dict__["sight"] = seen_as(front.relief, **seen)
     return told
 
 
-def test_two_doors_end_where_an_end_is_seen(box: Front) -> None:
+def test_two_doors_end_where_an_end_is_seen(box):
     panels = glimpsed(with_sight(box))
     corners = sorted((*each.rectangle.low, *each.rectangle.high) for each in panels)
     expected = [[SQUARE * at for at in (*low, *high)] for low, high in DOORS]
@@ -60,11 +58,11 @@ def test_two_doors_end_where_an_end_is_seen(box: Front) -> None:
 
 
 @pytest.mark.parametrize("doubt", [{"panel": 0.7}, {"end": 0.5}])
-def test_what_is_doubtful_is_no_panel(box: Front, doubt: dict[str, float]) -> None:
+def test_what_is_doubtful_is_no_panel(box, doubt):
     assert not glimpsed(with_sight(box, **doubt))
 
 
-def test_without_an_end_in_between_they_are_one(box: Front) -> None:
+def test_without_an_end_in_between_they_are_one(box):
     front = with_sight(box)
     front.sight.panel[10:90, 42] = 0.95
     front.sight.upright[10:90, 40:45] = 0.0
@@ -73,7 +71,7 @@ def test_without_an_end_in_between_they_are_one(box: Front) -> None:
     assert found.rectangle.high.tolist() == [180, 146]
 
 
-def test_a_frame_that_looks_like_a_panel_is_left_out(box: Front) -> None:
+def test_a_frame_that_looks_like_a_panel_is_left_out(box):
     front = with_sight(box)
     front.sight.panel[7:93, 9:76] = 0.95
     panels = glimpsed(front)
@@ -82,7 +80,7 @@ def test_a_frame_that_looks_like_a_panel_is_left_out(box: Front) -> None:
     assert np.abs(np.array(corners) - expected).max() <= SQUARE
 
 
-def test_nothing_opens_where_nothing_is_there(box: Front) -> None:
+def test_nothing_opens_where_nothing_is_there(box):
     seen = box.relief.seen.copy()
     (bottom, left), (top, right) = DOORS[0]
     seen[SQUARE * bottom : SQUARE * top, SQUARE * left : SQUARE * right] = False
@@ -91,7 +89,7 @@ def test_nothing_opens_where_nothing_is_there(box: Front) -> None:
     assert door.rectangle.low[1] == pytest.approx(SQUARE * DOORS[1][0][1], abs=SQUARE)
 
 
-def test_where_nothing_else_is_found_it_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_where_nothing_else_is_found_it_is_read(monkeypatch):
     reliefs = reliefs_of(Views(one_piece.plain_box()))
     assert hypotheses_of_reliefs(reliefs) == ()
     monkeypatch.setattr(fronts_module, "sight_of", seen_as)
@@ -100,7 +98,7 @@ def test_where_nothing_else_is_found_it_is_read(monkeypatch: pytest.MonkeyPatch)
     assert all(mover.existence > 0.8 for mover in movers)
 
 
-def test_it_counts_for_one_of_three_in_how_a_panel_opens(box: Front) -> None:
+def test_it_counts_for_one_of_three_in_how_a_panel_opens(box):
     rectangle = Rectangle(np.array([20, 24]), np.array([180, 84]), np.ones(4), np.ones(4))
     panel = FrontPanel(rectangle, (), 1.0)
     chances = {}

@@ -1,14 +1,12 @@
 """What the picture network changes about panels that others found."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from tests.samples import one_piece
 
-from asset_factory.factory.articulate.seams.fronts import Front, fronts_of
+from asset_factory.factory.articulate.seams.fronts import fronts_of
 from asset_factory.factory.articulate.seams.groups import FrontPanel
 from asset_factory.factory.articulate.seams.planks import beyond_planks
 from asset_factory.factory.articulate.seams.rectangles import Rectangle
@@ -20,11 +18,11 @@ from asset_factory.factory.views.raster import Side
 from asset_factory.factory.views.view import Views
 
 
-def rectangle(low: tuple[int, int], high: tuple[int, int]) -> Rectangle:
+def rectangle(low, high):
     return Rectangle(np.array(low), np.array(high), np.ones(4), np.ones(4))
 
 
-def with_sight(front: Front, seen: list[Rectangle]) -> Front:
+def with_sight(front, seen):
     """The same, and the network is sure of these alone."""
     shape = tuple(-(-length // SQUARE) for length in front.relief.shape)
     panel, level, upright = np.zeros(shape), np.zeros(shape), np.zeros(shape)
@@ -42,13 +40,13 @@ def with_sight(front: Front, seen: list[Rectangle]) -> Front:
 
 
 @pytest.fixture(scope="module")
-def doors() -> Front:
+def doors():
     """Of a pair of doors with an upright bar on each."""
     return fronts_of(reliefs_of(Views(one_piece.doors())))[Side.FRONT]
 
 
 @pytest.fixture
-def pair(doors: Front) -> list[FrontPanel]:
+def pair(doors):
     """The doors, as they are."""
     bottom, top, left, right = doors.relief.box
     middle = (left + right) // 2
@@ -61,7 +59,7 @@ def pair(doors: Front) -> list[FrontPanel]:
     return found
 
 
-def moved(panel: FrontPanel, low: int = 0, high: int = 0) -> FrontPanel:
+def moved(panel, low=0, high=0):
     """With its left and right side elsewhere [pixels]."""
     old = panel.rectangle
     return replace(
@@ -70,27 +68,23 @@ def moved(panel: FrontPanel, low: int = 0, high: int = 0) -> FrontPanel:
     )
 
 
-def columns(panels: list[FrontPanel]) -> list[list[int]]:
+def columns(panels):
     return sorted([int(each.rectangle.low[1]), int(each.rectangle.high[1])] for each in panels)
 
 
-def test_cuts_that_nobody_saw_move_to_the_ends_seen(doors: Front, pair: list[FrontPanel]) -> None:
+def test_cuts_that_nobody_saw_move_to_the_ends_seen(doors, pair):
     front = with_sight(doors, [panel.rectangle for panel in pair])
     cut = [replace(moved(pair[0], high=-12), cut=True), replace(moved(pair[1], low=-12), cut=True)]
     assert np.abs(np.subtract(columns(revised(front, cut, [])), columns(pair))).max() <= 4
 
 
-def test_a_cut_stays_where_the_network_sees_one_of_two(
-    doors: Front, pair: list[FrontPanel]
-) -> None:
+def test_a_cut_stays_where_the_network_sees_one_of_two(doors, pair):
     front = with_sight(doors, [pair[0].rectangle])
     cut = [replace(panel, cut=True) for panel in pair]
     assert revised(front, cut, []) == cut
 
 
-def test_a_doubted_panel_becomes_what_is_seen_around_its_handle(
-    doors: Front, pair: list[FrontPanel]
-) -> None:
+def test_a_doubted_panel_becomes_what_is_seen_around_its_handle(doors, pair):
     front = with_sight(doors, [pair[0].rectangle])
     wide = moved(pair[0], high=pair[1].rectangle.high[1] - pair[0].rectangle.high[1])
     (found,) = revised(front, [wide], [])
@@ -98,27 +92,23 @@ def test_a_doubted_panel_becomes_what_is_seen_around_its_handle(
     assert np.abs(np.subtract(columns([found]), columns([pair[0]]))).max() <= 4
 
 
-def test_a_doubted_panel_stays_if_nothing_better_is_seen(
-    doors: Front, pair: list[FrontPanel]
-) -> None:
+def test_a_doubted_panel_stays_if_nothing_better_is_seen(doors, pair):
     assert revised(with_sight(doors, []), pair, []) == pair
 
 
-def test_what_the_network_is_sure_of_stays(doors: Front, pair: list[FrontPanel]) -> None:
+def test_what_the_network_is_sure_of_stays(doors, pair):
     front = with_sight(doors, [panel.rectangle for panel in pair])
     assert revised(front, pair, []) == pair
 
 
-def test_a_panel_seen_beside_others_is_added(doors: Front, pair: list[FrontPanel]) -> None:
+def test_a_panel_seen_beside_others_is_added(doors, pair):
     front = with_sight(doors, [panel.rectangle for panel in pair])
     found = revised(front, pair[:1], [])
     assert found[0] is pair[0]
     assert np.abs(np.subtract(columns(found), columns(pair))).max() <= 4
 
 
-def test_what_is_seen_beside_a_panel_ends_at_its_border(
-    doors: Front, pair: list[FrontPanel]
-) -> None:
+def test_what_is_seen_beside_a_panel_ends_at_its_border(doors, pair):
     wide = moved(pair[0], high=int(pair[1].rectangle.size[1]) // 8)
     found = revised(with_sight(doors, [panel.rectangle for panel in pair]), [wide], [])
     assert len(found) == 2
@@ -126,9 +116,7 @@ def test_what_is_seen_beside_a_panel_ends_at_its_border(
 
 
 @pytest.mark.parametrize(("seen", "count"), [(0.9, 2), (0.2, 1)])
-def test_a_knob_on_an_end_that_is_seen_opens_two_doors(
-    doors: Front, pair: list[FrontPanel], seen: float, count: int
-) -> None:
+def test_a_knob_on_an_end_that_is_seen_opens_two_doors(doors, pair, seen, count):
     low = pair[0].rectangle.low
     high = pair[1].rectangle.high
     middle = (low + high) // 2
@@ -146,9 +134,7 @@ def test_a_knob_on_an_end_that_is_seen_opens_two_doors(
         assert found[0].handles[0].high[1] < seam < found[1].handles[0].low[1]
 
 
-def test_a_door_found_between_two_planks_goes_on_to_where_it_ends(
-    doors: Front, pair: list[FrontPanel]
-) -> None:
+def test_a_door_found_between_two_planks_goes_on_to_where_it_ends(doors, pair):
     bottom, top, _, _ = doors.relief.box
     left, right = (panel.rectangle for panel in pair)
     (bar,) = pair[0].handles

@@ -9,7 +9,7 @@ import pytest
 from tests.samples import one_piece
 
 from asset_factory.factory.articulate.seams import SeamsArticulator
-from asset_factory.factory.articulation import Articulation, JointKind, rotation_about
+from asset_factory.factory.articulation import JointKind, rotation_about
 from asset_factory.factory.mesh import Mesh
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -56,16 +56,16 @@ PLACES = {
 
 
 @cache
-def sample(name: str) -> Mesh:
+def sample(name):
     mesh: Mesh = getattr(one_piece, name)()
     return mesh
 
 
-def read(mesh: Mesh) -> Articulation:
+def read(mesh):
     return SeamsArticulator().articulate(mesh)
 
 
-def require(found: Articulation, name: str, linear: np.ndarray) -> None:
+def require(found, name, linear):
     """What opens is what was modelled, moved along by ``linear``, shape [3, 3]; none is certain."""
     assert all(0.0 < (part.confidence or 0.0) < 1.0 for part in found.parts[1:])
     assert all(0.0 < (joint.confidence or 0.0) < 1.0 for joint in found.joints)
@@ -93,7 +93,7 @@ def require(found: Articulation, name: str, linear: np.ndarray) -> None:
 
 @pytest.mark.parametrize("name", OPENS)
 @pytest.mark.parametrize("placed", PLACES)
-def test_what_opens_is_found_wherever_it_stands(name: str, placed: str) -> None:
+def test_what_opens_is_found_wherever_it_stands(name, placed):
     degrees, sizes = PLACES[placed]
     linear = rotation_about(UP, np.radians(degrees)) @ np.diag(sizes)
     turn = np.eye(4)
@@ -102,7 +102,7 @@ def test_what_opens_is_found_wherever_it_stands(name: str, placed: str) -> None:
 
 
 @pytest.mark.parametrize("name", OPENS)
-def test_few_triangles_are_enough(name: str) -> None:
+def test_few_triangles_are_enough(name):
     coarse = getattr(one_piece, name)(edge=10.0)
     assert len(coarse.faces) < len(sample(name).faces) / 4
     require(read(coarse), name, np.eye(3))
@@ -110,7 +110,7 @@ def test_few_triangles_are_enough(name: str) -> None:
 
 @pytest.mark.parametrize("quarters", range(4))
 @pytest.mark.parametrize("name", STAYS)
-def test_what_does_not_open_stays_rigid(name: str, quarters: int) -> None:
+def test_what_does_not_open_stays_rigid(name, quarters):
     turn = np.eye(4)
     turn[:3, :3] = np.rint(rotation_about(UP, quarters * np.pi / 2.0))
     (found,) = SeamsArticulator().hypotheses(sample(name).transformed(turn))
@@ -118,14 +118,14 @@ def test_what_does_not_open_stays_rigid(name: str, quarters: int) -> None:
     assert found.articulation.notes
 
 
-def test_a_door_is_as_thick_as_the_seam_beside_it_shows() -> None:
+def test_a_door_is_as_thick_as_the_seam_beside_it_shows():
     found = read(sample("thick_doors"))
     for part in (1, 2):
         assert found.part_mesh(part).bounds[1][1] == pytest.approx(0.1, abs=0.01)
 
 
 @pytest.mark.parametrize("quarters", range(4))
-def test_a_slab_that_both_sides_show_is_a_door_without_a_handle(quarters: int) -> None:
+def test_a_slab_that_both_sides_show_is_a_door_without_a_handle(quarters):
     turn = np.eye(4)
     turn[:3, :3] = np.rint(rotation_about(UP, quarters * np.pi / 2.0))
     found = read(sample("slab_door").transformed(turn))
@@ -139,7 +139,7 @@ def test_a_slab_that_both_sides_show_is_a_door_without_a_handle(quarters: int) -
 
 
 @pytest.mark.parametrize("quarters", range(4))
-def test_the_lid_of_a_bin_opens_upwards(quarters: int) -> None:
+def test_the_lid_of_a_bin_opens_upwards(quarters):
     turn = np.eye(4)
     turn[:3, :3] = np.rint(rotation_about(UP, quarters * np.pi / 2.0))
     found = read(sample("bin_with_lid").transformed(turn))
@@ -152,13 +152,13 @@ def test_the_lid_of_a_bin_opens_upwards(quarters: int) -> None:
     assert lifted[2] > middle[2] + 0.05
 
 
-def test_long_bars_in_two_rows_are_pulls_and_no_knobs() -> None:
+def test_long_bars_in_two_rows_are_pulls_and_no_knobs():
     found = read(sample("bars_that_meet"))
     assert len(found.joints) == 4
     assert all(joint.kind is not TURNS for joint in found.joints)
 
 
-def test_a_panel_ends_at_its_seam_and_takes_its_handle_along() -> None:
+def test_a_panel_ends_at_its_seam_and_takes_its_handle_along():
     found = read(sample("drawers"))
     for part, (low, high) in enumerate(((0.06, 0.32), (0.34, 0.6), (0.62, 0.86)), start=1):
         bounds = found.part_mesh(part).bounds
@@ -168,7 +168,7 @@ def test_a_panel_ends_at_its_seam_and_takes_its_handle_along() -> None:
         assert found.joints[part - 1].upper == pytest.approx(0.8 * 0.53, rel=0.01)
 
 
-def test_hypotheses_are_ranked_and_share_one_mesh() -> None:
+def test_hypotheses_are_ranked_and_share_one_mesh():
     likeliest_first = SeamsArticulator().hypotheses(sample("fridge"))
     chances = [each.probability for each in likeliest_first]
     assert chances == sorted(chances, reverse=True)
@@ -183,7 +183,7 @@ def test_hypotheses_are_ranked_and_share_one_mesh() -> None:
         assert kinds != [(joint.kind, joint.axis.tolist()) for joint in first.joints]
 
 
-def test_nothing_is_read_of_a_flat_or_tiny_mesh() -> None:
+def test_nothing_is_read_of_a_flat_or_tiny_mesh():
     sheet = Mesh.from_triangles(
         [[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]], [[0, 1, 2], [0, 2, 3]]
     )

@@ -1,9 +1,5 @@
 """A mesh that the articulator cut is kept as it was cut."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import trimesh
 from one_piece import fridge
@@ -18,7 +14,7 @@ from asset_factory.factory.runtime.store import Store
 CONFIG = BuildConfig(articulator="seams")
 
 
-def test_a_cut_mesh_comes_back_from_the_cache(tmp_path: Path, monkeypatch) -> None:
+def test_a_cut_mesh_comes_back_from_the_cache(tmp_path, monkeypatch):
     mesh = fridge()
     file = tmp_path / "fridge.obj"
     text = trimesh.exchange.obj.export_obj(

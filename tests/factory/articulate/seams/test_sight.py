@@ -1,7 +1,5 @@
 """What the shipped picture network sees on a side."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +10,7 @@ from asset_factory.factory.articulate.seams import hypotheses
 from asset_factory.factory.articulate.seams.fronts import fronts_of
 from asset_factory.factory.articulate.seams.hypotheses import hypotheses_of_reliefs
 from asset_factory.factory.articulate.seams.rectangles import Rectangle
-from asset_factory.factory.articulate.seams.relief import Relief, relief_of, reliefs_of
+from asset_factory.factory.articulate.seams.relief import relief_of, reliefs_of
 from asset_factory.factory.articulate.seams.sight import (
     ANSWERS,
     CUES,
@@ -30,18 +28,18 @@ from asset_factory.learn.objects import make_object
 
 
 @pytest.fixture(scope="module")
-def fridge() -> Relief:
+def fridge():
     return relief_of(elevation(make_object("fridge", 1).mesh, Side.FRONT))
 
 
-def test_what_is_given_does_not_depend_on_size(fridge: Relief) -> None:
+def test_what_is_given_does_not_depend_on_size(fridge):
     large = make_object("fridge", 1).mesh.transformed(np.diag([3.0, 3.0, 3.0, 1.0]))
     assert cues_of(relief_of(elevation(large, Side.FRONT))) == pytest.approx(
         cues_of(fridge), abs=1e-6
     )
 
 
-def test_what_is_given_fits_the_grid(fridge: Relief) -> None:
+def test_what_is_given_fits_the_grid(fridge):
     cues = cues_of(fridge)
     assert cues.shape[0] == len(CUES)
     assert cues.shape[1] % GRID == cues.shape[2] % GRID == 0
@@ -49,7 +47,7 @@ def test_what_is_given_fits_the_grid(fridge: Relief) -> None:
     assert np.isfinite(cues).all()
 
 
-def test_answers_are_probabilities(fridge: Relief) -> None:
+def test_answers_are_probabilities(fridge):
     seen = sight_of(fridge)
     for each in (seen.panel, seen.lid, seen.level, seen.upright):
         assert each.shape == tuple(-(-length // 2) for length in fridge.shape)
@@ -59,7 +57,7 @@ def test_answers_are_probabilities(fridge: Relief) -> None:
     assert seen.ways.sum(axis=0) == pytest.approx(1.0)
 
 
-def test_a_rectangle_shows_a_panel_as_far_as_it_covers_one() -> None:
+def test_a_rectangle_shows_a_panel_as_far_as_it_covers_one():
     panel = np.zeros((40, 30))
     panel[:20] = 1.0
     seen = Sight(panel, panel, panel, panel, np.zeros((5, 40, 30)))
@@ -69,7 +67,7 @@ def test_a_rectangle_shows_a_panel_as_far_as_it_covers_one() -> None:
     assert seen.shows(_rectangle((2, 2), (3, 3))) == 0.0
 
 
-def _seeing_two_doors() -> Sight:
+def _seeing_two_doors():
     """Of 40 by 60 squares, one door beside another, parted at square 30."""
     panel = np.ones((40, 60))
     upright = np.zeros((40, 60))
@@ -79,7 +77,7 @@ def _seeing_two_doors() -> Sight:
     return Sight(panel, np.zeros((40, 60)), level, upright, np.zeros((5, 40, 60)))
 
 
-def test_a_panel_runs_on_where_the_network_sees_one_and_no_end() -> None:
+def test_a_panel_runs_on_where_the_network_sees_one_and_no_end():
     level, upright = _seeing_two_doors().runs_on((79, 119))
     assert level.shape == upright.shape == (79, 119)
     assert upright[:, :50].all()
@@ -91,13 +89,13 @@ def test_a_panel_runs_on_where_the_network_sees_one_and_no_end() -> None:
     assert not doubtful.runs_on((79, 119)).any()
 
 
-def test_ends_are_as_sure_as_the_squares_along_them() -> None:
+def test_ends_are_as_sure_as_the_squares_along_them():
     seen = _seeing_two_doors()
     assert seen.ends(_rectangle((0, 60), (79, 119))) == pytest.approx([0.6, 0.6, 0.9, 0.0])
     assert seen.ends(_rectangle((20, 20), (60, 40))) == pytest.approx([0.0] * 4)
 
 
-def test_lines_on_a_panel_that_runs_on_part_nothing() -> None:
+def test_lines_on_a_panel_that_runs_on_part_nothing():
     front = fronts_of(reliefs_of(Views(one_piece.doors())))[Side.FRONT]
     middle = front.relief.shape[1] // 2
     assert np.abs(front.scene.upright.at - middle).min() <= 4
@@ -110,7 +108,7 @@ def test_lines_on_a_panel_that_runs_on_part_nothing() -> None:
 
 
 @pytest.mark.parametrize(("end", "count"), [(0.9, 2), (0.1, 1)])
-def test_a_panel_without_a_handle_ends_on_all_sides(end: float, count: int) -> None:
+def test_a_panel_without_a_handle_ends_on_all_sides(end, count):
     reliefs = reliefs_of(Views(one_piece.doors()))
     sides = hypotheses._Sides.of(reliefs)
     pulled, bare = (replace(panel, value=1.0) for panel in sides.panels)
@@ -129,11 +127,11 @@ def test_a_panel_without_a_handle_ends_on_all_sides(end: float, count: int) -> N
     assert len(best) == count
 
 
-def _rectangle(low: tuple[int, int], high: tuple[int, int]) -> Rectangle:
+def _rectangle(low, high):
     return Rectangle(np.array(low), np.array(high), np.ones(4), np.ones(4))
 
 
-def test_what_the_network_does_not_see_is_no_panel(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_the_network_does_not_see_is_no_panel(monkeypatch):
     reliefs = reliefs_of(Views(one_piece.fridge()))
     found = hypotheses_of_reliefs(reliefs)[0]
     monkeypatch.setattr(Sight, "shows", lambda self, rectangle: 0.0)
@@ -144,7 +142,7 @@ def test_what_the_network_does_not_see_is_no_panel(monkeypatch: pytest.MonkeyPat
 
 
 @pytest.mark.parametrize("kind", ["fridge", "filing_cabinet", "base_cabinet"])
-def test_the_shipped_network_tells_what_opens_from_what_stays(kind: str) -> None:
+def test_the_shipped_network_tells_what_opens_from_what_stays(kind):
     pictures = pictures_of(make_object(kind, 40_001), np.random.default_rng(1), (Side.FRONT,))
     relief = pictures[Side.FRONT].relief
     part = pictures[Side.FRONT].part
@@ -153,6 +151,6 @@ def test_the_shipped_network_tells_what_opens_from_what_stays(kind: str) -> None
     assert panel[part > 0].mean() > panel[part == 0].mean() + 0.3
 
 
-def test_the_shipped_network_is_whole() -> None:
+def test_the_shipped_network_is_whole():
     assert all(np.isfinite(each).all() for each in shipped_weights().values())
     assert shipped_weights()["answer.weight"].shape[0] == len(ANSWERS)

@@ -1,11 +1,8 @@
 """A cluster of one's own is this machine's affair: loopback ports, a token that no file holds."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -33,9 +30,7 @@ with connected(LOCAL, 1) as ray:
 """
 
 
-def test_a_cluster_of_ones_own_listens_to_this_machine_and_this_job_only(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_cluster_of_ones_own_listens_to_this_machine_and_this_job_only(tmp_path, monkeypatch):
     monkeypatch.setenv("HOME", str(tmp_path))
     for name in ("RAY_AUTH_MODE", "RAY_AUTH_TOKEN", "RAY_AUTH_TOKEN_PATH"):
         monkeypatch.delenv(name, raising=False)

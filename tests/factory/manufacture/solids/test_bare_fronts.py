@@ -1,7 +1,5 @@
 """Front plates of modelled furniture: drawers get boxes, doors a hollow, where all is solid."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -15,7 +13,7 @@ from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.solids.build import solids
 from asset_factory.factory.manufacture.solids.skin import bare_fronts
-from asset_factory.factory.mesh import Mesh, concatenate
+from asset_factory.factory.mesh import concatenate
 
 OUT = np.array([0.0, -1.0, 0.0])
 UP = np.array([0.0, 0.0, 1.0])
@@ -24,25 +22,25 @@ UP = np.array([0.0, 0.0, 1.0])
 SLIDE = Joint("slide", JointKind.PRISMATIC, 0, 1, OUT, np.zeros(3), upper=0.3)
 
 
-def moving(mesh: Mesh, pieces: tuple[int, ...], joint: Joint) -> Articulation:
+def moving(mesh, pieces, joint):
     """A mesh of which some pieces move."""
     own = np.isin(connected_components(mesh), pieces)
     parts = (Part("base", np.flatnonzero(~own)), Part("drawer", np.flatnonzero(own)))
     return located(Articulation(mesh, parts, (joint,), "test"))
 
 
-def with_drawer(mesh: Mesh, *pieces: int) -> Articulation:
+def with_drawer(mesh, *pieces):
     """A mesh of which some pieces slide towards the viewer."""
     return moving(mesh, pieces, SLIDE)
 
 
-def with_door(mesh: Mesh, *pieces: int) -> Articulation:
+def with_door(mesh, *pieces):
     """The same with a hinge at the right."""
     at = np.array([mesh.bounds[1, 0], 0.0, 0.0])
     return moving(mesh, pieces, Joint("hinge", JointKind.REVOLUTE, 0, 1, UP, at, upper=1.5))
 
 
-def hollow_case() -> list[Mesh]:
+def hollow_case():
     """Five boards and a front plate."""
     return [
         board((0.0, 0.0, 0.0), (0.02, 0.4, 0.6)),
@@ -54,18 +52,18 @@ def hollow_case() -> list[Mesh]:
     ]
 
 
-def test_a_plate_that_slides_is_bare_and_a_box_is_not() -> None:
+def test_a_plate_that_slides_is_bare_and_a_box_is_not():
     assert bare_fronts(with_drawer(drawer_chest(), 1, 3)) == (1,)
     box = board((0.05, -0.001, 0.05), (0.55, 0.35, 0.5))
     assert bare_fronts(with_drawer(concatenate([*hollow_case(), box]), 5, 6)) == ()
 
 
-def test_a_door_is_bare_only_where_it_closes_something_solid() -> None:
+def test_a_door_is_bare_only_where_it_closes_something_solid():
     assert bare_fronts(with_door(fridge(), 1, 3)) == (1,)
     assert bare_fronts(with_door(concatenate(hollow_case()), 5)) == ()
 
 
-def test_a_drawer_of_a_solid_chest_gets_a_box_and_room_for_it() -> None:
+def test_a_drawer_of_a_solid_chest_gets_a_box_and_room_for_it():
     made = solids(with_drawer(drawer_chest(), 1, 3), SolidsConfig())
     told = {(each.part, each.kind) for each in made.surfaces}
     assert {("drawer", "drawer box"), ("base", "hollow")} <= told
@@ -76,20 +74,20 @@ def test_a_drawer_of_a_solid_chest_gets_a_box_and_room_for_it() -> None:
     assert max(hull.vertices[:, 1].max() for hull in pieces.hulls) > 0.3
 
 
-def test_a_drawer_of_a_hollow_case_gets_a_box_too() -> None:
+def test_a_drawer_of_a_hollow_case_gets_a_box_too():
     made = solids(with_drawer(concatenate(hollow_case()), 5), SolidsConfig())
     assert ("drawer", "drawer box") in {(each.part, each.kind) for each in made.surfaces}
     assert not any(each.kind == "hollow" for each in made.surfaces)
 
 
-def test_without_interior_nothing_is_invented_behind_a_front() -> None:
+def test_without_interior_nothing_is_invented_behind_a_front():
     made = solids(with_drawer(drawer_chest(), 1, 3), SolidsConfig(interior=False))
     assert not {each.kind for each in made.surfaces} & {"drawer box", "hollow"}
     assert np.ptp(made.articulation.part_mesh(1).vertices[:, 1]) < 0.1
 
 
 @pytest.mark.parametrize("thickness", [0.03, 0.06])
-def test_a_modelled_door_becomes_a_slab_as_thick_as_it_is(thickness: float) -> None:
+def test_a_modelled_door_becomes_a_slab_as_thick_as_it_is(thickness):
     case = board((0.0, 0.0, 0.0), (0.6, 0.5, 1.2))
     door = board((0.0, -thickness - 0.001, 0.0), (0.6, -0.001, 1.2))
     made = solids(with_door(concatenate([case, door]), 1), SolidsConfig())
@@ -97,7 +95,7 @@ def test_a_modelled_door_becomes_a_slab_as_thick_as_it_is(thickness: float) -> N
     assert back.thickness_m == pytest.approx(thickness, abs=1e-3)
 
 
-def test_a_front_gets_no_box_where_a_tray_of_its_own_slides() -> None:
+def test_a_front_gets_no_box_where_a_tray_of_its_own_slides():
     low, high = (0.05, 0.03, 0.2), (0.55, 0.36, 0.4)
     tray = [
         board(low, (0.55, 0.36, 0.204)),
@@ -117,7 +115,7 @@ def test_a_front_gets_no_box_where_a_tray_of_its_own_slides() -> None:
     assert "drawer box" not in {each.kind for each in made.surfaces}
 
 
-def test_a_handle_taken_for_a_drawer_of_its_own_keeps_its_faces() -> None:
+def test_a_handle_taken_for_a_drawer_of_its_own_keeps_its_faces():
     bar = board((0.2, -0.1, 0.3), (0.4, -0.02, 0.34))
     mesh = concatenate([*hollow_case(), bar])
     piece = connected_components(mesh)
@@ -130,7 +128,7 @@ def test_a_handle_taken_for_a_drawer_of_its_own_keeps_its_faces() -> None:
     assert all(len(part.faces) for part in made.articulation.parts)
 
 
-def test_a_button_in_a_door_has_room_to_be_pressed() -> None:
+def test_a_button_in_a_door_has_room_to_be_pressed():
     case = board((0.0, 0.0, 0.0), (0.6, 0.5, 1.2))
     door = board((0.0, -0.061, 0.0), (0.6, -0.001, 1.2))
     button = board((0.28, -0.08, 0.9), (0.32, -0.058, 0.94))
@@ -147,7 +145,7 @@ def test_a_button_in_a_door_has_room_to_be_pressed() -> None:
     assert sum(hull.volume for hull in made.pieces[1].hulls) > 0.9 * 0.6 * 0.06 * 1.2
 
 
-def test_a_body_behind_a_front_is_left_to_decomposition() -> None:
+def test_a_body_behind_a_front_is_left_to_decomposition():
     wires = [board((x, 0.05, 0.3), (x + 0.006, 0.36, 0.306)) for x in (0.1, 0.2, 0.3, 0.4)]
     rails = [board((0.1, y, 0.3), (0.406, y + 0.006, 0.306)) for y in (0.05, 0.354)]
     mesh = concatenate([*hollow_case(), *wires, *rails])

@@ -168,7 +168,7 @@ def test_the_same_skin_gives_the_same_solids():
             assert np.array_equal(first.vertices, second.vertices)
 
 
-def test_a_lid_that_is_lifted_gets_no_drawers_box() -> None:
+def test_a_lid_that_is_lifted_gets_no_drawers_box():
     hinged = bin_with_lid()
     lift = replace(hinged.joints[0], kind=JointKind.PRISMATIC, axis=np.array([0.0, 0.0, 1.0]))
     lifted = replace(hinged, joints=(replace(lift, upper=0.2),))

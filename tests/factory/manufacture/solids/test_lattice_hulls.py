@@ -17,9 +17,7 @@ POINTS = hnp.arrays(np.float64, (12, 3), elements=st.floats(-0.25, 1.25, width=3
 
 
 @given(POINTS, st.floats(-0.05, 0.05), st.integers(0, 10), st.integers(0, 10))
-def test_cells_below_all_planes_are_found(
-    points: np.ndarray, margin: float, first: int, second: int
-) -> None:
+def test_cells_below_all_planes_are_found(points, margin, first, second):
     hull = hull_of(points)
     assume(hull is not None)
     planes = hull.planes * [1.0, 1.0, 1.0, -1.0]
@@ -32,7 +30,7 @@ def test_cells_below_all_planes_are_found(
     assert (found == (heights < margin)).all()
 
 
-def test_a_box_of_whole_cells_fills_its_volume() -> None:
+def test_a_box_of_whole_cells_fills_its_volume():
     lines = LATTICE.lines
     box = Box(
         np.array([lines[axis][2] for axis in range(3)]),
@@ -44,7 +42,7 @@ def test_a_box_of_whole_cells_fills_its_volume() -> None:
     assert np.isclose(filled(LATTICE, twice, EVERYWHERE, hull), 2.0 * np.prod(box.size))
 
 
-def test_a_sheet_thinner_than_cells_fills_those_it_crosses() -> None:
+def test_a_sheet_thinner_than_cells_fills_those_it_crosses():
     middle = LATTICE.middles[2][4]
     low, high = (np.append(end, middle) for end in BOUNDS[:, :2])
     hull = Box(low, high).grown([0.0, 0.0, 5e-4]).hull()

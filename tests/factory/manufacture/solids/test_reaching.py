@@ -1,13 +1,10 @@
 """Pieces are stretched to the surface, and not into what must stay free or is air."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from asset_factory.factory.asset import Hull
 from asset_factory.factory.manufacture.decompose.convex import depth_below, hull_of
 from asset_factory.factory.manufacture.solids.box import Box
 from asset_factory.factory.manufacture.solids.lattice import Lattice
@@ -15,7 +12,7 @@ from asset_factory.factory.manufacture.solids.matter import PATH, Matter
 from asset_factory.factory.manufacture.solids.reach import FAR_M, reaching
 
 
-def block(low: tuple[float, float, float], high: tuple[float, float, float]) -> Hull:
+def block(low, high):
     corners = np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T
     hull = hull_of(corners)
     assert hull is not None
@@ -23,7 +20,7 @@ def block(low: tuple[float, float, float], high: tuple[float, float, float]) -> 
 
 
 @pytest.fixture
-def matter() -> Matter:
+def matter():
     """A block of 0.6 m in a room of 1 m, seen on all of its surface."""
     cells = Lattice.over(np.array([[0.0] * 3, [1.0] * 3]), 25, [[0.2, 0.8]] * 3)
     solid = np.zeros(cells.shape, dtype=bool)
@@ -33,21 +30,21 @@ def matter() -> Matter:
     return Matter(cells, solid, solid, np.zeros(cells.shape, dtype=np.uint8), seen)
 
 
-def test_a_piece_that_falls_short_reaches_what_is_seen(matter: Matter) -> None:
+def test_a_piece_that_falls_short_reaches_what_is_seen(matter):
     short = block((0.2, 0.2, 0.2), (0.8, 0.8, 0.75))
     (reached,) = reaching(matter, [short])
     assert depth_below(reached, matter.sparse).min() >= -FAR_M
     assert reached.volume == pytest.approx(0.6**3, rel=0.02)
 
 
-def test_pieces_that_cover_all_stay_as_they_are(matter: Matter) -> None:
+def test_pieces_that_cover_all_stay_as_they_are(matter):
     whole = block((0.2, 0.2, 0.2), (0.8, 0.8, 0.8))
     (reached,) = reaching(matter, [whole])
     assert reached is whole
     assert reaching(matter, ()) == ()
 
 
-def test_what_must_stay_free_is_not_filled(matter: Matter) -> None:
+def test_what_must_stay_free_is_not_filled(matter):
     free = matter.free.copy()
     free[matter.lattice.span(Box(np.array([0.2, 0.2, 0.7]), np.array([0.8, 0.8, 0.76])))] = PATH
     short = block((0.2, 0.2, 0.2), (0.8, 0.8, 0.7))
@@ -55,7 +52,7 @@ def test_what_must_stay_free_is_not_filled(matter: Matter) -> None:
     assert reached.vertices[:, 2].max() < 0.71
 
 
-def test_air_is_not_filled_to_reach_a_spike(matter: Matter) -> None:
+def test_air_is_not_filled_to_reach_a_spike(matter):
     spike = np.concatenate([matter.points, [[0.5, 0.5, 0.99]]])
     whole = block((0.2, 0.2, 0.2), (0.8, 0.8, 0.8))
     (reached,) = reaching(replace(matter, points=spike), [whole])

@@ -35,7 +35,7 @@ def lattice(planes=((), (), ()), cells=20):
     return Lattice.over(UNIT, cells, [list(each) for each in planes])
 
 
-def test_parts_that_are_patches_of_one_surface_are_told_from_bodies() -> None:
+def test_parts_that_are_patches_of_one_surface_are_told_from_bodies():
     assert skin_parts(cupboard()) == (1,)
     assert skin_parts(chest()) == (1, 2)
     boxes = []
@@ -48,7 +48,7 @@ def test_parts_that_are_patches_of_one_surface_are_told_from_bodies() -> None:
 
 
 @pytest.mark.parametrize("axis", range(3))
-def test_wanted_planes_are_lines_exactly(axis: int) -> None:
+def test_wanted_planes_are_lines_exactly(axis):
     planes = [[], [], []]
     planes[axis] = [0.3333, 0.3339]
     lines = lattice(planes).lines
@@ -56,14 +56,14 @@ def test_wanted_planes_are_lines_exactly(axis: int) -> None:
     assert all((np.diff(line) > 0.0).all() for line in lines)
 
 
-def test_planes_at_the_ends_split_off_no_layer_of_nothing() -> None:
+def test_planes_at_the_ends_split_off_no_layer_of_nothing():
     x, _, z = lattice(([0.001, 0.31], [], [0.999])).lines
     assert 0.31 in x
     assert min(np.diff(x).min(), np.diff(z).min()) > 0.005
 
 
 @pytest.mark.parametrize("holed", [False, True])
-def test_what_a_skin_encloses_survives_a_hole(holed: bool) -> None:
+def test_what_a_skin_encloses_survives_a_hole(holed):
     ball = trimesh.creation.icosphere(4, 0.4)
     faces = ball.faces[np.linalg.norm(ball.triangles_center - [0, 0, 0.4], axis=1) > 0.1 * holed]
     mesh = Mesh.from_triangles(ball.vertices + 0.5, faces)
@@ -73,7 +73,7 @@ def test_what_a_skin_encloses_survives_a_hole(holed: bool) -> None:
 
 
 @given(st.integers(0, 2), st.floats(-0.24, 0.24))
-def test_a_cut_keeps_the_surface_and_leaves_nothing_across_the_plane(axis, offset) -> None:
+def test_a_cut_keeps_the_surface_and_leaves_nothing_across_the_plane(axis, offset):
     vertices, faces = box_skin(fine=0.2)
     mesh = Mesh.from_triangles(vertices, faces)
     skin = CutSkin.of(mesh, np.zeros(len(faces), dtype=int))
@@ -93,7 +93,7 @@ def test_a_cut_keeps_the_surface_and_leaves_nothing_across_the_plane(axis, offse
 
 
 @pytest.mark.parametrize("side", [Side.FRONT, Side.TOP, Side.RIGHT])
-def test_a_hollow_is_the_largest_box_in_what_may_be_hollowed(side: Side) -> None:
+def test_a_hollow_is_the_largest_box_in_what_may_be_hollowed(side):
     cells = lattice(cells=50)
     room = np.zeros(cells.shape, dtype=bool)
     room[cells.span(Box(np.full(3, 0.1), np.full(3, 0.9)))] = True
@@ -105,7 +105,7 @@ def test_a_hollow_is_the_largest_box_in_what_may_be_hollowed(side: Side) -> None
     assert found.size.prod() == pytest.approx(0.8 * 0.8 * 0.79, rel=0.06)
 
 
-def test_a_tapered_room_is_hollowed_in_steps() -> None:
+def test_a_tapered_room_is_hollowed_in_steps():
     cells = lattice(cells=50)
     x, _, z = np.meshgrid(*cells.middles, indexing="ij")
     room = (np.abs(x - 0.5) < 0.1 + 0.3 * z) & (z < 0.9)
@@ -118,7 +118,7 @@ def test_a_tapered_room_is_hollowed_in_steps() -> None:
 
 
 @pytest.mark.parametrize("depth", [0.0776, 0.31, 0.9])
-def test_between_the_steps_of_a_hollow_there_is_no_skin(depth: float) -> None:
+def test_between_the_steps_of_a_hollow_there_is_no_skin(depth):
     cells = lattice(cells=50)
     x, _, z = np.meshgrid(*cells.middles, indexing="ij")
     room = (np.abs(x - 0.5) < 0.1 + 0.3 * z / depth) & (z < depth)
@@ -131,13 +131,13 @@ def test_between_the_steps_of_a_hollow_there_is_no_skin(depth: float) -> None:
     assert np.abs(areas).sum() == pytest.approx(mouth, rel=1e-6)
 
 
-def test_no_room_no_hollow() -> None:
+def test_no_room_no_hollow():
     cells = lattice()
     nothing = np.zeros(cells.shape, dtype=bool)
     assert hollow(cells, nothing, Box(*UNIT), np.eye(3)) == ()
 
 
-def test_a_drawer_box_keeps_clear_of_its_room() -> None:
+def test_a_drawer_box_keeps_clear_of_its_room():
     room = Box(np.zeros(3), np.array([0.4, 0.2, 0.5]))
     boards = drawer_box(room, -0.003)
     low = np.min([board.low for board in boards], axis=0)
@@ -152,7 +152,7 @@ def test_a_drawer_box_keeps_clear_of_its_room() -> None:
     assert drawer_box(Box(np.zeros(3), np.array([0.4, 0.03, 0.5])), 0.0) == ()
 
 
-def test_pieces_of_a_box_around_a_hollow_are_its_walls_exactly() -> None:
+def test_pieces_of_a_box_around_a_hollow_are_its_walls_exactly():
     cells = lattice(planes=((0.2, 0.8), (0.2, 0.8), (0.2,)))
     inner = Box(np.full(3, 0.2), np.array([0.8, 0.8, np.inf]))
     free = np.zeros(cells.shape, dtype=np.uint8)
@@ -169,7 +169,7 @@ def test_pieces_of_a_box_around_a_hollow_are_its_walls_exactly() -> None:
         assert depth_below(hull, centers).max() < 1e-3
 
 
-def test_a_wall_that_is_a_single_sheet_becomes_a_thin_piece() -> None:
+def test_a_wall_that_is_a_single_sheet_becomes_a_thin_piece():
     cells = lattice()
     solid = np.zeros(cells.shape, dtype=bool)
     solid[10, 2:18, 2:18] = True
@@ -183,7 +183,7 @@ def test_a_wall_that_is_a_single_sheet_becomes_a_thin_piece() -> None:
 
 
 @pytest.mark.parametrize("bent", [0.0, 0.002])
-def test_a_sheet_thinner_than_cells_leaves_free_what_passes_through_it(bent: float) -> None:
+def test_a_sheet_thinner_than_cells_leaves_free_what_passes_through_it(bent):
     cells = lattice(cells=60)
     passed = Box(np.array([0.0, 0.3, 0.35]), np.array([1.0, 0.7, 0.6]))
     free = np.zeros(cells.shape, dtype=np.uint8)
@@ -200,7 +200,7 @@ def test_a_sheet_thinner_than_cells_leaves_free_what_passes_through_it(bent: flo
     assert np.max([depth_below(wall, seen) for wall in walls], axis=0).min() > -0.01
 
 
-def test_a_knob_begins_clear_of_what_it_stands_on() -> None:
+def test_a_knob_begins_clear_of_what_it_stands_on():
     knob = trimesh.creation.cylinder(0.02, 0.03, sections=32)
     points = np.asarray(knob.vertices) + np.array([0, 0, 0.015])
     rim = points[points[:, 2] < 1e-6]
@@ -212,7 +212,7 @@ def test_a_knob_begins_clear_of_what_it_stands_on() -> None:
     assert bump.hull.volume == pytest.approx(np.pi * 0.02**2 * (0.03 - CLEAR_M), rel=0.02)
 
 
-def test_a_button_keeps_its_height_and_its_host_a_pit_for_it() -> None:
+def test_a_button_keeps_its_height_and_its_host_a_pit_for_it():
     vertices, faces = box_skin((0.4, 0.4, 0.4), 0.02)
     button = (np.abs(vertices[:, :2]) < 0.05).all(axis=1) & (vertices[:, 2] > 0.39)
     vertices = vertices + np.array([0.0, 0.0, 0.04]) * button[:, None]
@@ -235,7 +235,7 @@ def test_a_button_keeps_its_height_and_its_host_a_pit_for_it() -> None:
     assert sum(each.volume for each in body.hulls) > 0.9 * 0.4**3
 
 
-def test_half_a_wheel_is_turned_into_a_whole_one() -> None:
+def test_half_a_wheel_is_turned_into_a_whole_one():
     wheel = trimesh.creation.cylinder(0.05, 0.02, sections=64)
     wheel.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [1, 0, 0]))
     points = np.asarray(wheel.vertices)[np.asarray(wheel.vertices)[:, 2] < 0.01]
@@ -247,7 +247,7 @@ def test_half_a_wheel_is_turned_into_a_whole_one() -> None:
     assert bump.hull.volume == pytest.approx(np.pi * 0.05**2 * 0.02, rel=0.05)
 
 
-def test_a_lever_that_turns_all_the_way_is_no_wheel() -> None:
+def test_a_lever_that_turns_all_the_way_is_no_wheel():
     lever = trimesh.creation.box(
         (0.2, 0.02, 0.02), trimesh.transformations.translation_matrix([0.1, 0, 0])
     )
@@ -256,7 +256,7 @@ def test_a_lever_that_turns_all_the_way_is_no_wheel() -> None:
     assert find_bump(points, np.zeros((0, 3)), joint) is None
 
 
-def test_hollows_and_boards_bound_their_volume() -> None:
+def test_hollows_and_boards_bound_their_volume():
     boxes = (
         Box(np.zeros(3), np.ones(3)),
         Box(np.array([0.2, 0.2, 1.0]), np.array([0.8, 0.8, 2.0])),
@@ -267,7 +267,7 @@ def test_hollows_and_boards_bound_their_volume() -> None:
     assert np.unique(np.round(boundary(inside)[:, :, 2], 9)).tolist() == [0.0]
 
 
-def test_a_plate_with_a_hole_has_the_area_of_what_is_left() -> None:
+def test_a_plate_with_a_hole_has_the_area_of_what_is_left():
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     ring = plate(square, [square * 0.5 + 0.25], 0.3)
     normals = np.cross(ring[:, 1] - ring[:, 0], ring[:, 2] - ring[:, 0])
@@ -276,7 +276,7 @@ def test_a_plate_with_a_hole_has_the_area_of_what_is_left() -> None:
 
 
 @pytest.mark.parametrize("degrees", [0.0, 20.0, -35.0])
-def test_the_working_frame_undoes_a_turn_about_the_vertical(degrees: float) -> None:
+def test_the_working_frame_undoes_a_turn_about_the_vertical(degrees):
     given_tree = chest()
     turned = posing.turned(given_tree, float(np.radians(degrees)))
     frame = working_frame(turned, (1, 2))

@@ -1,7 +1,5 @@
 """Where to hold objects of known answer: to the millimetre, turned, mirrored and blocked."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from plain_solids import box, cylinder
@@ -26,7 +24,7 @@ from asset_factory.factory.asset import Hull
 from asset_factory.factory.manufacture.targets.find import MOST, find_targets
 
 
-def test_a_bar_is_grasped_in_its_middle_across_its_thickness() -> None:
+def test_a_bar_is_grasped_in_its_middle_across_its_thickness():
     target = best(world([PANEL, *BAR]))
     assert target.kind == "grasp"
     assert target.part == 1
@@ -42,7 +40,7 @@ def test_a_bar_is_grasped_in_its_middle_across_its_thickness() -> None:
     assert target.score > 0.9
 
 
-def test_a_knob_on_a_drawer_is_grasped_across_its_head_and_pulled_straight_out() -> None:
+def test_a_knob_on_a_drawer_is_grasped_across_its_head_and_pulled_straight_out():
     target = best(world([PANEL, *KNOB], SLIDE))
     assert target.kind == "grasp"
     np.testing.assert_allclose(target.point, [0.2, -0.05, 0.3], atol=1e-6)
@@ -52,7 +50,7 @@ def test_a_knob_on_a_drawer_is_grasped_across_its_head_and_pulled_straight_out()
     assert target.score > 0.9
 
 
-def test_a_knob_to_turn_is_held_about_its_axis_and_pulled_round_it() -> None:
+def test_a_knob_to_turn_is_held_about_its_axis_and_pulled_round_it():
     turn = Joint("j", JointKind.REVOLUTE, 0, 1, -FRONT, np.array([0.2, -0.01, 0.3]), 0.0, 3.0)
     target = best(world([cylinder(1, (0.3, 0.2), 0.02, (-0.03, -0.002), PLAIN, 32)], turn))
     assert target.kind == "grasp"
@@ -62,7 +60,7 @@ def test_a_knob_to_turn_is_held_about_its_axis_and_pulled_round_it() -> None:
     assert target.opening == pytest.approx(0.04, abs=3e-4)
 
 
-def test_a_slab_that_nothing_can_hold_is_named_at_its_far_edge_as_hopeless() -> None:
+def test_a_slab_that_nothing_can_hold_is_named_at_its_far_edge_as_hopeless():
     targets = targets_of(world([PANEL]))
     assert len(targets) == 1
     assert targets[0].point[0] == pytest.approx(0.4)
@@ -71,7 +69,7 @@ def test_a_slab_that_nothing_can_hold_is_named_at_its_far_edge_as_hopeless() -> 
     assert 0.0 < targets[0].score <= 0.05
 
 
-def test_a_slab_that_overhangs_its_body_is_hooked_or_grasped_at_the_overhang() -> None:
+def test_a_slab_that_overhangs_its_body_is_hooked_or_grasped_at_the_overhang():
     wide = box((0.0, 0.46), (-0.02, -0.003), (0.0, 0.6), PLAIN)
     targets = targets_of(world([wide]))
     assert targets[0].score > 0.4
@@ -81,7 +79,7 @@ def test_a_slab_that_overhangs_its_body_is_hooked_or_grasped_at_the_overhang() -
     assert all(t.point[1] == pytest.approx(-0.003) for t in pushed if t.score > 0.3)
 
 
-def test_the_edge_of_a_hollow_in_a_drawer_front_is_hooked() -> None:
+def test_the_edge_of_a_hollow_in_a_drawer_front_is_hooked():
     # A front with a slot 75 mm high and 40 mm deep; a lip 14 mm thick hangs down before it.
     front = [
         box((0.0, 0.4), (-0.02, -0.003), (0.0, 0.6), PLAIN),
@@ -102,7 +100,7 @@ def test_the_edge_of_a_hollow_in_a_drawer_front_is_hooked() -> None:
     assert target.normal @ FRONT > 0.5
 
 
-def test_a_thing_too_wide_to_grasp_is_hooked_behind() -> None:
+def test_a_thing_too_wide_to_grasp_is_hooked_behind():
     block = box((0.1, 0.3), (-0.09, -0.06), (0.24, 0.36), PLAIN)
     neck = box((0.19, 0.21), (-0.06, -0.02), (0.29, 0.31), PLAIN)
     targets = targets_of(world([PANEL, block, neck], SLIDE))
@@ -111,7 +109,7 @@ def test_a_thing_too_wide_to_grasp_is_hooked_behind() -> None:
     assert abs(targets[0].normal @ FRONT) < 1e-6
 
 
-def test_a_button_is_pushed_in() -> None:
+def test_a_button_is_pushed_in():
     inwards = Joint("j", JointKind.PRISMATIC, 0, 1, -FRONT, np.array([0.2, -0.01, 0.3]), 0.0, 0.005)
     targets = targets_of(world([box((0.15, 0.25), (-0.012, -0.001), (0.25, 0.35), PLAIN)], inwards))
     pushes = [t for t in targets if t.kind == "push"]
@@ -121,7 +119,7 @@ def test_a_button_is_pushed_in() -> None:
     assert pushes[0].point[1] == pytest.approx(-0.012)
 
 
-def test_a_window_that_slides_in_its_own_plane_is_held_by_the_handle_on_its_face() -> None:
+def test_a_window_that_slides_in_its_own_plane_is_held_by_the_handle_on_its_face():
     sideways = Joint(
         "j", JointKind.PRISMATIC, 0, 1, np.array([1.0, 0.0, 0.0]), np.zeros(3), 0.0, 0.3
     )
@@ -133,9 +131,7 @@ def test_a_window_that_slides_in_its_own_plane_is_held_by_the_handle_on_its_face
 
 @pytest.mark.parametrize("kind", ["turned", "mirrored"])
 @pytest.mark.parametrize("joint", [HINGE, SLIDE], ids=["hinge", "slide"])
-def test_a_turned_or_mirrored_object_has_turned_or_mirrored_targets(
-    kind: str, joint: Joint
-) -> None:
+def test_a_turned_or_mirrored_object_has_turned_or_mirrored_targets(kind, joint):
     matrix = np.eye(4)
     if kind == "turned":
         matrix[:3, :3] = Rotation.from_euler("z", 37.0, degrees=True).as_matrix()
@@ -154,16 +150,14 @@ def test_a_turned_or_mirrored_object_has_turned_or_mirrored_targets(
     assert after[0].score == pytest.approx(before[0].score, abs=2e-4)
 
 
-def score_at_bar(still: list) -> float:
+def score_at_bar(still):
     grasps = [
         t for t in targets_of(world([PANEL, *BAR], HINGE, [BODY, *still])) if t.kind == "grasp"
     ]
     return max((t.score for t in grasps), default=0.0)
 
 
-def test_what_stands_before_a_handle_lowers_its_score_and_what_touches_the_fingers_forbids_it() -> (
-    None
-):
+def test_what_stands_before_a_handle_lowers_its_score_and_what_touches_the_fingers_forbids_it():
     free = score_at_bar([])
     before_the_palm = score_at_bar([box((0.30, 0.42), (-0.16, -0.13), (0.2, 0.4), PLAIN)])
     far_away = score_at_bar([box((-0.2, 0.8), (-0.5, -0.4), (0.0, 0.8), PLAIN)])
@@ -176,7 +170,7 @@ def test_what_stands_before_a_handle_lowers_its_score_and_what_touches_the_finge
     assert beside < 0.5 * free
 
 
-def test_collision_hulls_count_as_what_they_fill() -> None:
+def test_collision_hulls_count_as_what_they_fill():
     articulation = world([PANEL, *BAR])
     filled = box((0.340, 0.372), (-0.062, -0.020), (0.22, 0.38), PLAIN)
     hulls = [(), (Hull(PANEL.vertices, PANEL.faces), Hull(filled.vertices, filled.faces))]
@@ -184,7 +178,7 @@ def test_collision_hulls_count_as_what_they_fill() -> None:
     assert target.opening == pytest.approx(0.032, abs=1e-6)
 
 
-def test_a_part_carried_by_a_link_without_surface_is_held_for_both_joints() -> None:
+def test_a_part_carried_by_a_link_without_surface_is_held_for_both_joints():
     mesh = world([PANEL, *BAR])
     parts = (mesh.parts[0], Part("carrier", np.zeros(0)), mesh.parts[1])
     slide = Joint("slide", JointKind.PRISMATIC, 0, 1, FRONT, np.zeros(3), 0.0, 0.1)
@@ -196,7 +190,7 @@ def test_a_part_carried_by_a_link_without_surface_is_held_for_both_joints() -> N
         np.testing.assert_allclose(first.point, [0.356, -0.062, 0.3], atol=1e-6)
 
 
-def test_targets_are_few_sorted_distinct_and_the_same_every_time() -> None:
+def test_targets_are_few_sorted_distinct_and_the_same_every_time():
     articulation = world([PANEL, *BAR])
     first = targets_of(articulation)
     second = targets_of(articulation)

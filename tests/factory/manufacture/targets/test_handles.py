@@ -1,7 +1,5 @@
 """Where to take hold: on the surface, and pulling there opens."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np
@@ -13,7 +11,7 @@ from trimesh.triangles import closest_point
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.geometry.posing import rotated
 from asset_factory.factory.manufacture.targets.handles import find_handle
-from asset_factory.factory.mesh import Material, Mesh, concatenate
+from asset_factory.factory.mesh import Material, concatenate
 from asset_factory.learn.objects import fused_like, make_object
 from asset_factory.learn.objects.catalog import DEMO_CATEGORIES
 
@@ -22,17 +20,17 @@ PLAIN = Material("plain")
 
 
 @cache
-def fused(category: str) -> Articulation:
+def fused(category):
     return fused_like(make_object(category, 0), 0)
 
 
-def distance_to_part(articulation: Articulation, part: int, point: np.ndarray) -> float:
+def distance_to_part(articulation, part, point):
     mesh = articulation.part_mesh(part)
     near = closest_point(mesh.vertices[mesh.faces], np.tile(point, (len(mesh.faces), 1)))
     return float(np.linalg.norm(near - point, axis=1).min())
 
 
-def check_target(articulation: Articulation, joint: Joint) -> None:
+def check_target(articulation, joint):
     handle = find_handle(articulation, joint.child)
     assert handle is not None
     assert distance_to_part(articulation, joint.child, handle.point) < 1e-9
@@ -47,9 +45,7 @@ def check_target(articulation: Articulation, joint: Joint) -> None:
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("category", DEMO_CATEGORIES)
-def test_every_moving_part_has_a_point_on_its_surface_where_pulling_opens(
-    category: str, seed: int
-) -> None:
+def test_every_moving_part_has_a_point_on_its_surface_where_pulling_opens(category, seed):
     articulation = make_object(category, seed)
     for joint in articulation.movable_joints:
         check_target(articulation, joint)
@@ -57,7 +53,7 @@ def test_every_moving_part_has_a_point_on_its_surface_where_pulling_opens(
 
 @pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("category", ["cabinet", "fridge", "oven", "microwave", "dishwasher"])
-def test_the_handles_of_doors_and_drawers_are_found(category: str, seed: int) -> None:
+def test_the_handles_of_doors_and_drawers_are_found(category, seed):
     articulation = make_object(category, seed)
     for joint in articulation.movable_joints:
         if "knob" in joint.name:
@@ -74,7 +70,7 @@ def test_the_handles_of_doors_and_drawers_are_found(category: str, seed: int) ->
 
 
 @pytest.mark.parametrize("category", ["laptop", "chest", "trash_can"])
-def test_lids_are_taken_at_the_edge_far_from_the_hinge(category: str) -> None:
+def test_lids_are_taken_at_the_edge_far_from_the_hinge(category):
     articulation = make_object(category, 0)
     handle = find_handle(articulation, 1)
     assert handle is not None
@@ -84,7 +80,7 @@ def test_lids_are_taken_at_the_edge_far_from_the_hinge(category: str) -> None:
     assert handle.pull[2] > 0.9
 
 
-def test_knobs_are_taken_at_their_rim() -> None:
+def test_knobs_are_taken_at_their_rim():
     articulation = make_object("oven", 0)
     joint = articulation.joint("knob_0_joint")
     handle = find_handle(articulation, joint.child)
@@ -93,7 +89,7 @@ def test_knobs_are_taken_at_their_rim() -> None:
     assert np.linalg.norm(np.cross(joint.axis, handle.point - joint.origin)) > 0.02
 
 
-def test_handles_are_found_on_a_fused_surface() -> None:
+def test_handles_are_found_on_a_fused_surface():
     articulation = fused("fridge")
     original = make_object("fridge", 0)
     for joint in articulation.movable_joints:
@@ -106,7 +102,7 @@ def test_handles_are_found_on_a_fused_surface() -> None:
         assert np.linalg.norm((handle.point - wanted.point)[[0, 1]]) < 0.02
 
 
-def door(handle: list[Mesh], kind: JointKind = JointKind.REVOLUTE) -> Articulation:
+def door(handle, kind=JointKind.REVOLUTE):
     body = box((0.0, 0.4), (0.0, 0.4), (0.0, 0.6), PLAIN)
     panel = box((0.0, 0.4), (-0.02, -0.003), (0.0, 0.6), PLAIN)
     pieces = [body, panel, *handle]
@@ -119,7 +115,7 @@ def door(handle: list[Mesh], kind: JointKind = JointKind.REVOLUTE) -> Articulati
     )
 
 
-def test_a_plain_door_is_taken_at_its_far_edge_and_a_plain_drawer_in_its_middle() -> None:
+def test_a_plain_door_is_taken_at_its_far_edge_and_a_plain_drawer_in_its_middle():
     hinged = find_handle(door([]), 1)
     assert hinged is not None
     assert hinged.source == "far_edge"
@@ -132,7 +128,7 @@ def test_a_plain_door_is_taken_at_its_far_edge_and_a_plain_drawer_in_its_middle(
     np.testing.assert_allclose(sliding.normal, [0.0, -1.0, 0.0], atol=1e-9)
 
 
-def test_of_two_protrusions_the_one_far_from_the_hinge_is_the_handle() -> None:
+def test_of_two_protrusions_the_one_far_from_the_hinge_is_the_handle():
     hinge = box((0.01, 0.05), (-0.06, -0.02), (0.5, 0.55), PLAIN)
     grip = box((0.35, 0.38), (-0.06, -0.02), (0.25, 0.35), PLAIN)
     handle = find_handle(door([hinge, grip]), 1)
@@ -142,7 +138,7 @@ def test_of_two_protrusions_the_one_far_from_the_hinge_is_the_handle() -> None:
     assert len(handle.faces) == 12
 
 
-def test_a_handle_fixed_to_the_door_as_a_part_of_its_own_is_found() -> None:
+def test_a_handle_fixed_to_the_door_as_a_part_of_its_own_is_found():
     grip = box((0.35, 0.38), (-0.06, -0.02), (0.25, 0.35), PLAIN)
     whole = door([grip])
     faces = np.arange(len(whole.mesh.faces))
@@ -155,7 +151,7 @@ def test_a_handle_fixed_to_the_door_as_a_part_of_its_own_is_found() -> None:
     np.testing.assert_array_equal(handle.faces, [16, 17, *faces[24:]])
 
 
-def test_where_nothing_sticks_out_the_handle_is_the_flat_patch_that_is_taken_hold_of() -> None:
+def test_where_nothing_sticks_out_the_handle_is_the_flat_patch_that_is_taken_hold_of():
     articulation = door([])
     handle = find_handle(articulation, 1)
     assert handle is not None
@@ -166,7 +162,7 @@ def test_where_nothing_sticks_out_the_handle_is_the_flat_patch_that_is_taken_hol
     assert len(sliding.faces) == 2
 
 
-def test_the_root_and_fixed_parts_have_no_handle() -> None:
+def test_the_root_and_fixed_parts_have_no_handle():
     articulation = door([])
     assert find_handle(articulation, 0) is None
     fixed = Joint("f", JointKind.FIXED, 0, 1, np.array([0.0, 0.0, 1.0]), np.zeros(3))
@@ -177,7 +173,7 @@ def test_the_root_and_fixed_parts_have_no_handle() -> None:
 
 
 @pytest.mark.parametrize("category", ["cabinet", "oven"])
-def test_turning_the_object_turns_its_handles(category: str) -> None:
+def test_turning_the_object_turns_its_handles(category):
     articulation = make_object(category, 0)
     rotation = Rotation.from_euler("zyx", [70.0, 0.0, 0.0], degrees=True).as_matrix()
     turned = rotated(articulation, rotation)

@@ -1,7 +1,5 @@
 """Where a robot stands: before its target, clear of what swings."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np
@@ -9,18 +7,16 @@ import pytest
 from plain_solids import box
 from target_worlds import BAR, BODY, HINGE, PANEL, SLIDE, best, moved, world
 
-from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
 from asset_factory.factory.manufacture.targets.standing import (
     BASE_RADIUS_M,
-    StandingPlace,
     standing_place,
 )
 
 INERTIAL = Inertial(1.0, np.zeros(3), np.eye(3))
 
 
-def asset_of(articulation: Articulation) -> Asset:
+def asset_of(articulation):
     bodies = []
     for part in range(len(articulation.parts)):
         mesh = articulation.part_mesh(part)
@@ -28,13 +24,13 @@ def asset_of(articulation: Articulation) -> Asset:
     return Asset("test", articulation, tuple(bodies))
 
 
-def place_of(articulation: Articulation) -> StandingPlace:
+def place_of(articulation):
     place = standing_place(asset_of(articulation), articulation.joints[0], best(articulation))
     assert place is not None
     return place
 
 
-def swept(articulation: Articulation) -> np.ndarray:
+def swept(articulation):
     joint = articulation.joints[0]
     vertices = articulation.part_mesh(1).vertices
     rows = [
@@ -45,7 +41,7 @@ def swept(articulation: Articulation) -> np.ndarray:
 
 
 @pytest.mark.parametrize("joint", [HINGE, SLIDE], ids=["hinge", "slide"])
-def test_the_base_is_clear_of_everything_that_moves_and_faces_its_target(joint) -> None:
+def test_the_base_is_clear_of_everything_that_moves_and_faces_its_target(joint):
     articulation = world([PANEL, *BAR], joint)
     place = place_of(articulation)
     assert np.linalg.norm(swept(articulation) - place.position, axis=1).min() > BASE_RADIUS_M
@@ -54,13 +50,13 @@ def test_the_base_is_clear_of_everything_that_moves_and_faces_its_target(joint) 
     assert place.position[1] < -0.3
 
 
-def test_a_longer_drawer_is_opened_from_farther_away() -> None:
+def test_a_longer_drawer_is_opened_from_farther_away():
     near = place_of(world([PANEL, *BAR], SLIDE))
     far = place_of(world([PANEL, *BAR], dataclasses.replace(SLIDE, upper=0.6)))
     assert np.linalg.norm(far.position) > np.linalg.norm(near.position)
 
 
-def test_a_turned_object_is_opened_from_the_turned_place() -> None:
+def test_a_turned_object_is_opened_from_the_turned_place():
     articulation = world([PANEL, *BAR])
     turn = np.array(
         [[0.0, -1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
@@ -71,7 +67,7 @@ def test_a_turned_object_is_opened_from_the_turned_place() -> None:
     assert (after.yaw - before.yaw) % (2 * np.pi) == pytest.approx(np.pi / 2)
 
 
-def test_without_room_there_is_no_place() -> None:
+def test_without_room_there_is_no_place():
     look = BODY.materials[0]
     front = box((-4.0, 4.0), (-4.0, -0.5), (0.0, 0.6), look)
     sides = [box(x, (-0.5, 4.0), (0.0, 0.6), look) for x in ((-4.0, -0.1), (0.5, 4.0))]

@@ -1,10 +1,7 @@
 """Exported files: targets in link frames, places to stand, and handle visuals on all that moves."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
-from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
@@ -23,7 +20,7 @@ from asset_factory.factory.mesh import concatenate
 PROVENANCE = Provenance(input="cabinet.glb", digest="0" * 64, category="cabinet", license="CC0-1.0")
 
 
-def asset_of(articulation: Articulation) -> Asset:
+def asset_of(articulation):
     bodies = []
     for part in range(len(articulation.parts)):
         mesh = articulation.part_mesh(part)
@@ -40,9 +37,7 @@ def asset_of(articulation: Articulation) -> Asset:
     return Asset("test", articulation, tuple(bodies), find_targets(articulation, hulls))
 
 
-def test_the_manifest_holds_targets_in_their_links_frame_and_places_to_stand(
-    tmp_path: Path,
-) -> None:
+def test_the_manifest_holds_targets_in_their_links_frame_and_places_to_stand(tmp_path):
     asset = asset_of(world([PANEL, *BAR]))
     bundle = export_bundle(asset, PROVENANCE, tmp_path)
     text = (tmp_path / "asset.json").read_text()
@@ -70,7 +65,7 @@ def test_the_manifest_holds_targets_in_their_links_frame_and_places_to_stand(
     assert -np.pi <= placement["yaw"] <= np.pi
 
 
-def test_an_asset_without_targets_has_an_empty_list_and_no_place_to_stand(tmp_path: Path) -> None:
+def test_an_asset_without_targets_has_an_empty_list_and_no_place_to_stand(tmp_path):
     asset = replace(asset_of(world([PANEL])), targets=())
     manifest = export_bundle(asset, PROVENANCE, tmp_path).manifest
     assert manifest.targets == ()
@@ -79,9 +74,7 @@ def test_an_asset_without_targets_has_an_empty_list_and_no_place_to_stand(tmp_pa
 
 @pytest.mark.parametrize("moving", [[PANEL, *BAR], [PANEL]], ids=["bar", "slab"])
 @pytest.mark.parametrize("joint", [HINGE, SLIDE], ids=["hinge", "slide"])
-def test_every_moving_link_shows_a_handle_and_no_face_is_lost(
-    moving: list, joint: Joint, tmp_path: Path
-) -> None:
+def test_every_moving_link_shows_a_handle_and_no_face_is_lost(moving, joint, tmp_path):
     asset = asset_of(world(moving, joint))
     bundle = export_bundle(asset, PROVENANCE, tmp_path)
     links = {link.get("name"): link for link in ElementTree.parse(bundle.urdf).iter("link")}
@@ -95,7 +88,7 @@ def test_every_moving_link_shows_a_handle_and_no_face_is_lost(
     assert written == len(asset.articulation.parts[1].faces)
 
 
-def test_a_handle_that_is_a_part_of_its_own_is_called_one_too(tmp_path: Path) -> None:
+def test_a_handle_that_is_a_part_of_its_own_is_called_one_too(tmp_path):
     whole = world([PANEL, *BAR])
     count = len(concatenate([PANEL]).faces)
     front = whole.parts[1].faces
@@ -114,7 +107,7 @@ def test_a_handle_that_is_a_part_of_its_own_is_called_one_too(tmp_path: Path) ->
     assert any(name.startswith("handle") for name in names["front"])
 
 
-def test_a_flat_handle_is_a_mesh_that_mujoco_loads(tmp_path: Path) -> None:
+def test_a_flat_handle_is_a_mesh_that_mujoco_loads(tmp_path):
     mujoco = pytest.importorskip("mujoco")
     bundle = export_bundle(asset_of(world([PANEL])), PROVENANCE, tmp_path)
     for path in (bundle.mjcf, bundle.urdf):

@@ -1,15 +1,11 @@
 """Handles that makers gave their objects are found as the best places to hold, without names."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
-import pytest
 from trimesh.triangles import closest_point
 
-from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.manufacture.targets.find import find_targets
 from asset_factory.factory.mesh import Material
 from asset_factory.learn.objects import make_object
@@ -35,7 +31,7 @@ def marked(add_pull, part, pull, *args):
     add_pull(part, pull if pull.kind in FLUSH else replace(pull, look=MARK), *args)
 
 
-def grips(articulation: Articulation) -> dict[str, np.ndarray]:
+def grips(articulation):
     """Triangles of each moving part's own grip, by joint."""
     mesh = articulation.mesh
     of_grip = np.array([m.name == MARK.name for m in mesh.materials])[mesh.face_material]
@@ -47,7 +43,7 @@ def grips(articulation: Articulation) -> dict[str, np.ndarray]:
     return found
 
 
-def test_the_best_target_lies_on_the_makers_handle(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_best_target_lies_on_the_makers_handle(monkeypatch):
     for module in (casework, openings):
         monkeypatch.setattr(module, "add_pull", partial(marked, module.add_pull))
     on_handle = []

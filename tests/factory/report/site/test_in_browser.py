@@ -3,11 +3,8 @@
 Slow, and it needs Chromium: ``make site-test``.
 """
 
-from __future__ import annotations
-
 import json
 import shutil
-from pathlib import Path
 
 import pytest
 from browser import CONTRAST, LAPTOP, PHONE, until
@@ -27,7 +24,7 @@ MOST_MEMORY = 500_000_000
 
 
 @pytest.fixture(scope="module")
-def site(tmp_path_factory) -> Path:
+def site(tmp_path_factory):
     registry = make_registry(tmp_path_factory.mktemp("browser"))
     for entry in stale(registry):
         write_asset(registry.root, entry)

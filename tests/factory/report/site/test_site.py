@@ -1,7 +1,5 @@
 """The site: links lead somewhere, nothing is fetched from a network, nothing of an input is run."""
 
-from __future__ import annotations
-
 import json
 import re
 from dataclasses import replace
@@ -15,7 +13,6 @@ from shown_registry import HIT, HOSTILE, POINT, bundle_in, make_registry
 
 from asset_factory.factory.display.made import scene_of
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.registry import Registry
 from asset_factory.factory.report.site.alone import page_of_file
 from asset_factory.factory.report.site.places import Places
 from asset_factory.factory.report.site.render import grid_html, list_html
@@ -54,7 +51,7 @@ class Page(HTMLParser):
 
 
 @pytest.fixture(scope="module")
-def registry(tmp_path_factory) -> Registry:
+def registry(tmp_path_factory):
     made = make_registry(tmp_path_factory.mktemp("shown"))
     for entry in stale(made):
         write_asset(made.root, entry)
