@@ -120,7 +120,6 @@ def test_a_repair(monkeypatch):
     verdict = Verdict(Report("asset.urdf", findings=(jammed,)))
     spare = Spare(frozenset({"button"}))
     plan = repair.next_plan(verdict, Plan(), RepairConfig(), spare)
-    assert plan is not None
     assert plan.frozen == {"button"}
     assert [each.sentence for each in plan.repairs] == ["froze button: it jams"]
     assert repair.next_plan(verdict, plan, RepairConfig(), spare) is None

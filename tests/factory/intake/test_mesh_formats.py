@@ -42,7 +42,6 @@ def test_texture_bytes_coordinates_and_normals_survive(form, tmp_path):
     mesh = _load(WRITERS[form](tmp_path)).mesh
     shape = cube()
     textured = mesh.materials[int(mesh.face_material[0])]
-    assert textured.texture is not None
     assert textured.texture.data == png()
     assert textured.texture.suffix == ".png"
     assert mesh.corner_uv is not None
@@ -89,7 +88,6 @@ def test_gltf_mirrored_instance_still_faces_outward(tmp_path):
     assert _volume(mesh) == pytest.approx(1.0)
     corners = _corners(mesh)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    assert mesh.corner_normals is not None
     np.testing.assert_allclose(mesh.corner_normals[:, 0], normals, atol=1e-6)
 
 
@@ -155,7 +153,6 @@ def test_obj_understands_negative_indices_and_missing_attributes(tmp_path):
     (tmp_path / "t.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf -3/-1 -2 -1\nf 1 3 2\n")
     mesh = _load(tmp_path / "t.obj").mesh
     assert mesh.faces.tolist() == [[0, 1, 2], [0, 2, 1]]
-    assert mesh.corner_uv is not None
     assert np.isnan(mesh.corner_uv[0, 1:]).all()
     assert mesh.corner_normals is None
 

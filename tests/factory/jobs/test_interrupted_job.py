@@ -24,7 +24,6 @@ def begun(folder, output, *flags):
     (folder / "zz_slow.stl").write_text("solid slow")
     command = [sys.executable, str(SCRIPT), str(folder), str(output), *flags]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-    assert process.stdout is not None
     for _ in range(3):
         assert process.stdout.readline() == "passed\n"
     wait_for(lambda: "zz_slow.stl" in made(folder))
@@ -58,7 +57,6 @@ def test_an_interrupted_job_has_registered_what_was_finished(number, code, tmp_p
     with begun(tmp_path / "in", tmp_path / "out") as process:
         process.send_signal(number)
         assert process.wait(PATIENCE_S) == code
-        assert process.stdout is not None
         assert process.stdout.read() == "interrupted\n"
     assert not any(is_alive(worker) for worker in workers(tmp_path / "in"))
     assert {entry.status for entry in Registry(tmp_path / "out").entries()} == {"passed"}

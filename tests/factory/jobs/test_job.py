@@ -227,7 +227,6 @@ def test_a_job_that_is_over_does_not_wait_for_another(tmp_path):
     ours = job(inputs, tmp_path / "out", budget=Budget(limit=1))
     claim = KnownReads(tmp_path / "out" / ".cache", PLAIN).probe(inputs[0]).claim
     theirs = claims.claim(tmp_path / "out" / ".claims", claim)
-    assert theirs is not None
     (result,) = ours.run()
     assert (Path(result.input).name, ours.state, ours.left) == ("thing_1.stl", "limit_reached", 1)
     theirs.release()

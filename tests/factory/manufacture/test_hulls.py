@@ -36,7 +36,6 @@ def hull_box(size, at=(0, 0, 0)):
 def test_hulls_face_outwards_and_hold_their_points(seed, count, offset):
     points = np.random.default_rng(seed).normal(size=(count, 3)) + offset
     hull = hull_of(points)
-    assert hull is not None
     assert depth_below(hull, points).min() >= -1e-9
     assert (hull.planes[:, :3] @ points.mean(axis=0) < hull.planes[:, 3]).all()
 
@@ -57,7 +56,6 @@ def test_depth_is_the_distance_to_the_nearest_face():
 
 def test_a_limited_hull_lies_inside_and_loses_little():
     sphere = hull_of(np.array(trimesh.creation.icosphere(subdivisions=3, radius=0.1).vertices))
-    assert sphere is not None
     few = limit_vertices(sphere, 64)
     assert len(few.vertices) <= 64
     assert depth_below(sphere, few.vertices).min() >= -1e-9
@@ -86,11 +84,9 @@ def test_a_hull_may_fill_dents_and_slots_within_the_error_and_nothing_wider():
 
 def test_boxes_are_exact_and_boards_are_cut_exactly():
     whole = as_one(solid_box((0.4, 0.3, 0.1)), 0.005)
-    assert whole is not None
     assert whole.exact
     shape = solid_box((0.4, 0.3, 0.02)) + solid_box((0.02, 0.3, 0.4))
     cut = cut_along_faces(shape, 0.005, 8)
-    assert cut is not None
     assert cut.exact
     assert len(cut.hulls) == 2
     assert sum(hull.volume for hull in cut.hulls) == pytest.approx(shape.volume(), rel=1e-9)
@@ -99,7 +95,6 @@ def test_boxes_are_exact_and_boards_are_cut_exactly():
 def test_a_ring_is_cut_into_its_four_bars():
     frame = solid_box((1.0, 0.05, 2.0)) - solid_box((0.8, 0.05, 1.8), (0.1, 0.0, 0.1))
     cut = cut_along_faces(frame, 0.005, 16)
-    assert cut is not None
     assert cut.exact
     assert len(cut.hulls) == 4
     assert sum(hull.volume for hull in cut.hulls) == pytest.approx(frame.volume(), rel=1e-9)

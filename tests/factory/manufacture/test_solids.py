@@ -143,7 +143,6 @@ def test_a_pipe_with_hidden_open_ends_is_closed_and_a_box_without_a_lid_is_not()
     pipe = trimesh.creation.cylinder(radius=0.01, height=0.5, sections=24)
     flat = np.abs(pipe.face_normals[:, 2]) < 0.5
     solid = capped(gate(np.array(pipe.vertices), np.array(pipe.faces)[flat]).sheets[0])
-    assert solid is not None
     assert solid.volume() == pytest.approx(pipe.volume, rel=1e-6)
     vertices, faces = box((1, 1, 1))
     lidless = faces[~(vertices[faces][:, :, 2] > 0).all(axis=1)]
@@ -153,7 +152,6 @@ def test_a_pipe_with_hidden_open_ends_is_closed_and_a_box_without_a_lid_is_not()
 def test_simplifying_keeps_a_closed_solid_of_nearly_the_same_volume():
     sphere = trimesh.creation.icosphere(subdivisions=4, radius=0.2)
     solid = manifold_of(np.array(sphere.vertices), np.array(sphere.faces))
-    assert solid is not None
     light = simplified(solid, 400, 0.0005)
     assert light.num_tri() <= 400
     assert light.volume() == pytest.approx(solid.volume(), rel=0.03)

@@ -14,13 +14,10 @@ from asset_factory.factory.registry.cleaning import collect_garbage
 
 def test_a_claim_is_had_by_one_until_it_is_released(tmp_path):
     first = claim(tmp_path / "claims", "work")
-    assert first is not None
     assert claim(tmp_path / "claims", "work") is None
     other = claim(tmp_path / "claims", "other")
-    assert other is not None
     first.release()
     again = claim(tmp_path / "claims", "work")
-    assert again is not None
     again.release()
     other.release()
     assert list((tmp_path / "claims").iterdir()) == []
@@ -35,13 +32,11 @@ def test_a_claim_ends_with_its_process(tmp_path):
     with subprocess.Popen(
         [sys.executable, "-c", script, str(tmp_path)], stdout=subprocess.PIPE, text=True
     ) as process:
-        assert process.stdout is not None
         assert process.stdout.readline() == "held\n"
         assert claim(tmp_path, "work") is None
         process.kill()
         process.wait()
         mine = claim(tmp_path, "work")
-    assert mine is not None
     mine.release()
     assert not Path(tmp_path / "work").exists()
 
@@ -50,7 +45,6 @@ def test_claims_of_the_dead_are_dropped_those_of_the_living_are_not(tmp_path):
     registry = Registry(tmp_path / "out", create=True)
     folder = tmp_path / "out" / ".claims"
     held = claim(folder, "held")
-    assert held is not None
     (folder / "left").touch()
     collect_garbage(registry.root)
     assert [path.name for path in folder.iterdir()] == ["held"]

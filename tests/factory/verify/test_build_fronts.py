@@ -45,7 +45,6 @@ def drawer(proposer):
 
 def test_a_front_that_sticks_is_built_anew_once():
     plan = next_plan(rejected("rest_penetration"), Plan(), RepairConfig(), FRONTS)
-    assert plan is not None
     assert plan.build_fronts
     assert [each.sentence for each in plan.repairs] == ["built fronts and body anew: drawer"]
     assert next_plan(rejected("rest_penetration"), plan, RepairConfig(), FRONTS) is None

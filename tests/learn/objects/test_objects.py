@@ -126,7 +126,6 @@ def test_an_unknown_category_names_the_known_ones():
 
 def test_the_texture_is_a_valid_png_of_the_stated_size():
     texture = wood(3, size=32).texture
-    assert texture is not None
     data = texture.data
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     assert struct.unpack(">II", data[16:24]) == (32, 32)

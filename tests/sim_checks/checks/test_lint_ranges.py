@@ -36,7 +36,6 @@ def hinged(distance, rest=0.0):
 )
 def test_a_drawer_that_leaves_for_good_is_refused(upper, reason):
     found = finding(with_joint(cabinet(), "slide", upper=upper), "range_implausible")
-    assert found is not None
     assert (found.severity, found.joint, found.value) == (Severity.HARD, "slide", upper)
     assert ("millimetres" in found.message) == bool(reason)
 
@@ -60,7 +59,6 @@ def test_the_longest_fair_slide_is_two_diagonals():
 @pytest.mark.parametrize(("upper", "reason"), [(90.0, "degrees"), (1e6, "")])
 def test_a_door_that_turns_and_turns_is_refused(upper, reason):
     found = finding(with_joint(cabinet(), "hinge", upper=upper), "range_implausible")
-    assert found is not None
     assert found.limit == pytest.approx(4.0 * math.pi, rel=1e-5)
     assert ("degrees" in found.message) == bool(reason)
 
@@ -90,7 +88,6 @@ def test_a_range_that_opens_nothing_is_told(name, upper, tiny):
 @pytest.mark.parametrize("word", ["effort", "velocity"])
 def test_a_drive_that_cannot_drive_is_told(word, number):
     found = finding(with_joint(cabinet(), "slide", **{word: number}), "invalid_effort")
-    assert found is not None
     assert (found.severity, found.joint) == (Severity.SOFT, "slide")
     assert word in found.message
 

@@ -27,7 +27,6 @@ def test_a_thin_plate_passed_between_two_poses_is_found():
     needle = box_hull((0.0, 0.0, 0.0), (0.002, 0.002, 0.002))
     plate = box_hull((0.4321, 0.0, 0.0), (0.0005, 1.0, 1.0))
     found = worst(SLIDE, needle, plate)
-    assert found is not None
     assert found.excess == pytest.approx(0.00125, rel=0.02)
     assert found.at == pytest.approx(0.4321, abs=1e-4)
 
@@ -37,7 +36,6 @@ def test_a_pin_that_turns_through_a_plate_is_found():
     angle = 1.2345
     plate = box_hull((0.5 * np.cos(angle), 0.5 * np.sin(angle), 0.0), (0.0004, 0.0004, 1.0))
     found = worst(Path(True, np.zeros(3), Z, 3.0), pin, plate)
-    assert found is not None
     assert found.depth > 0.001
     assert found.at == pytest.approx(angle, abs=1e-3)
 
@@ -51,7 +49,6 @@ def test_the_corner_of_a_turning_door_cuts_its_frame_where_geometry_says():
     jamb = box_hull((frame + 0.05, 0.0, 0.0), (0.1, 0.1, 1.0))
     found = worst(Path(True, np.zeros(3), -Z, 1.5), door, jamb, steps=32)
     # The far back corner is highest along x when it points straight there.
-    assert found is not None
     assert found.excess == pytest.approx(np.hypot(width, thickness) - frame, abs=2e-5)
     # A circle is flat at its top: 5 mrad are 8 micrometres of depth.
     assert found.at == pytest.approx(np.arctan2(thickness, width), abs=5e-3)
@@ -73,8 +70,6 @@ def test_no_search_ends_before_it_knows_on_which_side_of_the_limit_it_falls():
             worst(Path(True, np.zeros(3), -Z, at), door, jamb)
             for at in (exact - beyond, exact + beyond)
         )
-        assert within is not None
-        assert past is not None
         assert within.excess <= limit
         assert past.excess > limit
 
@@ -87,7 +82,6 @@ def test_a_parallel_slide_keeps_its_clearance_and_needs_few_looks():
         64,
     )
     found = sweep.worst([Candidate(0, 0, 0.0)], Tolerance())
-    assert found is not None
     assert found.excess == pytest.approx(-0.002, abs=2e-5)
     assert sweep.looks <= 2
 
@@ -105,7 +99,6 @@ def test_an_overlap_that_does_not_grow_is_no_excess():
     rail = box_hull((0.5, 0.095, 0.0), (2.0, 0.1, 1.0))
     sweep = Sweep(SLIDE, [Collider(box_hull((0, 0, 0), (0.1, 0.1, 0.1)))], [Collider(rail)], 64)
     found = sweep.worst([Candidate(0, 0, 0.005)], Tolerance())
-    assert found is not None
     assert found.excess == pytest.approx(0.0, abs=1e-12)
     assert found.depth == pytest.approx(0.005)
 
@@ -114,7 +107,6 @@ def test_a_moving_hull_that_disappears_inside_another_is_found():
     found = worst(
         SLIDE, box_hull((0, 0, 0), (0.01, 0.01, 0.01)), box_hull((0.5, 0, 0), (0.4, 0.4, 0.4))
     )
-    assert found is not None
     assert found.depth == pytest.approx(0.205, rel=0.02)
 
 

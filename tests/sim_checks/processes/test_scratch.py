@@ -36,7 +36,6 @@ def asker(tmp_path):
         text=True,
         env=environment,
     ) as process:
-        assert process.stdout is not None
         assert process.stdout.readline() == "asked\n"
         yield process
         process.kill()

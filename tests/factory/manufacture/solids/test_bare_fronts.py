@@ -70,7 +70,6 @@ def test_a_drawer_of_a_solid_chest_gets_a_box_and_room_for_it():
     drawer = made.articulation.part_mesh(1)
     assert np.ptp(drawer.vertices[:, 1]) > 0.3
     pieces = made.pieces[1]
-    assert pieces is not None
     assert max(hull.vertices[:, 1].max() for hull in pieces.hulls) > 0.3
 
 

@@ -32,7 +32,6 @@ def distance_to_part(articulation, part, point):
 
 def check_target(articulation, joint):
     handle = find_handle(articulation, joint.child)
-    assert handle is not None
     assert distance_to_part(articulation, joint.child, handle.point) < 1e-9
     assert np.linalg.norm(handle.normal) == pytest.approx(1.0)
     assert np.linalg.norm(handle.pull) == pytest.approx(1.0)
@@ -59,7 +58,6 @@ def test_the_handles_of_doors_and_drawers_are_found(category, seed):
         if "knob" in joint.name:
             continue
         handle = find_handle(articulation, joint.child)
-        assert handle is not None
         assert handle.source == "protrusion", joint.name
         assert handle.normal[1] < -0.9
         gripped = articulation.mesh.submesh(handle.faces)
@@ -73,7 +71,6 @@ def test_the_handles_of_doors_and_drawers_are_found(category, seed):
 def test_lids_are_taken_at_the_edge_far_from_the_hinge(category):
     articulation = make_object(category, 0)
     handle = find_handle(articulation, 1)
-    assert handle is not None
     assert handle.source == "far_edge"
     assert handle.point[1] < articulation.part_mesh(1).bounds[0][1] + 0.005
     assert abs(handle.point[0]) < 0.01
@@ -84,7 +81,6 @@ def test_knobs_are_taken_at_their_rim():
     articulation = make_object("oven", 0)
     joint = articulation.joint("knob_0_joint")
     handle = find_handle(articulation, joint.child)
-    assert handle is not None
     assert handle.source == "rim"
     assert np.linalg.norm(np.cross(joint.axis, handle.point - joint.origin)) > 0.02
 
@@ -96,8 +92,6 @@ def test_handles_are_found_on_a_fused_surface():
         check_target(articulation, joint)
         handle = find_handle(articulation, joint.child)
         wanted = find_handle(original, joint.child)
-        assert handle is not None
-        assert wanted is not None
         assert handle.source == "protrusion"
         assert np.linalg.norm((handle.point - wanted.point)[[0, 1]]) < 0.02
 
@@ -117,12 +111,10 @@ def door(handle, kind=JointKind.REVOLUTE):
 
 def test_a_plain_door_is_taken_at_its_far_edge_and_a_plain_drawer_in_its_middle():
     hinged = find_handle(door([]), 1)
-    assert hinged is not None
     assert hinged.source == "far_edge"
     assert hinged.point[0] == pytest.approx(0.4)
     assert hinged.point[2] == pytest.approx(0.3)
     sliding = find_handle(door([], JointKind.PRISMATIC), 1)
-    assert sliding is not None
     assert sliding.source == "front"
     np.testing.assert_allclose(sliding.point, [0.2, -0.02, 0.3], atol=1e-9)
     np.testing.assert_allclose(sliding.normal, [0.0, -1.0, 0.0], atol=1e-9)
@@ -132,7 +124,6 @@ def test_of_two_protrusions_the_one_far_from_the_hinge_is_the_handle():
     hinge = box((0.01, 0.05), (-0.06, -0.02), (0.5, 0.55), PLAIN)
     grip = box((0.35, 0.38), (-0.06, -0.02), (0.25, 0.35), PLAIN)
     handle = find_handle(door([hinge, grip]), 1)
-    assert handle is not None
     assert handle.source == "protrusion"
     assert handle.point[0] > 0.34
     assert len(handle.faces) == 12
@@ -146,7 +137,6 @@ def test_a_handle_fixed_to_the_door_as_a_part_of_its_own_is_found():
     fixed = Joint("f", JointKind.FIXED, 1, 2, np.array([0.0, 0.0, 1.0]), np.zeros(3))
     articulation = Articulation(whole.mesh, parts, (*whole.joints, fixed), "test")
     handle = find_handle(articulation, 1)
-    assert handle is not None
     # Those looking for a handle on the link that moves find the patch of it that lies nearest.
     np.testing.assert_array_equal(handle.faces, [16, 17, *faces[24:]])
 
@@ -154,11 +144,9 @@ def test_a_handle_fixed_to_the_door_as_a_part_of_its_own_is_found():
 def test_where_nothing_sticks_out_the_handle_is_the_flat_patch_that_is_taken_hold_of():
     articulation = door([])
     handle = find_handle(articulation, 1)
-    assert handle is not None
     patch = articulation.mesh.submesh(handle.faces)
     np.testing.assert_allclose(patch.bounds, [[0.4, -0.02, 0.0], [0.4, -0.003, 0.6]])
     sliding = find_handle(door([], JointKind.PRISMATIC), 1)
-    assert sliding is not None
     assert len(sliding.faces) == 2
 
 
@@ -180,7 +168,5 @@ def test_turning_the_object_turns_its_handles(category):
     for joint in articulation.movable_joints:
         before = find_handle(articulation, joint.child)
         after = find_handle(turned, joint.child)
-        assert before is not None
-        assert after is not None
         assert after.source == before.source
         np.testing.assert_array_equal(after.faces, before.faces)

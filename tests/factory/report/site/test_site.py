@@ -80,7 +80,6 @@ def test_nothing_names_a_network(registry):
             assert not re.search(r"https?:|//[a-z]", file.read_text()), file
     for page in pages(registry):
         policy = re.search(r'Content-Security-Policy" content="([^"]*)"', page.read_text())
-        assert policy is not None
         assert policy[1].startswith("default-src 'none'")
         assert "http" not in policy[1]
 
@@ -99,7 +98,6 @@ def test_names_of_inputs_are_text(registry):
 
 def test_a_verdict_leads_back_to_the_proposals_of_its_parts(registry):
     page = asset_page(registry.root, registry.entry("cabinet-1"))
-    assert page.manifest is not None
     ((part, proposal),) = page.manifest.proposed.items()
     assert (part, proposal.kind, proposal.proposer) == ("part_1", "door", "sides")
     assert "by sides, probability 0.70 (" in proposal.told
@@ -122,7 +120,6 @@ def test_what_was_rejected_has_its_place_and_its_picture(registry):
     assert (folder / "fault.webp").is_file()
     assert (folder / "model.js").stat().st_size > 500
     page = asset_page(registry.root, registry.entry("hitting-2"))
-    assert page.fault is not None
     assert page.fault.point == POINT
     assert (registry.rejected / "hitting-2" / "view.glb").is_file()
 
@@ -205,11 +202,9 @@ def test_findings_lead_to_the_pose_in_which_they_show(registry):
     assert len(penetrations(measured)) == 1
     places = Places(scene, measured)
     fault = places.of(HIT)
-    assert fault is not None
     assert (fault.values, fault.point) == ({"hinge": 0.8}, POINT)
     jammed = Finding("jammed", Severity.HARD, "x", joint="slide", value=0.1, unit="m")
     found = places.of(jammed)
-    assert found is not None
     assert found.values == {"slide": 0.1}
     assert places.of(Finding("no_mass", Severity.HARD, "x")) is None
     assert places.clearance() == -4.2
