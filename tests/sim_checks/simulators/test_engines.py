@@ -1,0 +1,166 @@
+"""What each engine does with a small cabinet and its broken kin."""
+
+import pytest
+from small_cabinet import PARTS, codes, judge, motion_of, write_lid, write_mjcf, write_urdf
+
+from asset_factory.sim_checks.checks.in_simulator import judge_in_simulator
+from asset_factory.sim_checks.config import CheckConfig
+from asset_factory.sim_checks.read.read import read_description
+from asset_factory.sim_checks.report import Severity
+from asset_factory.sim_checks.run import run_checks
+from asset_factory.sim_checks.simulators.catalog import installed
+
+#: In the way of the drawer after 0.1 m of 0.3 m.
+STOP = ((-0.31, 0.0, 0.6), (0.02, 0.5, 0.3))
+#: 2 mm of overlap on each side of the drawer.
+WIDE = (((-0.015, 0.0, 0.5955), (0.37, 0.574, 0.363)),)
+
+
+@pytest.fixture(autouse=True)
+def there(request):
+    """Skip what is asked of an engine that is not installed."""
+    engine = request.node.callspec.params.get("engine")
+    if not installed(engine):
+        pytest.skip(f"{engine} is not installed")
+
+
+def of_engines(*names):
+    return pytest.mark.parametrize("engine", names)
+
+
+@pytest.mark.parametrize(
+    ("engine", "write"),
+    [
+        ("sapien", write_urdf),
+        ("pybullet", write_urdf),
+        *((engine, write) for engine in ("mujoco", "newton") for write in (write_urdf, write_mjcf)),
+    ],
+)
+def test_a_sound_cabinet_opens_and_closes_without_a_finding(tmp_path, engine, write):
+    result = judge(write(tmp_path), engine)
+    assert result.findings == ()
+    assert motion_of(result, "slide")["reached"] > 0.99
+    assert motion_of(result, "hinge")["returned"] < 0.01
+    loading = result.measurements["loading"]
+    assert loading["worst_position_m"] < 1e-5
+    assert loading["joints"] == 2
+    # Bullet weighs no root that is fixed.
+    assert loading["mass_kg"] == pytest.approx(5.0 if engine == "pybullet" else 25.0)
+
+
+@of_engines("sapien", "mujoco", "pybullet")
+def test_a_heavy_lid_opens_against_gravity_damping_and_friction(tmp_path, engine):
+    result = judge(write_lid(tmp_path), engine)
+    assert codes(result) == []
+    assert motion_of(result, "hinge")["reached"] > 0.99
+
+
+@pytest.mark.parametrize(
+    ("engine", "part"), [("sapien", "stopper"), ("newton", "stopper"), ("pybullet", "carcass")]
+)
+def test_a_stop_in_the_way_jams_the_drawer_at_its_distance(tmp_path, engine, part):
+    parts = {**PARTS, part: (*PARTS.get(part, ()), STOP)}
+    result = judge(write_urdf(tmp_path, parts), engine)
+    assert "jammed" in codes(result)
+    assert motion_of(result, "slide")["reached"] == pytest.approx(1 / 3, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("engine", "blind_to"), [("sapien", "parent and child"), ("pybullet", "across")]
+)
+def test_a_drawer_stuck_in_its_own_carcass_is_an_engine_s_blind_spot(tmp_path, engine, blind_to):
+    result = judge(write_urdf(tmp_path, {**PARTS, "drawer": WIDE}), engine)
+    assert codes(result) == []
+    assert any(blind_to in sentence for sentence in result.measurements["blind_spots"])
+
+
+@of_engines("mujoco")
+def test_a_drawer_wider_than_its_bay_is_jammed(tmp_path, engine):
+    # 5 mm of overlap on each side.
+    result = judge(write_mjcf(tmp_path, drawer_size=0.574), engine)
+    assert "jammed" in codes(result)
+    assert motion_of(result, "slide")["reached"] < 0.5
+
+
+@of_engines("mujoco")
+def test_the_file_s_friction_is_overcome_by_the_drive_not_ignored(tmp_path, engine):
+    result = judge(write_mjcf(tmp_path, friction=15.0), engine)
+    assert result.findings == ()
+    assert motion_of(result, "slide")["reached"] > 0.95
+
+
+@of_engines("mujoco")
+def test_a_door_in_front_of_the_drawer_is_a_dependency_not_a_jam(tmp_path, engine):
+    tall = (((-0.214, 0.0, 0.4), (0.018, 0.59, 0.78)),)
+    wide_open = {'upper="1.57"': 'upper="2.6"'}
+    result = judge(write_urdf(tmp_path, {**PARTS, "door": tall}, wide_open), engine)
+    assert codes(result) == []
+    assert result.measurements["motion"]["dependencies"] == ["slide"]
+
+
+@of_engines("mujoco", "pybullet")
+def test_swapped_limits_are_lost_and_said_to_be(tmp_path, engine):
+    swapped = {'lower="0" upper="0.3"': 'lower="0.3" upper="0"'}
+    result = judge(write_urdf(tmp_path, replace=swapped), engine)
+    assert codes(result).count("limit_mismatch") == 2
+    assert engine == "pybullet" or "not_driven" in codes(result, Severity.SOFT)
+
+
+@of_engines("mujoco")
+def test_a_needle_s_inertia_does_not_load(tmp_path, engine):
+    path = write_urdf(tmp_path)
+    text = path.read_text()
+    start = text.index("<inertia ", text.index('<link name="door">'))
+    needle = '<inertia ixx="1" iyy="0.001" izz="0.001" ixy="0" ixz="0" iyz="0"/>'
+    path.write_text(text[:start] + needle + text[text.index("/>", start) + 2 :])
+    result = judge(path, engine)
+    assert codes(result) == ["load_failed"]
+    assert "inertia" in result.findings[0].message
+
+
+@pytest.mark.parametrize(
+    ("engine", "code", "said"),
+    [
+        ("sapien", "load_failed", "Links are not all connected"),
+        ("pybullet", "simulator_crashed", "SIGSEGV"),
+    ],
+)
+def test_two_roots_may_kill_an_engine_and_not_the_judge(tmp_path, engine, code, said):
+    result = judge(write_urdf(tmp_path, joints=False), engine)
+    assert codes(result) == [code]
+    assert said in result.findings[0].message
+
+
+@of_engines("sapien", "pybullet")
+def test_a_mesh_that_vanishes_is_a_dropped_shape_or_does_not_load(tmp_path, engine):
+    description = read_description(write_urdf(tmp_path))
+    (tmp_path / "drawer_0.obj").unlink()
+    result = judge_in_simulator(description, engine, CheckConfig())
+    found = [item for item in result.findings if item.code in ("shape_dropped", "load_failed")]
+    assert found
+    if engine == "sapien":
+        assert (found[0].value, found[0].limit, found[0].parts) == (0.0, 1.0, ("drawer",))
+
+
+@of_engines("sapien")
+def test_an_object_without_joints_loads_with_its_shapes(tmp_path, engine):
+    result = judge(write_urdf(tmp_path, {"carcass": PARTS["carcass"]}), engine)
+    assert result.findings == ()
+    assert result.measurements["loading"]["shapes"] == len(PARTS["carcass"])
+
+
+@of_engines("newton")
+def test_newton_never_lets_a_link_touch_the_one_that_it_is_jointed_to(tmp_path, engine):
+    result = judge(write_urdf(tmp_path), engine)
+    pairs = result.measurements["motion"]["pairs_enforced"]
+    assert pairs["link_and_unmoved_parent"] == "pass through each other"
+    assert pairs["siblings_and_further"] == "touch"
+
+
+@of_engines("newton")
+def test_newton_agrees_with_mujoco(tmp_path, engine):
+    pytest.importorskip("mujoco")
+    report = run_checks(write_urdf(tmp_path), ("mujoco", engine))
+    assert report.simulators == ("mujoco", "newton")
+    assert report.findings == ()
+    assert report.disagreements == ()
