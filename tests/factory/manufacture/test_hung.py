@@ -5,27 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
+from held_parts import CONFIG, PAIR, box, cut, deepest, hulls_of, mesh_of
 
-from asset_factory.factory.articulation import Articulation, Joint, Part, rotation_about
-from asset_factory.factory.config import SeparateConfig
-from asset_factory.factory.manufacture.decompose.convex import hull_of
-from asset_factory.factory.manufacture.decompose.decompose import PartHulls
-from asset_factory.factory.manufacture.poses import relative_poses
-from asset_factory.factory.manufacture.separate import separate
-from asset_factory.factory.manufacture.separate.along import hull_depth
+from asset_factory.factory.articulation import Joint, rotation_about
 from asset_factory.factory.manufacture.separate.budget import SeenSurface
 from asset_factory.factory.manufacture.separate.hung import well_hung
-from asset_factory.factory.mesh import Mesh, concatenate
 
-CONFIG = SeparateConfig()
-PAIR = ("body", "lever")
 RADIUS, ARM = 0.05, 0.32
 UP = np.array([0.0, 0.0, 1.0])
 ALONG = np.array([1.0, 0.0, 0.0])
-
-
-def box(low, high):
-    return trimesh.creation.box(bounds=[low, high])
 
 
 def cylinder(radius, low, high, sections=12):
@@ -42,33 +30,8 @@ POST = [cylinder(0.04, 0.0, 0.28), COLLAR]
 TURN = Joint("turn", "revolute", 0, 1, UP, [0.0, 0.0, 0.33], 0.0, np.pi / 2.0)
 
 
-def mesh_of(solids):
-    return concatenate([Mesh.from_triangles(each.vertices, each.faces) for each in solids])
-
-
 def surface_of(solids):
     return SeenSurface.of(mesh_of(solids))
-
-
-def hulls_of(solids):
-    return tuple(hull_of(np.array(each.vertices)) for each in solids)
-
-
-def cut(lever, joint, post=POST):
-    """The lever on its post, and the two cut apart."""
-    counts = [sum(len(each.faces) for each in solids) for solids in (post, lever)]
-    parts = (
-        Part("body", np.arange(counts[0])),
-        Part("lever", np.arange(counts[0], sum(counts))),
-    )
-    tree = Articulation(mesh_of([*post, *lever]), parts, (joint,), "test")
-    pieces = tuple(PartHulls(hulls_of(solids), "exact", (), True) for solids in (post, lever))
-    return tree, separate(tree, pieces, [PAIR], CONFIG, 64)
-
-
-def deepest(tree, result):
-    hulls = [list(piece.hulls) for piece in result.pieces]
-    return max(hull_depth(*hulls, pose) for pose in relative_poses(tree, 0, 1, 150))
 
 
 def test_a_lever_on_a_collar_is_well_hung_and_beside_it_is_not():
@@ -97,7 +60,7 @@ STOP = box((-0.02, 0.1, 0.28), (0.02, 0.14, 0.338))
 
 
 def test_what_a_lever_scrapes_on_its_way_is_cut_back():
-    tree, result = cut(LEVER, TURN, [*POST, STOP])
+    tree, _, result = cut([*POST, STOP], LEVER, TURN)
     assert result.refused == {}
     assert 0.005 < max(each.depth_m for each in result.trimmed[PAIR]) < CONFIG.scraped_m
     assert deepest(tree, result) == 0.0
@@ -116,7 +79,7 @@ TWINS = {
 
 @pytest.mark.parametrize("name", TWINS)
 def test_a_lever_that_is_hung_wrongly_is_not_cut_free(name):
-    tree, result = cut(LEVER, TWINS[name], [*POST, STOP])
+    tree, _, result = cut([*POST, STOP], LEVER, TWINS[name])
     assert PAIR in result.refused
     assert deepest(tree, result) > 0.001
 
@@ -128,10 +91,10 @@ def test_what_a_long_arm_passes_between_two_poses_is_cut_too():
     fin.apply_transform(trimesh.transformations.rotation_matrix(angle, UP))
     arm = box((0.0, -0.004, 0.0), (0.8, 0.004, 0.1))
     turn = replace(TURN, origin=np.zeros(3))
-    tree, result = cut([arm], turn, [box((-0.2, -0.2, -0.1), (0.9, 0.9, -0.05)), fin])
+    floor = box((-0.2, -0.2, -0.1), (0.9, 0.9, -0.05))
+    tree, _, result = cut([floor, fin], [arm], turn)
     assert result.refused == {}
-    hulls = [list(piece.hulls) for piece in result.pieces]
-    assert max(hull_depth(*hulls, pose) for pose in relative_poses(tree, 0, 1, 900)) == 0.0
+    assert deepest(tree, result, poses=900) == 0.0
 
 
 @pytest.mark.parametrize("share", np.linspace(0.0, 0.8, 5))
@@ -145,9 +108,6 @@ def test_what_leaves_its_frame_keeps_the_distance_that_engines_feel(share):
     post.apply_transform(trimesh.transformations.rotation_matrix(angle, UP))
     arm = box((0.0, -0.002, 0.0), (0.8, 0.002, 0.1))
     floor = box((-0.2, -0.2, -0.1), (0.9, 0.9, -0.05))
-    tree, result = cut([arm, end], replace(TURN, origin=np.zeros(3)), [floor, post])
+    tree, _, result = cut([floor, post], [arm, end], replace(TURN, origin=np.zeros(3)))
     assert result.refused == {}
-    hulls = [list(piece.hulls) for piece in result.pieces]
-    leaving = relative_poses(tree, 0, 1, 800, share=0.1)
-    nearest = -max(hull_depth(*hulls, pose, CONFIG.clearance_m) for pose in leaving)
-    assert nearest > 0.0018
+    assert -deepest(tree, result, poses=800, gap=CONFIG.clearance_m, share=0.1) > 0.0018

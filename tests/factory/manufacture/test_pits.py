@@ -5,52 +5,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
+from held_parts import PAIR, box, cut, deepest
 
-from asset_factory.factory.articulation import Articulation, Joint, Part, rotation_about
-from asset_factory.factory.asset import Hull
-from asset_factory.factory.config import SeparateConfig
-from asset_factory.factory.manufacture.decompose.convex import hull_of
-from asset_factory.factory.manufacture.decompose.decompose import PartHulls
-from asset_factory.factory.manufacture.poses import relative_poses
-from asset_factory.factory.manufacture.separate import separate
-from asset_factory.factory.manufacture.separate.along import hull_depth
-from asset_factory.factory.mesh import Mesh, concatenate
+from asset_factory.factory.articulation import Joint, rotation_about
 
-CONFIG = SeparateConfig()
-PAIR = ("body", "mover")
 #: A solid body whose front is at y = 0, and how wide it is.
 SIZE = 1.0
-BODY = [
-    trimesh.creation.box(bounds=[(-SIZE / 2, 0.0, -SIZE / 2), (SIZE / 2, 0.6, SIZE / 2)]),
-]
+BODY = [box((-SIZE / 2, 0.0, -SIZE / 2), (SIZE / 2, 0.6, SIZE / 2))]
 INWARD = np.array([0.0, 1.0, 0.0])
-
-
-def cut(mover, joint, body=BODY):
-    """The mover held in the body by a joint, and the two cut apart."""
-    meshes = [Mesh.from_triangles(each.vertices, each.faces) for each in (*body, mover)]
-    ends = np.cumsum([0, *(len(mesh.faces) for mesh in meshes)])
-    parts = Part("body", np.arange(ends[-2])), Part("mover", np.arange(ends[-2], ends[-1]))
-    tree = Articulation(concatenate(meshes), parts, (joint,), "test")
-    hulls = [Hull(np.array(each.vertices), np.array(each.faces)) for each in body]
-    moving = hull_of(np.array(mover.vertices))
-    pieces = (PartHulls(tuple(hulls), "exact", (), True), PartHulls((moving,), "exact", (), True))
-    return tree, pieces, separate(tree, pieces, [PAIR], CONFIG, 64)
-
-
-def deepest(tree, result):
-    hulls = [list(piece.hulls) for piece in result.pieces]
-    return max(hull_depth(*hulls, pose) for pose in relative_poses(tree, 0, 1, 150))
 
 
 def taken(before, after):
     """Share of the body's volume that went."""
     first, last = (sum(hull.volume for hull in pieces[0].hulls) for pieces in (before, after))
     return 1.0 - last / first
-
-
-def box(low, high):
-    return trimesh.creation.box(bounds=[low, high])
 
 
 def knob(radius, sections=24):
@@ -66,7 +34,7 @@ TURN = Joint("turn", "revolute", 0, 1, INWARD, [0.0, 0.0, 0.0], -2.5, 2.5)
 
 @pytest.mark.parametrize(("radius", "sections"), [(0.03, 4), (0.06, 24)])
 def test_a_knob_that_stands_deep_in_a_body_turns_in_a_pit(radius, sections):
-    tree, before, result = cut(knob(radius, sections), TURN)
+    tree, before, result = cut(BODY, [knob(radius, sections)], TURN)
     assert result.refused == {}
     assert result.pieces[1] is before[1]
     assert taken(before, result.pieces) < 0.03
@@ -87,7 +55,7 @@ TWINS = {
 
 @pytest.mark.parametrize("name", TWINS)
 def test_a_knob_that_is_hung_wrongly_gets_none(name):
-    tree, _, result = cut(knob(0.06), TWINS[name])
+    tree, _, result = cut(BODY, [knob(0.06)], TWINS[name])
     assert PAIR in result.refused
     assert deepest(tree, result) > 0.001
 
@@ -97,7 +65,7 @@ PRESS = Joint("press", "prismatic", 0, 1, INWARD, [0.0, 0.0, 0.0], 0.0, 0.025)
 
 
 def test_a_button_is_pressed_into_a_pit_behind_it():
-    tree, before, result = cut(BUTTON, PRESS)
+    tree, before, result = cut(BODY, [BUTTON], PRESS)
     assert result.refused == {}
     assert result.pieces[1] is before[1]
     assert taken(before, result.pieces) == pytest.approx(0.105**2 * 0.1175 / 0.6, rel=1e-3)
@@ -117,7 +85,7 @@ WRONG_SLIDES = {
 
 @pytest.mark.parametrize("name", WRONG_SLIDES)
 def test_what_is_no_button_gets_none(name):
-    tree, _, result = cut(BUTTON, WRONG_SLIDES[name])
+    tree, _, result = cut(BODY, [BUTTON], WRONG_SLIDES[name])
     assert PAIR in result.refused
     assert deepest(tree, result) > 0.001
 
@@ -128,20 +96,20 @@ HINGE = Joint("hinge", "revolute", 0, 1, [0, 0, -1], [0.0, -0.002, 0.0], 0.0, 1.
 
 
 def test_a_flap_in_a_solid_body_opens_outwards_and_never_inwards():
-    assert cut(FLAP, HINGE)[2].refused == {}
+    assert cut(BODY, [FLAP], HINGE)[2].refused == {}
     for wrong in (replace(HINGE, axis=-HINGE.axis), replace(HINGE, lower=-1.5, upper=0.0)):
-        tree, _, result = cut(FLAP, wrong)
+        tree, _, result = cut(BODY, [FLAP], wrong)
         assert PAIR in result.refused
         assert deepest(tree, result) > 0.001
 
 
 def test_what_would_take_much_of_the_body_gets_none():
     slim = [box((-0.08, 0.0, -0.08), (0.08, 0.6, 0.08))]
-    assert PAIR in cut(knob(0.06), TURN, slim)[2].refused
+    assert PAIR in cut(slim, [knob(0.06)], TURN)[2].refused
 
 
 def test_a_pit_does_not_open_what_can_be_seen_behind():
     # A hollow behind a front of 20 mm: the knob does not reach through, its travel would.
     front = [box((-0.5, 0.0, -0.5), (0.5, 0.02, 0.5))]
     button = box((-0.05, -0.03, -0.05), (0.05, 0.015, 0.05))
-    assert PAIR in cut(button, PRESS, front)[2].refused
+    assert PAIR in cut(front, [button], PRESS)[2].refused

@@ -4,27 +4,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import trimesh
+from held_parts import CONFIG, PAIR, box, cut, deepest, hulls_of, mesh_of
 
 from asset_factory.factory.articulation import Articulation, Joint, Part, rotation_about
 from asset_factory.factory.asset import Hull
-from asset_factory.factory.config import SeparateConfig
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls
 from asset_factory.factory.manufacture.poses import relative_poses
 from asset_factory.factory.manufacture.separate import separate
-from asset_factory.factory.manufacture.separate.along import hull_depth
 from asset_factory.factory.manufacture.separate.clip import meeting
-from asset_factory.factory.mesh import Mesh, concatenate
 
-CONFIG = SeparateConfig()
 THICK = 0.018
 WIDTH, HEIGHT, DEPTH = 0.5, 0.7, 0.4
 GAP = 0.003
-
-
-def box(low, high):
-    made = trimesh.creation.box(bounds=[low, high])
-    return Hull(np.asarray(made.vertices), np.asarray(made.faces))
 
 
 def carcass(shelf_m=0.02):
@@ -46,31 +37,19 @@ DOOR = box((GAP, 0, GAP), (WIDTH - GAP, THICK, HEIGHT - GAP))
 DIAGONAL = float(np.linalg.norm(np.ptp(DOOR.vertices, axis=0)))
 
 
-def cabinet(hinge, door=DOOR):
-    sides = carcass()
-    meshes = [Mesh.from_triangles(each.vertices, each.faces) for each in (*sides, door)]
-    base = 12 * len(sides)
-    parts = (Part("body", np.arange(base)), Part("door", np.arange(base, base + 12)))
-    tree = Articulation(concatenate(meshes), parts, (hinge,), "test")
-    pieces = (PartHulls(tuple(sides), "exact", (), True), PartHulls((door,), "exact", (), True))
-    return tree, pieces
-
-
-def cut(hinge, door=DOOR):
-    tree, pieces = cabinet(hinge, door)
-    return tree, separate(tree, pieces, [("body", "door")], CONFIG, 64)
+def hung(hinge, door=DOOR):
+    tree, _, result = cut(carcass(), [door], hinge)
+    return tree, result
 
 
 def test_a_hinge_in_the_edge_gets_the_room_that_its_corner_needs():
-    tree, result = cut(HINGE)
+    tree, result = hung(HINGE)
     assert result.refused == {}
-    trimmed = result.trimmed[("body", "door")]
+    trimmed = result.trimmed[PAIR]
     # Half the thickness and the clearance, less the gap that is there, off either.
     assert 0.005 < sum(each.depth_m for each in trimmed) < THICK / 2 + CONFIG.clearance_m
     assert all(each.area < CONFIG.planed_area for each in trimmed)
-    hulls = [list(piece.hulls) for piece in result.pieces]
-    way = relative_poses(tree, 0, 1, 200)
-    assert max(hull_depth(*hulls, pose) for pose in way) == 0.0
+    assert deepest(tree, result, poses=200) == 0.0
 
 
 def test_a_door_that_lies_3_mm_in_its_frame_is_cut_free():
@@ -79,10 +58,9 @@ def test_a_door_that_lies_3_mm_in_its_frame_is_cut_free():
     more = np.array([0.006, 0.0, 0.0])
     wide = box(low - more, high + more)
     front = replace(HINGE, origin=[0.0, 0.0, HEIGHT / 2])
-    tree, result = cut(front, wide)
+    tree, result = hung(front, wide)
     assert result.refused == {}
-    hulls = [list(piece.hulls) for piece in result.pieces]
-    assert max(hull_depth(*hulls, pose) for pose in relative_poses(tree, 0, 1, 200)) == 0.0
+    assert deepest(tree, result, poses=200) == 0.0
 
 
 SHIFT = 0.05 * DIAGONAL
@@ -104,10 +82,9 @@ TWINS = {
 
 @pytest.mark.parametrize("name", TWINS)
 def test_a_door_that_is_hung_wrongly_is_not_cut_free(name):
-    tree, result = cut(TWINS[name])
-    assert ("body", "door") in result.refused
-    hulls = [list(piece.hulls) for piece in result.pieces]
-    assert max(hull_depth(*hulls, pose) for pose in relative_poses(tree, 0, 1, 60)) > 0.001
+    tree, result = hung(TWINS[name])
+    assert PAIR in result.refused
+    assert deepest(tree, result, poses=60) > 0.001
 
 
 def test_neighbours_whose_edges_overlap_are_cut_apart_and_broad_overlaps_are_not():
@@ -115,7 +92,6 @@ def test_neighbours_whose_edges_overlap_are_cut_apart_and_broad_overlaps_are_not
     for overlap, refused in ((0.006, False), (0.06, True)):
         left = box((0, 0, 0), (0.5 + overlap / 2, 0.018, 0.6))
         right = box((0.5 - overlap / 2, 0, 0), (1, 0.018, 0.6))
-        meshes = [Mesh.from_triangles(each.vertices, each.faces) for each in (back, left, right)]
         parts = tuple(
             Part(name, np.arange(12 * i, 12 * i + 12))
             for i, name in enumerate(("back", "left", "right"))
@@ -124,43 +100,21 @@ def test_neighbours_whose_edges_overlap_are_cut_apart_and_broad_overlaps_are_not
             Joint(name, "prismatic", 0, i, [0, -1, 0], [0, 0, 0], 0.0, 0.2)
             for i, name in ((1, "one"), (2, "two"))
         )
-        tree = Articulation(concatenate(meshes), parts, joints, "test")
-        pieces = tuple(PartHulls((each,), "exact", (), True) for each in (back, left, right))
+        tree = Articulation(mesh_of([back, left, right]), parts, joints, "test")
+        pieces = tuple(
+            PartHulls(hulls_of([each]), "exact", (), True) for each in (back, left, right)
+        )
         result = separate(tree, pieces, [("left", "right")], CONFIG, 64)
         assert (("left", "right") in result.refused) == refused
-
-
-def two(base, moving, joint, carrier=False):
-    """Hulls of two parts, the second held by a joint, or by two with a link in between."""
-    meshes = [Mesh.from_triangles(each.vertices, each.faces) for each in (*base, moving)]
-    count = 12 * len(base)
-    body, mover = Part("body", np.arange(count)), Part("mover", np.arange(count, count + 12))
-    joints = (joint,)
-    parts = (body, mover)
-    pieces = [PartHulls(tuple(base), "exact", (), True), PartHulls((moving,), "exact", (), True)]
-    if carrier:
-        parts = (body, Part("carrier", np.arange(0)), mover)
-        joints = (joint, Joint("turn", "continuous", 1, 2, [0, 0, 1], [0, 0, 0], -np.pi, np.pi))
-        pieces.insert(1, PartHulls((), "none", (), True))
-    tree = Articulation(concatenate(meshes), parts, joints, "test")
-    return tree, separate(tree, tuple(pieces), [("body", "mover")], CONFIG, 64)
-
-
-def deepest(tree, result):
-    hulls = [list(piece.hulls) for piece in result.pieces]
-    last = len(hulls) - 1
-    way = relative_poses(tree, 0, last, 150)
-    return max(hull_depth(hulls[0], hulls[last], pose) for pose in way)
 
 
 def test_a_door_whose_far_edge_scrapes_its_frame_is_cut_back_there():
     # The hinge lies on the front, but the door reaches 4 mm into the opposite side.
     low, high = DOOR.vertices.min(axis=0), DOOR.vertices.max(axis=0)
     wide = box(low, high + np.array([GAP + 0.004, 0.0, 0.0]))
-    tree, result = cut(replace(HINGE, origin=[GAP, 0.0, HEIGHT / 2]), wide)
+    tree, result = hung(replace(HINGE, origin=[GAP, 0.0, HEIGHT / 2]), wide)
     assert result.refused == {}
-    hulls = [list(piece.hulls) for piece in result.pieces]
-    assert max(hull_depth(*hulls, pose) for pose in relative_poses(tree, 0, 1, 200)) == 0.0
+    assert deepest(tree, result, poses=200) == 0.0
 
 
 def test_a_cap_that_turns_and_lifts_is_held_by_its_bottle():
@@ -170,9 +124,14 @@ def test_a_cap_that_turns_and_lifts_is_held_by_its_bottle():
         box((-0.04, -0.04, 0.293), (0.04, 0.04, 0.34)),
     )
     lift = Joint("lift", "prismatic", 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 0.05)
-    tree, result = two([neck], cap, lift, carrier=True)
+    apart, before, _ = cut([neck], [cap], lift)
+    turn = Joint("turn", "continuous", 1, 2, [0, 0, 1], [0, 0, 0], -np.pi, np.pi)
+    parts = (apart.parts[0], Part("carrier", np.arange(0)), apart.parts[1])
+    tree = replace(apart, parts=parts, joints=(lift, turn))
+    pieces = (before[0], PartHulls((), "none", (), True), before[1])
+    result = separate(tree, pieces, [PAIR], CONFIG, 64)
     assert result.refused == {}
-    assert result.hidden[("body", "mover")] == pytest.approx(0.007)
+    assert result.hidden[PAIR] == pytest.approx(0.007)
     assert deepest(tree, result) == 0.0
 
 
@@ -183,8 +142,8 @@ def test_a_button_digs_a_pit_for_itself_and_what_is_no_button_does_not(travel, d
         box((-0.01, -0.01, 0), (0.01, 0.01, 0.006)),
     )
     press = Joint("press", "prismatic", 0, 1, [0, 0, -1], [0, 0, 0], 0.0, travel)
-    tree, result = two([panel], button, press)
-    assert (("body", "mover") not in result.refused) is dug
+    tree, _, result = cut([panel], [button], press)
+    assert (PAIR not in result.refused) is dug
     if dug:
         assert deepest(tree, result) == 0.0
         assert result.pieces[1].hulls[0].volume > 0.5 * button.volume
@@ -195,14 +154,14 @@ def test_a_sheet_that_lies_on_a_rim_gives_way_and_stays():
     thin = box((-0.5, -0.5, -0.0015), (0.5, 0.5, 0))
     lift = Joint("lift", "prismatic", 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 0.05)
     for base in ([rim], [thin]):
-        tree, result = two(base, lid, lift)
+        tree, _, result = cut(base, [lid], lift)
         assert result.refused == {}
         assert [len(piece.hulls) for piece in result.pieces] == [1, 1]
         assert deepest(tree, result) == 0.0
 
 
 def test_a_hinge_that_turns_half_a_turn_keeps_its_clearance_all_the_way():
-    tree, result = cut(replace(HINGE, upper=np.pi))
+    tree, result = hung(replace(HINGE, upper=np.pi))
     sides, door = (piece.hulls for piece in result.pieces)
     gap = min(
         -meeting(one, other, pose).depth
@@ -219,12 +178,13 @@ def test_what_a_slide_passes_between_two_poses_is_cut_too():
     lip = box((0.004, -0.1, 0.0985), (0.006, 0.1, 0.2))
     front = box((0.0, -0.1, 0.0), (0.0015, 0.1, 0.1))
     slide = Joint("slide", "prismatic", 0, 1, [1, 0, 0], [0, 0, 0], 0.0, 0.45)
-    tree, result = two([floor, lip], front, slide)
+    tree, _, result = cut([floor, lip], [front], slide)
     assert result.refused == {}
     assert deepest(tree, result) == 0.0
     # One that reaches 30 mm further is no lip.
-    tree, result = two([floor, box((0.004, -0.1, 0.067), (0.03, 0.1, 0.2))], front, slide)
-    assert ("body", "mover") in result.refused
+    higher = box((0.004, -0.1, 0.067), (0.03, 0.1, 0.2))
+    tree, _, result = cut([floor, higher], [front], slide)
+    assert PAIR in result.refused
     assert deepest(tree, result) > 0.001
 
 
@@ -232,19 +192,9 @@ def swung_over(post):
     """A thin arm of two metres that swings over the floor, past a post that stands there."""
     arm = box((0.0, -0.005, 0.1), (2.0, 0.0, 0.2))
     floor = box((-0.1, -2.5, -0.1), (2.5, 2.5, 0.0))
-    meshes = [Mesh.from_triangles(each.vertices, each.faces) for each in (floor, post, arm)]
-    parts = (Part("floor", np.arange(24)), Part("arm", np.arange(24, 36)))
     hinge = Joint("hinge", "revolute", 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.5)
-    tree = Articulation(concatenate(meshes), parts, (hinge,), "test")
-    pieces = (
-        PartHulls((floor, post), "exact", (), True),
-        PartHulls((arm,), "exact", (), True),
-    )
-    result = separate(tree, pieces, [("floor", "arm")], CONFIG, 64)
-    hulls = [list(piece.hulls) for piece in result.pieces]
-    return -max(
-        hull_depth(*hulls, pose, CONFIG.clearance_m) for pose in relative_poses(tree, 0, 1, 1000)
-    )
+    tree, _, result = cut([floor, post], [arm], hinge)
+    return -deepest(tree, result, poses=1000, gap=CONFIG.clearance_m)
 
 
 def post_beyond(reach_m):

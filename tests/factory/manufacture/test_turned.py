@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
+from held_parts import PAIR, held, hulls_of
 
-from asset_factory.factory.articulation import Articulation, Joint, Part, rotation_about
+from asset_factory.factory.articulation import Joint, rotation_about
 from asset_factory.factory.config import SeparateConfig
-from asset_factory.factory.manufacture.decompose.convex import hull_of
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls
 from asset_factory.factory.manufacture.poses import relative_poses
 from asset_factory.factory.manufacture.separate import separate
@@ -49,16 +49,8 @@ RING = [
 FLOOR = [trimesh.creation.box(bounds=[(-0.3, -0.3, -0.2), (0.3, 0.3, -0.06)])]
 
 
-def hulls_of(solids):
-    return tuple(hull_of(np.array(each.vertices)) for each in solids)
-
-
 def object_of(joint):
-    solids = [*RING, *FLOOR, *KNOB]
-    mesh = concatenate([Mesh.from_triangles(each.vertices, each.faces) for each in solids])
-    count = sum(len(each.faces) for each in (*RING, *FLOOR))
-    parts = Part("body", np.arange(count)), Part("knob", np.arange(count, len(mesh.faces)))
-    return Articulation(mesh, parts, (joint,), "test")
+    return held([*RING, *FLOOR], KNOB, joint)
 
 
 def deepest(tree, body, knob, gap=0.0):
@@ -99,7 +91,7 @@ def test_a_knob_in_a_ring_of_flat_boards_is_cut_free():
     pieces = tuple(
         PartHulls(hulls_of(solids), "exact", (), True) for solids in ([*RING, *FLOOR], KNOB)
     )
-    result = separate(tree, pieces, [("body", "knob")], CONFIG, 64)
+    result = separate(tree, pieces, [PAIR], CONFIG, 64)
     assert result.refused == {}
     assert deepest(tree, *(list(piece.hulls) for piece in result.pieces)) == 0.0
 
@@ -119,8 +111,8 @@ def test_a_knob_that_turns_about_another_axis_is_not_cut_free(name):
     pieces = tuple(
         PartHulls(hulls_of(solids), "exact", (), True) for solids in ([*RING, *FLOOR], KNOB)
     )
-    result = separate(tree, pieces, [("body", "knob")], CONFIG, 64)
-    assert ("body", "knob") in result.refused
+    result = separate(tree, pieces, [PAIR], CONFIG, 64)
+    assert PAIR in result.refused
     assert deepest(tree, *(list(piece.hulls) for piece in result.pieces)) > 0.001
 
 
@@ -140,7 +132,7 @@ def test_a_knob_has_a_round_seat_and_a_lid_on_a_box_has_none():
 def is_turned(joint, deep_m):
     """Whether surfaces of revolution are tried about a joint of a knob that stands so deep."""
     hulls = [list(hulls_of([*RING, *FLOOR])), list(hulls_of(KNOB))]
-    pair = PartPair.of(Workpieces(object_of(joint), hulls, CONFIG), ("body", "knob"))
+    pair = PartPair.of(Workpieces(object_of(joint), hulls, CONFIG), PAIR)
     return any(isinstance(cut, Turned) for cut in finer_cuts(pair, deep_m))
 
 

@@ -1,0 +1,63 @@
+"""A body and a mover that a joint holds in it, and the two cut apart."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import trimesh
+
+from asset_factory.factory.articulation import Articulation, Joint, Part
+from asset_factory.factory.asset import Hull
+from asset_factory.factory.config import SeparateConfig
+from asset_factory.factory.manufacture.decompose.convex import hull_of
+from asset_factory.factory.manufacture.decompose.decompose import PartHulls
+from asset_factory.factory.manufacture.poses import relative_poses
+from asset_factory.factory.manufacture.separate import separate
+from asset_factory.factory.manufacture.separate.along import hull_depth
+from asset_factory.factory.manufacture.separate.outcome import Separation
+from asset_factory.factory.mesh import Mesh, concatenate
+
+CONFIG = SeparateConfig()
+PAIR = ("body", "mover")
+#: Whatever has vertices and faces and is convex.
+Solid = Any
+
+
+def box(low: Sequence[float], high: Sequence[float]) -> trimesh.Trimesh:
+    """A box between two corners [m]."""
+    return trimesh.creation.box(bounds=[low, high])
+
+
+def mesh_of(solids: Sequence[Solid]) -> Mesh:
+    return concatenate([Mesh.from_triangles(each.vertices, each.faces) for each in solids])
+
+
+def hulls_of(solids: Sequence[Solid]) -> tuple[Hull, ...]:
+    return tuple(hull_of(np.array(each.vertices)) for each in solids)
+
+
+def held(body: Sequence[Solid], mover: Sequence[Solid], joint: Joint) -> Articulation:
+    """The two as parts of one object."""
+    ends = np.cumsum([0, *(sum(len(each.faces) for each in solids) for solids in (body, mover))])
+    parts = (Part("body", np.arange(ends[1])), Part("mover", np.arange(ends[1], ends[2])))
+    return Articulation(mesh_of([*body, *mover]), parts, (joint,), "test")
+
+
+def cut(
+    body: Sequence[Solid], mover: Sequence[Solid], joint: Joint
+) -> tuple[Articulation, tuple[PartHulls, ...], Separation]:
+    """The object, its hulls before, and what became of them."""
+    tree = held(body, mover, joint)
+    before = tuple(PartHulls(hulls_of(solids), "exact", (), True) for solids in (body, mover))
+    return tree, before, separate(tree, before, [PAIR], CONFIG, 64)
+
+
+def deepest(
+    tree: Articulation, result: Separation, poses: int = 150, gap: float = 0.0, **way: float
+) -> float:
+    """How deep the two lie in one another anywhere on the way, or nearer than a gap [m]."""
+    hulls = [list(piece.hulls) for piece in result.pieces if piece.hulls]
+    last = len(result.pieces) - 1
+    return max(
+        hull_depth(*hulls, pose, gap) for pose in relative_poses(tree, 0, last, poses, **way)
+    )
