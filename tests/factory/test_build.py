@@ -104,7 +104,8 @@ def bad_inputs(folder):
 
 def test_bad_inputs_are_rejected_with_a_reason_and_the_job_goes_on(tmp_path):
     output = tmp_path / "out"
-    done, summary = build(output, "--input", bad_inputs(tmp_path / "in"), "--sim", "sapien")
+    asked = "--input", bad_inputs(tmp_path / "in"), "--sim", "sapien", "--articulator", "geometric"
+    done, summary = build(output, *asked)
     assert done.returncode == 0, done.stderr
     reasons = {Path(row["input"]).name: row["reason"] for row in summary["assets"]}
     assert reasons["broken.glb"] == "unreadable"
@@ -116,7 +117,7 @@ def test_bad_inputs_are_rejected_with_a_reason_and_the_job_goes_on(tmp_path):
         report = json.loads((output / "rejected" / row["id"] / "report.json").read_text())
         assert report["passed"] is False
         assert report["findings"][0]["message"] == row["message"]
-    strict, _ = build(output, "--input", tmp_path / "in", "--strict")
+    strict, _ = build(output, *asked, "--strict")
     assert strict.returncode == 1
 
 
