@@ -129,3 +129,18 @@ def test_what_an_srdf_exempts_is_named_and_does_not_touch_in_sapien(tmp_path: Pa
     )
     pressing, rules = look(path, "sapien")
     assert (pressing, rules.excluded) == (set(), (("a", "b"),))
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "pybullet"])
+def test_what_an_srdf_exempts_does_not_touch_in_engines_that_read_none(
+    tmp_path: Path, engine: str
+) -> None:
+    pytest.importorskip(engine)
+    path = write_world(tmp_path, "siblings")
+    assert look(path, engine)[0] == {("a", "b")}
+    path.with_suffix(".srdf").write_text(
+        '<robot name="boxes"><disable_collisions link1="b" link2="a"/>'
+        '<disable_collisions link1="a" link2="gone"/></robot>'
+    )
+    pressing, rules = look(path, engine)
+    assert (pressing, rules.excluded) == (set(), (("a", "b"),))
