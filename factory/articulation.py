@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
 import numpy as np
 import numpy.typing as npt
+
+from asset_factory.sim_checks.description import Mimic
+from asset_factory.sim_checks.geometry.coupling import sound_chains, whole_chain
 
 from .errors import InvalidArticulation
 from .mesh import FloatArray, Mesh, read_only
@@ -53,6 +57,8 @@ class Joint:
         friction: [N m] or [N]; ``None`` lets the exporter choose.
         confidence: that the child moves so, 0 to 1, as the articulator rates itself; ``None`` if it
             does not.
+        mimic: the joint that it moves with, at a ratio above 0 and without an offset, so that both
+            are closed and at rest together; ``None`` for one that moves by itself.
     """
 
     name: str
@@ -66,6 +72,7 @@ class Joint:
     damping: float | None = None
     friction: float | None = None
     confidence: float | None = None
+    mimic: Mimic | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "axis", read_only(self.axis))
@@ -163,6 +170,7 @@ class Articulation:
         _check_tree(self.parts, self.joints)
         for joint in self.joints:
             _check_joint(joint)
+        _check_mimics(self.joints)
 
     @property
     def movable_joints(self) -> tuple[Joint, ...]:
@@ -193,6 +201,39 @@ class Articulation:
         joint = self.parent_joint(part)
         return np.zeros(3) if joint is None else joint.origin
 
+    def completed(self, values: Mapping[str, float]) -> dict[str, float]:
+        """Return the value of every joint [rad] or [m].
+
+        Args:
+            values: by joint name; of those not named, followers go by their leaders, and all others
+                are at 0, the input pose.
+
+        Raises:
+            KeyError: a name is not a joint's.
+        """
+        mimics = {joint.name: joint.mimic for joint in self.joints}
+        unknown = set(values) - set(mimics)
+        if unknown:
+            raise KeyError(f"no joint {sorted(unknown)}; there are {list(mimics)}")
+
+        def value(name: str) -> float:
+            mimic = mimics[name]
+            if name in values or mimic is None:
+                return values.get(name, 0.0)
+            return mimic.multiplier * value(mimic.leader)
+
+        return {name: value(name) for name in mimics}
+
+    def together(self, joint: Joint, value: float) -> dict[str, float]:
+        """Return the values of a joint, and of all that move with it, where it is at ``value``."""
+        mimics = sound_chains({each.name: each.mimic for each in self.joints})
+        whole = {name: whole_chain(name, mimics) for name in mimics}
+        free = Mimic(joint.name)
+        own = whole.get(joint.name, free)
+        at = value / own.multiplier
+        led = {n: m.multiplier * at for n, m in whole.items() if m.leader == own.leader}
+        return {own.leader: at, **led, joint.name: value}
+
     def part_mesh(self, part: int) -> Mesh:
         """Return the faces of one part, in the object frame at rest."""
         return self.mesh.submesh(self.parts[part].faces)
@@ -201,16 +242,12 @@ class Articulation:
         """Return each part's motion relative to rest, object frame, shape [part_count, 4, 4].
 
         Args:
-            values: joint values [rad] or [m] by joint name; a joint not named is at 0, the input
-                pose.
+            values: as for :meth:`completed`.
 
         Raises:
             KeyError: a name is not a joint's.
         """
-        given = values or {}
-        unknown = set(given) - {j.name for j in self.joints}
-        if unknown:
-            raise KeyError(f"no joint {sorted(unknown)}; there are {[j.name for j in self.joints]}")
+        given = self.completed(values or {})
         poses = np.tile(np.eye(4), (len(self.parts), 1, 1))
         for joint in self.joints:
             poses[joint.child] = poses[joint.parent] @ joint.motion(given.get(joint.name, 0.0))
@@ -279,6 +316,19 @@ def _check_tree(parts: tuple[Part, ...], joints: tuple[Joint, ...]) -> None:
             raise InvalidArticulation(
                 f"joint {joint.name!r}: parent is {joint.parent}, "
                 f"want one of 0..{joint.child - 1} (parents first)"
+            )
+
+
+def _check_mimics(joints: tuple[Joint, ...]) -> None:
+    sound = sound_chains({joint.name: joint.mimic for joint in joints if joint.movable})
+    for joint in joints:
+        mimic = joint.mimic
+        if mimic is None:
+            continue
+        if joint.name not in sound or not mimic.multiplier > 0.0 or mimic.offset != 0.0:
+            raise InvalidArticulation(
+                f"joint {joint.name!r}: follows {mimic.leader!r} by {mimic.multiplier:g} times its "
+                f"value plus {mimic.offset:g}; want a joint that moves, a ratio above 0, no offset"
             )
 
 

@@ -26,6 +26,11 @@ class IntakeConfig:
         max_texture_pixels: largest texture [pixels].
         allowed_licenses: under which an input may stand: names such as ``CC-BY-4.0`` or patterns
             such as ``CC0-*``, in any case; ``unknown`` for those that do not say; empty: all.
+        roots: folders that a description may refer to, beside its own and its package, see
+            :class:`~asset_factory.sim_checks.read.roots.ReadOptions`.
+        given: folders that inputs were found in, and those of ``ROS_PACKAGE_PATH``: the same.
+        allow_outside: let descriptions refer to any file.
+        arguments: of xacro files, written ``name:=value``.
     """
 
     up: str = "auto"
@@ -34,6 +39,10 @@ class IntakeConfig:
     max_faces: int = 1_000_000
     max_texture_pixels: int = 8192 * 8192
     allowed_licenses: tuple[str, ...] = field(default=(), metadata={GATE: True})
+    roots: tuple[str, ...] = ()
+    given: tuple[str, ...] = field(default=(), metadata={GATE: True})
+    allow_outside: bool = False
+    arguments: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

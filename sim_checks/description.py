@@ -141,7 +141,7 @@ class Description:
         format: ``urdf`` or ``mjcf``.
         links: in file order.
         joints: in file order; a file may hold anything, so this may be no tree.
-        excluded: pairs of link names that the file forbids to collide (MJCF ``<exclude>``).
+        excluded: pairs of link names that the file forbids to collide (MJCF ``<exclude>``, SRDF).
     """
 
     path: Path

@@ -16,7 +16,9 @@ from .checks.result import CheckResult
 from .config import CheckConfig
 from .description import Description, DescriptionError
 from .processes.isolation import Failure, Outcome, WarmChild
+from .read.gather import Gathered, gather
 from .read.native import ask_of
+from .read.roots import OWN_PACKAGE, ReadOptions
 from .read.usd.as_urdf import write_as_urdf
 from .read.usd.layers import is_usd
 from .report import KILLED, OUT_OF_TIME, Finding, Report, Severity
@@ -101,14 +103,16 @@ class Judge:
         path: Path,
         simulators: Sequence[str] = ("sapien",),
         examined: Examination | None = None,
+        options: ReadOptions = OWN_PACKAGE,
     ) -> Report:
         """Validate one file.
 
         Args:
-            path: the file; its meshes lie in the same folder or below.
+            path: the file; its meshes lie in its folder, its package or a root.
             simulators: which engines to ask, by name, in this order; none for the static checks
                 alone.
             examined: of this same, unchanged file, where :meth:`examine` has been asked before.
+            options: what may be read beyond the file's folder and its package.
 
         Returns:
             Findings in a fixed order: reading, static checks, then simulator by simulator. The same
@@ -122,40 +126,35 @@ class Judge:
         for name in simulators:
             simulator(name)
         path = Path(path)
-        if is_usd(path):
-            return self._check_usd(path, simulators)
-        if examined is None:
-            examined = self.examine(path)
-        findings = list(examined.findings)
-        measurements = dict(examined.measurements)
-        if examined.description is not None:
-            for name, result in zip(
-                simulators, self._ask(examined.description, simulators), strict=True
-            ):
-                findings += result.findings
-                measurements[name] = dict(result.measurements)
-            findings += _unasked(examined.description, simulators)
-        differences = disagreements(findings, measurements, simulators)
-        absent = {finding.simulator for finding in findings if finding.code in ABSENT}
-        took_part = tuple(name for name in simulators if name not in absent)
-        return Report(path.name, took_part, tuple(findings), measurements, differences)
-
-    def _check_usd(self, path: Path, simulators: Sequence[str]) -> Report:
-        """Validate the URDF that says what a USD asset says: no engine here reads USD."""
+        if examined is not None:
+            return self._reported(path.name, examined, simulators)
         with TemporaryDirectory() as folder:
             limits = self._config.child.limits
             child = self._child("static")
             try:
-                urdf = ask_of(child, path.name, write_as_urdf, path, Path(folder), limits=limits)
-            except DescriptionError as error:
-                finding = Finding(error.code, Severity.HARD, error.message)
-                return Report(path.name, (), (finding,), {}, ())
-            except (TimeoutError, ChildProcessError) as error:
-                return Report(path.name, (), (_unanswered(str(error), error),), {}, ())
-            report = self.check(urdf, simulators)
-        words = f"{path.name} was judged as the URDF that says the same: no engine here reads USD"
-        told = Finding("read_as_urdf", Severity.SOFT, words)
-        return replace(report, description=path.name, findings=(told, *report.findings))
+                gathered = ask_of(
+                    child, path.name, readable, path, Path(folder), options, limits=limits
+                )
+            except (DescriptionError, TimeoutError, ChildProcessError) as error:
+                finding = _unread(error)
+                return Report(path.name, () if is_usd(path) else tuple(simulators), (finding,), {})
+            report = self._reported(path.name, self.examine(gathered.path), simulators)
+        return replace(report, findings=(*gathered.findings, *report.findings))
+
+    def _reported(self, name: str, examined: Examination, simulators: Sequence[str]) -> Report:
+        findings = list(examined.findings)
+        measurements = dict(examined.measurements)
+        if examined.description is not None:
+            for engine, result in zip(
+                simulators, self._ask(examined.description, simulators), strict=True
+            ):
+                findings += result.findings
+                measurements[engine] = dict(result.measurements)
+            findings += _unasked(examined.description, simulators)
+        differences = disagreements(findings, measurements, simulators)
+        absent = {finding.simulator for finding in findings if finding.code in ABSENT}
+        took_part = tuple(engine for engine in simulators if engine not in absent)
+        return Report(name, took_part, tuple(findings), measurements, differences)
 
     def _ask(self, description: Description, simulators: Sequence[str]) -> Iterator[CheckResult]:
         from .checks.in_simulator import judge_in_simulator
@@ -180,6 +179,24 @@ class Judge:
     def _child(self, name: str) -> WarmChild:
         limits = self._config.child
         return self._children.setdefault(name, WarmChild(limits.calls, limits.resident_bytes))
+
+
+def readable(path: Path, folder: Path, options: ReadOptions) -> Gathered:
+    """Return what engines can be asked of a file: itself, or what says the same in a folder.
+
+    Args:
+        path: the file.
+        folder: an empty one.
+        options: what may be read beyond the file's folder and its package.
+
+    Raises:
+        DescriptionError: it cannot be read, or refers to what may not be.
+    """
+    if not is_usd(path):
+        return gather(path, folder, options)
+    words = f"{path.name} was judged as the URDF that says the same: no engine here reads USD"
+    told = Finding("read_as_urdf", Severity.SOFT, words)
+    return Gathered(write_as_urdf(path, folder), findings=(told,))
 
 
 def examine_here(path: Path, config: CheckConfig, *, native: bool = True) -> Examination:
@@ -239,6 +256,12 @@ def _failure(outcome: Outcome[Any], path: Path) -> Finding:
     if outcome.failure is Failure.TIMEOUT:
         return _unanswered(message, TimeoutError())
     return _unanswered(message, ChildProcessError() if outcome.killed else outcome.error)
+
+
+def _unread(error: Exception) -> Finding:
+    if isinstance(error, DescriptionError):
+        return Finding(error.code, Severity.HARD, error.message)
+    return _unanswered(str(error), error)
 
 
 def _unanswered(message: str, error: Exception | None) -> Finding:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 #: The description could not be read, so nothing else was asked.
 UNREADABLE: Mapping[str, str] = {
     "invalid_xml": "no XML",
+    "invalid_xacro": "a xacro file that cannot be expanded",
     "forbidden_doctype": "XML with entities or a document type, which can be made to explode",
     "unknown_format": "neither a URDF nor an MJCF; or USD whose files cannot be told beforehand",
     "too_large": "more bytes, bodies, geoms, prims or memory than the limit that is named",
@@ -24,7 +25,8 @@ UNREADABLE: Mapping[str, str] = {
     "unreadable_mesh": "a mesh that cannot be read",
     "empty_mesh": "a mesh without triangles",
     "unreadable": "the file cannot be read, or MuJoCo does not compile it",
-    "outside_folder": "the description, or what it refers to, names a file outside its folder",
+    "outside_folder": "the description, or what it refers to, names a file outside its folder, "
+    "its package and the roots",
     "nested_too_deep": "documents nested in themselves",
 }
 
@@ -219,6 +221,9 @@ SOFT: Mapping[str, str] = {
     "friction_ignored": "the simulator drops joint friction",
     "damping_ignored": "the simulator drops joint damping",
     "read_as_urdf": "a USD asset, judged as the URDF that says the same",
+    "pairs_exempt": "links that an SRDF lets pass through each other [pairs]",
+    "read_by_xacro": "a xacro file, judged as the URDF that it makes",
+    "read_from_root": "files of the description lie outside its folder, in its package or a root",
     "format_not_loaded": "the simulator does not read this format",
     "loader_warning": "a loader's warning, in its own words",
     "engine_warning": "an engine's warning, in its own words",

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from .config import CheckConfig
 from .judge import DEFAULT_CONFIG, Examination, Judge
+from .read.roots import OWN_PACKAGE, ReadOptions
 from .report import Report
 
 
@@ -15,17 +16,19 @@ def run_checks(
     simulators: Sequence[str] = ("sapien",),
     config: CheckConfig = DEFAULT_CONFIG,
     examined: Examination | None = None,
+    options: ReadOptions = OWN_PACKAGE,
 ) -> Report:
     """Validate a URDF or MJCF file from anyone.
 
     Native code runs in killable children; whatever the file does to them becomes a finding.
 
     Args:
-        description: the file; its meshes lie in the same folder or below.
+        description: the file; its meshes lie in its folder, its package or a root.
         simulators: which engines to ask, by name, in this order; none for the static checks alone.
         config: every threshold.
         examined: of this same, unchanged file, by :meth:`Judge.examine`, so as not to be done
             again.
+        options: what may be read beyond the file's folder and its package.
 
     Returns:
         As :meth:`Judge.check`.
@@ -34,4 +37,4 @@ def run_checks(
         ValueError: for a simulator that does not exist, with those that do.
     """
     with Judge(config) as judge:
-        return judge.check(description, simulators, examined)
+        return judge.check(description, simulators, examined, options)

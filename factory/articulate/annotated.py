@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from asset_factory.sim_checks.description import Mimic
+
 from ..articulation import RESERVED_PART_NAME, Articulation, Joint, JointKind, Part
 from ..config import BuildConfig
 from ..errors import InputRejected, InvalidArticulation
@@ -16,6 +18,7 @@ from ..intake.importers.prediction import read_prediction
 from ..intake.intake import Intake
 from ..mesh import FloatArray, IntArray, Mesh, read_only
 from ..part import Proposer
+from .coupling import moving_together, resting_values, with_common_motion, with_sound_mimics
 from .draft import Draft, ordered
 from .locate import sourced
 from .ranges import closed_at_lower, sound_limits, with_zero_inside, without_still_joints
@@ -119,11 +122,15 @@ class AnnotatedArticulator:
         draft = self._drafted(mesh)
         draft = ordered(draft, forest=self.annotation.source in FORESTS)
         draft = unlabelled_to_root(draft)
-        draft = with_zero_inside(draft)
+        draft = with_sound_mimics(draft)
+        draft, moved = resting_values(draft)
+        draft = with_zero_inside(draft, moved)
         draft = without_still_joints(draft)
         draft = welded(draft)
         draft = without_empty_leaves(draft)
-        draft = closed_at_lower(draft)
+        draft = with_common_motion(draft)
+        draft = closed_at_lower(draft, frozenset(moved))
+        draft = moving_together(draft)
         if not draft.joints:
             draft = draft.noting("nothing in this object moves")
         return sourced(_finished(draft, self.name), Proposer.ANNOTATION)
@@ -146,6 +153,7 @@ class AnnotatedArticulator:
             else:
                 single.append(joint)
         joints = []
+        single = _with_leaders_limits(single)
         unique = _unique([joint.name for joint in single], "joint")
         for joint, name in zip(single, unique, strict=True):
             travel = self._usual_travel(mesh, labels, joint) if self.lenient else None
@@ -158,6 +166,7 @@ class AnnotatedArticulator:
             made, said = self._joint(ended, name)
             joints.append(made)
             notes += said
+        joints = _coupled(single, joints, self.scale)
         if self.scale != 1.0 and any(j.damping or j.friction for j in joints):
             notes.append(f"scaled by {self.scale:.6g}; damping and friction are kept as annotated")
         return Draft(mesh, labels, tuple(names), tuple(joints), tuple(notes))
@@ -246,6 +255,46 @@ def _turn_then_slide(joint: AnnotatedJoint, carrier: int) -> tuple[AnnotatedJoin
         slide_axis=None,
     )
     return turn, slide
+
+
+def _with_leaders_limits(joints: list[AnnotatedJoint]) -> list[AnnotatedJoint]:
+    """Return the joints; a follower without limits has those that its leader's give it."""
+    named = {joint.name: joint for joint in joints}
+
+    def limited(joint: AnnotatedJoint) -> AnnotatedJoint:
+        mimic = joint.mimic
+        leader = named.get(mimic.leader) if mimic is not None else None
+        unlimited = joint.lower is None and joint.upper is None
+        if mimic is None or leader is None or not unlimited or joint.kind == "fixed":
+            return joint
+        if leader.lower is None or leader.upper is None:
+            return joint
+        lower, upper = sorted(
+            mimic.multiplier * end + mimic.offset for end in (leader.lower, leader.upper)
+        )
+        kind = "revolute" if joint.kind == "continuous" else joint.kind
+        return replace(joint, kind=kind, lower=lower, upper=upper)
+
+    return [limited(joint) for joint in joints]
+
+
+def _coupled(annotated: list[AnnotatedJoint], joints: list[Joint], scale: float) -> list[Joint]:
+    """Return the joints with what they follow, by the leaders' new names and in metres."""
+    made = {each.name: joint for each, joint in zip(annotated, joints, strict=True)}
+
+    def unit(joint: Joint) -> float:
+        return scale if joint.kind is JointKind.PRISMATIC else 1.0
+
+    result = []
+    for each, joint in zip(annotated, joints, strict=True):
+        leader = made.get(each.mimic.leader) if each.mimic is not None else None
+        mimic = each.mimic
+        if mimic is not None:
+            rate = 1.0 if leader is None else unit(joint) / unit(leader)
+            name = "" if leader is None else leader.name
+            mimic = Mimic(name, mimic.multiplier * rate, mimic.offset * unit(joint))
+        result.append(replace(joint, mimic=mimic))
+    return result
 
 
 def _limit(value: float | None) -> float | None:

@@ -83,16 +83,15 @@ def sound_limits(
     return known, float(lower), float(upper), notes
 
 
-def with_zero_inside(draft: Draft) -> Draft:
-    """Move joints whose limits leave out the input pose to their nearest limit, the new zero.
+def with_zero_inside(draft: Draft, values: dict[str, float]) -> Draft:
+    """Pose the object so that no joint's limits leave out its pose, which is the new zero.
 
     The mesh, and axes and origins of joints further out, move along. Needs ordered joints.
+
+    Args:
+        draft: anything.
+        values: of the joints that are elsewhere than at 0 then, within their limits.
     """
-    values = {
-        joint.name: min(max(0.0, joint.lower), joint.upper)
-        for joint in draft.joints
-        if joint.movable and not joint.lower <= 0.0 <= joint.upper
-    }
     if not values:
         return draft
     poses = draft.poses(values)
@@ -101,20 +100,24 @@ def with_zero_inside(draft: Draft) -> Draft:
     for joint in draft.joints:
         pose = poses[joint.parent]
         value = values.get(joint.name, 0.0)
+        shift = 0.0 if joint.kind is JointKind.CONTINUOUS else value
         if value:
             unit = joint.unit
+            why = (
+                f"it follows {joint.mimic.leader!r}"
+                if joint.mimic is not None and joint.lower <= 0.0 <= joint.upper
+                else f"0 is outside [{joint.lower:.6g}, {joint.upper:.6g}] {unit}"
+            )
             notes.append(
-                f"joint {joint.name!r}: 0 is outside "
-                f"[{joint.lower:.6g}, {joint.upper:.6g}] {unit}; "
-                f"posed at {value:.6g} {unit}, which is the new zero"
+                f"joint {joint.name!r}: {why}; posed at {value:.6g} {unit}, which is the new zero"
             )
         joints.append(
             replace(
                 joint,
                 axis=pose[:3, :3] @ joint.axis,
                 origin=pose[:3, :3] @ joint.origin + pose[:3, 3],
-                lower=joint.lower - value,
-                upper=joint.upper - value,
+                lower=joint.lower - shift,
+                upper=joint.upper - shift,
             )
         )
     moved = replace(draft, mesh=_posed(draft, poses), joints=tuple(joints))
@@ -138,29 +141,41 @@ def without_still_joints(draft: Draft) -> Draft:
     return replace(draft, joints=tuple(joints)).noting(*notes) if notes else draft
 
 
-def closed_at_lower(draft: Draft) -> Draft:
+def closed_at_lower(draft: Draft, moved: frozenset[str] = frozenset()) -> Draft:
     """Return every joint with its lower limit closed; needs ordered joints and 0 within the limits.
 
     The input pose is taken as closed when it is at one end of the range, unless that is the upper
     one and the object is far smaller at the other. When it is inside, the end at which the whole
     object fills the smaller axis-aligned box is closed; when neither does, nothing changes.
+
+    Args:
+        draft: anything.
+        moved: joints that are not as they were drawn, whose pose at one end so says nothing.
     """
     joints = []
     notes = []
     undecided = []
+    turned = set()
     for joint in draft.joints:
-        if joint.kind not in (JointKind.REVOLUTE, JointKind.PRISMATIC):
+        # A follower is closed where its leader is.
+        kinds = (JointKind.REVOLUTE, JointKind.PRISMATIC)
+        if joint.kind not in kinds or joint.mimic is not None:
             joints.append(joint)
             continue
-        flip, note = _opens_downwards(draft, joint)
+        flip, note = _opens_downwards(draft, joint, drawn=joint.name not in moved)
         if flip is None:
             undecided.append(joint.name)
         notes += [note] if note else []
-        joints.append(
-            replace(joint, axis=-joint.axis, lower=-joint.upper, upper=-joint.lower)
-            if flip
-            else joint
-        )
+        if flip:
+            turned.add(joint.name)
+            joints.append(replace(joint, axis=-joint.axis, lower=-joint.upper, upper=-joint.lower))
+        else:
+            joints.append(joint)
+    for index, joint in enumerate(joints):
+        mimic = joint.mimic
+        if mimic is not None and mimic.leader in turned:
+            back = replace(mimic, multiplier=-mimic.multiplier)
+            joints[index] = replace(joint, mimic=back)
     if undecided:
         notes.append(
             "the input pose is inside the range and neither end is clearly closed, "
@@ -171,13 +186,14 @@ def closed_at_lower(draft: Draft) -> Draft:
     return replace(draft, joints=tuple(joints)).noting(*notes)
 
 
-def _opens_downwards(draft: Draft, joint: Joint) -> tuple[bool | None, str]:
+def _opens_downwards(draft: Draft, joint: Joint, *, drawn: bool) -> tuple[bool | None, str]:
     """Return whether the upper limit is closed, ``None`` where nothing tells; and a note."""
     near = AT_END * joint.range
-    if -joint.lower <= near:
+    if drawn and -joint.lower <= near:
         return False, ""
     low, high = (_box_volume(draft, joint, value) for value in (joint.lower, joint.upper))
-    if joint.upper <= near:
+    alike = abs(low - high) <= CLEAR_DIFFERENCE * max(low, high)
+    if drawn and joint.upper <= near:
         if low <= (1.0 - OPEN_DIFFERENCE) * high:
             return (
                 False,
@@ -187,10 +203,11 @@ def _opens_downwards(draft: Draft, joint: Joint) -> tuple[bool | None, str]:
                 ),
             )
         return True, f"joint {joint.name!r}: opened towards its lower limit; its axis is reversed"
-    if abs(low - high) <= CLEAR_DIFFERENCE * max(low, high):
-        return None, ""
+    if alike:
+        return None if drawn else joint.upper <= near, ""
+    place = "inside" if drawn else "outside"
     where = (
-        f"joint {joint.name!r}: the input pose is inside its range "
+        f"joint {joint.name!r}: the input pose is {place} its range "
         f"[{joint.lower:.4g}, {joint.upper:.4g}]"
     )
     if low < high:

@@ -225,10 +225,15 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
 
 def build_config(command: Build) -> BuildConfig:
     """Return the configuration that the flags ask for."""
+    from ..intake.mirror import mirror_of
+
     config = with_repairs(input_config(command.loading), command.repairs)
     interior = config.solids.interior and command.interior
+    folders = (mirror_of(place, command.output).absolute() for place in command.input)
+    given = (*(str(folder) for folder in folders if folder.is_dir()), *config.intake.given)
     return replace(
         config,
+        intake=replace(config.intake, given=given),
         simulators=simulators_named(command.sim),
         formats=formats_asked(command.formats),
         solids=replace(config.solids, interior=interior),

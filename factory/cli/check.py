@@ -7,11 +7,12 @@ import sys
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from queue import SimpleQueue
 from typing import TYPE_CHECKING, Any
 
+import tyro
 from tyro.conf import Positional
 
 from asset_factory.sim_checks import Report, Status
@@ -22,10 +23,11 @@ from ..presets import load_config
 from ..runtime.store import write_json
 from ..runtime.terminal import complain, say
 from . import console
-from .flags import DEFAULT_SIMULATORS, simulators_named, workers_fitting
+from .flags import DEFAULT_SIMULATORS, RootFlags, simulators_named, workers_fitting
 
 if TYPE_CHECKING:
     from asset_factory.sim_checks.config import CheckConfig
+    from asset_factory.sim_checks.read.roots import ReadOptions
 
 
 @dataclass(frozen=True)
@@ -50,6 +52,10 @@ class Check:
     """A preset (default, fast, lenient, strict) or a TOML file of differences from the defaults."""
     strict: bool = False
     """Exit with 1 when anything was rejected."""
+    srdf: Path | None = None
+    """An SRDF whose exempt pairs hold for the one file checked; by default the one beside it."""
+    reading: tyro.conf.OmitArgPrefixes[RootFlags] = field(default_factory=RootFlags)
+    """Where descriptions may read."""
 
 
 def run(command: Check) -> int:
@@ -62,7 +68,10 @@ def run(command: Check) -> int:
     files = _described(command.files)
     reports = []
     printed = command.json is None or str(command.json) != "-"
-    with _checked(files, simulators, config, workers) as checked:
+    options = replace(command.reading.options(command.files), srdf=command.srdf)
+    if command.srdf is not None and not (command.srdf.is_file() and len(files) == 1):
+        raise ConfigError(f"--srdf: want a file, for one description; got {len(files)} of them")
+    with _checked(files, simulators, config, workers, options) as checked:
         for report in checked:
             reports.append(report)
             if printed:
@@ -88,6 +97,7 @@ def _checked(
     simulators: Sequence[str],
     config: CheckConfig,
     workers: int,
+    options: ReadOptions,
 ) -> Iterator[Iterator[Report]]:
     """Yield the reports in the order of the files, each once it and all before it are there.
 
@@ -109,7 +119,7 @@ def _checked(
         def check(path: Path, name: str | None) -> Report:
             judge = judges.get()
             try:
-                report = judge.check(path, simulators)
+                report = judge.check(path, simulators, options=options)
             finally:
                 judges.put(judge)
             return replace(report, description=name or report.description)

@@ -11,6 +11,8 @@ from typing import Annotated, Any, Protocol, TypeVar
 import tyro
 
 from asset_factory.sim_checks import Status
+from asset_factory.sim_checks.read.roots import ReadOptions, ros_package_path
+from asset_factory.sim_checks.read.xacro import parse_arguments
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS, USUAL
 
 from ..articulate.catalog import ARTICULATORS
@@ -25,6 +27,40 @@ from ..runtime.terminal import complain
 
 DEFAULT_SIMULATORS = "sapien"
 T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class RootFlags:
+    """Where descriptions may read, beside their own folder and the package that it lies in."""
+
+    root: Annotated[tuple[Path, ...], tyro.conf.UseAppendAction] = ()
+    """A folder that URDF and MJCF files may refer to, in which packages are looked for as well;
+    may be given again. So are the folders given as inputs, and those of ROS_PACKAGE_PATH."""
+    allow_outside: bool = False
+    """Let descriptions refer to any file on this machine: only for those whose author you trust."""
+    xacro_arg: Annotated[tuple[str, ...], tyro.conf.UseAppendAction] = ()
+    """An argument of xacro files, name:=value; may be given again."""
+
+    def folders(self) -> tuple[Path, ...]:
+        """Return the roots. Raises ConfigError: one is no folder."""
+        for folder in self.root:
+            if not folder.is_dir():
+                raise ConfigError(f"--root: {folder} is no folder")
+        return tuple(folder.absolute() for folder in self.root)
+
+    def options(self, given: Sequence[Path] = ()) -> ReadOptions:
+        """Return the same for a reader, with the folders in which inputs were looked for."""
+        found = (folder.absolute() for folder in given if folder.is_dir())
+        roots = (*self.folders(), *found, *ros_package_path())
+        return ReadOptions(roots, self.allow_outside, self.arguments())
+
+    def arguments(self) -> tuple[str, ...]:
+        """Return what xacro files are given. Raises ConfigError: it is no ``name:=value``."""
+        try:
+            parse_arguments(self.xacro_arg)
+        except ValueError as error:
+            raise ConfigError(f"--xacro-arg: is {error}") from error
+        return self.xacro_arg
 
 
 @dataclass(frozen=True)
@@ -54,6 +90,8 @@ class InputFlags:
     """Real height to scale every input to [m]."""
     config: str = "default"
     """A preset (default, fast, lenient, strict) or a TOML file of differences from the defaults."""
+    reading: tyro.conf.OmitArgPrefixes[RootFlags] = field(default_factory=RootFlags)
+    """Where descriptions may read."""
 
 
 @dataclass(frozen=True)
@@ -133,7 +171,15 @@ def input_config(flags: InputFlags) -> BuildConfig:
     if flags.height is not None and not flags.height > 0.0:
         raise ConfigError(f"--height: is {flags.height:g} m, want more than 0")
     up = flags.up if flags.up == "auto" else parse_up(flags.up)
-    intake = replace(config.intake, up=up, height=flags.height)
+    intake = replace(
+        config.intake,
+        up=up,
+        height=flags.height,
+        roots=(*config.intake.roots, *map(str, flags.reading.folders())),
+        given=tuple(map(str, ros_package_path())),
+        allow_outside=config.intake.allow_outside or flags.reading.allow_outside,
+        arguments=(*config.intake.arguments, *flags.reading.arguments()),
+    )
     asked = ("checkpoint", "features", "points", "samples")
     given: dict[str, Any] = {
         name: getattr(flags, name) for name in asked if getattr(flags, name) is not None

@@ -125,6 +125,7 @@ def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> ManifestJoin
         default_friction=joint.movable and joint.friction is None,
         handle=_handle(layout, joint),
         placement=_placement(layout, joint),
+        mimic=joint.mimic,
     )
 
 

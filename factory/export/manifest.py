@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from dataclasses import asdict, dataclass
 
+from asset_factory.sim_checks.description import Mimic
+
 from ..articulation import JointKind, Weights
 from ..runtime.packing import from_json
 
@@ -54,6 +56,8 @@ class ManifestJoint:
         default_damping, default_friction: whether the input said nothing of them.
         handle: where to take hold; ``None`` where nothing was found.
         placement: where a robot may stand to open it; ``None`` where nowhere was found.
+        mimic: the joint that it moves with, at which ratio; the file leaves it out where it moves
+            by itself.
     """
 
     name: str
@@ -73,6 +77,7 @@ class ManifestJoint:
     default_friction: bool
     handle: ManifestHandle | None
     placement: ManifestPlacement | None
+    mimic: Mimic | None = None
 
     @property
     def movable(self) -> bool:
@@ -230,6 +235,9 @@ class Manifest:
         fields = asdict(self)
         if not self.invented:
             del fields["invented"]
+        for joint in fields["joints"]:
+            if joint["mimic"] is None:
+                del joint["mimic"]
         for weights in fields["provenance"]["weights"]:
             if weights["outputs"] is None:
                 del weights["outputs"]

@@ -56,7 +56,17 @@ def mjcf_text(layout: Layout) -> str:
         contact = SubElement(root, "contact")
         for first, second in layout.excluded_pairs:
             SubElement(contact, "exclude", body1=first, body2=second)
+    _couple(root, layout)
     return xml_text(root)
+
+
+def _couple(root: ElementTree.Element, layout: Layout) -> None:
+    mimics = {joint.name: joint.mimic for joint in layout.asset.articulation.joints if joint.mimic}
+    equality = SubElement(root, "equality") if mimics else root
+    for name, mimic in mimics.items():
+        ratio = scientific([mimic.multiplier])
+        polynomial = {"polycoef": f"0 {ratio} 0 0 0"}
+        SubElement(equality, "joint", joint1=name, joint2=mimic.leader, **polynomial)
 
 
 def _defaults() -> ElementTree.Element:

@@ -1,4 +1,4 @@
-"""Asset -> SDFormat 1.9.
+"""Asset -> SDFormat 1.9, or 1.11 for joints that follow others, which 1.9 has no word for.
 
 Poses are written relative to the parent link, so that the text reads like the URDF's. Drake takes a
 collision mesh for convex only where it is told so.
@@ -24,7 +24,8 @@ DRAKE = "http://drake.mit.edu"
 
 def sdf_text(layout: Layout) -> str:
     """Return the whole document; file names are relative to the bundle's folder."""
-    root = Element("sdf", {"version": "1.9", "xmlns:drake": DRAKE})
+    coupled = any(joint.mimic is not None for joint in layout.asset.articulation.joints)
+    root = Element("sdf", {"version": "1.11" if coupled else "1.9", "xmlns:drake": DRAKE})
     name = layout.asset.name
     model = SubElement(root, "model", name=name, canonical_link=layout.links[0].name)
     model.append(_world_joint(layout))
@@ -122,4 +123,12 @@ def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> ElementTree.
     dynamics = SubElement(axis, "dynamics")
     SubElement(dynamics, "damping").text = repr(magnitude(resistance.damping))
     SubElement(dynamics, "friction").text = repr(magnitude(resistance.friction))
+    if joint.mimic is not None:
+        ratio = repr(magnitude(joint.mimic.multiplier))
+        mimic = SubElement(axis, "mimic", joint=joint.mimic.leader)
+        for word, value in (("multiplier", ratio), ("offset", "0"), ("reference", "0")):
+            SubElement(mimic, word).text = value
+        # Drake has a word of its own.
+        told = {"joint": joint.mimic.leader, "multiplier": ratio, "offset": "0"}
+        SubElement(element, "drake:mimic", told)
     return element

@@ -74,4 +74,7 @@ def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> ElementTree.
     damping = repr(magnitude(resistance.damping))
     friction = repr(magnitude(resistance.friction))
     SubElement(element, "dynamics", damping=damping, friction=friction)
+    if joint.mimic is not None:
+        ratio = repr(magnitude(joint.mimic.multiplier))
+        SubElement(element, "mimic", joint=joint.mimic.leader, multiplier=ratio, offset="0")
     return element

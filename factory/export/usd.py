@@ -3,7 +3,8 @@
 Links lie side by side below the default prim, as Isaac Sim and Newton expect them, each with its
 frame of the URDF; ``visuals`` are for eyes, ``collisions`` of purpose ``guide`` for contact. A
 fixed joint holds the first link to the world. UsdPhysics measures angles in degrees. It has no word
-for friction and armature of joints: Newton's attributes say them, other readers pass over them.
+for friction and armature of joints: Newton's attributes say them, other readers pass over them. A
+joint that follows another says so to Newton and MuJoCo, and to PhysX, which couples hinges only.
 """
 
 from __future__ import annotations
@@ -195,6 +196,33 @@ def _joint(
     for name, value in (("friction", resistance.friction), ("armature", resistance.armature)):
         attribute = made.GetPrim().CreateAttribute(f"newton:{name}", Sdf.ValueTypeNames.Float)
         attribute.Set(value)
+    if joint.mimic is not None:
+        leader = layout.asset.articulation.joint(joint.mimic.leader)
+        units = per_unit / (180.0 / np.pi if leader.turns else 1.0)
+        _couple(made.GetPrim(), leader.name, joint.mimic.multiplier * units)
+
+
+def _couple(prim: Usd.Prim, leader: str, ratio: float) -> None:
+    """Have a joint follow another of the same scope, in the file's units.
+
+    Newton: ``joint = coef0 + coef1 leader``; PhysX: ``joint + gearing leader + offset = 0``.
+    """
+    from pxr import Sdf, Tf
+
+    target = prim.GetPath().GetParentPath().AppendChild(Tf.MakeValidIdentifier(leader))
+    words = (
+        ("NewtonMimicAPI", "newton:mimicJoint", "newton:mimicCoef1", ratio),
+        (
+            "PhysxMimicJointAPI:rotX",
+            "physxMimicJoint:rotX:referenceJoint",
+            "physxMimicJoint:rotX:gearing",
+            -ratio,
+        ),
+    )
+    for schema, relation, attribute, value in words:
+        prim.AddAppliedSchema(schema)
+        prim.CreateRelationship(relation, custom=False).SetTargets([target])
+        prim.CreateAttribute(attribute, Sdf.ValueTypeNames.Float, custom=False).Set(value)
 
 
 def _x_to(axis: FloatArray) -> Rotation:

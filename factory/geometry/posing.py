@@ -34,7 +34,8 @@ def posed(articulation: Articulation, values: Mapping[str, float]) -> Articulati
             raise ValueError(
                 f"joint {joint.name!r}: {value:g} is outside [{joint.lower:g}, {joint.upper:g}]"
             )
-    poses = articulation.poses(dict(values))
+    values = articulation.completed(values)
+    poses = articulation.poses(values)
     return replace(
         articulation,
         mesh=_moved(articulation.mesh, face_parts(articulation), poses),

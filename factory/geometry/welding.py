@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..articulation import Articulation
+from .coupling import with_leaders
 
 
 def welded(
@@ -49,4 +50,4 @@ def welded(
         for joint in articulation.joints
         if group[joint.child] == joint.child
     )
-    return replace(articulation, parts=parts, joints=left)
+    return replace(articulation, parts=parts, joints=with_leaders(left))

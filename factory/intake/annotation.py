@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from asset_factory.sim_checks.description import Mimic
+
 from ..mesh import FloatArray, IntArray, read_only
 
 
@@ -23,6 +25,7 @@ class AnnotatedJoint:
         lower, upper: [rad] or [input length units]; ``None`` where there is no limit.
         slide_axis, slide_lower, slide_upper: of the second joint of ``both``.
         damping, friction: as annotated, SI; ``None`` where absent.
+        mimic: the joint that it follows, by name, in the units of both; ``None`` for none.
     """
 
     name: str
@@ -38,6 +41,7 @@ class AnnotatedJoint:
     slide_upper: float | None = None
     damping: float | None = None
     friction: float | None = None
+    mimic: Mimic | None = None
 
 
 @dataclass(frozen=True)

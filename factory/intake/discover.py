@@ -8,8 +8,9 @@ from contextlib import suppress
 from pathlib import Path
 from xml.parsers import expat
 
-from asset_factory.sim_checks.read.document import inside
+from asset_factory.sim_checks.read.document import PACKAGED, inside
 from asset_factory.sim_checks.read.regular import open_regular
+from asset_factory.sim_checks.read.roots import OWN_PACKAGE, Roots
 from asset_factory.sim_checks.read.usd.layers import is_usd
 
 from ..errors import ConfigError
@@ -50,9 +51,16 @@ def find_inputs(paths: Sequence[Path]) -> tuple[Path, ...]:
 
 
 def is_description(path: Path) -> bool:
-    """Return whether a file is a URDF, or an MJCF by its root element."""
+    """Return whether a file is a URDF, also as xacro, or an MJCF by its root element.
+
+    Of xacro files those called ``*.urdf.xacro``: others hold macros for them.
+    """
     suffix = path.suffix.lower()
-    return suffix == ".urdf" or (suffix == ".xml" and _root_tag(path) == "mujoco")
+    return (
+        suffix == ".urdf"
+        or path.name.lower().endswith(".urdf.xacro")
+        or (suffix == ".xml" and _root_tag(path) == "mujoco")
+    )
 
 
 def links_out(paths: Sequence[Path]) -> tuple[Path, ...]:
@@ -75,6 +83,7 @@ def _inputs_below(folder: Path) -> Iterator[Path]:
     real = folder.resolve()
     references = References(folder)
     owned: set[Path] = set()
+    found: list[tuple[Path, list[Path], list[Path]]] = []
     for current, subfolders, names in os.walk(folder):
         here = Path(current)
         there = frozenset(subfolders)
@@ -88,15 +97,20 @@ def _inputs_below(folder: Path) -> Iterator[Path]:
         named: set[str] = set()
         stems = {c.stem for c in candidates}
         for description in descriptions:
+            package = Roots(description, OWN_PACKAGE).package
             for reference in references.of(description):
                 stem, inner = _taken(reference, there)
+                owned |= _taken_elsewhere(reference, here, package)
                 # Names are kept of what is there: a hostile file may name anything.
                 named |= {stem} & stems
                 owned |= {here / inner} if inner else set()
         stages = [c for c in candidates if _is_main_layer(c)]
+        meshes = [c for c in candidates if is_mesh(c) and c.stem not in named]
+        found.append((here, [*descriptions, *stages[:1]], meshes))
+    for here, main, meshes in found:
         below = not owned.isdisjoint((here, *here.parents))
-        meshes = [c for c in candidates if is_mesh(c) and not (below or c.stem in named)]
-        yield from sorted([*descriptions, *stages[:1], *meshes])
+        alone = [c for c in meshes if not below and c.with_suffix("") not in owned]
+        yield from sorted([*main, *alone])
 
 
 def _is_main_layer(path: Path) -> bool:
@@ -113,6 +127,29 @@ def _taken(reference: str, subfolders: frozenset[str]) -> tuple[str, str]:
     # A package's name comes before the folders that are there.
     inner = next((word for word in words[:-1] if word in subfolders or word == ".."), "")
     return os.path.splitext(words[-1])[0], "" if inner == ".." else inner
+
+
+def _taken_elsewhere(reference: str, here: Path, package: Path | None) -> set[Path]:
+    """Return what lies beside a description's folder and belongs to it: a folder, or a file's stem.
+
+    Args:
+        reference: of a file.
+        here: the description's folder.
+        package: the root of its package, links followed.
+    """
+    scheme, _, rest = reference.replace("\\", "/").rpartition("://")
+    words = [word for word in rest.split("/") if word not in ("", ".")]
+    up = words.count("..")
+    if scheme.lower() in PACKAGED and package is not None:
+        inner = words[1:]
+        base = Path(os.path.normpath(here / os.path.relpath(package, here.resolve())))
+    elif up and words[up - 1] == "..":
+        inner = words[up:]
+        base = Path(os.path.normpath(here / "/".join(words[:up])))
+    else:
+        return set()
+    taken = [base / word for word in inner[:1]]
+    return set(taken if len(inner) > 1 else [place.with_suffix("") for place in taken])
 
 
 def _root_tag(path: Path) -> str | None:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from asset_factory.sim_checks.read.usd.layers import SUFFIXES as USD_SUFFIXES
 from asset_factory.sim_checks.read.usd.layers import is_usd
+from asset_factory.sim_checks.read.xacro import SUFFIX as XACRO
 
 from ..config import IntakeConfig
 from ..runtime.keys import Stage
@@ -19,17 +20,17 @@ LOAD = Stage(
     "load",
     code=(__name__,),
     settings=("intake",),
-    libraries=("numpy", "scipy", "trimesh", "manifold3d", "pillow", "mujoco"),
+    libraries=("numpy", "scipy", "trimesh", "manifold3d", "pillow", "mujoco", "xacro"),
     data=("categories.toml",),
 )
-DESCRIPTION_SUFFIXES = frozenset({".urdf", ".xml"}) | USD_SUFFIXES
+DESCRIPTION_SUFFIXES = frozenset({".urdf", ".xml", XACRO}) | USD_SUFFIXES
 
 
 def load(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> Intake:
     """Load one input.
 
     Args:
-        path: a mesh file, a URDF, an MJCF, or a USD layer.
+        path: a mesh file, a URDF, also as xacro, an MJCF, or a USD layer.
         config: up axis, size and limits.
         log: of the files that are read; filled also where it raises.
 

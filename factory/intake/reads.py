@@ -73,8 +73,11 @@ def digest_now(source: Path, name: str) -> str:
 
 
 def leads_out(source: Path, name: str) -> bool:
-    """Return whether a file of an input is a link to outside its folder; arguments as above."""
-    if name == source.name:
+    """Return whether a file of an input is a link to outside its folder; arguments as above.
+
+    What lies in the folder of another root was allowed by its path.
+    """
+    if name == source.name or name.startswith(".."):
         return False
     real = Path(os.path.realpath(source.parent / name))
     return not real.is_relative_to(os.path.realpath(source.parent))

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..articulation import Articulation, Joint, JointKind
+from ..geometry.coupling import with_common_ranges
 from ..geometry.welding import welded
 from .hinges import at_front_edge
 from .lying import lying_on
@@ -104,7 +105,8 @@ def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
             upper=plan.upper.get(joint.name, joint.upper),
         )
 
-    return replace(articulation, joints=tuple(changed(joint) for joint in articulation.joints))
+    joints = with_common_ranges([changed(joint) for joint in articulation.joints])
+    return replace(articulation, joints=joints)
 
 
 def dispensable_joints(articulation: Articulation, share: float) -> Spare:

@@ -32,7 +32,7 @@ def relative_poses(
         quarters = joint.range / (np.pi / 2.0) if joint.turns else 1.0
         steps = int(np.ceil((count - 1) * min(max(quarters, 1.0), MOST_QUARTERS)))
         values += [
-            {**lower, joint.name: float(q)}
+            {**lower, **articulation.together(joint, float(q))}
             for q in np.linspace(joint.lower, joint.lower + share * joint.range, steps + 1)[1:]
         ]
     # Of these two alone: a keyboard has a hundred parts, each of which asks about all others.

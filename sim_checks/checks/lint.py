@@ -11,6 +11,7 @@ from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine, Link
 from ..geometry.kinematics import MOVING_KINDS, NotATree, build_tree
 from ..report import Finding, Severity
+from .lint_exempt import exempt_findings
 from .lint_inertia import inertia_findings, missing_inertia_findings
 from .lint_mimic import mimic_findings
 from .lint_ranges import range_findings
@@ -38,6 +39,7 @@ def check_lint(description: Description, config: LintConfig) -> CheckResult:
     findings.extend(range_findings(description, config))
     findings.extend(resistance_findings(description, config))
     findings.extend(mimic_findings(description))
+    findings.extend(exempt_findings(description))
     findings.extend(missing_inertia_findings(description))
     links: list[dict[str, Any]] = []
     downs = _downs(description)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path, PurePosixPath
 
@@ -21,6 +21,10 @@ MAX_DOCUMENT_BYTES = 64 * 2**20
 MAX_ITEMS = 1_000_000
 #: Folders of a package's path that are tried.
 MAX_DEPTH = 32
+#: Schemes of references that begin with a package's name.
+PACKAGED = ("package", "model")
+#: What helps where a file may not be read.
+REMEDY = "--root DIR lets another folder be read, --allow-outside any"
 
 
 def parse_document(path: Path, most: int = MAX_DOCUMENT_BYTES) -> ET.Element:
@@ -120,25 +124,34 @@ def locate(reference: str, folder: Path) -> list[Path]:
     Raises:
         DescriptionError: ``outside_folder``.
     """
+    refuse_address(reference)
     scheme, _, rest = reference.rpartition("://")
-    if scheme.lower() in ("package", "model"):
+    if scheme.lower() in PACKAGED:
         parts = PurePosixPath(rest).parts
         places = [
             folder.joinpath(*parts[start:])
             for start in range(max(0, len(parts) - MAX_DEPTH), len(parts))
         ]
-    elif scheme.lower() in ("", "file"):
-        places = [folder / (rest if scheme else reference).replace("\\", "/")]
     else:
-        raise DescriptionError(
-            "outside_folder",
-            f"{reference[:160]!r} is an address; only files beside the description are read",
-        )
+        places = [folder / rest.replace("\\", "/")]
     within = [place for place in places if inside(place, folder)]
     if not within:
-        message = f"{reference[:160]!r} leaves the description's folder; copy it inside"
-        raise DescriptionError("outside_folder", message, places)
+        raise outside_error(reference, places)
     return within
+
+
+def refuse_address(reference: str) -> None:
+    """Refuse a reference that names no file. Raises DescriptionError ``outside_folder``."""
+    scheme = reference.rpartition("://")[0].lower()
+    if scheme not in ("", "file", *PACKAGED):
+        message = f"{reference[:160]!r} is an address; only files on this machine are read"
+        raise DescriptionError("outside_folder", message)
+
+
+def outside_error(reference: str, places: Sequence[Path]) -> DescriptionError:
+    """Return the refusal of a reference that leads to where nothing may be read."""
+    message = f"{reference[:160]!r} leads out of the folders that may be read; {REMEDY}"
+    return DescriptionError("outside_folder", message, places)
 
 
 def is_file(place: Path) -> bool:

@@ -15,11 +15,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..description import DescriptionError, FloatArray, IntArray, LinkInertia
+from .mjcf_lenient import compile_leniently
 from .multiplied import MOST
 from .native import COMPILER_BYTES, memory_bounded
 
 if TYPE_CHECKING:
-    from mujoco import MjModel, MjSpec
+    from mujoco import MjModel
 
 MESH = "mesh"
 
@@ -162,6 +163,7 @@ class CompiledModel:
     Attributes:
         excluded: pairs of bodies that the file forbids to collide.
         others: how many things there are that no other field tells, by MuJoCo's name.
+        meant: joints whose range the file states and switches off; a lenient reader takes it.
     """
 
     bodies: tuple[CompiledBody, ...]
@@ -172,6 +174,7 @@ class CompiledModel:
     equalities: tuple[CompiledEquality, ...]
     excluded: tuple[tuple[int, int], ...]
     others: tuple[tuple[str, int], ...]
+    meant: tuple[str, ...] = ()
 
 
 def compile_model(path: Path, *, lenient: bool = False) -> CompiledModel:
@@ -193,7 +196,11 @@ def compile_model(path: Path, *, lenient: bool = False) -> CompiledModel:
     mujoco.mj_clearCache(mujoco.mj_getCache())
     try:
         with memory_bounded(COMPILER_BYTES):
-            model = _compile_leniently(main) if lenient else mujoco.MjModel.from_xml_path(main)
+            meant: tuple[str, ...] = ()
+            if lenient:
+                model, meant = compile_leniently(main)
+            else:
+                model = mujoco.MjModel.from_xml_path(main)
     except MemoryError as error:
         raise DescriptionError("too_large", f"{path.name}: {error}") from error
     except (ValueError, RuntimeError, mujoco.FatalError) as error:
@@ -210,36 +217,12 @@ def compile_model(path: Path, *, lenient: bool = False) -> CompiledModel:
         equalities=tuple(_equality(model, i) for i in range(model.neq)),
         excluded=tuple(divmod(int(pair), 1 << 16) for pair in model.exclude_signature),
         others=(("tendon", model.ntendon), ("flex", model.nflex), ("skin", model.nskin)),
+        meant=meant,
     )
 
 
 def _say(words: str) -> None:
     os.write(2, f"MuJoCo: {words}\n".encode())
-
-
-def _compile_leniently(path: str) -> MjModel:
-    import mujoco
-
-    try:
-        return _undiscarding(path).compile()
-    except ValueError:
-        # A body too thin for MuJoCo's own masses is no reason to refuse its shape.
-        spec = _undiscarding(path)
-        spec.compiler.boundmass = 1e-3
-        spec.compiler.boundinertia = 1e-6
-        spec.compiler.balanceinertia = True
-        for mesh in spec.meshes:
-            mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
-        return spec.compile()
-
-
-def _undiscarding(path: str) -> MjSpec:
-    import mujoco
-
-    spec = mujoco.MjSpec.from_file(path)
-    spec.compiler.discardvisual = False
-    spec.compiler.fusestatic = False
-    return spec
 
 
 def _refuse_many(name: str, model: MjModel) -> None:

@@ -10,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 
 from ..description import DescriptionError
-from .document import parse_document
+from .document import inside, parse_document
 from .references import MujocoModel, read_model
 
 #: A line of text can make a million. Copies are elements that stand in a ``replicate``, or in a
@@ -33,7 +33,7 @@ def refuse_multiplied(path: Path, document: ET.Element) -> None:
         DescriptionError: ``too_large``, or what is wrong with an inner document.
     """
     folder = path.parent.resolve()
-    model = read_model(folder / path.name, document, folder)
+    model = read_model(folder / path.name, document, lambda place: inside(place, folder))
     counts = _ElementCount(model, {}).all
     for what, most in MOST.items():
         if counts[what] > most:
@@ -110,7 +110,7 @@ class _ElementCount:
     def _of_model(self, file: Path) -> Counter[str]:
         if file not in self._attached:
             self._attached[file] = Counter()
-            model = read_model(file, parse_document(file), self._model.folder)
+            model = read_model(file, parse_document(file), self._model.allows)
             self._attached[file] = _ElementCount(model, self._attached).all
         return self._attached[file]
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..description import DescriptionError
-from .document import inside, is_file, locate, parse_document
+from .document import inside, is_file, locate, outside_error, parse_document, refuse_address
 from .meshes import MAX_MESH_BYTES
 from .regular import read_regular
 
@@ -27,6 +27,8 @@ DOCUMENTS = ("include", "model")
 
 #: Returns the root element of a document.
 Parser = Callable[[Path], ET.Element]
+#: Tells whether a path, every link in it followed, may be opened.
+Allows = Callable[[Path], bool]
 
 
 @dataclass(frozen=True)
@@ -49,12 +51,12 @@ class MujocoModel:
     """A main file and what it includes, which share one set of folders.
 
     Attributes:
-        folder: nothing outside is opened, a resolved path.
-        base: the main file's own.
+        allows: tells whether a path may be opened.
+        base: the main file's own folder.
         documents: path and root element, the main file first.
     """
 
-    folder: Path
+    allows: Allows
     base: Path
     documents: tuple[tuple[Path, ET.Element], ...]
 
@@ -81,7 +83,7 @@ class MujocoModel:
     def inner(self, element: ET.Element, document: Path) -> tuple[Path, ...]:
         """Return the documents that an element of :data:`DOCUMENTS` may mean, of those there."""
         places = self.places(element, "file", document) if element.get("file") else []
-        return _found([place for place in places if inside(place, self.folder)])
+        return found([place for place in places if self.allows(place)])
 
 
 def _plain(reference: str) -> str:
@@ -103,42 +105,46 @@ def named_files(
             other; and whatever is wrong with an inner document.
     """
     folder = path.parent.resolve()
-    walk = _Walk(folder, parse)
+    walk = ModelWalk(lambda place: inside(place, folder), parse)
     walk.follow(folder / path.name, document)
     return tuple(walk.named)
 
 
-def read_model(path: Path, document: ET.Element, folder: Path) -> MujocoModel:
+def read_model(path: Path, document: ET.Element, allows: Allows) -> MujocoModel:
     """Read what a model's main file includes.
 
     Args:
         path: of the main file.
         document: its root element.
-        folder: nothing outside is opened, a resolved path.
+        allows: tells whether a path may be opened.
 
     Raises:
         DescriptionError: as :func:`named_files`.
     """
-    return _Walk(folder, parse_document).model(path, document)
+    return ModelWalk(allows).model(path, document)
 
 
-class _Walk:
+class ModelWalk:
     """Follows an MJCF into the documents that it includes and attaches.
+
+    Args:
+        allows: tells whether a path may be opened; whatever leads elsewhere is refused.
+        parse: reads an inner document.
 
     Attributes:
         named: every file that was named so far.
     """
 
-    def __init__(self, folder: Path, parse: Parser) -> None:
-        self._folder = folder
-        self._parse = parse
+    def __init__(self, allows: Allows, parse: Parser = parse_document) -> None:
+        self._allows = allows
+        self.parse = parse
         self._left = MOST_DOCUMENTS
         self.named: list[NamedFile] = []
 
     def model(self, path: Path, document: ET.Element, above: tuple[Path, ...] = ()) -> MujocoModel:
         """Return a main file, nested in the documents ``above``, with all that it includes."""
         documents = tuple(self._with_included(path, document, path.parent, above))
-        return MujocoModel(self._folder, path.parent, documents)
+        return MujocoModel(self._allows, path.parent, documents)
 
     def follow(self, path: Path, document: ET.Element, above: tuple[Path, ...] = ()) -> None:
         """Note the files of a model and of those that it attaches."""
@@ -151,7 +157,7 @@ class _Walk:
         for at, root in model.documents:
             for element in root.iter("model"):
                 for inner in model.inner(element, at):
-                    self.follow(inner, self._parse(inner), _nested(inner, (*above, path)))
+                    self.follow(inner, self.parse(inner), nested(inner, (*above, path)))
 
     def _with_included(
         self, path: Path, document: ET.Element, base: Path, above: tuple[Path, ...]
@@ -165,32 +171,31 @@ class _Walk:
             )
             raise DescriptionError("nested_too_deep", message)
         yield path, document
-        model = MujocoModel(self._folder, base, ())
+        model = MujocoModel(self._allows, base, ())
         for element in document.iter("include"):
             for inner in self._note(element, "file", model.places(element, "file", path)):
-                chain = _nested(inner, (*above, path))
-                yield from self._with_included(inner, self._parse(inner), base, chain)
+                chain = nested(inner, (*above, path))
+                yield from self._with_included(inner, self.parse(inner), base, chain)
 
     def _note(self, element: ET.Element, key: str, places: Sequence[Path]) -> tuple[Path, ...]:
         """Return the files that an element may mean, of those there; refuse what leads out."""
         reference = element.get(key, "")
         if not reference:
             return ()
-        if "://" in reference:
-            locate(reference, self._folder)
-        outside = [place for place in places if not inside(place, self._folder)]
+        refuse_address(reference)
+        outside = [place for place in places if not self._allows(place)]
         # Which rule it goes by depends on its version: a place it might look at counts where
         # something lies there.
         if places[0] in outside or any(_exists(place) for place in outside):
-            message = f"{reference[:160]!r} leaves the description's folder; copy it inside"
-            raise DescriptionError("outside_folder", message, outside)
+            raise outside_error(reference, outside)
         within = tuple(place for place in places if place not in outside)
-        files = _found(within)
+        files = found(within)
         self.named.append(NamedFile(f"<{element.tag}> {reference[:160]!r}", within, files))
         return files
 
 
-def _found(places: Sequence[Path]) -> tuple[Path, ...]:
+def found(places: Sequence[Path]) -> tuple[Path, ...]:
+    """Return those of some places where a file lies, links followed, each once."""
     return tuple(dict.fromkeys(place.resolve() for place in places if is_file(place)))
 
 
@@ -201,7 +206,8 @@ def _exists(place: Path) -> bool:
     return False
 
 
-def _nested(inner: Path, chain: tuple[Path, ...]) -> tuple[Path, ...]:
+def nested(inner: Path, chain: tuple[Path, ...]) -> tuple[Path, ...]:
+    """Return the documents that hold an inner one. Raises DescriptionError ``nested_too_deep``."""
     if inner in chain:
         raise DescriptionError(
             "nested_too_deep", f"{inner.name} is nested in itself; want documents that end"
@@ -228,9 +234,7 @@ def refuse_outside_urdf(path: Path, document: ET.Element) -> None:
             locate(reference, folder)
     beside = path.with_suffix(".srdf")
     if beside.exists() and not inside(beside, folder):
-        raise DescriptionError(
-            "outside_folder", f"{beside.name} leaves the description's folder; copy it inside"
-        )
+        raise outside_error(beside.name, (beside,))
 
 
 #: How mesh files name others, by suffix: materials, and their pictures.
@@ -241,7 +245,7 @@ _NAMED = {
         re.MULTILINE | re.IGNORECASE,
     ),
     ".dae": re.compile(rb"<(?:\w+:)?(?:init_from|ref)>([^<]+)<"),
-    ".glb": re.compile(rb'"uri"\s*:\s*"((?!data:)[^"]+)"'),
+    **dict.fromkeys((".glb", ".gltf"), re.compile(rb'"uri"\s*:\s*"((?!data:)[^"]+)"')),
     ".ply": re.compile(rb"^comment[ \t]+TextureFile[ \t]+([^\r\n]+)", re.MULTILINE),
 }
 
@@ -252,22 +256,30 @@ def refuse_outside_mesh(path: Path, folder: Path) -> None:
     Raises:
         DescriptionError: ``outside_folder``.
     """
-    pattern = _NAMED.get(path.suffix.lower())
-    if pattern is None:
+    if path.suffix.lower() not in _NAMED:
         return
     try:
         data = read_regular(path, MAX_MESH_BYTES)
     except OSError as error:
         message = f"{path.name}: cannot be read: {error.strerror}"
         raise DescriptionError("unreadable_mesh", message) from error
-    for match in pattern.finditer(data):
+    for name in named_in_mesh(path, data):
+        place = path.parent / name
+        if not inside(place, folder):
+            raise DescriptionError(
+                "outside_folder", f"{path.name} names {name!r} outside the description's folder"
+            )
+        if path.suffix.lower() == ".obj" and place.suffix.lower() == ".mtl" and place.is_file():
+            refuse_outside_mesh(place.resolve(), folder)
+
+
+def named_in_mesh(path: Path, data: bytes) -> Iterator[str]:
+    """Yield the names of materials and pictures in a mesh file's content.
+
+    Options may stand before a picture's name, and a name may hold spaces.
+    """
+    pattern = _NAMED.get(path.suffix.lower())
+    for match in pattern.finditer(data) if pattern else ():
         words = match.group(1).decode("utf-8", "replace").strip().replace("\\", "/")
-        # Options may stand before a picture's name, and a name may hold spaces.
         for name in dict.fromkeys((words, words.split()[-1] if words else "")):
-            place = path.parent / name.removeprefix("file://")
-            if not inside(place, folder):
-                raise DescriptionError(
-                    "outside_folder", f"{path.name} names {name!r} outside the description's folder"
-                )
-            if path.suffix.lower() == ".obj" and place.suffix.lower() == ".mtl" and place.is_file():
-                refuse_outside_mesh(place.resolve(), folder)
+            yield name.removeprefix("file://")

@@ -24,6 +24,7 @@ from .document import find_file, parse_document
 from .meshes import read_mesh
 from .primitives import box, capsule, cylinder, ellipsoid
 from .references import refuse_outside_mesh, refuse_outside_urdf
+from .srdf import exempt_pairs
 from .urdf_elements import STRICT, number, read_mimic
 
 #: Of all shapes of one file together.
@@ -73,7 +74,9 @@ def read_urdf(path: Path) -> Description:
     joints = tuple(STRICT.joint(element) for element in robot.findall("joint"))
     if not links:
         raise DescriptionError("no_links", f"{path.name}: <robot> holds no <link>")
-    return Description(path, "urdf", links, joints)
+    names = {link.name for link in links}
+    exempt = frozenset(pair for pair in exempt_pairs(path) if pair <= names)
+    return Description(path, "urdf", links, joints, exempt)
 
 
 def read_mimics(path: Path) -> dict[str, Mimic | None]:

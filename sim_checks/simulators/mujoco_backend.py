@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ import numpy as np
 from ..config import MotionConfig
 from ..description import FloatArray, Mimic
 from ..read.read import format_of
+from ..read.srdf import exempt_pairs
 from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch
 from .twin import write_twin
 
@@ -33,8 +35,8 @@ class MujocoSimulator:
         ),
         "joint friction is soft: what it holds creeps, and a URDF cannot say how little it should",
         "pairs that an MJCF file exempts by <exclude>, "
-        "contype or conaffinity pass through each other, and so do links "
-        "fixed to one another",
+        "contype or conaffinity, or the SRDF beside a URDF, pass through each other, "
+        "and so do links fixed to one another",
     )
 
     def open(self, path: Path, config: MotionConfig) -> MujocoWorld:
@@ -51,6 +53,7 @@ class MujocoSimulator:
             try:
                 spec = mujoco.MjSpec.from_file(str(source))
                 _fix_base(spec, mujoco)
+                _exempt(spec, exempt_pairs(path) if is_urdf else ())
                 model = spec.compile()
             except (ValueError, RuntimeError) as error:
                 raise ValueError(str(error)) from error
@@ -69,6 +72,13 @@ class MujocoSimulator:
 
 def _say(words: str) -> None:
     os.write(2, f"MuJoCo: {words}\n".encode())
+
+
+def _exempt(spec: Any, pairs: Iterable[frozenset[str]]) -> None:
+    """Let links of a URDF pass through each other that its SRDF exempts, which MuJoCo reads not."""
+    for one, other in sorted(map(sorted, pairs)):
+        if spec.body(one) is not None and spec.body(other) is not None:
+            spec.add_exclude(bodyname1=one, bodyname2=other)
 
 
 def _fix_base(spec: Any, mujoco: Any) -> None:

@@ -14,6 +14,7 @@ import numpy as np
 from ..config import MotionConfig
 from ..description import FloatArray, Mimic
 from ..geometry.coupling import sound_chains
+from ..read.srdf import exempt_pairs
 from ..read.urdf import read_mimics
 from .pybullet_dynamics import Dynamics
 from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch
@@ -47,7 +48,7 @@ class PybulletSimulator:
             "a drawer wider than its bay still slides"
         ),
         "Bullet holds the base as a static body: its mass and inertia are not compared",
-        "Bullet reads no list of exempt pairs: links that an SRDF file exempts touch all the same",
+        "Bullet reads no list of exempt pairs: those of the SRDF beside a URDF are made so here",
         (
             "Bullet reads no <mimic>: joints that follow others are coupled by gears here, "
             "as whoever simulates must do"
@@ -85,7 +86,7 @@ class PybulletSimulator:
             except pybullet.error as error:
                 pybullet.disconnect(client)
                 raise ValueError(str(error).replace(str(folder), "").strip()) from error
-        return PybulletWorld(pybullet, client, body, config, mimics)
+        return PybulletWorld(pybullet, client, body, config, mimics, exempt_pairs(path))
 
 
 class PybulletWorld:
@@ -98,6 +99,7 @@ class PybulletWorld:
         body: int,
         config: MotionConfig,
         mimics: Mapping[str, Mimic],
+        exempt: frozenset[frozenset[str]],
     ) -> None:
         self._bullet = pybullet
         self._client = {"physicsClientId": client}
@@ -116,7 +118,12 @@ class PybulletWorld:
             joint.following(mimics.get(joint.name), forced_by_judge=True) for joint in free
         )
         self._couple()
-        rules = PairRules(config.parents_touch, static_parent=config.parents_touch, others=True)
+        rules = PairRules(
+            config.parents_touch,
+            static_parent=config.parents_touch,
+            others=True,
+            excluded=self._let_pass(exempt),
+        )
         self.model = LoadedModel(tuple(self._link(i) for i in self._names), self.joints, (), rules)
         beyond = [[k for k in self._names if self._is_beyond(k, i)] for i in self._ids]
         self.carried = tuple(frozenset(self._names[k] for k in group) for group in beyond)
@@ -229,6 +236,16 @@ class PybulletWorld:
     def close(self) -> None:
         """Disconnect; the one setting that outlives a connection goes back to Bullet's own."""
         self._end()
+
+    def _let_pass(self, exempt: frozenset[frozenset[str]]) -> tuple[tuple[str, str], ...]:
+        """Have pairs of links pass through each other; returns those that are there."""
+        ids = {name: index for index, name in self._names.items()}
+        pairs = tuple((a, b) for a, b in sorted(map(sorted, exempt)) if a in ids and b in ids)
+        for a, b in pairs:
+            self._bullet.setCollisionFilterPair(
+                self._body, self._body, ids[a], ids[b], 0, **self._client
+            )
+        return pairs
 
     def _couple(self) -> None:
         """Couple joints by Bullet's gears between joints of one body.

@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
+
+from asset_factory.sim_checks.description import DescriptionError
+from asset_factory.sim_checks.read.gather import gather
+from asset_factory.sim_checks.read.roots import ReadOptions, Roots
 
 from ...config import IntakeConfig
 from ...errors import InputRejected
@@ -19,7 +26,7 @@ from ..limits import require_sensible_size
 from ..naming import safe_name, well_formed
 from ..orientation import rotation_to_z_up
 from ..placing import check_config, given_scale, given_up
-from ..reads import ReadLog
+from ..reads import ReadLog, content_digest
 from ..rejecting import rejecting
 from ..sidecar import Sidecar, read_sidecar
 from ..sizes import Scale, guess_category, normalised, scale_by_size
@@ -37,7 +44,7 @@ def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = Non
     frame, which differs only where an option or a sidecar says so.
 
     Args:
-        path: a URDF or MJCF file; everything it refers to lies in or below its folder.
+        path: a URDF or MJCF file; what it refers to lies in its folder, its package or a root.
         config: up axis, height and limits.
         log: of the files that are read.
 
@@ -97,6 +104,30 @@ def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = Non
 
 
 def _imported(path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
+    """Read a description, or a copy of it beside all that it refers to."""
+    roots = tuple(map(Path, (*config.roots, *config.given)))
+    options = ReadOptions(roots, config.allow_outside, config.arguments)
+    with TemporaryDirectory() as folder:
+        with rejecting(path.name, path.parent, log):
+            try:
+                gathered = gather(path, Path(folder), options)
+            except DescriptionError:
+                _note(Roots(path, options).looked, log)
+                raise
+        if gathered.path == path:
+            return _imported_from(path, config, log)
+        _note((path, *gathered.files, *Roots(path, options).looked), log)
+        imported = _imported_from(gathered.path, config, ReadLog())
+    told = (finding.message for finding in gathered.findings)
+    return replace(imported, notes=(*told, *imported.notes))
+
+
+def _note(places: Iterable[Path], log: ReadLog) -> None:
+    for place in places:
+        log.note(place, content_digest(place))
+
+
+def _imported_from(path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
     root = read_xml(path, config.max_bytes, log)
     with rejecting(path.name, path.parent, log), np.errstate(all="ignore"):
         if root.tag == "robot":

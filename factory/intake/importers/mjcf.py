@@ -6,14 +6,14 @@ The format: https://mujoco.readthedocs.io/en/stable/XMLreference.html.
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 
-from asset_factory.sim_checks.description import DescriptionError
+from asset_factory.sim_checks.description import DescriptionError, Mimic
 from asset_factory.sim_checks.read.mjcf_model import (
     CompiledGeom,
     CompiledJoint,
@@ -108,14 +108,10 @@ def _world_poses(model: CompiledModel) -> list[FloatArray]:
 def _notes(model: CompiledModel) -> Iterator[str]:
     """Yield what the file says and the import ignores."""
     for equality in model.equalities:
-        if equality.kind == "joint":
-            follower = model.joints[equality.joints[0]].name
-            yield (
-                f"joint {follower!r} is coupled by an equality in the file; "
-                "that is ignored, it moves freely"
-            )
-        else:
+        if equality.kind != "joint" or equality.joints[1] < 0 or not equality.active:
             yield f"a {equality.kind} equality in the file is ignored"
+    for name in model.meant:
+        yield f"joint {name!r} has a range that the file switches off; it is taken as its limits"
     for what, count in model.others:
         if count:
             yield f"the file has {count} {what}(s), which are ignored"
@@ -206,11 +202,12 @@ def _jointed(
     """Return part names, bodies first and then carriers, and joints."""
     names = [_body_name(model, body) for body in range(len(model.bodies))]
     joints: list[AnnotatedJoint] = []
+    labels: dict[int, str] = {}
     for body in range(1, len(model.bodies)):
         parent = model.bodies[body].parent
-        own = [model.joints[index] for index in model.bodies[body].joints]
-        moving = [joint for joint in own if joint.kind in KINDS]
-        for joint in own:
+        own = model.bodies[body].joints
+        moving = [index for index in own if model.joints[index].kind in KINDS]
+        for joint in (model.joints[index] for index in own):
             if joint.kind == "ball":
                 raise InputRejected(
                     "unsupported_joint",
@@ -221,14 +218,32 @@ def _jointed(
                 notes.append(f"body {names[body]!r} floats freely in the file; it is held fixed")
         if not moving:
             joints.append(fixed(f"{names[body]}_fixed", parent, body))
-        for index, joint in enumerate(moving):
-            child = body if index == len(moving) - 1 else len(names)
+        for place, index in enumerate(moving):
+            joint = model.joints[index]
+            child = body if index == moving[-1] else len(names)
             if child != body:
                 names.append(f"{names[body]}_carrier")
-            label = joint.name or f"{names[body]}_joint" + (f"_{index}" if len(moving) > 1 else "")
+            label = joint.name or f"{names[body]}_joint" + (f"_{place}" if len(moving) > 1 else "")
+            labels[index] = label
             joints.append(_annotated(joint, label, parent, child, poses[body]))
             parent = child
-    return tuple(names), tuple(joints)
+    mimics = _mimics(model, labels)
+    return tuple(names), tuple(replace(j, mimic=mimics.get(j.name)) for j in joints)
+
+
+def _mimics(model: CompiledModel, labels: Mapping[int, str]) -> dict[str, Mimic]:
+    """Return follower -> what it follows, constant and linear part; values count from references.
+
+    Args:
+        model: with joint equalities.
+        labels: names of its moving joints by index.
+    """
+    found: dict[str, Mimic] = {}
+    for equality in model.equalities:
+        if equality.kind == "joint" and equality.active and set(equality.joints) <= set(labels):
+            follower, leader = (labels[index] for index in equality.joints)
+            found.setdefault(follower, Mimic(leader, equality.linear, equality.constant))
+    return found
 
 
 def _annotated(

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from collections import Counter
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 
-from asset_factory.sim_checks.description import FloatArray, JointLine
+from asset_factory.sim_checks.description import DescriptionError, FloatArray, JointLine, Mimic
 from asset_factory.sim_checks.geometry.kinematics import MOVING_KINDS
-from asset_factory.sim_checks.read.urdf_elements import LENIENT
+from asset_factory.sim_checks.read.urdf_elements import LENIENT, read_mimic
 
 from ...config import IntakeConfig
 from ...errors import InputRejected
@@ -75,7 +76,7 @@ def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLo
         pieces=tuple(pieces),
         part_names=names,
         joints=tuple(
-            _annotated(joint, part_of, poses[joint.child], element.find("dynamics"))
+            _annotated(joint, part_of, poses[joint.child], element)
             for joint, element in zip(joints, robot.findall("joint"), strict=True)
         ),
         digests=(digest_file(path), *(v.digest for v in reader.visuals), palette.digest),
@@ -175,11 +176,9 @@ def _choose_shapes(
 def _notes(robot: ET.Element, joints: list[JointLine]) -> list[str]:
     notes = []
     for element in robot.findall("joint"):
-        mimic = element.find("mimic")
-        if mimic is not None:
+        if element.find("mimic") is not None and _mimic(element) is None:
             notes.append(
-                f"joint {element.get('name')!r} mimics {mimic.get('joint')!r} in the file; "
-                "the mimic is ignored, it moves freely"
+                f"joint {element.get('name')!r}: its mimic cannot be read; it moves freely"
             )
     notes += [
         f"joint {j.name!r} is floating in the file; its link is held fixed"
@@ -197,8 +196,9 @@ def _notes(robot: ET.Element, joints: list[JointLine]) -> list[str]:
 
 
 def _annotated(
-    joint: JointLine, part_of: dict[str, int], frame: FloatArray, dynamics: ET.Element | None
+    joint: JointLine, part_of: dict[str, int], frame: FloatArray, element: ET.Element
 ) -> AnnotatedJoint:
+    dynamics = element.find("dynamics")
     return AnnotatedJoint(
         name=joint.name,
         kind=joint.kind if joint.kind in MOVING_KINDS else "fixed",
@@ -210,7 +210,15 @@ def _annotated(
         upper=joint.upper,
         damping=_number(dynamics, "damping"),
         friction=_number(dynamics, "friction"),
+        mimic=_mimic(element),
     )
+
+
+def _mimic(element: ET.Element) -> Mimic | None:
+    """Return what a ``<joint>`` follows; one that cannot be read is as good as none."""
+    with suppress(DescriptionError):
+        return read_mimic(element.find("mimic"), "")
+    return None
 
 
 def _number(element: ET.Element | None, attribute: str) -> float | None:

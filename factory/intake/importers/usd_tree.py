@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from asset_factory.sim_checks.description import Mimic
 from asset_factory.sim_checks.read.usd.bodies import WORLD
 from asset_factory.sim_checks.read.usd.joints import PhysicsJoint
 from asset_factory.sim_checks.read.usd.stage import PhysicsStage
@@ -84,9 +85,8 @@ def _joint_at_pose(
             "unsupported_joint",
             f"joint {joint.name!r}: is a {joint.kind}; want a revolute, prismatic or fixed joint",
         )
-    poses = [stage.bodies[body].pose for body in joint.bodies]
-    first, second = (pose @ frame for pose, frame in zip(poses, joint.frames, strict=True))
-    at = _value_at_pose(joint, first, second) if joint.placed else 0.0
+    first = stage.bodies[joint.bodies[0]].pose @ joint.frames[0]
+    at = _authored_value(joint, stage)
     # A slide's limits are in the file's units, whatever the scale of its body.
     unit = float(np.cbrt(np.prod(stage.bodies[joint.bodies[0]].scale)))
     length = unit if joint.kind == "prismatic" else 1.0
@@ -101,7 +101,27 @@ def _joint_at_pose(
     if not (np.isfinite(axis).all() and np.isfinite(anchor).all()):
         raise unreadable(f"joint {joint.name!r}", "its frame is not finite")
     parent, child = (index[body] for body in joint.bodies)
-    return AnnotatedJoint(joint.name, joint.kind, parent, child, axis, anchor, lower, upper)
+    made = AnnotatedJoint(joint.name, joint.kind, parent, child, axis, anchor, lower, upper)
+    return replace(made, mimic=_mimic_at_pose(joint, stage))
+
+
+def _mimic_at_pose(joint: PhysicsJoint, stage: PhysicsStage) -> Mimic | None:
+    """Return what a joint follows, values from the pose and in the file's units."""
+    mimic = joint.mimic
+    leader = next((j for j in stage.joints if mimic is not None and j.name == mimic.leader), None)
+    if mimic is None or leader is None:
+        return None
+    own, led = (_authored_value(each, stage) for each in (joint, leader))
+    unit, led_unit = (stage.metres if each.kind == "prismatic" else 1.0 for each in (joint, leader))
+    offset = (mimic.multiplier * led + mimic.offset - own) / unit
+    return Mimic(leader.name, mimic.multiplier * led_unit / unit, offset)
+
+
+def _authored_value(joint: PhysicsJoint, stage: PhysicsStage) -> float:
+    """Return the joint's value at the authored pose [rad] or [m], as far as the file tells."""
+    poses = [stage.bodies[body].pose for body in joint.bodies]
+    first, second = (pose @ frame for pose, frame in zip(poses, joint.frames, strict=True))
+    return _value_at_pose(joint, first, second) if joint.placed else 0.0
 
 
 def _value_at_pose(joint: PhysicsJoint, first: FloatArray, second: FloatArray) -> float:

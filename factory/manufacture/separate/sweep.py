@@ -39,7 +39,7 @@ def swept_m(
     moved = tried.carried(joint.child)
     closed = {each.name: each.lower for each in tried.movable_joints}
     poses = [
-        tried.poses({**closed, joint.name: float(value)})
+        tried.poses({**closed, **tried.together(joint, float(value))})
         for value in np.linspace(joint.lower, joint.upper, POSES)
     ]
     worst = 0.0

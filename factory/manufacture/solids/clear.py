@@ -47,7 +47,7 @@ def _relative(articulation: Articulation, a: int, b: int, count: int) -> list[Fl
     for joint in joints_between(articulation, a, b):
         share = np.linspace(0.0, 1.0, count)[1:] ** DENSER
         values = joint.lower + share * joint.range
-        poses += [{**closed, joint.name: float(value)} for value in values]
+        poses += [{**closed, **articulation.together(joint, float(value))} for value in values]
     found = [articulation.poses(values) for values in poses]
     return [np.asarray(np.linalg.inv(each[a]) @ each[b]) for each in found]
 

@@ -96,7 +96,7 @@ def _outlines(asset: Asset, joint: Joint, closed: dict[str, float]) -> list[Floa
     solids = [_solids(asset, part) for part in range(len(articulation.parts))]
     outlines: list[FloatArray] = []
     for value in np.linspace(joint.lower, joint.upper, STATIONS):
-        poses = articulation.poses({**closed, joint.name: float(value)})
+        poses = articulation.poses({**closed, **articulation.together(joint, float(value))})
         for part, pose in enumerate(poses):
             if part in moved or value == joint.lower:
                 outlines += [_outline(each @ pose[:2, :3].T + pose[:2, 3]) for each in solids[part]]

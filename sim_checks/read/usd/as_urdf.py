@@ -118,6 +118,10 @@ class _Urdf:
         ElementTree.SubElement(
             element, "dynamics", damping=f"{joint.damping:.9g}", friction=f"{joint.friction:.9g}"
         )
+        if joint.mimic is not None:
+            rate, offset = (f"{n:.9g}" for n in (joint.mimic.multiplier, joint.mimic.offset))
+            words = {"joint": joint.mimic.leader, "multiplier": rate, "offset": offset}
+            ElementTree.SubElement(element, "mimic", words)
         if joint.lower is not None and joint.upper is not None:
             ElementTree.SubElement(
                 element,

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from ...description import FloatArray
+from ...description import FloatArray, Mimic
 from .bodies import WORLD, PhysicsBody, rotation_of, split_scale
 from .prims import AXES, joint_kind
 
+#: The relationship by which a PhysX joint names its leader, of the axis that it is about.
+PHYSX_MIMIC = re.compile(r"physxMimicJoint:\w+:referenceJoint")
 PoseOf = Callable[[Any], FloatArray]
 
 
@@ -29,6 +32,7 @@ class PhysicsJoint:
         damping: [N m s/rad] or [N s/m].
         friction: [N m] or [N], where Newton's attribute states it.
         placed: whether the file states its frame on ``body1``.
+        mimic: the joint that it follows, by its prim's name, by Newton's or PhysX's attributes.
     """
 
     name: str
@@ -41,6 +45,7 @@ class PhysicsJoint:
     damping: float = 0.0
     friction: float = 0.0
     placed: bool = False
+    mimic: Mimic | None = None
 
 
 def read_joint(prim: Any, bodies: dict[str, PhysicsBody], pose_of: PoseOf) -> PhysicsJoint:
@@ -80,7 +85,38 @@ def read_joint(prim: Any, bodies: dict[str, PhysicsBody], pose_of: PoseOf) -> Ph
         _damping(prim, "angular" if turns else "linear", unit if turns else 1.0),
         _number(prim.GetAttribute("newton:friction")),
         bool(place.HasAuthoredValue() and turn.HasAuthoredValue()),
+        _mimic(prim, unit),
     )
+
+
+def _mimic(prim: Any, unit: float) -> Mimic | None:
+    """Return what a joint follows, of which one of its units is ``unit`` [rad] or [m].
+
+    Newton says ``joint = coef0 + coef1 leader``, PhysX ``joint + gearing leader + offset = 0``.
+    """
+    from pxr import UsdGeom
+
+    relation = prim.GetRelationship("newton:mimicJoint")
+    words = ("newton:mimicCoef1", "newton:mimicCoef0")
+    sign = 1.0
+    if not (relation and relation.HasAuthoredTargets()):
+        named = [r for r in prim.GetRelationships() if PHYSX_MIMIC.fullmatch(r.GetName())]
+        if not named:
+            return None
+        relation = named[0]
+        before = relation.GetName().removesuffix("referenceJoint")
+        words = (f"{before}gearing", f"{before}offset")
+        sign = -1.0
+    targets = relation.GetForwardedTargets()
+    leader = prim.GetStage().GetPrimAtPath(targets[0]) if targets else None
+    if leader is None or not leader:
+        return None
+    metres = float(UsdGeom.GetStageMetersPerUnit(prim.GetStage()))
+    led = np.pi / 180.0 if joint_kind(leader) == "revolute" else metres
+    multiplier = prim.GetAttribute(words[0])
+    said = float(multiplier.Get()) if multiplier and multiplier.HasAuthoredValue() else 1.0
+    constant = _number(prim.GetAttribute(words[1]))
+    return Mimic(str(leader.GetName()), sign * said * unit / led, sign * constant * unit)
 
 
 def _end(relation: Any, bodies: dict[str, PhysicsBody], pose_of: PoseOf) -> tuple[str, FloatArray]:

@@ -4,13 +4,20 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from asset_factory.factory.geometry.coupling import with_common_ranges
 from export_samples import PROVENANCE, box, boxes_asset, cabinet
 from format_readers import READERS, animated_glb, pxr_usd
 
+from asset_factory.factory.articulate.annotated import annotated_articulator, annotation_of
 from asset_factory.factory.articulation import Joint, JointKind
+from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.export.formats import FORMATS, formats_named
+from asset_factory.factory.export.manifest import Manifest
+from asset_factory.factory.intake.load import load
+from asset_factory.sim_checks import run_checks
+from asset_factory.sim_checks.description import Mimic
 
 ALL = tuple(each.name for each in FORMATS)
 SHARES = (0.0, 0.25, 0.5, 0.8, 1.0)
@@ -119,3 +126,35 @@ def test_only_what_is_asked_for_is_written(tmp_path):
 def test_an_unknown_format_is_named():
     with pytest.raises(ConfigError, match="no format 'obj'; there are urdf, mjcf, sdf, usd, glb"):
         formats_named(("obj",))
+
+
+def test_a_joint_that_follows_another_does_so_in_every_format_and_back(tmp_path):
+    mujoco = pytest.importorskip("mujoco")
+    asset = cabinet()
+    hinge, slide = asset.articulation.joints
+    slide = replace(slide, upper=0.4, mimic=Mimic("hinge", 0.25))
+    joints = with_common_ranges([hinge, slide])
+    asset = replace(asset, articulation=replace(asset.articulation, joints=joints))
+    export_bundle(asset, PROVENANCE, tmp_path / "out", formats=ALL)
+    for name in ("asset.urdf", "asset.xml", "asset.usd"):
+        intake = load(tmp_path / "out" / name, IntakeConfig())
+        annotation = annotation_of(intake)
+        assert annotation is not None
+        made = annotated_articulator(intake, annotation).articulate(intake.mesh)
+        mimic = made.joint("slide").mimic
+        assert mimic is not None, name
+        assert mimic.leader == "hinge"
+        assert mimic.multiplier == pytest.approx(0.25)
+        report = run_checks(tmp_path / "out" / name, ())
+        assert not [f for f in report.findings if f.code.startswith("mimic")]
+        assert len(report.measurements["penetration"]["joints"]) == 1
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "out" / "asset.xml"))
+    assert list(model.eq_data[0, :5]) == [0.0, 0.25, 0.0, 0.0, 0.0]
+    sdf = (tmp_path / "out" / "asset.sdf").read_text()
+    assert '<sdf version="1.11"' in sdf
+    assert '<mimic joint="hinge"><multiplier>0.25</multiplier>' in "".join(sdf.split("\n")).replace(
+        "  ", ""
+    )
+    manifest = Manifest.from_json((tmp_path / "out" / "asset.json").read_text())
+    assert manifest.movable["slide"].mimic == Mimic("hinge", 0.25)
+    assert '"mimic"' in (tmp_path / "out" / "asset.json").read_text()

@@ -221,3 +221,14 @@ def test_where_a_missing_file_was_looked_for_is_noted(tmp_path):
     reads = log.reads_of(path)
     assert reads["meshes/no.stl"] == ABSENT
     assert not any(name.startswith("..") for name in reads)
+
+
+def test_a_range_that_is_switched_off_is_taken_as_meant_and_a_note_says_so(tmp_path):
+    body = (
+        '<worldbody><geom type="sphere" size="1"/><body name="b" pos="0 0 2">'
+        '<joint name="j" type="hinge" axis="1 0 0" limited="false" range="0 90"/>'
+        '<geom type="sphere" size="0.5"/></body></worldbody>'
+    )
+    intake = load(tmp_path, body)
+    assert articulated(intake).joint("j").upper == pytest.approx(np.pi / 2.0)
+    assert any("'j' has a range that the file switches off" in n for n in intake.provenance.notes)

@@ -151,12 +151,26 @@ def test_repeated_inertials_and_visual_names_do_not_matter(tmp_path):
     assert len(lift(tmp_path, link("base", inertial * 2 + named * 2)).mesh.faces) == 24
 
 
-def test_a_mimicking_joint_moves_freely_and_a_note_says_so(tmp_path):
+def test_a_mimic_that_cannot_be_read_moves_freely_and_a_note_says_so(tmp_path):
     body = link("a") + link("b") + link("c") + joint("one", "prismatic", "a", "b")
-    body += joint("two", "prismatic", "a", "c", '<limit lower="0" upper="1"/><mimic joint="one"/>')
+    mimic = '<mimic joint="one" multiplier="fast"/>'
+    body += joint("two", "prismatic", "a", "c", f'<limit lower="0" upper="1"/>{mimic}')
     path = write(tmp_path, body)
-    assert any("'two' mimics 'one'" in note for note in load(path).provenance.notes)
-    assert len(articulated(load(path)).movable_joints) == 2
+    assert any("'two': its mimic cannot be read" in note for note in load(path).provenance.notes)
+    assert articulated(load(path)).joint("two").mimic is None
+
+
+def test_a_lid_drawn_outside_its_limits_is_closed_where_the_object_is_smallest(
+    tmp_path,
+):
+    """Drawn upright, it can lie down to -1.57 rad; the limit beside the drawing is not closed."""
+    lid = '<visual><origin xyz="0 0 0.1"/><geometry><box size="1 0.02 0.2"/></geometry></visual>'
+    hinge = '<origin xyz="0 -0.5 0.51"/><axis xyz="1 0 0"/><limit lower="-1.57" upper="-0.2"/>'
+    made = lift(
+        tmp_path, link("box") + link("lid", lid) + joint("j", "revolute", "box", "lid", hinge)
+    )
+    assert made.joint("j").lower == pytest.approx(-1.37)
+    np.testing.assert_allclose(made.joint("j").axis, [1, 0, 0])
 
 
 def test_height_and_up_axis_scale_geometry_axes_and_travel_alike(tmp_path):

@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import pytest
+from ros_packages import write_meshes, write_package
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.intake.discover import find_inputs, links_out
@@ -115,3 +116,14 @@ def test_a_registry_among_the_inputs_is_passed_over(tmp_path):
     assert find_inputs((tmp_path,)) == (tmp_path / "cup.glb",)
     # Unless somebody asks for it.
     assert find_inputs((tmp_path / "out" / "assets",)) == (asset,)
+
+
+@pytest.mark.parametrize("before", ["../meshes/", "package://cabinet/meshes/"])
+def test_meshes_beside_the_folder_of_a_description_belong_to_it(tmp_path, before):
+    path = write_package(tmp_path / "pkg", "cabinet", before)
+    write_meshes(tmp_path / "alone")
+    macros = path.with_name("parts.xacro")
+    macros.write_text("<robot/>")
+    (main := path.with_name("main.urdf.xacro")).write_text("<robot/>")
+    alone = [tmp_path / "alone" / f"{name}.obj" for name in ("drawer", "shell")]
+    assert find_inputs([tmp_path]) == (*alone, path, main)

@@ -1,7 +1,5 @@
 """Which links each engine lets touch: seen in its contacts, and said the same way in the report."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -122,4 +120,17 @@ def test_what_an_srdf_exempts_is_named_and_does_not_touch_in_sapien(tmp_path):
         '<robot name="boxes"><disable_collisions link1="a" link2="b" reason="Default"/></robot>'
     )
     pressing, rules = look(path, "sapien")
+    assert (pressing, rules.excluded) == (set(), (("a", "b"),))
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "pybullet"])
+def test_what_an_srdf_exempts_does_not_touch_in_engines_that_read_none(tmp_path, engine):
+    pytest.importorskip(engine)
+    path = write_world(tmp_path, "siblings")
+    assert look(path, engine)[0] == {("a", "b")}
+    path.with_suffix(".srdf").write_text(
+        '<robot name="boxes"><disable_collisions link1="b" link2="a"/>'
+        '<disable_collisions link1="a" link2="gone"/></robot>'
+    )
+    pressing, rules = look(path, engine)
     assert (pressing, rules.excluded) == (set(), (("a", "b"),))

@@ -1,0 +1,86 @@
+"""Inputs whose files lie in a package or a root are read, known again and told."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from ros_packages import PACKAGE, write_meshes, write_mjcf_package, write_package
+
+from asset_factory.factory.cli.build import Build, build_config
+from asset_factory.factory.cli.check import Check
+from asset_factory.factory.cli.check import run as check
+from asset_factory.factory.cli.flags import InputFlags, RootFlags
+from asset_factory.factory.config import BuildConfig, IntakeConfig
+from asset_factory.factory.errors import ConfigError, Exit, InputRejected
+from asset_factory.factory.intake.reads import ABSENT, unchanged
+from asset_factory.factory.intake.source import Source
+
+
+def source(path: Path, **settings: object) -> Source:
+    return Source(path, BuildConfig(intake=IntakeConfig(**settings)))
+
+
+def test_a_package_is_an_input_wherever_it_lies_and_known_by_all_its_files(tmp_path: Path) -> None:
+    digests = []
+    for place in ("here", "there/again"):
+        path = write_package(tmp_path / place, "cabinet", "package://cabinet/meshes/")
+        read = source(path)
+        intake = read.load()
+        digests.append(intake.provenance.digest)
+        assert len(intake.mesh.faces) == 24
+        assert any("package.xml lies 1 folder above" in note for note in intake.provenance.notes)
+        assert str(tmp_path) not in " ".join(intake.provenance.notes)
+    assert digests[0] == digests[1]
+    assert set(read.reads) >= {"cabinet.urdf", "../meshes/drawer.obj", "../package.xml"}
+    assert unchanged(path, read.reads)
+    mesh = path.parent.parent / "meshes" / "drawer.obj"
+    mesh.write_text(mesh.read_text() + "\n")
+    assert not unchanged(path, read.reads)
+
+
+def test_an_mjcf_of_a_package_is_an_input(tmp_path: Path) -> None:
+    pytest.importorskip("mujoco")
+    path = write_mjcf_package(tmp_path, 'meshdir="../meshes"', "", "../shared/assets.xml")
+    read = source(path)
+    assert len(read.load().mesh.faces) == 24
+    assert {"../meshes/drawer.obj", "../shared/assets.xml"} <= set(read.reads)
+
+
+def test_a_refused_input_is_another_one_once_it_is_a_package(tmp_path: Path) -> None:
+    path = write_package(tmp_path, "", "../meshes/")
+    read = source(path)
+    with pytest.raises(InputRejected, match="--root") as caught:
+        read.load()
+    assert caught.value.code == "external_reference"
+    assert read.reads["../package.xml"] == ABSENT
+    (tmp_path / "package.xml").write_text(PACKAGE.format("cabinet"))
+    assert not unchanged(path, read.reads)
+
+
+@pytest.mark.parametrize("setting", ["roots", "given", "allow_outside"])
+def test_roots_let_an_input_read_elsewhere(tmp_path: Path, setting: str) -> None:
+    path = write_package(tmp_path, "", "../meshes/")
+    value = True if setting == "allow_outside" else (str(tmp_path),)
+    assert len(source(path, **{setting: value}).load().mesh.faces) == 24
+
+
+def test_roots_are_those_of_flags_of_the_ros_path_and_the_folders_of_inputs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folders = [tmp_path / name for name in ("given", "root", "ros")]
+    for folder in folders:
+        folder.mkdir()
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(folders[2]))
+    flags = InputFlags(reading=RootFlags(root=(folders[1],)))
+    config = build_config(Build((str(folders[0]),), tmp_path / "out", loading=flags))
+    assert config.intake.roots == (str(folders[1]),)
+    assert config.intake.given == (str(folders[0]), str(folders[2]))
+    path = write_package(folders[0] / "bringup", "", "package://description/meshes/")
+    write_meshes(folders[0] / "description" / "meshes")
+    assert check(Check((path,), sim="", strict=True)) == Exit.REJECTED
+    assert check(Check((folders[0],), sim="", strict=True)) == Exit.OK
+    (folders[0] / "description").rename(folders[2] / "description")
+    assert check(Check((path,), sim="", strict=True)) == Exit.OK
+    with pytest.raises(ConfigError, match="--root"):
+        check(Check((path,), reading=RootFlags(root=(tmp_path / "nowhere",))))
