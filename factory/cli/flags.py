@@ -11,7 +11,12 @@ from typing import Annotated, Any, Protocol, TypeVar
 import tyro
 
 from asset_factory.sim_checks import Status
-from asset_factory.sim_checks.simulators.catalog import SIMULATORS, USUAL
+from asset_factory.sim_checks.simulators.catalog import (
+    SIMULATORS,
+    USUAL,
+    install_line,
+    installed,
+)
 
 from ..articulate.catalog import ARTICULATORS
 from ..config import REPAIR_KINDS, BuildConfig
@@ -162,14 +167,24 @@ def _published(flags: InputFlags) -> dict[str, str]:
 
 
 def simulators_named(names: str) -> tuple[str, ...]:
-    """Parse simulators, comma-separated, or ``all``. Raises ConfigError that names all known."""
-    if names == "all":
-        return USUAL
-    chosen = tuple(dict.fromkeys(name.strip() for name in names.split(",") if name.strip()))
+    """Parse simulators, comma-separated, or ``all``.
+
+    Raises:
+        ConfigError: one is unknown, or not installed; says what there is, or what installs it.
+    """
+    said = USUAL if names == "all" else names.split(",")
+    chosen = tuple(dict.fromkeys(name.strip() for name in said if name.strip()))
     unknown = [name for name in chosen if name not in SIMULATORS]
     if unknown:
         raise ConfigError(
             f"--sim: no simulator {unknown[0]!r}; there are {', '.join(SIMULATORS)}, or 'all'"
+        )
+    missing = [name for name in chosen if not installed(name)]
+    if missing:
+        there = ", ".join(name for name in SIMULATORS if installed(name)) or "none"
+        raise ConfigError(
+            f"--sim: {missing[0]} is not installed: {install_line(missing[0])}; "
+            f"of the others there is {there}"
         )
     return chosen
 

@@ -9,13 +9,13 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
 from functools import cache, partial
-from importlib.util import find_spec
 from pathlib import Path
 from typing import cast
 
 from asset_factory.sim_checks.processes.isolation import Limits, Outcome, preload
 
 from ..articulate.catalog import entry_of
+from ..articulate.settings import require_torch
 from ..config import BuildConfig
 from ..errors import RegistryError
 from ..intake.load import DESCRIPTION_SUFFIXES
@@ -57,6 +57,12 @@ def modules_for(config: BuildConfig) -> tuple[str, ...]:
     return (*COMMON_MODULES, *((SAPIEN_MODULE,) if "sapien" in config.simulators else ()))
 
 
+def asks_network(inputs: Sequence[Path], config: BuildConfig) -> bool:
+    """Tell whether one of the inputs may be shown to a network: a mesh, not a description."""
+    plain = any(path.suffix.lower() not in DESCRIPTION_SUFFIXES for path in inputs)
+    return plain and entry_of(config.articulator).asks_network
+
+
 @dataclass(frozen=True)
 class _Begun:
     """An input that a worker has."""
@@ -79,6 +85,9 @@ class Job:
     Attributes:
         left: inputs not begun, for want of time or because the limit was reached.
         state: how it ended, so far.
+
+    Raises:
+        ConfigError: one of the inputs may be shown to a network, and none can run.
     """
 
     def __init__(
@@ -91,6 +100,8 @@ class Job:
         *,
         one_network: bool = True,
     ) -> None:
+        if asks_network(inputs, config):
+            require_torch()
         self._inputs = inputs
         self._output = output.absolute()
         self._config = config
@@ -186,9 +197,7 @@ class Job:
 
     def _network(self, waiting: Sequence[Probe], stack: ExitStack) -> Address | None:
         """Return one network for all workers, if one of the inputs may ask it."""
-        plain = any(probe.source.suffix.lower() not in DESCRIPTION_SUFFIXES for probe in waiting)
-        learned = entry_of(self._config.articulator).asks_network
-        asks = plain and learned and find_spec("torch") is not None
+        asks = asks_network([probe.source for probe in waiting], self._config)
         if not (asks and self._one_network):
             return None
         return stack.enter_context(ModelService(self._config.particulate)).address

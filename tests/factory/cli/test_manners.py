@@ -9,12 +9,15 @@ from pathlib import Path
 
 import pytest
 
+from asset_factory.factory.cli import flags as flags_module
 from asset_factory.factory.cli import run
 from asset_factory.factory.cli.commands import parse
 from asset_factory.factory.report import machine
 from asset_factory.factory.report.machine import Health, Library, abilities
 from asset_factory.learn.commands.evaluation_printing import COLUMNS, _fitting
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS
+
+EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "meshes"
 
 
 def test_a_reader_that_has_seen_enough_gets_no_traceback() -> None:
@@ -49,6 +52,15 @@ def test_a_flag_that_is_there_twice_is_told_and_not_half_obeyed(capsys, tmp_path
     assert "--input is there twice" in capsys.readouterr().err
     _, flags = parse(["demos", "--to", "d", "--category", "oven", "--category", "fridge"])
     assert flags.category == ("oven", "fridge")
+
+
+@pytest.mark.parametrize("command", [["build", "--output", "out", "--input"], ["check"]])
+def test_an_engine_that_is_missing_is_refused_at_the_start(command, monkeypatch, capsys) -> None:
+    monkeypatch.setattr(flags_module, "installed", lambda name: name != "pybullet")
+    assert run([*command, str(EXAMPLES), "--sim", "all"]) == 2
+    assert "pybullet is not installed: pip install 'asset-factory[pybullet]'" in (
+        capsys.readouterr().err
+    )
 
 
 def test_shells_can_complete_commands_and_flags(capsys) -> None:
