@@ -187,7 +187,7 @@ def idle_retries(command: Build) -> Iterator[str]:
     """Yield one sentence per retry reason that nothing in the registry has, with those it has."""
     from ..jobs.budget import ANY
 
-    known = Registry(command.output).reasons() if command.retry_rejected else ()
+    known = Registry(command.output).values("reason") if command.retry_rejected else ()
     for reason in command.retry_rejected:
         if reason not in (*known, ANY):
             there = f"there are {', '.join(known)}" if known else "nothing was rejected so far"

@@ -25,6 +25,7 @@ from . import (
     predict,
     propose,
     registry,
+    remove,
     report,
     show,
     solve,
@@ -64,6 +65,7 @@ COMMANDS = (
     Command("edit", edit.Edit, edit.run),
     Command("list", listing.List, listing.run),
     Command("show", show.Show, show.run),
+    Command("remove", remove.Remove, remove.run),
     Command("registry", registry.RegistryCommand, registry.run),
     Command("solve", solve.Solve, solve.run),
     Command("weights", weights.WeightsCommand, weights.run),
@@ -72,9 +74,6 @@ COMMANDS = (
     Command("train", _train.Train, _train.run),
     Command("doctor", doctor.Doctor, doctor.run),
 )
-
-#: Flags of a command that add up when they are said again.
-ADDING = (("demos", "--category"),)
 
 #: How every command is parsed.
 OPTIONS = (tyro.conf.FlagCreatePairsOff,)
@@ -141,7 +140,6 @@ def parse(arguments: Sequence[str] | None = None) -> tuple[Command, Any]:
 
 
 def _said_twice(arguments: Sequence[str]) -> str:
-    """Return a flag that is there twice, if one is and does not add up."""
+    """Return a flag that is there twice, if one is."""
     said = [each.split("=")[0] for each in arguments if each.startswith("--")]
-    twice = (flag for flag in said if said.count(flag) > 1)
-    return next((flag for flag in twice if (arguments[0], flag) not in ADDING), "")
+    return next((flag for flag in said if said.count(flag) > 1), "")

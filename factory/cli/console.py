@@ -87,7 +87,7 @@ def _follow_on_terminal(console: Console, results: Iterable[Result], total: int)
                 progress.update(task, total=total)
                 continue
             progress.update(task, advance=1, description=escape(result.entry.id))
-            if result.entry.status is not Status.PASSED:
+            if result.entry.status is not Status.PASSED or result.replaced:
                 progress.console.print(f"{result.entry.status}: {_sentence(result)}", markup=False)
     return collected
 
@@ -108,7 +108,8 @@ def _known_sentence(known: int, total: int) -> str:
 
 def _sentence(result: Result) -> str:
     said = f"{result.entry.id}: {result.entry.message}" if result.entry.message else result.entry.id
-    return one_line(said)
+    replaced = f"; in place of {', '.join(result.replaced)}" if result.replaced else ""
+    return one_line(f"{said}{replaced}")
 
 
 def print_results(summary: Summary, output: Path) -> None:

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
-from typing import Annotated, Any, Protocol, TypeVar
-
-import tyro
+from typing import Any, Protocol, TypeVar
 
 from asset_factory.sim_checks import Status
 from asset_factory.sim_checks.simulators.catalog import (
@@ -23,9 +21,8 @@ from ..config import REPAIR_KINDS, BuildConfig
 from ..errors import AssetFactoryError, ConfigError
 from ..presets import load_config
 from ..registry import Entry, Registry
-from ..registry.entry import SOLVED
 from ..registry.rows import Filters
-from ..registry.split import SPLITS
+from ..registry.where import parse_where, unknown_values
 from ..runtime.terminal import complain
 
 DEFAULT_SIMULATORS = "sapien"
@@ -61,40 +58,6 @@ class InputFlags:
     """A preset (default, fast, lenient, strict) or a TOML file of differences from the defaults."""
 
 
-@dataclass(frozen=True)
-class EntryFilters:
-    """Which assets."""
-
-    status: str | None = None
-    """passed, rejected or unjudged."""
-    category: str | None = None
-    """Of the object."""
-    reason: str | None = None
-    """Code of the first finding that is an error."""
-    tag: str | None = None
-    """One of their tags."""
-    split: str | None = None
-    """train or test."""
-    solved: str | None = None
-    """yes or no: whether a robot opened one of their joints."""
-    license: Annotated[str | None, tyro.conf.arg(aliases=["--licence"])] = None
-    """Of the input."""
-    gpu_ready: bool = False
-    """Only those that PhysX takes on a GPU: up to 64 hulls a link, of 64 corners, of aspect 64."""
-
-    def filters(self, **defaults: str) -> Filters:
-        """Return the same for the registry. Raises ConfigError for what no asset can be."""
-        values = {
-            **defaults,
-            **{name: value for name, value in asdict(self).items() if isinstance(value, str)},
-            **({"gpu_ready": "yes"} if self.gpu_ready else {}),
-        }
-        for name, known in (("status", tuple(Status)), ("split", SPLITS), ("solved", SOLVED[1:])):
-            if name in values and values[name] not in known:
-                raise ConfigError(f"--{name}: is {values[name]!r}, want one of {', '.join(known)}")
-        return Filters(**values)
-
-
 @dataclass(frozen=True, kw_only=True)
 class OfRegistry:
     """A command on a registry."""
@@ -115,12 +78,31 @@ class Printed:
 class OfPassed(OfRegistry):
     """A command on some assets of a registry."""
 
-    wanted: tyro.conf.OmitArgPrefixes[EntryFilters] = field(default_factory=EntryFilters)
-    """Which assets; those that passed, if no status is given."""
+    where: str = ""
+    """Which assets, such as "category = fridge and joints > 1"; those that passed, if no status is
+    said. There are status, category, reason, tag, split, solved, license, gpu_ready, name, parts,
+    joints and hulls."""
 
     def entries(self) -> Iterator[Entry]:
         """Yield the assets that are wanted. Raises ConfigError for what no asset can be."""
-        return Registry(self.output).walk(self.wanted.filters(status="passed"))
+        return entries_where(Registry(self.output), self.where, status=Status.PASSED)
+
+
+def entries_where(registry: Registry, where: str, **defaults: str) -> Iterator[Entry]:
+    """Yield the assets that meet conditions; a value that none has is told on stderr."""
+    return registry.walk(wanted(registry, where, **defaults))
+
+
+def wanted(registry: Registry, where: str, **defaults: str) -> Filters:
+    """Return the filters of ``--where``; a value that no asset has is told on stderr.
+
+    Raises:
+        ConfigError: it cannot be read, or asks for what no asset can be.
+    """
+    filters = parse_where(where, **defaults)
+    if sentence := unknown_values(registry, filters):
+        complain(f"factory: --where: {sentence}")
+    return filters
 
 
 def input_config(flags: InputFlags) -> BuildConfig:

@@ -12,6 +12,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import cast
 
+from asset_factory.sim_checks import Status
 from asset_factory.sim_checks.processes.isolation import Limits, Outcome, preload
 
 from ..articulate.catalog import entry_of
@@ -21,6 +22,7 @@ from ..errors import RegistryError
 from ..intake.load import DESCRIPTION_SUFFIXES
 from ..models.service import Address, ModelService
 from ..registry import Entry, Registry
+from ..registry.aside import InputNow, keep_current
 from ..registry.claims import Claim, claim
 from ..registry.product import Product
 from ..registry.registration import register, register_failure
@@ -143,7 +145,9 @@ class Job:
         waiting = []
         urgent = []
         for probes in self._known_reads.probe_all(self._inputs):
-            for probe, entry in zip(probes, known_of(probes, self._registry), strict=True):
+            found = [*zip(probes, known_of(probes, self._registry), strict=True)]
+            keep_current(self._registry, [*_known_inputs(found)])
+            for probe, entry in found:
                 if entry is not None and entry.id in self._budget.damaged:
                     urgent.append(probe)
                 elif entry is None or self._wants_again(entry):
@@ -302,6 +306,14 @@ class Job:
     def _release_all(self) -> None:
         while self._begun:
             self._begun.popitem()[1].claim.release()
+
+
+def _known_inputs(found: Sequence[tuple[Probe, Entry | None]]) -> Iterator[InputNow]:
+    """Yield which assets inputs are, of those that have a verdict."""
+    for probe, entry in found:
+        digest = probe.reads[probe.source.name]
+        if entry is not None and digest and entry.status is not Status.UNJUDGED:
+            yield InputNow(probe.source, digest, entry.id)
 
 
 def _engines(executor: Executor) -> int:

@@ -216,10 +216,10 @@ class Registry:
         with connected(self.root) as connection:
             return rows.count(connection, filters or Filters())
 
-    def reasons(self) -> tuple[str, ...]:
-        """Return every reason for which something did not pass, sorted."""
+    def values(self, column: str) -> tuple[str, ...]:
+        """Return every value that entries have in a column, sorted, but the empty one."""
         with connected(self.root) as connection:
-            return rows.reasons(connection)
+            return rows.distinct(connection, column)
 
     def find(self, asset_id: str) -> Entry | None:
         """Return the row of that id, if there is one."""

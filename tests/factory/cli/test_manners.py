@@ -11,7 +11,6 @@ import pytest
 
 from asset_factory.factory.cli import flags as flags_module
 from asset_factory.factory.cli import run
-from asset_factory.factory.cli.commands import parse
 from asset_factory.factory.report import machine
 from asset_factory.factory.report.machine import Health, Library, abilities
 from asset_factory.learn.commands.evaluation_printing import COLUMNS, _fitting
@@ -50,8 +49,6 @@ def test_a_flag_that_is_there_twice_is_told_and_not_half_obeyed(capsys, tmp_path
         run(["build", "--input", "a.glb", "--input", "b.glb", "--output", str(tmp_path)])
     assert left.value.code == 2
     assert "--input is there twice" in capsys.readouterr().err
-    _, flags = parse(["demos", "--to", "d", "--category", "oven", "--category", "fridge"])
-    assert flags.category == ("oven", "fridge")
 
 
 @pytest.mark.parametrize("command", [["build", "--output", "out", "--input"], ["check"]])
