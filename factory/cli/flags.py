@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from importlib import import_module
@@ -17,7 +18,7 @@ from asset_factory.sim_checks.simulators.catalog import (
 )
 
 from ..articulate.catalog import ARTICULATORS
-from ..config import REPAIR_KINDS, BuildConfig
+from ..config import REPAIR_KINDS, BuildConfig, ParticulateConfig
 from ..errors import AssetFactoryError, ConfigError
 from ..presets import load_config
 from ..registry import Entry, Registry
@@ -45,6 +46,9 @@ class InputFlags:
     """Points that particulate labels per sample."""
     samples: int | None = None
     """Samples that particulate reads; the one that agrees most with the others is taken."""
+    device: str | None = None
+    """Where the network runs: auto (a GPU where there is one), cpu, cuda, cuda:N or mps; as the
+    preset says by default, and that says auto."""
     vlm_url: str | None = None
     """With --articulator vlm: an endpoint of OpenAI's chat-completions protocol, such as
     http://localhost:8000/v1; pictures of inputs go there. Its key: ASSET_FACTORY_VLM_KEY."""
@@ -121,11 +125,11 @@ def input_config(flags: InputFlags) -> BuildConfig:
         raise ConfigError(f"--height: is {flags.height:g} m, want more than 0")
     up = flags.up if flags.up == "auto" else parse_up(flags.up)
     intake = replace(config.intake, up=up, height=flags.height)
-    asked = ("checkpoint", "features", "points", "samples")
+    asked = ("checkpoint", "features", "points", "samples", "device")
     given: dict[str, Any] = {
         name: getattr(flags, name) for name in asked if getattr(flags, name) is not None
     }
-    particulate = replace(config.particulate, **{**given, **_published(flags)})
+    particulate = on_device(replace(config.particulate, **{**given, **_published(flags)}))
     require_usable(particulate, needed=flags.articulator == "particulate")
     vlm = replace(config.vlm, url=flags.vlm_url or config.vlm.url)
     vlm = replace(vlm, model=flags.vlm_model or vlm.model)
@@ -133,6 +137,15 @@ def input_config(flags: InputFlags) -> BuildConfig:
     return replace(
         config, articulator=flags.articulator, intake=intake, particulate=particulate, vlm=vlm
     )
+
+
+def on_device(config: ParticulateConfig) -> ParticulateConfig:
+    """Return settings that name a device, not ``auto``. Raises ConfigError: no such device."""
+    from ..models.particulate.device import device_for
+
+    if not re.fullmatch(r"auto|cpu|cuda(:\d+)?|mps", config.device):
+        raise ConfigError(f"--device: is {config.device!r}, want auto, cpu, cuda, cuda:N or mps")
+    return replace(config, device=device_for(config.device))
 
 
 def _published(flags: InputFlags) -> dict[str, str]:

@@ -30,6 +30,7 @@ from ..registry.result import Result, known_result
 from ..registry.verify import verify
 from ..report.summary import JobState
 from ..runtime.layout import CACHE, CLAIMS
+from ..runtime.store import Store
 from .budget import Budget
 from .executor import Call, Executor
 from .local import LocalExecutor
@@ -85,7 +86,7 @@ class Job:
         one_network: whether all workers ask one network, which takes an executor on this machine.
 
     Attributes:
-        left: inputs not begun, for want of time or because the limit was reached.
+        left: inputs not done, for want of time or because the limit was reached.
         state: how it ended, so far.
 
     Raises:
@@ -137,7 +138,7 @@ class Job:
             yield from self._run()
 
     def wind_up(self) -> None:
-        """Begin nothing more; what workers have, or are about to take, is finished."""
+        """Begin nothing more; what workers have is finished."""
         self._winding_up = True
 
     def _run(self) -> Iterator[Result]:
@@ -195,6 +196,8 @@ class Job:
                 self.state = JobState.INTERRUPTED
                 raise
             finally:
+                if self._config.cache_gb > 0.0:
+                    Store(self._output / CACHE).trim(keep_bytes=round(1e9 * self._config.cache_gb))
                 # On a full disk there is a better error under way.
                 with suppress(OSError):
                     log.ended(self.state, len(self._built), self.left)
@@ -240,11 +243,10 @@ class Job:
                 "staging": folder,
                 "config": self._config,
                 "cache": self._output / CACHE,
-                "until": until,
                 "address": network(),
                 "engines": _engines(self._executor),
             }
-            yield Call(str(probe.source), arguments)
+            yield Call(str(probe.source), arguments, until, lambda: not self._winding_up)
 
     def _is_over(self) -> bool:
         if self._budget.limit is not None and self._calls_made >= self._budget.limit:
@@ -264,7 +266,8 @@ class Job:
         begun = self._begun.pop(call.name)
         try:
             if outcome.failure is None and outcome.value is None:
-                self.state = JobState.OUT_OF_TIME
+                late = not self._winding_up
+                self.state = JobState.OUT_OF_TIME if late else JobState.INTERRUPTED
                 self.left += 1
                 return
             if isinstance(outcome.error, OSError) and outcome.error.errno in FULL_OR_CLOSED:

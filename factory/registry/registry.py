@@ -76,7 +76,7 @@ class Registry:
     def staging_folder(self) -> AbstractContextManager[Path]:
         """Return a fresh folder to build in; whatever is still in it afterwards is removed.
 
-        It is locked while the process lives, so that ``factory registry gc`` can tell what dead
+        It is locked while the process lives, so that ``factory gc`` can tell what dead
         ones left.
         """
         return held_folder(self.staging)

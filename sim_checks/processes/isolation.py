@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import multiprocessing
 import os
 import resource
@@ -53,11 +54,13 @@ class Limits:
         cpu_s: processor time [s]; ``None`` for no limit of its own.
         memory_bytes: address space [bytes]; ``None`` for no limit. Renderers reserve far more than
             they use.
+        until: when it ends, however little of ``wall_s`` is over [s since 1970].
     """
 
     wall_s: float
     cpu_s: float | None = None
     memory_bytes: int | None = None
+    until: float = math.inf
 
 
 class Failure(StrEnum):
@@ -216,7 +219,8 @@ class WarmChild:
         process = self._process
         if self._abandoned:
             process.kill()
-        answer = process.ask(question, limits.wall_s)
+        wall_s = max(0.0, min(limits.wall_s, limits.until - time.time()))
+        answer = process.ask(question, wall_s)
         if isinstance(answer, Failure):
             self._process = None
             return self._lost(process, answer, limits, started)

@@ -9,8 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from asset_factory import __version__
 from asset_factory.factory.cli import flags as flags_module
 from asset_factory.factory.cli import run
+from asset_factory.factory.cli.commands import COMMANDS
 from asset_factory.factory.report import machine
 from asset_factory.factory.report.machine import Health, Library, abilities
 from asset_factory.learn.commands.evaluation_printing import COLUMNS, _fitting
@@ -35,7 +37,7 @@ def test_a_reader_that_has_seen_enough_gets_no_traceback() -> None:
 
 
 @pytest.mark.parametrize(
-    ("typed", "told"), [("buidl", "did you mean 'build'?"), ("zzz", "there are build, nightly")]
+    ("typed", "told"), [("buidl", "did you mean 'build'?"), ("zzz", "there are build, check")]
 )
 def test_a_mistyped_command_is_recognised(typed, told, capsys) -> None:
     with pytest.raises(SystemExit) as left:
@@ -49,6 +51,31 @@ def test_a_flag_that_is_there_twice_is_told_and_not_half_obeyed(capsys, tmp_path
         run(["build", "--input", "a.glb", "--input", "b.glb", "--output", str(tmp_path)])
     assert left.value.code == 2
     assert "--input is there twice" in capsys.readouterr().err
+
+
+def test_the_help_is_short_and_begins_with_the_first_hour(capsys) -> None:
+    for typed, code in (([], 2), (["--help"], 0)):
+        with pytest.raises(SystemExit) as left:
+            run(typed)
+        assert left.value.code == code
+        told = capsys.readouterr().out.splitlines()
+        assert len(told) < 40
+        first = [line.split()[0] for line in told[told.index("") :] if line.startswith("  ")]
+        assert first[3:11] == ["build", "check", "view", "edit", "list", "show", "solve", "demos"]
+        assert set(first[11:]) >= {"doctor", "remove", "gc", "train"}
+    with pytest.raises(SystemExit):
+        run(["--version"])
+    assert capsys.readouterr().out == f"asset-factory {__version__}\n"
+
+
+@pytest.mark.parametrize("command", [command.name for command in COMMANDS])
+def test_no_help_speaks_python_or_says_the_opposite_of_its_flag(command, capsys) -> None:
+    with pytest.raises(SystemExit):
+        run([command, "--help"])
+    told = capsys.readouterr().out
+    assert "None" not in told
+    assert "Invent what" not in told
+    assert "Renew" not in told
 
 
 @pytest.mark.parametrize("command", [["build", "--output", "out", "--input"], ["check"]])
@@ -104,6 +131,15 @@ def test_the_doctor_prints_json_and_tells_whether_a_build_can_run(
     monkeypatch.setattr(machine, "SIMULATORS", {})
     assert run(["doctor", "--output", str(tmp_path), "--json"]) == 1
     assert [each["name"] for each in json.loads(capsys.readouterr().out)] == ["machine", "disk"]
+
+
+def test_a_folder_without_inputs_is_no_build(capsys, tmp_path: Path) -> None:
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "readme.txt").write_text("nothing")
+    build = ["build", "--input", str(tmp_path / "in"), "--output", str(tmp_path / "out")]
+    assert run([*build, "--sim", "mujoco"]) == 2
+    assert f"no input in {tmp_path / 'in'}; want .glb" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_quiet_build_says_nothing_and_a_json_build_one_summary(capsys, tmp_path: Path) -> None:

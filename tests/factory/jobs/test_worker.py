@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 
 import pytest
@@ -56,11 +55,3 @@ def test_simulators_share_what_processors_the_workers_leave(
 ) -> None:
     monkeypatch.setattr(local, "processors", lambda: 8)
     assert [LocalExecutor(workers).engines for workers in (1, 3, 8, 9)] == [8, 2, 1, 1]
-
-
-def test_too_late_is_not_begun(tmp_path: Path) -> None:
-    late = worker.build_here(
-        tmp_path / "in.stl", tmp_path / "s", PLAIN, tmp_path, time.time() - 1.0, None
-    )
-    assert late is None
-    assert not (tmp_path / "s").exists()
