@@ -112,7 +112,8 @@ def run(command: Build) -> int:
     stopped = 0
     try:
         with interruptible(partial(_wind_up, job)):
-            console.follow(_kept(job.run(), results), len(inputs), quiet=command.quiet)
+            kept = _kept(job.run(), results)
+            console.follow(kept, len(inputs), job.under_way, quiet=command.quiet)
     except KeyboardInterrupt as interruption:
         stopped = Exit.TERMINATED if isinstance(interruption, Terminated) else Exit.INTERRUPTED
     left = len(inputs) - len(results)

@@ -32,6 +32,14 @@ class Call:
     wanted: Callable[[], bool] = lambda: True
 
 
+@dataclass(frozen=True)
+class UnderWay:
+    """A call that is being made: its name, and where its work is, empty if that is not known."""
+
+    name: str
+    place: str
+
+
 class Executor(Protocol):
     """Makes many calls, each isolated: a crash, hang or memory shortage harms no other."""
 

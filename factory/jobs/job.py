@@ -32,7 +32,7 @@ from ..report.summary import JobState
 from ..runtime.layout import CACHE, CLAIMS
 from ..runtime.store import Store
 from .budget import Budget
-from .executor import Call, Executor
+from .executor import Call, Executor, UnderWay
 from .local import LocalExecutor
 from .log import Log
 from .probe import KnownReads, Probe, known_of
@@ -140,6 +140,11 @@ class Job:
     def wind_up(self) -> None:
         """Begin nothing more; what workers have is finished."""
         self._winding_up = True
+
+    def under_way(self) -> tuple[UnderWay, ...]:
+        """Return what workers on this machine are at; from any thread."""
+        executor = self._executor
+        return executor.under_way() if isinstance(executor, LocalExecutor) else ()
 
     def _run(self) -> Iterator[Result]:
         self._until = None if self._budget.max_s is None else time.monotonic() + self._budget.max_s

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from queue import SimpleQueue
 from threading import Event, Thread
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from asset_factory.sim_checks.processes.isolation import (
     Failure,
@@ -19,7 +19,7 @@ from asset_factory.sim_checks.processes.isolation import (
     processors,
 )
 
-from .executor import AHEAD, Call
+from .executor import AHEAD, Call, UnderWay
 
 T = TypeVar("T")
 
@@ -42,6 +42,11 @@ class LocalExecutor:
     retries: int = 1
     calls: int = 50
     resident_bytes: int = 2 * 1024**3
+    _pools: list[_WorkerPool[Any]] = field(default_factory=list, compare=False, repr=False)
+
+    def under_way(self) -> tuple[UnderWay, ...]:
+        """Return the calls that are being made now; from any thread."""
+        return tuple(each for pool in self._pools for each in pool.under_way())
 
     @property
     def engines(self) -> int:
@@ -53,6 +58,7 @@ class LocalExecutor:
     ) -> Iterator[tuple[Call, Outcome[T]]]:
         """Make every call as :class:`~.executor.Executor` promises."""
         pool: _WorkerPool[T] = _WorkerPool(self, function, limits)
+        self._pools[:] = [pool]
         waiting = iter(calls)
         ends = False
         under_way = 0
@@ -71,6 +77,7 @@ class LocalExecutor:
                 under_way -= 1
                 yield answered
         finally:
+            self._pools.clear()
             pool.dismiss()
 
 
@@ -87,6 +94,7 @@ class _WorkerPool(Generic[T]):
         self._done: SimpleQueue[tuple[Call, Outcome[T]]] = SimpleQueue()
         self._dismissed = Event()
         self._members: list[tuple[Thread, WarmChild]] = []
+        self._making: dict[WarmChild, str] = {}
 
     def ask(self, call: Call) -> None:
         if len(self._members) < self._most:
@@ -113,7 +121,15 @@ class _WorkerPool(Generic[T]):
 
     def _serve(self, child: WarmChild) -> None:
         while (call := self._todo.get()) is not None and not self._dismissed.is_set():
-            self._done.put((call, self._tried(child, call)))
+            self._making[child] = call.name
+            outcome = self._tried(child, call)
+            del self._making[child]
+            self._done.put((call, outcome))
+
+    def under_way(self) -> Iterator[UnderWay]:
+        """Yield the calls that are being made."""
+        for child, name in [*self._making.items()]:
+            yield UnderWay(name, child.place)
 
     def _tried(self, child: WarmChild, call: Call) -> Outcome[T]:
         def wanted() -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -14,7 +15,7 @@ from asset_factory.factory.cli import flags as flags_module
 from asset_factory.factory.cli import run
 from asset_factory.factory.cli.commands import COMMANDS
 from asset_factory.factory.report import machine
-from asset_factory.factory.report.machine import Health, Library, abilities
+from asset_factory.factory.report.machine import Ability, Health, Library, abilities
 from asset_factory.learn.commands.evaluation_printing import COLUMNS, _fitting
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS
 
@@ -131,6 +132,21 @@ def test_the_doctor_prints_json_and_tells_whether_a_build_can_run(
     monkeypatch.setattr(machine, "SIMULATORS", {})
     assert run(["doctor", "--output", str(tmp_path), "--json"]) == 1
     assert [each["name"] for each in json.loads(capsys.readouterr().out)] == ["machine", "disk"]
+
+
+def test_the_doctor_tells_each_as_soon_as_it_is_tried(monkeypatch, capsys) -> None:
+    told: list[str] = []
+
+    def slowly(_: Path) -> Iterator[Ability]:
+        for name in ("first", "second"):
+            told.append(capsys.readouterr().out)
+            yield Ability(name, "a test", Health.MISSING, "not installed", "pip install it")
+
+    monkeypatch.setattr(machine, "abilities", slowly)
+    assert run(["doctor"]) == 1
+    assert "Every engine" in told[0]
+    assert "first" in told[1]
+    assert "pip install it" in told[1]
 
 
 def test_a_folder_without_inputs_is_no_build(capsys, tmp_path: Path) -> None:
