@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 import textwrap
 from collections.abc import Callable, Sequence
@@ -120,12 +121,12 @@ def _optional(
 
 
 def short_help() -> str:
-    """Return every command with the first sentence of its help."""
+    """Return every command with the first clause of its help."""
     width = max(len(command.name) for command in COMMANDS)
 
     def line(command: Command) -> str:
         summary = (command.flags.__doc__ or "").split("\n\n")[0]
-        first = " ".join(summary.split()).split(". ")[0].removesuffix(".")
+        first = re.split(r"[.:;](?: |$)|, and ", " ".join(summary.split()))[0]
         told = textwrap.shorten(first, 76 - width, placeholder=" ...")
         return f"  {command.name:{width}}  {told}\n"
 
