@@ -52,6 +52,9 @@ def run(command: List) -> int:
     if command.json:
         say(json.dumps([asdict(entry) for entry in entries], indent=2))
         return Exit.OK
+    if not entries:
+        say(f"no assets{f' with {command.where}' if command.where else ''}")
+        return Exit.OK
     console.print_entries(entries)
     if len(found) > len(entries):
         say(f"the first {len(entries)}; --after {entries[-1].id} goes on, --limit 0 shows all")

@@ -10,7 +10,6 @@ from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from pathlib import Path
-from typing import cast
 
 from asset_factory.sim_checks import Status
 from asset_factory.sim_checks.processes.isolation import Limits, Outcome, preload
@@ -266,7 +265,7 @@ class Job:
         while self._meanwhile:
             yield self._meanwhile.pop(0)
 
-    def _ended(self, call: Call, outcome: Outcome[Product | None], log: Log) -> Iterator[Result]:
+    def _ended(self, call: Call, outcome: Outcome[Product], log: Log) -> Iterator[Result]:
         """Register one call's outcome and give up its claim; yield the result."""
         begun = self._begun.pop(call.name)
         try:
@@ -278,10 +277,9 @@ class Job:
             if isinstance(outcome.error, OSError) and outcome.error.errno in FULL_OR_CLOSED:
                 raise outcome.error
             with undisturbed():
-                done = cast("Outcome[Product]", outcome)
-                result = self._registered(begun.probe, done)
+                result = self._registered(begun.probe, outcome)
                 self._built.add(begun.probe.claim)
-                log.built(result, done)
+                log.built(result, outcome)
         finally:
             begun.claim.release()
         yield result

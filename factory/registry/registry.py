@@ -10,7 +10,7 @@ from contextlib import AbstractContextManager, contextmanager
 from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from asset_factory.sim_checks import Report, Status
 
@@ -195,7 +195,8 @@ class Registry:
             after: only those whose id comes after this one: with ``limit``, page by page.
             wanted: see :class:`~.rows.Filters`.
         """
-        return self.select(Filters(**wanted), limit=limit, after=after)
+        named: dict[str, Any] = {**wanted}
+        return self.select(Filters(**named), limit=limit, after=after)
 
     def select(
         self, filters: Filters, *, limit: int | None = None, after: str = ""

@@ -99,7 +99,9 @@ def test_conditions_that_cannot_be_say_what_can(where, told, root, run):
 
 def test_a_value_that_no_asset_has_is_told(root, capsys):
     assert factory(["list", "--output", str(root), "--where", "category = frige"]) == 0
-    assert "no asset has category 'frige'; did you mean 'fridge'?" in capsys.readouterr().err
+    printed = capsys.readouterr()
+    assert "no asset has category 'frige'; did you mean 'fridge'?" in printed.err
+    assert printed.out == "no assets with category = frige\n"
 
 
 def test_removing_takes_what_is_named_and_asks(root, monkeypatch, capsys):
