@@ -43,8 +43,6 @@ CLOCKS_IN = (
     "sim_checks/processes/",
 )
 BANNED = re.compile(rf"\b({'|'.join(WORDS)})s?\b", re.IGNORECASE)
-#: An old spelling that a flag still takes.
-KEPT = '"--licence"'
 
 
 def main() -> int:
@@ -78,7 +76,7 @@ def _loose_files() -> Iterator[str]:
 
 
 def _words(name: str, text: str) -> Iterator[str]:
-    for number, line in enumerate(text.replace(KEPT, "").splitlines(), start=1):
+    for number, line in enumerate(text.splitlines(), start=1):
         for word in BANNED.findall(line):
             yield f"{name}:{number}: says {word!r}, want {WORDS[word.lower()]!r}"
 

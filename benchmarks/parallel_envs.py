@@ -5,7 +5,7 @@ python benchmarks/parallel_envs.py REGISTRY --envs 1 16 64 256
 A JSON line for each number of environments: environment steps a second with random actions and
 state observations, memory of the GPU that all its users hold [MB], and how many hulls the assets
 that were drawn have. What PhysX does not take on a GPU is left out of a registry that ``factory
-registry export --gpu-ready`` wrote. Without a GPU it says so, with exit code 2.
+registry export --where "gpu_ready = yes"`` wrote. Without a GPU it says so, with exit code 2.
 """
 
 from __future__ import annotations

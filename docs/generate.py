@@ -110,8 +110,6 @@ def _flag(action: argparse.Action) -> tuple[str, ...]:
     text = _plain(action.help)
     told = re.fullmatch(r"(.*?) ?\((required|default: .*|repeatable|optional)\)", text, re.DOTALL)
     meaning, default = (told[1], told[2]) if told else (text, "")
-    if any(name.startswith("--no-") for name in action.option_strings):
-        meaning = f"Do not: {meaning[:1].lower()}{meaning[1:]}"
     default = default.removeprefix("default: ")
     names = ", ".join(f"`{name}`" for name in action.option_strings) or f"`{action.dest}`"
     takes = str(action.metavar or "").replace("|", " or ").replace("{None} or ", "")

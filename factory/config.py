@@ -55,7 +55,8 @@ class ParticulateConfig:
         features: file with the weights of its feature extractor, for networks that want features.
         precision: of the products over points: ``float32`` or ``bfloat16``, which is faster where
             the processor has instructions for it.
-        device: as torch names it.
+        device: ``cpu``, ``cuda``, ``cuda:<n>`` or ``mps``; ``auto``: a GPU where there is one, else
+            the CPU. Answers of a GPU may differ in their last digits from those of another.
         driving: points per sample that parts are told from, the others being labelled only; 0: all
             of them.
         points: labelled per sample, half of them on sharp edges; more where a face would have none.
@@ -77,7 +78,7 @@ class ParticulateConfig:
     checkpoint: str = "shipped"
     features: str = ""
     precision: str = "float32"
-    device: str = "cpu"
+    device: str = "auto"
     driving: int = 0
     points: int = 16_384
     context_points: int = 40_000
@@ -325,6 +326,8 @@ class BuildConfig:
         asset_wall_s: longest a single input may take, repairs included [s].
         asset_memory_bytes: most address space of the process that builds one input [bytes].
         retries: further tries for an input whose process crashed, hung or ran out of memory.
+        cache_gb: a build leaves so much of the registry's cache, what was used within the last hour
+            not counted; 0: any amount [GB].
     """
 
     articulator: str = "auto"
@@ -333,6 +336,7 @@ class BuildConfig:
     asset_wall_s: float = field(default=1800.0, metadata={LIMIT: True})
     asset_memory_bytes: int = field(default=16 * 1024**3, metadata={LIMIT: True})
     retries: int = field(default=1, metadata={LIMIT: True})
+    cache_gb: float = field(default=10.0, metadata={LIMIT: True})
     intake: IntakeConfig = field(default_factory=IntakeConfig)
     particulate: ParticulateConfig = field(default_factory=ParticulateConfig)
     auto: AutoConfig = field(default_factory=AutoConfig)

@@ -47,5 +47,5 @@ def done(command: list[str], scratch: Path) -> subprocess.CompletedProcess[str]:
 
 
 def collected(output: Path, scratch: Path) -> subprocess.CompletedProcess[str]:
-    """``factory registry gc``, run to its end."""
-    return done([*FACTORY, "registry", "gc", "--output", str(output)], scratch)
+    """``factory gc``, run to its end."""
+    return done([*FACTORY, "gc", "--output", str(output)], scratch)

@@ -11,7 +11,7 @@ from asset_factory.factory.runtime.store import digest_file
 
 #: What a registry is for; everything else in its folder is a database of it, a cache or a log.
 LASTING = ("assets", "rejected")
-#: What nobody may find once ``factory registry gc`` is done.
+#: What nobody may find once ``factory gc`` is done.
 PASSING = (".staging", ".claims")
 
 

@@ -42,6 +42,12 @@ class SolveRecord:
             row["tries_allowed"] >= tries for row in known
         )
 
+    def is_solved(self, joint: str, robot: str) -> bool:
+        """Tell whether a robot opened a joint, with any seed."""
+        return any(
+            row["solved"] and row["joint"] == joint and row["robot"] == robot for row in self.rows
+        )
+
     def noting(self, attempt: Attempt, tries: int) -> SolveRecord:
         """Add one more attempt, of at most so many tries, in the place of an older one."""
         row = attempt_row(attempt, tries)

@@ -26,7 +26,7 @@ from ..part import Proposer
 from ..runtime.store import digest_file
 from .annotated import AnnotatedArticulator
 from .locate import sourced
-from .settings import decode_rules, require_usable
+from .settings import decode_rules, require_torch, require_usable
 
 #: Probabilities and agreements below this are told [-].
 DOUBTFUL = 0.6
@@ -221,8 +221,9 @@ def load_articulator(config: ParticulateConfig) -> ParticulateArticulator:
     loaded here.
 
     Raises:
-        ConfigError: no checkpoint is named, it is not there, or not one of this network.
+        ConfigError: no torch, or no checkpoint is named, or there is none of this network there.
     """
+    require_torch()
     require_usable(config, needed=True)
     weights = tuple(_weights(file) for file in weight_files(config))
     identity = identity_of(config, tuple(each.digest for each in weights))

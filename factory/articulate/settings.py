@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
+
 from ..config import ParticulateConfig
 from ..errors import ConfigError
 from ..models.network.precision import Precision
@@ -14,6 +16,10 @@ from ..models.particulate.labels import Refinement
 from ..models.weights.checkpoint import naming, open_checkpoint
 from ..models.weights.sources import PARTFIELD, SHIPPED, fetch
 
+NEEDS_TORCH = (
+    "the network that says what moves needs torch: pip install 'asset-factory[particulate]'; "
+    "or name an articulator that asks none: --articulator geometric, seams, stated or annotated"
+)
 LEAST = {"driving": 0, "points": 1, "context_points": 1, "max_faces": 4, "samples": 1}
 
 
@@ -77,3 +83,9 @@ def require_usable(config: ParticulateConfig, needed: bool) -> None:
     field = open_checkpoint(fetch(config.features))
     with naming(field.file):
         read_partfield_shape(field.shapes)
+
+
+def require_torch() -> None:
+    """Raise ConfigError where no network can run, and say what can be done about it."""
+    if find_spec("torch") is None:
+        raise ConfigError(NEEDS_TORCH)

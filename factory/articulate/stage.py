@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
-from importlib.util import find_spec
 
 from ..articulation import Articulation, Joint, Part, Weights
 from ..config import BuildConfig
@@ -23,8 +22,8 @@ from .proposal import Hypothesis
 
 @lru_cache(maxsize=4)
 def _weight_digests(config: BuildConfig) -> list[str]:
-    """Return the digests of checkpoints that may be asked; none where no network can run."""
-    if not entry_of(config.articulator).asks_network or find_spec("torch") is None:
+    """Return the digests of checkpoints that may be asked."""
+    if not entry_of(config.articulator).asks_network:
         return []
     named = [name for name in (config.particulate.checkpoint, config.particulate.features) if name]
     try:

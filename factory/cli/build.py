@@ -67,7 +67,7 @@ class Build:
     limit: int | None = None
     """Build at most so many; those known from before are not counted."""
     max_hours: float | None = None
-    """Begin none after so long; what runs is finished."""
+    """Stop after so long [h]; what runs then is left to the next run, as what was not begun."""
     since: str | None = None
     """Only inputs modified since: seconds ago, a date such as 2026-11-21, or a file's own time."""
     retry_rejected: tuple[str, ...] = ()
@@ -82,10 +82,10 @@ class Build:
     """With --executor ray: fsspec URL for assets of nodes that share no folder; inputs are sent."""
     repairs: str | None = None
     """What may be repaired: none, geometry (collision geometry only), or all (joints too)."""
-    interior: bool = True
-    """Invent what lies behind the panels of a one-piece mesh: hollows and drawers' boxes."""
-    report: bool = True
-    """Renew the pages of the registry at the end; see `factory report`."""
+    no_interior: bool = False
+    """Invent nothing behind the panels of a one-piece mesh: no hollows, no drawers' boxes."""
+    no_report: bool = False
+    """Leave the pages of the registry as they are; see `factory report`."""
     json: bool = False
     """Print the summary as JSON, as in summary.json."""
     quiet: bool = False
@@ -103,6 +103,8 @@ def run(command: Build) -> int:
     from ..report.summary import JobState, Summary
 
     inputs = wanted_inputs(command)
+    if not inputs and command.since is None:
+        raise ConfigError(_nothing_found(command))
     job = job_for(command, inputs)
     for sentence in (*passed_over(command), *idle_retries(command)):
         complain(f"factory: {sentence}")
@@ -110,7 +112,8 @@ def run(command: Build) -> int:
     stopped = 0
     try:
         with interruptible(partial(_wind_up, job)):
-            console.follow(_kept(job.run(), results), len(inputs), quiet=command.quiet)
+            kept = _kept(job.run(), results)
+            console.follow(kept, len(inputs), job.under_way, quiet=command.quiet)
     except KeyboardInterrupt as interruption:
         stopped = Exit.TERMINATED if isinstance(interruption, Terminated) else Exit.INTERRUPTED
     left = len(inputs) - len(results)
@@ -123,7 +126,7 @@ def run(command: Build) -> int:
         )
         return stopped or Exit.INTERRUPTED
     _show(summary, command)
-    page = report_after(command.output, command.workers) if command.report else None
+    page = report_after(command.output, command.workers) if not command.no_report else None
     if page is not None and not (command.json or command.quiet):
         say(f"Report: {page}")
     if summary.count(Status.UNJUDGED):
@@ -170,6 +173,15 @@ def wanted_inputs(command: Build) -> tuple[Path, ...]:
     )
 
 
+def _nothing_found(command: Build) -> str:
+    """Return what to say where no file is an input."""
+    from ..intake.formats.catalog import FORMATS
+
+    known = " ".join(line.suffix for line in FORMATS if line.stands_alone)
+    found = f"no input in {', '.join(command.input)}; want {known} .urdf .xml or USD files"
+    return " and ".join([found, *passed_over(command)])
+
+
 def passed_over(command: Build) -> Iterator[str]:
     """Yield a sentence about links that lead out of the folders given, if there are any."""
     from ..intake.discover import links_out
@@ -187,7 +199,7 @@ def idle_retries(command: Build) -> Iterator[str]:
     """Yield one sentence per retry reason that nothing in the registry has, with those it has."""
     from ..jobs.budget import ANY
 
-    known = Registry(command.output).reasons() if command.retry_rejected else ()
+    known = Registry(command.output).values("reason") if command.retry_rejected else ()
     for reason in command.retry_rejected:
         if reason not in (*known, ANY):
             there = f"there are {', '.join(known)}" if known else "nothing was rejected so far"
@@ -228,9 +240,9 @@ def build_config(command: Build) -> BuildConfig:
     from ..intake.mirror import mirror_of
 
     config = with_repairs(input_config(command.loading), command.repairs)
-    interior = config.solids.interior and command.interior
     folders = (mirror_of(place, command.output).absolute() for place in command.input)
     given = (*(str(folder) for folder in folders if folder.is_dir()), *config.intake.given)
+    interior = config.solids.interior and not command.no_interior
     return replace(
         config,
         intake=replace(config.intake, given=given),

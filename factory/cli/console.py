@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from datetime import timedelta
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,11 +14,14 @@ from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
     Progress,
+    ProgressColumn,
+    Task,
     TextColumn,
     TimeElapsedColumn,
     TimeRemainingColumn,
 )
 from rich.table import Table
+from rich.text import Text
 
 from asset_factory.sim_checks import Disagreement, Finding, Report, Severity, Status
 
@@ -31,22 +35,37 @@ from ..runtime.terminal import Terminal, one_line
 
 if TYPE_CHECKING:
     from ..export.manifest import Manifest
+    from ..jobs.executor import UnderWay
 
 STATUS_STYLE = {Status.PASSED: "green", Status.REJECTED: "red", Status.UNJUDGED: "yellow"}
 _SEVERITIES = {Severity.HARD: ("red", "error"), Severity.SOFT: ("yellow", "warning")}
 #: In a table of more inputs than this, those known from before are left out.
 LISTED = 100
+#: Inputs at work that are named beside the bar.
+SHOWN_AT_WORK = 3
 
 
-def follow(results: Iterable[Result], total: int, *, quiet: bool = False) -> list[Result]:
+def follow(
+    results: Iterable[Result],
+    total: int,
+    under_way: Callable[[], tuple[UnderWay, ...]] = tuple,
+    *,
+    quiet: bool = False,
+) -> list[Result]:
     """Collect results as they come, showing a progress bar on a terminal and plain lines elsewhere.
 
     What was known from before is counted, not told one by one; rate and time left are those of the
     rest.
+
+    Args:
+        results: as a job gives them.
+        total: how many there will be.
+        under_way: says what workers are at.
+        quiet: show nothing.
     """
     console = Terminal(stderr=True, quiet=quiet)
     return (
-        _follow_on_terminal(console, results, total)
+        _follow_on_terminal(console, results, total, under_way)
         if console.is_terminal
         else _follow(console, results, total)
     )
@@ -69,13 +88,48 @@ def _follow(console: Console, results: Iterable[Result], total: int) -> list[Res
     return collected
 
 
-def _follow_on_terminal(console: Console, results: Iterable[Result], total: int) -> list[Result]:
+class _Stages(ProgressColumn):
+    """What workers are at, as the bar is drawn: inputs, each with its stage."""
+
+    max_refresh = 0.5
+
+    def __init__(self, under_way: Callable[[], tuple[UnderWay, ...]]) -> None:
+        self._under_way = under_way
+        super().__init__()
+
+    def render(self, task: Task) -> Text:
+        """Return the first few; the rest is counted."""
+        found = self._under_way()
+        told = [f"{Path(each.name).name} {each.place}".strip() for each in found[:SHOWN_AT_WORK]]
+        more = f" +{len(found) - len(told)}" if len(found) > len(told) else ""
+        return Text(one_line(", ".join(told)) + more or task.description)
+
+
+class _TimeLeft(ProgressColumn):
+    """How long the rest will take, once one input is done: as long for each as so far."""
+
+    max_refresh = 0.5
+
+    def render(self, task: Task) -> Text:
+        """Return nothing until something is known."""
+        if not task.completed or task.total is None or task.elapsed is None:
+            return Text("")
+        left = task.elapsed / task.completed * (task.total - task.completed)
+        return Text(f"about {timedelta(seconds=round(left))} left")
+
+
+def _follow_on_terminal(
+    console: Console,
+    results: Iterable[Result],
+    total: int,
+    under_way: Callable[[], tuple[UnderWay, ...]],
+) -> list[Result]:
     columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
+        BarColumn(bar_width=20),
         MofNCompleteColumn(),
         TimeElapsedColumn(),
-        TimeRemainingColumn(),
+        _TimeLeft(),
+        _Stages(under_way),
     )
     collected: list[Result] = []
     with Progress(*columns, console=console) as progress:
@@ -86,8 +140,8 @@ def _follow_on_terminal(console: Console, results: Iterable[Result], total: int)
                 total -= 1
                 progress.update(task, total=total)
                 continue
-            progress.update(task, advance=1, description=escape(result.entry.id))
-            if result.entry.status is not Status.PASSED:
+            progress.update(task, advance=1)
+            if result.entry.status is not Status.PASSED or result.replaced:
                 progress.console.print(f"{result.entry.status}: {_sentence(result)}", markup=False)
     return collected
 
@@ -108,7 +162,8 @@ def _known_sentence(known: int, total: int) -> str:
 
 def _sentence(result: Result) -> str:
     said = f"{result.entry.id}: {result.entry.message}" if result.entry.message else result.entry.id
-    return one_line(said)
+    replaced = f"; in place of {', '.join(result.replaced)}" if result.replaced else ""
+    return one_line(f"{said}{replaced}")
 
 
 def print_results(summary: Summary, output: Path) -> None:

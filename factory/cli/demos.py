@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Literal
 
-import tyro
 from tyro.conf import Positional
 
 from ..errors import ConfigError, Exit
-from ..registry import Split
+from ..registry import Registry
 from ..runtime.terminal import say
-from .flags import check_effort, require_maniskill
+from .flags import check_effort, entries_where, require_maniskill
 
 if TYPE_CHECKING:
     from asset_factory.envs.assets import RegisteredAsset
@@ -51,10 +50,8 @@ class Demos:
     """The registry's folder; the demonstrations refer to it as it is written here."""
     joint: str | None = None
     """Only this joint of each."""
-    category: Annotated[tuple[str, ...], tyro.conf.UseAppendAction] = ()
-    """Only objects of this category; may be given several times."""
-    split: Split | None = None
-    """Only assets to train on, or only those to test on."""
+    where: str = ""
+    """Only assets that meet conditions, such as "category = fridge and split = train"."""
     task: Literal["OpenJoint-v1", "OpenDoor-v1", "OpenDrawer-v1"] = "OpenJoint-v1"
     """What is demonstrated; doors are hinged parts, drawers sliding ones."""
     robot: Literal["panda", "fetch"] = "panda"
@@ -139,13 +136,17 @@ def _wanted(command: Demos) -> list[RegisteredAsset]:
     from asset_factory.envs.tasks.catalog import TASKS
 
     assets = read_registry(command.output)
-    assets = named(assets, command.ids, command.output)
+    ids = command.ids
+    if command.where:
+        found = {entry.id for entry in entries_where(Registry(command.output), command.where)}
+        ids = tuple(id for id in (ids or assets) if id in found)
+        if not ids:
+            raise ConfigError(f"--where: none of these assets has {command.where}")
+    assets = named(assets, ids, command.output)
     task = getattr(envs, next(task.class_name for task in TASKS if task.id == command.task))
     wanted = Wanted(
         joint=command.joint,
-        categories=command.category,
         joint_types=task.joint_types,
-        split=command.split,
         min_lever=task.min_lever,
     )
     return list(select(assets, wanted).values())

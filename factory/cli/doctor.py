@@ -7,7 +7,6 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from rich.markup import escape
-from rich.table import Table
 
 from ..errors import Exit
 from ..runtime.terminal import say
@@ -36,15 +35,19 @@ def run(command: Doctor) -> int:
 
     from ..report.machine import Health, abilities
 
-    found = tuple(abilities(command.output))
+    found = []
+    shown = console.terminal()
+    if not command.json:
+        say("Every engine and library is tried, which takes up to a minute.")
+    for each in abilities(command.output):
+        found.append(each)
+        if not command.json:
+            state = f"[{STYLE[each.health]}]{each.health:8}[/]"
+            told = f"{state}{each.name:11}{escape(each.detail)} [dim]({escape(each.serves)})[/]"
+            shown.print(told, soft_wrap=True)
+            if each.remedy:
+                shown.print(f"{'':8}{escape(each.remedy)}", soft_wrap=True)
     if command.json:
         say(json.dumps([asdict(each) for each in found], indent=2))
-    else:
-        table = Table("", "for", "", "detail", "what would help")
-        for each in found:
-            state = f"[{STYLE[each.health]}]{each.health}[/]"
-            texts = (each.detail, each.remedy)
-            table.add_row(each.name, each.serves, state, *(escape(text) for text in texts))
-        console.terminal().print(table)
     works = {each.name for each in found if each.health is Health.WORKS}
     return Exit.OK if works & set(SIMULATORS) else Exit.REJECTED

@@ -2,27 +2,32 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from importlib import import_module
 from pathlib import Path
-from typing import Annotated, Any, Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import tyro
 
 from asset_factory.sim_checks import Status
 from asset_factory.sim_checks.read.roots import ReadOptions, ros_package_path
 from asset_factory.sim_checks.read.xacro import parse_arguments
-from asset_factory.sim_checks.simulators.catalog import SIMULATORS, USUAL
+from asset_factory.sim_checks.simulators.catalog import (
+    SIMULATORS,
+    USUAL,
+    install_line,
+    installed,
+)
 
 from ..articulate.catalog import ARTICULATORS
-from ..config import REPAIR_KINDS, BuildConfig
+from ..config import REPAIR_KINDS, BuildConfig, ParticulateConfig
 from ..errors import AssetFactoryError, ConfigError
 from ..presets import load_config
 from ..registry import Entry, Registry
-from ..registry.entry import SOLVED
 from ..registry.rows import Filters
-from ..registry.split import SPLITS
+from ..registry.where import parse_where, unknown_values
 from ..runtime.terminal import complain
 
 DEFAULT_SIMULATORS = "sapien"
@@ -79,6 +84,9 @@ class InputFlags:
     """Points that particulate labels per sample."""
     samples: int | None = None
     """Samples that particulate reads; the one that agrees most with the others is taken."""
+    device: str | None = None
+    """Where the network runs: auto (a GPU where there is one), cpu, cuda, cuda:N or mps; as the
+    preset says by default, and that says auto."""
     vlm_url: str | None = None
     """With --articulator vlm: an endpoint of OpenAI's chat-completions protocol, such as
     http://localhost:8000/v1; pictures of inputs go there. Its key: ASSET_FACTORY_VLM_KEY."""
@@ -92,40 +100,6 @@ class InputFlags:
     """A preset (default, fast, lenient, strict) or a TOML file of differences from the defaults."""
     reading: tyro.conf.OmitArgPrefixes[RootFlags] = field(default_factory=RootFlags)
     """Where descriptions may read."""
-
-
-@dataclass(frozen=True)
-class EntryFilters:
-    """Which assets."""
-
-    status: str | None = None
-    """passed, rejected or unjudged."""
-    category: str | None = None
-    """Of the object."""
-    reason: str | None = None
-    """Code of the first finding that is an error."""
-    tag: str | None = None
-    """One of their tags."""
-    split: str | None = None
-    """train or test."""
-    solved: str | None = None
-    """yes or no: whether a robot opened one of their joints."""
-    license: Annotated[str | None, tyro.conf.arg(aliases=["--licence"])] = None
-    """Of the input."""
-    gpu_ready: bool = False
-    """Only those that PhysX takes on a GPU: up to 64 hulls a link, of 64 corners, of aspect 64."""
-
-    def filters(self, **defaults: str) -> Filters:
-        """Return the same for the registry. Raises ConfigError for what no asset can be."""
-        values = {
-            **defaults,
-            **{name: value for name, value in asdict(self).items() if isinstance(value, str)},
-            **({"gpu_ready": "yes"} if self.gpu_ready else {}),
-        }
-        for name, known in (("status", tuple(Status)), ("split", SPLITS), ("solved", SOLVED[1:])):
-            if name in values and values[name] not in known:
-                raise ConfigError(f"--{name}: is {values[name]!r}, want one of {', '.join(known)}")
-        return Filters(**values)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -148,12 +122,31 @@ class Printed:
 class OfPassed(OfRegistry):
     """A command on some assets of a registry."""
 
-    wanted: tyro.conf.OmitArgPrefixes[EntryFilters] = field(default_factory=EntryFilters)
-    """Which assets; those that passed, if no status is given."""
+    where: str = ""
+    """Which assets, such as "category = fridge and joints > 1"; those that passed, if no status is
+    said. There are status, category, reason, tag, split, solved, license, gpu_ready, name, parts,
+    joints and hulls."""
 
     def entries(self) -> Iterator[Entry]:
         """Yield the assets that are wanted. Raises ConfigError for what no asset can be."""
-        return Registry(self.output).walk(self.wanted.filters(status="passed"))
+        return entries_where(Registry(self.output), self.where, status=Status.PASSED)
+
+
+def entries_where(registry: Registry, where: str, **defaults: str) -> Iterator[Entry]:
+    """Yield the assets that meet conditions; a value that none has is told on stderr."""
+    return registry.walk(wanted(registry, where, **defaults))
+
+
+def wanted(registry: Registry, where: str, **defaults: str) -> Filters:
+    """Return the filters of ``--where``; a value that no asset has is told on stderr.
+
+    Raises:
+        ConfigError: it cannot be read, or asks for what no asset can be.
+    """
+    filters = parse_where(where, **defaults)
+    if sentence := unknown_values(registry, filters):
+        complain(f"factory: --where: {sentence}")
+    return filters
 
 
 def input_config(flags: InputFlags) -> BuildConfig:
@@ -180,11 +173,11 @@ def input_config(flags: InputFlags) -> BuildConfig:
         allow_outside=config.intake.allow_outside or flags.reading.allow_outside,
         arguments=(*config.intake.arguments, *flags.reading.arguments()),
     )
-    asked = ("checkpoint", "features", "points", "samples")
+    asked = ("checkpoint", "features", "points", "samples", "device")
     given: dict[str, Any] = {
         name: getattr(flags, name) for name in asked if getattr(flags, name) is not None
     }
-    particulate = replace(config.particulate, **{**given, **_published(flags)})
+    particulate = on_device(replace(config.particulate, **{**given, **_published(flags)}))
     require_usable(particulate, needed=flags.articulator == "particulate")
     vlm = replace(config.vlm, url=flags.vlm_url or config.vlm.url)
     vlm = replace(vlm, model=flags.vlm_model or vlm.model)
@@ -192,6 +185,15 @@ def input_config(flags: InputFlags) -> BuildConfig:
     return replace(
         config, articulator=flags.articulator, intake=intake, particulate=particulate, vlm=vlm
     )
+
+
+def on_device(config: ParticulateConfig) -> ParticulateConfig:
+    """Return settings that name a device, not ``auto``. Raises ConfigError: no such device."""
+    from ..models.particulate.device import device_for
+
+    if not re.fullmatch(r"auto|cpu|cuda(:\d+)?|mps", config.device):
+        raise ConfigError(f"--device: is {config.device!r}, want auto, cpu, cuda, cuda:N or mps")
+    return replace(config, device=device_for(config.device))
 
 
 def _published(flags: InputFlags) -> dict[str, str]:
@@ -208,14 +210,24 @@ def _published(flags: InputFlags) -> dict[str, str]:
 
 
 def simulators_named(names: str) -> tuple[str, ...]:
-    """Parse simulators, comma-separated, or ``all``. Raises ConfigError that names all known."""
-    if names == "all":
-        return USUAL
-    chosen = tuple(dict.fromkeys(name.strip() for name in names.split(",") if name.strip()))
+    """Parse simulators, comma-separated, or ``all``.
+
+    Raises:
+        ConfigError: one is unknown, or not installed; says what there is, or what installs it.
+    """
+    said = USUAL if names == "all" else names.split(",")
+    chosen = tuple(dict.fromkeys(name.strip() for name in said if name.strip()))
     unknown = [name for name in chosen if name not in SIMULATORS]
     if unknown:
         raise ConfigError(
             f"--sim: no simulator {unknown[0]!r}; there are {', '.join(SIMULATORS)}, or 'all'"
+        )
+    missing = [name for name in chosen if not installed(name)]
+    if missing:
+        there = ", ".join(name for name in SIMULATORS if installed(name)) or "none"
+        raise ConfigError(
+            f"--sim: {missing[0]} is not installed: {install_line(missing[0])}; "
+            f"of the others there is {there}"
         )
     return chosen
 

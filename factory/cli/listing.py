@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass, field
-
-import tyro
+from dataclasses import asdict, dataclass
 
 from ..errors import ConfigError, Exit
 from ..registry import Registry
+from ..registry.aside import superseded
 from ..runtime.terminal import say
 from . import console
-from .flags import EntryFilters, OfRegistry, Printed
+from .flags import OfRegistry, Printed, wanted
 
 #: Rows of a table that nobody set a limit for.
 TABLE_ROWS = 200
@@ -28,22 +27,33 @@ class List(Printed, OfRegistry):
     """Rows at most; 0: all. Without it a table has up to 200, JSON all."""
     after: str = ""
     """Go on after the row of this id."""
-    wanted: tyro.conf.OmitArgPrefixes[EntryFilters] = field(default_factory=EntryFilters)
-    """Which assets."""
+    superseded: bool = False
+    """Those instead whose input has become another asset, by a corrected sidecar."""
+    where: str = ""
+    """Which assets, such as "category = fridge and joints > 1"; of status, category, reason, tag,
+    split, solved, license, gpu_ready, name, parts, joints and hulls."""
 
 
 def run(command: List) -> int:
     """Print the rows; returns the exit code."""
     registry = Registry(command.output)
-    filters = command.wanted.filters()
+    filters = wanted(registry, command.where)
     if command.limit is not None and command.limit < 0:
         raise ConfigError(f"--limit: is {command.limit}, want at least 0")
     limit = command.limit if command.limit is not None else 0 if command.json else TABLE_ROWS
     # One more than asked for says whether there are more.
-    found = registry.select(filters, limit=limit + 1 if limit else None, after=command.after)
+    more = limit + 1 if limit else None
+    found = (
+        superseded(registry.root)
+        if command.superseded
+        else registry.select(filters, limit=more, after=command.after)
+    )
     entries = found[: limit or None]
     if command.json:
         say(json.dumps([asdict(entry) for entry in entries], indent=2))
+        return Exit.OK
+    if not entries:
+        say(f"no assets{f' with {command.where}' if command.where else ''}")
         return Exit.OK
     console.print_entries(entries)
     if len(found) > len(entries):

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..runtime.terminal import say
-from .flags import simulators_named, with_repairs
+from .flags import on_device, simulators_named, with_repairs
 from .report import report_after
 
 if TYPE_CHECKING:
@@ -45,13 +45,13 @@ class Nightly:
     ray_address: str | None = None
     """With executor ray: 'auto' or host:port of a cluster that runs; 'local' starts one."""
     max_hours: float | None = None
-    """No input is begun later than this after the start [h]; 0: no limit."""
+    """Stop so long after the start [h]; what runs then is left to the next night; 0: no limit."""
     limit: int | None = None
     """Inputs begun at most, those known from before not counted; 0: all."""
     name: str | None = None
     """Of the night; by default the one that was interrupted, else the next number."""
-    report: bool = True
-    """Renew the pages of the registry at the end; see `factory report`."""
+    no_report: bool = False
+    """Leave the pages of the registry as they are; see `factory report`."""
     fresh: bool = False
     """Begin a new night even if one was interrupted."""
 
@@ -68,7 +68,7 @@ def run(command: Nightly) -> int:
     require_libraries()
     with interruptible():
         report = run_night(config, Work(config), name=command.name, fresh=command.fresh)
-    if command.report:
+    if not command.no_report:
         report_after(config.output, config.workers or None)
     say(message(report))
     for sentence in report.attention:
@@ -98,5 +98,6 @@ def night_config(command: Nightly) -> NightConfig:
     )
     settings.require_possible(config)
     build = replace(config.build, simulators=simulators_named(config.sim))
+    build = replace(build, particulate=on_device(build.particulate))
     config = replace(config, build=with_repairs(build, command.repairs))
     return settings.with_licenses(config)

@@ -13,7 +13,6 @@ from tyro.conf import Positional
 
 from ..errors import ConfigError, Exit
 from ..registry import Registry
-from ..registry.cleaning import collect_garbage
 from ..registry.diff import diff
 from ..registry.rebuild import rebuild
 from ..registry.sources import entries_of
@@ -22,10 +21,9 @@ from ..registry.verify import verify
 from ..runtime.remote import is_url, shown
 from ..runtime.terminal import say
 from .flags import OfPassed, OfRegistry, Printed
-from .registry_printing import print_diff, print_freed, print_problems, print_rebuilt, size
+from .registry_printing import print_diff, print_problems, print_rebuilt, size
 
 _GB = 1e9
-_DAY_S = 86_400.0
 
 
 @dataclass(frozen=True)
@@ -42,20 +40,6 @@ class Verify(Printed, OfRegistry):
 
     ids: Positional[tuple[str, ...]] = ()
     """Only these assets."""
-
-
-@dataclass(frozen=True)
-class Gc(OfRegistry):
-    """Remove what dead processes left, and cached results by age and size.
-
-    Never what a running job holds: its staging folders are locked, and what was used within the
-        last hour stays.
-    """
-
-    older_than: float | None = None
-    """Cached results that nobody used for so many days go."""
-    keep_gb: float | None = None
-    """So much of the cache may stay [GB]; the longest unused goes first."""
 
 
 @dataclass(frozen=True)
@@ -158,7 +142,6 @@ class RegistryCommand:
     action: tyro.conf.OmitArgPrefixes[
         Annotated[Rebuild, tyro.conf.subcommand("rebuild", prefix_name=False)]
         | Annotated[Verify, tyro.conf.subcommand("verify", prefix_name=False)]
-        | Annotated[Gc, tyro.conf.subcommand("gc", prefix_name=False)]
         | Annotated[Difference, tyro.conf.subcommand("diff", prefix_name=False)]
         | Annotated[Export, tyro.conf.subcommand("export", prefix_name=False)]
         | Annotated[Sync, tyro.conf.subcommand("sync", prefix_name=False)]
@@ -174,7 +157,6 @@ def run(command: RegistryCommand) -> int:
     actions: dict[type, Callable[[Any], int]] = {
         Rebuild: _rebuild,
         Verify: _verify,
-        Gc: _gc,
         Difference: _diff,
         Export: _export,
         Sync: _sync,
@@ -200,20 +182,6 @@ def _verify(command: Verify) -> int:
     else:
         print_problems(problems, len(ids) or registry.count())
     return Exit.REJECTED if problems else Exit.OK
-
-
-def _gc(command: Gc) -> int:
-    for name, value in (("older-than", command.older_than), ("keep-gb", command.keep_gb)):
-        if value is not None and not value >= 0.0:
-            raise ConfigError(f"--{name}: is {value:g}, want at least 0")
-    print_freed(
-        collect_garbage(
-            Registry(command.output).root,
-            older_than_s=None if command.older_than is None else command.older_than * _DAY_S,
-            keep_bytes=None if command.keep_gb is None else int(command.keep_gb * _GB),
-        )
-    )
-    return Exit.OK
 
 
 def _diff(command: Difference) -> int:

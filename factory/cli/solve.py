@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from tyro.conf import Positional
 
 from ..errors import ConfigError, Exit, RegistryError
+from ..runtime.layout import SOLVING
 from ..runtime.terminal import complain, say
 from .flags import check_effort, require_maniskill
 
@@ -76,6 +77,12 @@ def run(command: Solve) -> int:
             for asset in assets.values()
             for joint in _joints(asset, command)
             if records[asset.id].wants(joint.name, robot, command.seed, command.tries)
+            or (
+                # A film is taken of the actions, which no record keeps.
+                command.video
+                and records[asset.id].is_solved(joint.name, robot)
+                and not _film_path(command, asset.id, joint.name, robot).exists()
+            )
         ]
         progress.expect(robot, len(missing))
         for attempt in _attempts(command, missing, robot):
@@ -152,10 +159,9 @@ def _attempts(command: Solve, missing: list[tuple[str, str]], robot: str) -> Ite
 def _film(command: Solve, attempt: Attempt) -> bool:
     """Write a video; whether the next one is worth trying."""
     from asset_factory.envs.solving.film import film
-    from asset_factory.envs.solving.record import FOLDER
     from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 
-    path = command.output / FOLDER / f"{attempt.asset}-{attempt.joint}-{attempt.robot}.mp4"
+    path = _film_path(command, attempt.asset, attempt.joint, attempt.robot)
     outcome = run_isolated(
         film, str(command.output), attempt, str(path), limits=Limits(wall_s=command.timeout)
     )
@@ -163,3 +169,7 @@ def _film(command: Solve, attempt: Attempt) -> bool:
         return True
     complain(f"no video of {attempt.asset} {attempt.joint}: {outcome.detail}")
     return not isinstance(outcome.error, ConfigError)
+
+
+def _film_path(command: Solve, asset: str, joint: str, robot: str) -> Path:
+    return command.output / SOLVING / f"{asset}-{joint}-{robot}.mp4"

@@ -76,6 +76,7 @@ def manifest_of(layout: Layout, provenance: Provenance) -> Manifest:
         tools=tool_versions(),
         notes=(*provenance.notes, *articulation.notes, *layout.notes),
         invented=tuple(_surface(surface) for surface in asset.invented),
+        proposers=tuple(sorted({p.source.proposer for p in articulation.parts if p.source})),
     )
 
 

@@ -180,6 +180,7 @@ class Manifest:
         name, category, license: of the input; ``None`` if unknown.
         urdf, mjcf: the descriptions' files.
         articulator: who said what moves.
+        proposers: whose proposals became its moving parts, sorted.
         scale: to be applied by a loader.
         fixed_base: whether the base is held in place.
         mass: of everything [kg].
@@ -219,6 +220,7 @@ class Manifest:
     tools: dict[str, str | None]
     notes: tuple[str, ...]
     invented: tuple[ManifestSurface, ...] = ()
+    proposers: tuple[str, ...] = ()
 
     @property
     def proposed(self) -> dict[str, ManifestProposal]:

@@ -14,13 +14,13 @@ from asset_factory.sim_checks.read.roots import OWN_PACKAGE, Roots
 from asset_factory.sim_checks.read.usd.layers import is_usd
 
 from ..errors import ConfigError
-from ..runtime.layout import ASSETS, DATABASE, REJECTED, WITHDRAWN
+from ..runtime.layout import ASSETS, DATABASE, REJECTED, SUPERSEDED, WITHDRAWN
 from .formats.catalog import is_mesh
 from .references import References
 
 _HEAD_BYTES = 2**20
 #: What a registry's folder holds: assets are no inputs, though they look like some.
-REGISTERED = (ASSETS, REJECTED, WITHDRAWN)
+REGISTERED = (ASSETS, REJECTED, WITHDRAWN, SUPERSEDED)
 #: What the USD layer to begin with is called, if not like its folder.
 MAIN_LAYERS = ("instance", "model", "asset")
 

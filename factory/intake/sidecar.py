@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass
+from difflib import get_close_matches
 from pathlib import Path
+from typing import Any
 
 from asset_factory.sim_checks.read.document import inside
 
@@ -12,6 +15,7 @@ from ..errors import ConfigError, InputRejected
 from .files import InputFiles
 from .orientation import parse_up
 from .reads import ABSENT
+from .sizes import normalised, size_table
 
 _TEXTS = ("category", "up", "license", "annotation")
 _NUMBERS = ("height", "scale", "density")
@@ -102,6 +106,7 @@ def _parse(path: Path, files: InputFiles) -> Sidecar:
     for key in _TEXTS:
         if key in values and not (isinstance(values[key], str) and values[key].strip()):
             raise bad_sidecar(path, f"{key} is {repr(values[key])[:80]}, want a text")
+    _require_known_category(path, values)
     return Sidecar(
         category=values.get("category"),
         up=_up(path, values.get("up")),
@@ -111,6 +116,19 @@ def _parse(path: Path, files: InputFiles) -> Sidecar:
         license=values.get("license"),
         annotation=_annotation(path, values.get("annotation"), files),
     )
+
+
+def _require_known_category(path: Path, values: Mapping[str, Any]) -> None:
+    """Reject a category that says nothing of the size, where nothing else does: a slip."""
+    category = values.get("category")
+    if category is None or not {"height", "scale"}.isdisjoint(values):
+        return
+    known = size_table()
+    if normalised(category) not in known:
+        near = get_close_matches(normalised(category), known, n=1)
+        meant = f"did you mean {near[0]!r}?" if near else "configs/categories.toml lists those."
+        message = f"category {category[:80]!r} is not known; {meant} For another, state its height"
+        raise bad_sidecar(path, message)
 
 
 def _up(path: Path, value: str | None) -> str | None:

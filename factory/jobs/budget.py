@@ -23,7 +23,7 @@ class Budget:
 
     Attributes:
         limit: inputs begun at most, those known from before not counted; ``None``: all.
-        max_s: after so long no more are begun [s]; what runs is finished. ``None``: no limit.
+        max_s: after so long none is begun, and what runs is stopped [s]. ``None``: no limit.
         retry: reason codes; what was rejected or left unjudged for one of them is built again.
             ``any``: for any.
         repair: every known input's files are compared with what was published; what is damaged is

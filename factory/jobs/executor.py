@@ -22,10 +22,22 @@ class Call:
     Attributes:
         name: tells it from others in logs.
         arguments: of the function, by name; they must pickle.
+        until: when it is ended, if it still runs [s since 1970]; ``None``: by the limits alone.
+        wanted: asked on this machine before it is begun, if it was not handed to another.
     """
 
     name: str
     arguments: Mapping[str, Any]
+    until: float | None = None
+    wanted: Callable[[], bool] = lambda: True
+
+
+@dataclass(frozen=True)
+class UnderWay:
+    """A call that is being made: its name, and where its work is, empty if that is not known."""
+
+    name: str
+    place: str
 
 
 class Executor(Protocol):
@@ -46,6 +58,7 @@ class Executor(Protocol):
             limits: of each call.
 
         Returns:
-            Every call once, a failed one with the failed outcome of its last try. Nothing that a
-            call does raises.
+            Every call once, a failed one with the failed outcome of its last try, and one that was
+            not wanted or not done in time with neither value nor failure. Nothing that a call does
+            raises.
         """

@@ -9,18 +9,19 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
 from functools import cache, partial
-from importlib.util import find_spec
 from pathlib import Path
-from typing import cast
 
+from asset_factory.sim_checks import Status
 from asset_factory.sim_checks.processes.isolation import Limits, Outcome, preload
 
 from ..articulate.catalog import entry_of
+from ..articulate.settings import require_torch
 from ..config import BuildConfig
 from ..errors import RegistryError
 from ..intake.load import DESCRIPTION_SUFFIXES
 from ..models.service import Address, ModelService
 from ..registry import Entry, Registry
+from ..registry.aside import InputNow, keep_current
 from ..registry.claims import Claim, claim
 from ..registry.product import Product
 from ..registry.registration import register, register_failure
@@ -28,8 +29,9 @@ from ..registry.result import Result, known_result
 from ..registry.verify import verify
 from ..report.summary import JobState
 from ..runtime.layout import CACHE, CLAIMS
+from ..runtime.store import Store
 from .budget import Budget
-from .executor import Call, Executor
+from .executor import Call, Executor, UnderWay
 from .local import LocalExecutor
 from .log import Log
 from .probe import KnownReads, Probe, known_of
@@ -57,6 +59,12 @@ def modules_for(config: BuildConfig) -> tuple[str, ...]:
     return (*COMMON_MODULES, *((SAPIEN_MODULE,) if "sapien" in config.simulators else ()))
 
 
+def asks_network(inputs: Sequence[Path], config: BuildConfig) -> bool:
+    """Tell whether one of the inputs may be shown to a network: a mesh, not a description."""
+    plain = any(path.suffix.lower() not in DESCRIPTION_SUFFIXES for path in inputs)
+    return plain and entry_of(config.articulator).asks_network
+
+
 @dataclass(frozen=True)
 class _Begun:
     """An input that a worker has."""
@@ -77,8 +85,11 @@ class Job:
         one_network: whether all workers ask one network, which takes an executor on this machine.
 
     Attributes:
-        left: inputs not begun, for want of time or because the limit was reached.
+        left: inputs not done, for want of time or because the limit was reached.
         state: how it ended, so far.
+
+    Raises:
+        ConfigError: one of the inputs may be shown to a network, and none can run.
     """
 
     def __init__(
@@ -91,6 +102,8 @@ class Job:
         *,
         one_network: bool = True,
     ) -> None:
+        if asks_network(inputs, config):
+            require_torch()
         self._inputs = inputs
         self._output = output.absolute()
         self._config = config
@@ -124,15 +137,22 @@ class Job:
             yield from self._run()
 
     def wind_up(self) -> None:
-        """Begin nothing more; what workers have, or are about to take, is finished."""
+        """Begin nothing more; what workers have is finished."""
         self._winding_up = True
+
+    def under_way(self) -> tuple[UnderWay, ...]:
+        """Return what workers on this machine are at; from any thread."""
+        executor = self._executor
+        return executor.under_way() if isinstance(executor, LocalExecutor) else ()
 
     def _run(self) -> Iterator[Result]:
         self._until = None if self._budget.max_s is None else time.monotonic() + self._budget.max_s
         waiting = []
         urgent = []
         for probes in self._known_reads.probe_all(self._inputs):
-            for probe, entry in zip(probes, known_of(probes, self._registry), strict=True):
+            found = [*zip(probes, known_of(probes, self._registry), strict=True)]
+            keep_current(self._registry, [*_known_inputs(found)])
+            for probe, entry in found:
                 if entry is not None and entry.id in self._budget.damaged:
                     urgent.append(probe)
                 elif entry is None or self._wants_again(entry):
@@ -180,15 +200,15 @@ class Job:
                 self.state = JobState.INTERRUPTED
                 raise
             finally:
+                if self._config.cache_gb > 0.0:
+                    Store(self._output / CACHE).trim(keep_bytes=round(1e9 * self._config.cache_gb))
                 # On a full disk there is a better error under way.
                 with suppress(OSError):
                     log.ended(self.state, len(self._built), self.left)
 
     def _network(self, waiting: Sequence[Probe], stack: ExitStack) -> Address | None:
         """Return one network for all workers, if one of the inputs may ask it."""
-        plain = any(probe.source.suffix.lower() not in DESCRIPTION_SUFFIXES for probe in waiting)
-        learned = entry_of(self._config.articulator).asks_network
-        asks = plain and learned and find_spec("torch") is not None
+        asks = asks_network([probe.source for probe in waiting], self._config)
         if not (asks and self._one_network):
             return None
         return stack.enter_context(ModelService(self._config.particulate)).address
@@ -227,11 +247,10 @@ class Job:
                 "staging": folder,
                 "config": self._config,
                 "cache": self._output / CACHE,
-                "until": until,
                 "address": network(),
                 "engines": _engines(self._executor),
             }
-            yield Call(str(probe.source), arguments)
+            yield Call(str(probe.source), arguments, until, lambda: not self._winding_up)
 
     def _is_over(self) -> bool:
         if self._budget.limit is not None and self._calls_made >= self._budget.limit:
@@ -246,21 +265,21 @@ class Job:
         while self._meanwhile:
             yield self._meanwhile.pop(0)
 
-    def _ended(self, call: Call, outcome: Outcome[Product | None], log: Log) -> Iterator[Result]:
+    def _ended(self, call: Call, outcome: Outcome[Product], log: Log) -> Iterator[Result]:
         """Register one call's outcome and give up its claim; yield the result."""
         begun = self._begun.pop(call.name)
         try:
             if outcome.failure is None and outcome.value is None:
-                self.state = JobState.OUT_OF_TIME
+                late = not self._winding_up
+                self.state = JobState.OUT_OF_TIME if late else JobState.INTERRUPTED
                 self.left += 1
                 return
             if isinstance(outcome.error, OSError) and outcome.error.errno in FULL_OR_CLOSED:
                 raise outcome.error
             with undisturbed():
-                done = cast("Outcome[Product]", outcome)
-                result = self._registered(begun.probe, done)
+                result = self._registered(begun.probe, outcome)
                 self._built.add(begun.probe.claim)
-                log.built(result, done)
+                log.built(result, outcome)
         finally:
             begun.claim.release()
         yield result
@@ -293,6 +312,14 @@ class Job:
     def _release_all(self) -> None:
         while self._begun:
             self._begun.popitem()[1].claim.release()
+
+
+def _known_inputs(found: Sequence[tuple[Probe, Entry | None]]) -> Iterator[InputNow]:
+    """Yield which assets inputs are, of those that have a verdict."""
+    for probe, entry in found:
+        digest = probe.reads[probe.source.name]
+        if entry is not None and digest and entry.status is not Status.UNJUDGED:
+            yield InputNow(probe.source, digest, entry.id)
 
 
 def _engines(executor: Executor) -> int:

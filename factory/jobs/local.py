@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+import time
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import partial
 from queue import SimpleQueue
 from threading import Event, Thread
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from asset_factory.sim_checks.processes.isolation import (
     Failure,
@@ -16,7 +19,7 @@ from asset_factory.sim_checks.processes.isolation import (
     processors,
 )
 
-from .executor import AHEAD, Call
+from .executor import AHEAD, Call, UnderWay
 
 T = TypeVar("T")
 
@@ -39,6 +42,11 @@ class LocalExecutor:
     retries: int = 1
     calls: int = 50
     resident_bytes: int = 2 * 1024**3
+    _pools: list[_WorkerPool[Any]] = field(default_factory=list, compare=False, repr=False)
+
+    def under_way(self) -> tuple[UnderWay, ...]:
+        """Return the calls that are being made now; from any thread."""
+        return tuple(each for pool in self._pools for each in pool.under_way())
 
     @property
     def engines(self) -> int:
@@ -50,6 +58,7 @@ class LocalExecutor:
     ) -> Iterator[tuple[Call, Outcome[T]]]:
         """Make every call as :class:`~.executor.Executor` promises."""
         pool: _WorkerPool[T] = _WorkerPool(self, function, limits)
+        self._pools[:] = [pool]
         waiting = iter(calls)
         ends = False
         under_way = 0
@@ -68,6 +77,7 @@ class LocalExecutor:
                 under_way -= 1
                 yield answered
         finally:
+            self._pools.clear()
             pool.dismiss()
 
 
@@ -84,6 +94,7 @@ class _WorkerPool(Generic[T]):
         self._done: SimpleQueue[tuple[Call, Outcome[T]]] = SimpleQueue()
         self._dismissed = Event()
         self._members: list[tuple[Thread, WarmChild]] = []
+        self._making: dict[WarmChild, str] = {}
 
     def ask(self, call: Call) -> None:
         if len(self._members) < self._most:
@@ -110,29 +121,73 @@ class _WorkerPool(Generic[T]):
 
     def _serve(self, child: WarmChild) -> None:
         while (call := self._todo.get()) is not None and not self._dismissed.is_set():
-            self._done.put((call, self._tried(child, call)))
+            self._making[child] = call.name
+            outcome = self._tried(child, call)
+            del self._making[child]
+            self._done.put((call, outcome))
+
+    def under_way(self) -> Iterator[UnderWay]:
+        """Yield the calls that are being made."""
+        for child, name in [*self._making.items()]:
+            yield UnderWay(name, child.place)
 
     def _tried(self, child: WarmChild, call: Call) -> Outcome[T]:
-        tries = 0
-        deaths: tuple[str, ...] = ()
-        while True:
-            try:
-                outcome = child.call(self._function, limits=self._limits, **call.arguments)
-            except Exception as error:  # noqa: BLE001 - no process, no folder, no pickle: this call's failure alone
-                return Outcome(
-                    None,
-                    Failure.RAISED,
-                    f"{type(error).__name__}: {error}",
-                    "",
-                    0.0,
-                    error,
-                    tries + 1,
-                )
-            tries += outcome.tries
-            deaths += outcome.deaths
-            if tries > self._retries or not worth_another_try(outcome) or self._dismissed.is_set():
-                return replace(outcome, tries=tries, deaths=deaths)
-            child.close()
+        def wanted() -> bool:
+            return call.wanted() and not self._dismissed.is_set()
+
+        return tried(
+            child,
+            partial(self._function, **call.arguments),
+            self._limits,
+            retries=self._retries,
+            until=call.until,
+            wanted=wanted,
+        )
+
+
+def tried(
+    child: WarmChild,
+    function: Callable[[], T],
+    limits: Limits,
+    *,
+    retries: int,
+    until: float | None,
+    wanted: Callable[[], bool] = lambda: True,
+) -> Outcome[T]:
+    """Make one call in a child, again where that may help; whatever it does, this returns.
+
+    Args:
+        child: ended where the call does not end.
+        function: with its arguments.
+        limits: of each try.
+        retries: further tries of what crashed, hung or ran out of memory.
+        until: when the last try is ended [s since 1970]; ``None``: by the limits alone.
+        wanted: asked before each try.
+
+    Returns:
+        The outcome of the last try; neither value nor failure where it was not wanted, or not done
+        in time.
+    """
+    tries = 0
+    deaths: tuple[str, ...] = ()
+    within = replace(limits, until=math.inf if until is None else until)
+    outcome: Outcome[T] = Outcome(None, None, "", "", 0.0)
+    while True:
+        if time.time() >= within.until or not wanted():
+            return outcome
+        try:
+            outcome = child.call(function, limits=within)
+        except Exception as error:  # noqa: BLE001 - no process, no folder, no pickle: this call's failure alone
+            detail = f"{type(error).__name__}: {error}"
+            return Outcome(None, Failure.RAISED, detail, "", 0.0, error, tries + 1)
+        if outcome.failure is Failure.TIMEOUT and time.time() >= within.until:
+            return Outcome(None, None, "", "", outcome.seconds)
+        tries += outcome.tries
+        deaths += outcome.deaths
+        outcome = replace(outcome, tries=tries, deaths=deaths)
+        if tries > retries or not worth_another_try(outcome):
+            return outcome
+        child.close()
 
 
 def worth_another_try(outcome: Outcome[T]) -> bool:

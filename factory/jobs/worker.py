@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-import time
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -24,12 +23,11 @@ def build_here(
     staging: Path,
     config: BuildConfig,
     cache: Path | None,
-    until: float | None,
     address: Address | None,
     place: Path | None = None,
     weights: Mapping[str, Path] | None = None,
     engines: int = 1,
-) -> Product | None:
+) -> Product:
     """Make one input in this process, which somebody else may kill.
 
     Args:
@@ -37,17 +35,14 @@ def build_here(
         staging: a folder of its own; what an earlier try left in it is removed.
         config: of every stage.
         cache: where results of expensive stages are kept; ``None``: nowhere.
-        until: do not begin after this time [s since 1970]; ``None``: begin at any time.
         address: of the job's network, if it has one.
         place: where the input lies for whoever registers it, if that is elsewhere.
         weights: where checkpoints lie on this machine, if not where the configuration says.
         engines: simulators that may run at once; verdicts do not depend on it.
 
     Returns:
-        What is to be registered; ``None`` if it was too late to begin.
+        What is to be registered.
     """
-    if until is not None and time.time() > until:
-        return None
     shutil.rmtree(staging, ignore_errors=True)
     staging.mkdir(parents=True)
     with asking(address), weights_at(weights or {}):

@@ -24,11 +24,13 @@ class Freed:
         staging: folders of processes that are dead; ``files`` counts them.
         unfinished: files that nobody finished writing.
         cache: results that can be computed again.
+        kept: of these, what is left.
     """
 
     staging: Trimmed
     unfinished: Trimmed
     cache: Trimmed
+    kept: Trimmed = Trimmed()  # noqa: RUF009 - frozen
 
     @property
     def bytes(self) -> int:
@@ -51,11 +53,9 @@ def collect_garbage(
     drop_abandoned(root / CLAIMS)
     staging = _remove_staging(root / STAGING)
     unfinished = _remove_unfinished(root)
-    return Freed(
-        staging,
-        unfinished,
-        Store(root / CACHE).trim(older_than_s=older_than_s, keep_bytes=keep_bytes),
-    )
+    store = Store(root / CACHE)
+    trimmed = store.trim(older_than_s=older_than_s, keep_bytes=keep_bytes)
+    return Freed(staging, unfinished, trimmed, store.size())
 
 
 def _remove_staging(staging: Path) -> Trimmed:

@@ -14,6 +14,7 @@ from ..config import BuildConfig
 from ..intake.reads import Reads
 from ..intake.source import Source
 from . import Registry
+from .aside import InputNow, keep_current
 from .crashes import ALWAYS, ONCE, crash_measurements, crash_stage, sentence
 from .product import Product, without_asset
 from .result import Result
@@ -41,6 +42,10 @@ def register(registry: Registry, product: Product, attempts: int = 1) -> Result:
         registry.publish(entry, product.bundle, product.told)
     else:
         registry.reject(entry, product.told, product.bundle)
+    digest = product.reads.get(product.source.name, "")
+    judged = digest and entry.status is not Status.UNJUDGED
+    now = (InputNow(product.source, digest, entry.id),) if judged else ()
+    replaced = keep_current(registry, now)
     seconds = perf_counter() - started
     result = product.result
     return replace(
@@ -48,6 +53,7 @@ def register(registry: Registry, product: Product, attempts: int = 1) -> Result:
         seconds=result.seconds + seconds,
         stages={**result.stages, "register": seconds},
         attempts=attempts,
+        replaced=replaced,
     )
 
 

@@ -10,7 +10,7 @@ from contextlib import AbstractContextManager, contextmanager
 from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from asset_factory.sim_checks import Report, Status
 
@@ -76,7 +76,7 @@ class Registry:
     def staging_folder(self) -> AbstractContextManager[Path]:
         """Return a fresh folder to build in; whatever is still in it afterwards is removed.
 
-        It is locked while the process lives, so that ``factory registry gc`` can tell what dead
+        It is locked while the process lives, so that ``factory gc`` can tell what dead
         ones left.
         """
         return held_folder(self.staging)
@@ -195,7 +195,8 @@ class Registry:
             after: only those whose id comes after this one: with ``limit``, page by page.
             wanted: see :class:`~.rows.Filters`.
         """
-        return self.select(Filters(**wanted), limit=limit, after=after)
+        named: dict[str, Any] = {**wanted}
+        return self.select(Filters(**named), limit=limit, after=after)
 
     def select(
         self, filters: Filters, *, limit: int | None = None, after: str = ""
@@ -216,10 +217,10 @@ class Registry:
         with connected(self.root) as connection:
             return rows.count(connection, filters or Filters())
 
-    def reasons(self) -> tuple[str, ...]:
-        """Return every reason for which something did not pass, sorted."""
+    def values(self, column: str) -> tuple[str, ...]:
+        """Return every value that entries have in a column, sorted, but the empty one."""
         with connected(self.root) as connection:
-            return rows.reasons(connection)
+            return rows.distinct(connection, column)
 
     def find(self, asset_id: str) -> Entry | None:
         """Return the row of that id, if there is one."""

@@ -24,6 +24,7 @@ class Result:
         attempts: how often it was begun; 0 if it was known from before, more than 1 after a crash.
         reused: stages that were answered from the cache; ``build`` alone if it was known from
             before.
+        replaced: assets that the same mesh was before, with other files beside it.
     """
 
     input: str
@@ -32,6 +33,7 @@ class Result:
     stages: Mapping[str, float] = field(default_factory=dict)
     attempts: int = 1
     reused: tuple[str, ...] = ()
+    replaced: tuple[str, ...] = ()
 
     @property
     def known(self) -> bool:

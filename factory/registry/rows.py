@@ -35,13 +35,23 @@ class RegistryRow:
 
 
 @dataclass(frozen=True)
+class Condition:
+    """A column of the table compared with a value."""
+
+    column: str
+    operator: str
+    value: str | int
+
+
+@dataclass(frozen=True)
 class Filters:
     """Which entries are wanted; ``None`` lets everything pass.
 
     Attributes:
-        status, category, reason, split, solved, license: as the entry has it.
+        status, category, reason, split, solved, license, name: as the entry has it.
         tag: one of its tags.
         gpu_ready: as the row has it.
+        others: what else must hold, of our own columns and operators.
     """
 
     status: str | None = None
@@ -52,16 +62,19 @@ class Filters:
     solved: str | None = None
     license: str | None = None
     gpu_ready: str | None = None
+    name: str | None = None
+    others: tuple[Condition, ...] = ()
 
-    def query(self, *, after: str = "") -> tuple[str, list[str]]:
+    def query(self, *, after: str = "") -> tuple[str, list[str | int]]:
         """Return what follows SELECT columns: the tables, the conditions, and their values."""
         asked = {
             item.name: getattr(self, item.name)
             for item in fields(self)
-            if getattr(self, item.name) is not None
+            if item.name != "others" and getattr(self, item.name) is not None
         }
         conditions = [f"{'tags' if name == 'tag' else 'assets'}.{name} = ?" for name in asked]
-        values = [*asked.values()]
+        conditions += [f"assets.{each.column} {each.operator} ?" for each in self.others]
+        values = [*asked.values(), *(each.value for each in self.others)]
         if after:
             conditions = [*conditions, f"{self.order} > ?"]
             values = [*values, after]
@@ -138,7 +151,7 @@ def select(
 
 def count(connection: sqlite3.Connection, filters: Filters) -> int:
     """Return how many entries pass."""
-    if filters.tag is not None:
+    if filters.tag is not None or filters.name is not None or filters.others:
         query, values = filters.query()
         return int(connection.execute(f"SELECT count(*){query}", values).fetchone()[0])
     asked = {name: getattr(filters, name) for name in COUNTED}
@@ -172,9 +185,10 @@ def _entry(row: tuple[str | int | None, ...]) -> Entry:
     return Entry(**named, tags=tuple(tags))  # type: ignore[arg-type]
 
 
-def reasons(connection: sqlite3.Connection) -> tuple[str, ...]:
-    """Return every reason there is, sorted."""
+def distinct(connection: sqlite3.Connection, column: str) -> tuple[str, ...]:
+    """Return every value there is in a column of ours, sorted, but the empty one."""
+    table = "tags" if column == "tag" else "assets"
     found = connection.execute(
-        "SELECT DISTINCT reason FROM assets WHERE reason != '' ORDER BY reason"
+        f"SELECT DISTINCT {column} FROM {table} WHERE {column} != '' ORDER BY {column}"  # noqa: S608 - our own names
     )
     return tuple(row[0] for row in found)

@@ -12,6 +12,7 @@ from pathlib import Path
 from ..errors import RegistryError
 from ..runtime.layout import ASSETS, REJECTED, REPORT, WITHDRAWN
 from . import rows
+from .aside import set_aside, set_asset_aside
 from .database import connected, writing
 from .folders import all_ids, current_folder, read_record
 from .notes import note_path
@@ -190,13 +191,6 @@ def settle(
     return {asset_id: _settled(registry, asset_id, final) for asset_id in ids}
 
 
-def withdraw(registry: Registry, asset_id: str) -> None:
-    """Drop an asset's row, and move its folder to ``withdrawn``; what was noted of it stays."""
-    with registry.unlisted(asset_id) as folders:
-        for folder in folders or ():
-            _set_aside(registry, folder, Path(asset_id))
-
-
 def _settled(registry: Registry, asset_id: str, final: bool) -> Settled:
     left = verify(registry, (asset_id,))
     if left and {problem.kind for problem in left} == {ProblemKind.EXTRA}:
@@ -207,7 +201,7 @@ def _settled(registry: Registry, asset_id: str, final: bool) -> Settled:
         return Settled.MENDED if known else Settled.WITHDRAWN
     if not final:
         return Settled.LEFT
-    withdraw(registry, asset_id)
+    set_asset_aside(registry, asset_id, WITHDRAWN)
     return Settled.WITHDRAWN
 
 
@@ -217,14 +211,4 @@ def _set_extras_aside(registry: Registry, asset_id: str, extras: Sequence[Proble
             path = registry.root / problem.path
             # Somebody may have published it anew meanwhile.
             if os.path.lexists(path):
-                _set_aside(registry, path, Path(*path.relative_to(registry.root).parts[1:]))
-
-
-def _set_aside(registry: Registry, path: Path, name: Path) -> None:
-    """Move something into ``withdrawn``; what an earlier damage left there goes."""
-    target = registry.root / WITHDRAWN / name
-    target.parent.mkdir(parents=True, exist_ok=True)
-    with registry.staging_folder() as staging:
-        if os.path.lexists(target):
-            os.rename(target, staging / "before")
-        os.rename(path, target)
+                set_aside(registry, path, Path(*path.relative_to(registry.root).parts[1:]))

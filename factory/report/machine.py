@@ -154,12 +154,15 @@ def _network() -> str:
     import torch
 
     from ..config import ParticulateConfig
+    from ..models.particulate.device import AUTO, device_for
     from ..models.particulate.loading import load_network
-    from ..models.weights.sources import SHIPPED
 
-    load_network(ParticulateConfig(checkpoint=SHIPPED))
-    place = torch.cuda.get_device_name() if torch.cuda.is_available() else "no GPU: on the CPU"
-    return f"torch {torch.__version__}, {place}"
+    device = device_for(AUTO)
+    load_network(ParticulateConfig(device=device))
+    if device == "cpu":
+        return f"torch {torch.__version__}; no GPU: builds ask it on the CPU"
+    name = torch.cuda.get_device_name() if device == "cuda" else "Apple GPU"
+    return f"torch {torch.__version__}; builds ask it on {device}, {name}"
 
 
 def _vulkan() -> str:

@@ -3,6 +3,7 @@
 ASSETS = "assets"
 REJECTED = "rejected"
 WITHDRAWN = "withdrawn"
+SUPERSEDED = "superseded"
 NOTES = "notes"
 DATABASE = "registry.db"
 SUMMARY = "summary.json"

@@ -10,6 +10,7 @@ import stat
 import tempfile
 import time
 import zipfile
+import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass, is_dataclass
@@ -24,6 +25,8 @@ from filelock import lock_descriptor
 NOT_A_FILE = "not a file"
 #: For how long nobody takes away what was used [s].
 RECENT_S = 3600.0
+#: In a file of arrays: names of those that are equal to another, with that one's.
+_SAME = "same as"
 #: How files begin that are still being written.
 WRITING_PREFIX = ".writing-"
 
@@ -173,7 +176,9 @@ class Store:
         try:
             with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
                 arrays = {name: archive[name] for name in archive.files}
-        except (OSError, ValueError, zipfile.BadZipFile, EOFError):
+            for name, first in arrays.pop(_SAME, ()):
+                arrays[str(name)] = arrays[str(first)]
+        except (OSError, ValueError, KeyError, zipfile.BadZipFile, zlib.error, EOFError):
             return None
         # What was asked for last goes last; a cache that cannot be written to is still one.
         with suppress(OSError):
@@ -181,12 +186,32 @@ class Store:
         return arrays
 
     def save(self, key: str, arrays: Mapping[str, npt.NDArray[Any]]) -> None:
-        """Keep ``arrays`` under ``key``. A reader sees all of it or nothing."""
+        """Keep ``arrays`` under ``key``. A reader sees all of it or nothing.
+
+        Equal arrays are written once, and all of them packed, quickly rather than well: hypotheses
+        of one mesh share most of it, and a cache is as large as the disk lets it be.
+        """
         path = self._path(key)
         path.parent.mkdir(parents=True, exist_ok=True)
+        firsts: dict[tuple[str, tuple[int, ...], bytes], str] = {}
+        same: list[tuple[str, str]] = []
         buffer = io.BytesIO()
-        np.savez(buffer, allow_pickle=False, **dict(arrays))
+        with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+            for name, array in arrays.items():
+                told = (array.dtype.str, array.shape, hashlib.sha256(array.tobytes()).digest())
+                first = firsts.setdefault(told, name)
+                if first == name:
+                    _write_array(archive, name, array)
+                else:
+                    same.append((name, first))
+            if same:
+                _write_array(archive, _SAME, np.array(same))
         write_whole(path, buffer.getvalue())
+
+    def size(self) -> Trimmed:
+        """Return how many files there are, and their size."""
+        sizes = [size for _, size, _ in _used(self.root)]
+        return Trimmed(len(sizes), sum(sizes))
 
     def trim(self, *, older_than_s: float | None = None, keep_bytes: int | None = None) -> Trimmed:
         """Remove what was long unused, then the least recently used until the rest is small.
@@ -216,6 +241,14 @@ class Store:
 
     def _path(self, key: str) -> Path:
         return self.root / key[-2:] / f"{key}.npz"
+
+
+def _write_array(archive: zipfile.ZipFile, name: str, array: npt.NDArray[Any]) -> None:
+    # Members have a time of their own, which equal results shall not differ by.
+    member = zipfile.ZipInfo(f"{name}.npy")
+    member.compress_type = zipfile.ZIP_DEFLATED
+    with archive.open(member, "w", force_zip64=True) as file:
+        np.lib.format.write_array(file, np.asanyarray(array), allow_pickle=False)
 
 
 def _used(root: Path) -> Iterator[tuple[float, int, Path]]:

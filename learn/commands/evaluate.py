@@ -72,8 +72,8 @@ class Evaluate:
     """Weights of its feature extractor, where those want features."""
     network_points: int | None = None
     """Points that the network labels."""
-    device: str = "cpu"
-    """Where the network runs, as torch names it."""
+    device: str = "auto"
+    """Where the network runs: auto (a GPU where there is one), cpu, cuda, cuda:N or mps."""
     repeats: int = 1
     """How often a method that samples is asked, each time with another seed; the spread is told."""
     limit: int | None = None
@@ -215,12 +215,15 @@ def _of_set(command: Evaluate) -> tuple[Request, ...]:
 
 def _methods(command: Evaluate) -> tuple[Method, ...]:
     from asset_factory.factory.articulate.settings import require_usable
+    from asset_factory.factory.cli.flags import on_device
     from asset_factory.factory.config import ParticulateConfig
 
     from ..evaluate.methods import Method
 
-    config = ParticulateConfig(
-        checkpoint=command.checkpoint, features=command.features, device=command.device
+    config = on_device(
+        ParticulateConfig(
+            checkpoint=command.checkpoint, features=command.features, device=command.device
+        )
     )
     if command.network_points is not None:
         config = replace(config, points=command.network_points)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import multiprocessing
 import os
 import resource
@@ -17,7 +18,6 @@ from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 from multiprocessing.reduction import ForkingPickler
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Generic, TypeVar
 
 from .child import LOG_NAME, Answer, serve
@@ -53,11 +53,13 @@ class Limits:
         cpu_s: processor time [s]; ``None`` for no limit of its own.
         memory_bytes: address space [bytes]; ``None`` for no limit. Renderers reserve far more than
             they use.
+        until: when it ends, however little of ``wall_s`` is over [s since 1970].
     """
 
     wall_s: float
     cpu_s: float | None = None
     memory_bytes: int | None = None
+    until: float = math.inf
 
 
 class Failure(StrEnum):
@@ -164,18 +166,19 @@ class WarmChild:
     def __enter__(self) -> WarmChild:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        at: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
     @property
     def pid(self) -> int | None:
         """Return the process that the next call would ask; ``None`` if that would be a new one."""
         return self._process.pid if self._process is not None else None
+
+    @property
+    def place(self) -> str:
+        """Return where its work is now; empty if it has none, or none that is named."""
+        process = self._process
+        return "" if process is None else place_in(process.folder)
 
     def close(self) -> None:
         """Kill the child and whatever it started; the next call would start a new one."""
@@ -216,7 +219,7 @@ class WarmChild:
         process = self._process
         if self._abandoned:
             process.kill()
-        answer = process.ask(question, limits.wall_s)
+        answer = process.ask(question, max(0.0, min(limits.wall_s, limits.until - time.time())))
         if isinstance(answer, Failure):
             self._process = None
             return self._lost(process, answer, limits, started)
@@ -269,11 +272,11 @@ class _Process:
 
     def __init__(self) -> None:
         context = multiprocessing.get_context("forkserver")
-        self._folder = tempfile.mkdtemp(prefix="isolated-", dir=scratch())
-        self._log = Path(self._folder) / LOG_NAME
+        self.folder = Path(tempfile.mkdtemp(prefix="isolated-", dir=scratch()))
+        self._log = self.folder / LOG_NAME
         self._connection, theirs = context.Pipe()
         self._process: ForkServerProcess = context.Process(
-            target=serve, args=(theirs, self._folder)
+            target=serve, args=(theirs, str(self.folder))
         )
         try:
             # The fork server, which starts with the first child, is where libraries are loaded.
@@ -281,7 +284,7 @@ class _Process:
                 self._process.start()
         except BaseException:
             self._connection.close()
-            shutil.rmtree(self._folder, ignore_errors=True)
+            shutil.rmtree(self.folder, ignore_errors=True)
             raise
         finally:
             theirs.close()
@@ -336,8 +339,8 @@ class _Process:
         exit_code = self._process.exitcode
         self._process.close()
         output = _tail(self._log)
-        self.place = place_in(Path(self._folder))
-        shutil.rmtree(self._folder, ignore_errors=True)
+        self.place = place_in(self.folder)
+        shutil.rmtree(self.folder, ignore_errors=True)
         return exit_code, output
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from importlib.util import find_spec
 
 import numpy as np
 
@@ -186,38 +185,14 @@ class AutoArticulator:
         return propose(mesh, areas, ruled, agreed_parts(views, areas))
 
 
-@dataclass(frozen=True)
-class WithoutNetwork:
-    """Seams and rules of shape alone, where no network can run.
-
-    Attributes:
-        config: how sure is sure enough.
-    """
-
-    config: AutoConfig
-    name: str = "auto"
-
-    def articulate(self, mesh: Mesh) -> Articulation:
-        """Return what of ``mesh`` (metres, z up) moves; else one rigid part and a note."""
-        return self.hypotheses(mesh)[0].articulation
-
-    def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
-        """Return what :meth:`articulate` does, and of a one-piece mesh what else it may be."""
-        least = least_of(load_trust(), self.config.least_confidence)
-        if MeshOrigin.of(mesh).one_piece:
-            return seam_hypotheses(mesh, least, self.name)
-        return (Hypothesis.of(GeometricArticulator().articulate(mesh)),)
-
-
 def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
     """Return who is asked for one input.
 
     What came with it is believed; else the network of a checkpoint of the user's own is asked
-    alone; else the shipped network, rules of shape and, for one-piece meshes, their seams; all but
-    the network without torch.
+    alone; else the shipped network, rules of shape and, for one-piece meshes, their seams.
 
     Raises:
-        ConfigError: no usable checkpoint, or a setting that cannot be.
+        ConfigError: no usable checkpoint, no torch, or a setting that cannot be.
     """
     if intake.stated is not None:
         return StatedArticulator(intake.stated, _guess(config))
@@ -229,8 +204,6 @@ def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
 
 def _guess(config: BuildConfig) -> Articulator:
     """Return who is asked where nothing came with the input."""
-    if find_spec("torch") is None:
-        return WithoutNetwork(config.auto)
     if config.particulate.checkpoint == SHIPPED:
         from ...models.detector.detect import detector_weights
         from ..detected import DetectedArticulator, load_agreement

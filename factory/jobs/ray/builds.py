@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from importlib.util import find_spec
-
 from ...articulate.catalog import entry_of
 from ...config import BuildConfig
 from ...intake.reads import Reads
@@ -40,7 +38,7 @@ def ray_executor(
     """
     network = config.particulate
     named = (network.checkpoint, network.features)
-    learned = entry_of(config.articulator).asks_network and find_spec("torch") is not None
+    learned = entry_of(config.articulator).asks_network
     return RayExecutor(
         workers=workers,
         address=address,

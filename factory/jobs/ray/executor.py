@@ -173,7 +173,13 @@ class _Tasks(Generic[T]):
                 function, arguments, transfer = self._executor.exchange.sent(function, arguments)
             sent = None if packed is None else packed.sent
             order = Order(
-                function, arguments, self._limits, self._settings, sent, self._executor.weights
+                function,
+                arguments,
+                self._limits,
+                self._settings,
+                sent,
+                self._executor.weights,
+                task.call.until,
             )
             under_way = self._handed_over(order, task.node, b"" if packed is None else packed.data)
         except (TypeError, ValueError, AttributeError, pickle.PicklingError) as error:

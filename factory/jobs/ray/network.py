@@ -16,6 +16,7 @@ from typing import Any
 from asset_factory.sim_checks.processes.isolation import processors
 
 from ...config import ParticulateConfig
+from ...models.particulate.device import device_for
 from ...models.service import Address
 from ...models.service.answering import refusal
 from ...models.service.listening import answer_all, listening_socket
@@ -66,7 +67,7 @@ class Networks:
 
     def look(self) -> None:
         """Open a socket on every node that has none."""
-        on_gpu = self._asked.config.device != "cpu"
+        on_gpu = device_for(self._asked.config.device) != "cpu"
         if on_gpu and self._shared is None:
             if self._ray.cluster_resources().get("GPU", 0.0) < 1.0:
                 return
@@ -112,9 +113,8 @@ class NodeNetwork:
                 import ray
 
                 with weights_at(arrived(ray, self._weights)):
-                    self._answering = load_answering(
-                        self._config, processors() if self._config.device == "cpu" else 1
-                    )
+                    on_cpu = device_for(self._config.device) == "cpu"
+                    self._answering = load_answering(self._config, processors() if on_cpu else 1)
         return self._answering(question)
 
 

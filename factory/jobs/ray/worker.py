@@ -8,23 +8,16 @@ import sys
 import tarfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from typing import Any, TypeVar
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
-from asset_factory.sim_checks.processes.isolation import (
-    Failure,
-    Limits,
-    Outcome,
-    WarmChild,
-    preload,
-)
+from asset_factory.sim_checks.processes.isolation import Limits, Outcome, WarmChild, preload
 
-from ..local import worth_another_try
+from ..local import tried
 from .exchange import FULL, HERE, ExchangeError
 from .inputs import SentInput
 from .weights import Checkpoints, SentWeights, arrived
-
-T = TypeVar("T")
 
 #: What a child imports to answer at all.
 NEEDED = ("asset_factory.sim_checks.processes.isolation",)
@@ -58,6 +51,7 @@ class Order:
         settings: how it is made.
         input: what is known of the input that was sent along; ``None``: the node sees it.
         weights: which checkpoints are sent along; ``None``: the node sees them.
+        until: when it is ended, if it still runs [s since 1970].
     """
 
     function: Callable[..., Any]
@@ -66,6 +60,7 @@ class Order:
     settings: WorkerSettings
     input: SentInput | None = None
     weights: Checkpoints | None = None
+    until: float | None = None
 
 
 _children: dict[WorkerSettings, WarmChild] = {}
@@ -91,7 +86,13 @@ def carry_out(packed: bytes, data: bytes, weights: SentWeights) -> tuple[str, An
             if order.weights is not None:
                 here[order.weights.argument] = arrived(ray, weights)
             arguments = {**order.arguments, **({HERE: here} if here else {})}
-            outcome = work(order.function, arguments, order.limits, order.settings)
+            outcome: Outcome[Any] = tried(
+                _child(order.settings),
+                partial(order.function, **arguments),
+                order.limits,
+                retries=order.settings.retries,
+                until=order.until,
+            )
     except OSError as error:
         return ("full", None) if _is_full(error) else ("lost", f"{type(error).__name__}: {error}")
     except (ray.exceptions.RayError, ExchangeError, tarfile.TarError) as error:
@@ -114,30 +115,6 @@ def _unpacked(order: Order, data: bytes) -> Iterator[dict[str, Any]]:
 
 def _is_full(error: BaseException | None) -> bool:
     return isinstance(error, OSError) and error.errno in FULL
-
-
-def work(
-    function: Callable[..., T],
-    arguments: Mapping[str, Any],
-    limits: Limits,
-    settings: WorkerSettings,
-) -> Outcome[T]:
-    """Make one call; whatever it does, this returns."""
-    child = _child(settings)
-    tries = 0
-    deaths: tuple[str, ...] = ()
-    while True:
-        try:
-            outcome = child.call(function, limits=limits, **arguments)
-        except Exception as error:  # noqa: BLE001 - no process, no folder, no pickle: this call's failure alone
-            return Outcome(
-                None, Failure.RAISED, f"{type(error).__name__}: {error}", "", 0.0, None, tries + 1
-            )
-        tries += outcome.tries
-        deaths += outcome.deaths
-        if tries > settings.retries or not worth_another_try(outcome):
-            return replace(outcome, tries=tries, deaths=deaths)
-        child.close()
 
 
 def _child(settings: WorkerSettings) -> WarmChild:

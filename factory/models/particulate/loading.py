@@ -9,6 +9,7 @@ from ..network.shape import read_shape
 from ..weights.checkpoint import naming, open_checkpoint
 from ..weights.sources import fetch
 from .components import COMPONENT_FEATURES
+from .device import device_for
 
 if TYPE_CHECKING:
     from .model import Particulate
@@ -40,10 +41,7 @@ def load_network(config: ParticulateConfig) -> Particulate:
     # Sums in another order would have other bits, and workers are as many as processors.
     torch.set_num_threads(1)
     checkpoint, *features = weight_files(config)
-    model = load_model(checkpoint, precision=config.precision, device=config.device)
-    field = (
-        load_field(features[0], precision=config.precision, device=config.device)
-        if features
-        else None
-    )
+    device = device_for(config.device)
+    model = load_model(checkpoint, precision=config.precision, device=device)
+    field = load_field(features[0], precision=config.precision, device=device) if features else None
     return Particulate(model, field, config.driving or None)

@@ -11,6 +11,7 @@ from dataclasses import fields
 import numpy as np
 
 from ...config import ParticulateConfig
+from ..particulate.device import device_for
 from ..particulate.inference import Network
 from ..particulate.prediction import ClosestPoints, Prediction
 from ..particulate.sampling import Cloud
@@ -104,4 +105,4 @@ def identity_of(config: ParticulateConfig, digests: tuple[str, ...]) -> str:
         config: how the network is run.
         digests: of the files of weights.
     """
-    return "/".join((*digests, config.precision, config.device, str(config.driving)))
+    return "/".join((*digests, config.precision, device_for(config.device), str(config.driving)))

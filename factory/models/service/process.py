@@ -14,6 +14,7 @@ from asset_factory.sim_checks.processes.scratch import sockets
 
 from ...config import ParticulateConfig
 from ...runtime.store import digest_file
+from ..particulate.device import device_for
 from ..particulate.loading import load_network, weight_files
 from ..weights.sources import fetch
 from .answering import Answering, identity_of, refusal
@@ -41,7 +42,7 @@ class ModelService:
 
     def __init__(self, config: ParticulateConfig, at_once: int | None = None) -> None:
         self._config = config
-        self._at_once = at_once or (processors() if config.device == "cpu" else 1)
+        self._at_once = at_once or (processors() if device_for(config.device) == "cpu" else 1)
         self._folder = Path(tempfile.mkdtemp(prefix="model-", dir=sockets()))
         self._stopping = threading.Event()
         self._child = WarmChild()

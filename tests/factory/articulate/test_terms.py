@@ -60,9 +60,9 @@ def test_an_asset_carries_the_terms_of_weights_to_every_export(bound, tmp_path, 
     for gate in (Licenses(("Apache-2.0",)), Licenses(("Apache-2.0", "unknown"))):
         assert not gate.allow(entry.license)
     capsys.readouterr()
-    assert run(["list", "--output", str(out), "--license", entry.license]) == 0
+    assert run(["list", "--output", str(out), "--where", f'license = "{entry.license}"']) == 0
     assert entry.id in capsys.readouterr().out
-    assert run(["list", "--output", str(out), "--license", "Apache-2.0"]) == 0
+    assert run(["list", "--output", str(out), "--where", "license = Apache-2.0"]) == 0
     assert entry.id not in capsys.readouterr().out
     folder = tmp_path / "dataset"
     told = ["registry", "export", str(folder), "--output", str(out), "--layout", "huggingface"]

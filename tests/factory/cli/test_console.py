@@ -1,8 +1,11 @@
 """What people read: what was done, not once more what was known."""
 
+import io
+import time
 from pathlib import Path
 
 from asset_factory.factory.cli import console
+from asset_factory.factory.jobs.executor import UnderWay
 from asset_factory.factory.registry import Entry
 from asset_factory.factory.registry.result import Result
 from asset_factory.factory.report.summary import Summary
@@ -44,8 +47,26 @@ def test_nothing_known_and_nothing_else_are_told_too(capsys):
 
 def test_rate_and_time_left_are_those_of_what_is_built(monkeypatch):
     monkeypatch.setattr(console, "Progress", Watched)
-    console._follow_on_terminal(console.Console(), iter(results(3, 2)), 6)
+    console._follow_on_terminal(console.Console(), iter(results(3, 2)), 6, tuple)
     assert (Watched.total, Watched.advanced) == (3, 2)
+
+
+def test_the_bar_says_what_is_at_work_and_after_one_input_how_long_the_rest_takes():
+    at_work = tuple(UnderWay(f"in/oven_{number}.glb", "solids") for number in range(5))
+    told = console.Console(file=io.StringIO(), force_terminal=True, width=160)
+    seen = []
+
+    def slowly():
+        for number, result in enumerate(results(0, 3)):
+            if number == 1:
+                time.sleep(0.6)
+            seen.append(told.file.getvalue())
+            yield result
+
+    console._follow_on_terminal(told, slowly(), 3, lambda: at_work)
+    assert "about" not in seen[0]
+    assert "about 0:00:" in told.file.getvalue()
+    assert "oven_0.glb solids, oven_1.glb solids, oven_2.glb solids +2" in told.file.getvalue()
 
 
 class Watched(console.Progress):

@@ -3,15 +3,20 @@
 import json
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
+from asset_factory import __version__
+from asset_factory.factory.cli import flags as flags_module
 from asset_factory.factory.cli import run
-from asset_factory.factory.cli.commands import parse
+from asset_factory.factory.cli.commands import COMMANDS
 from asset_factory.factory.report import machine
-from asset_factory.factory.report.machine import Health, Library, abilities
+from asset_factory.factory.report.machine import Ability, Health, Library, abilities
 from asset_factory.learn.commands.evaluation_printing import COLUMNS, _fitting
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS
+
+EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "meshes"
 
 
 def test_a_reader_that_has_seen_enough_gets_no_traceback():
@@ -28,7 +33,7 @@ def test_a_reader_that_has_seen_enough_gets_no_traceback():
 
 
 @pytest.mark.parametrize(
-    ("typed", "told"), [("buidl", "did you mean 'build'?"), ("zzz", "there are build, nightly")]
+    ("typed", "told"), [("buidl", "did you mean 'build'?"), ("zzz", "there are build, check")]
 )
 def test_a_mistyped_command_is_recognised(typed, told, capsys):
     with pytest.raises(SystemExit) as left:
@@ -42,8 +47,40 @@ def test_a_flag_that_is_there_twice_is_told_and_not_half_obeyed(capsys, tmp_path
         run(["build", "--input", "a.glb", "--input", "b.glb", "--output", str(tmp_path)])
     assert left.value.code == 2
     assert "--input is there twice" in capsys.readouterr().err
-    _, flags = parse(["demos", "--to", "d", "--category", "oven", "--category", "fridge"])
-    assert flags.category == ("oven", "fridge")
+
+
+def test_the_help_is_short_and_begins_with_the_first_hour(capsys):
+    for typed, code in (([], 2), (["--help"], 0)):
+        with pytest.raises(SystemExit) as left:
+            run(typed)
+        assert left.value.code == code
+        told = capsys.readouterr().out.splitlines()
+        assert len(told) < 40
+        first = [line.split()[0] for line in told[told.index("") :] if line.startswith("  ")]
+        assert first[3:11] == ["build", "check", "view", "edit", "list", "show", "solve", "demos"]
+        assert set(first[11:]) >= {"doctor", "remove", "gc", "train"}
+    with pytest.raises(SystemExit):
+        run(["--version"])
+    assert capsys.readouterr().out == f"asset-factory {__version__}\n"
+
+
+@pytest.mark.parametrize("command", [command.name for command in COMMANDS])
+def test_no_help_speaks_python_or_says_the_opposite_of_its_flag(command, capsys):
+    with pytest.raises(SystemExit):
+        run([command, "--help"])
+    told = capsys.readouterr().out
+    assert "None" not in told
+    assert "Invent what" not in told
+    assert "Renew" not in told
+
+
+@pytest.mark.parametrize("command", [["build", "--output", "out", "--input"], ["check"]])
+def test_an_engine_that_is_missing_is_refused_at_the_start(command, monkeypatch, capsys):
+    monkeypatch.setattr(flags_module, "installed", lambda name: name != "pybullet")
+    assert run([*command, str(EXAMPLES), "--sim", "all"]) == 2
+    assert "pybullet is not installed: pip install 'asset-factory[pybullet]'" in (
+        capsys.readouterr().err
+    )
 
 
 def test_shells_can_complete_commands_and_flags(capsys):
@@ -88,6 +125,30 @@ def test_the_doctor_prints_json_and_tells_whether_a_build_can_run(monkeypatch, c
     monkeypatch.setattr(machine, "SIMULATORS", {})
     assert run(["doctor", "--output", str(tmp_path), "--json"]) == 1
     assert [each["name"] for each in json.loads(capsys.readouterr().out)] == ["machine", "disk"]
+
+
+def test_the_doctor_tells_each_as_soon_as_it_is_tried(monkeypatch, capsys):
+    told: list[str] = []
+
+    def slowly(_):
+        for name in ("first", "second"):
+            told.append(capsys.readouterr().out)
+            yield Ability(name, "a test", Health.MISSING, "not installed", "pip install it")
+
+    monkeypatch.setattr(machine, "abilities", slowly)
+    assert run(["doctor"]) == 1
+    assert "Every engine" in told[0]
+    assert "first" in told[1]
+    assert "pip install it" in told[1]
+
+
+def test_a_folder_without_inputs_is_no_build(capsys, tmp_path):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "readme.txt").write_text("nothing")
+    build = ["build", "--input", str(tmp_path / "in"), "--output", str(tmp_path / "out")]
+    assert run([*build, "--sim", "mujoco"]) == 2
+    assert f"no input in {tmp_path / 'in'}; want .glb" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_quiet_build_says_nothing_and_a_json_build_one_summary(capsys, tmp_path):

@@ -16,6 +16,7 @@ from asset_factory.factory.articulate.settings import require_usable
 from asset_factory.factory.cli.commands import run
 from asset_factory.factory.config import BuildConfig, ParticulateConfig
 from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.jobs.job import asks_network
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "meshes"
 FRIDGE = EXAMPLES / "fridge.obj"
@@ -92,11 +93,20 @@ def test_without_a_checkpoint_the_shipped_network_and_the_shapes_are_asked():
     assert {joint["type"] for joint in told["joints"]} == {"revolute"}
 
 
-def test_without_torch_geometry_is_asked(monkeypatch):
-    monkeypatch.setattr(
-        "asset_factory.factory.articulate.auto.articulator.find_spec", lambda name: None
-    )
-    told = told_of(FRIDGE)
+def test_without_torch_auto_is_refused_before_anything_is_made(monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr("asset_factory.factory.articulate.settings.find_spec", lambda name: None)
+    build = ["build", "--input", str(FRIDGE), "--output", str(tmp_path / "out"), "--sim", "mujoco"]
+    assert run(build) == 2
+    told = capsys.readouterr().err
+    assert "needs torch: pip install 'asset-factory[particulate]'" in told
+    assert "--articulator geometric" in told
+    assert not (tmp_path / "out").exists()
+    with pytest.raises(ConfigError, match="needs torch"):
+        told_of(FRIDGE)
+    # Joints that came with the input, and rules of shape, need none.
+    (tmp_path / "box.urdf").write_text("<robot name='box'><link name='box'/></robot>")
+    assert not asks_network([tmp_path / "box.urdf"], BuildConfig())
+    told = predict(FRIDGE, replace(BuildConfig(), articulator="geometric"))
     assert (told["articulator"], told["weights"]) == ("geometric", [])
 
 

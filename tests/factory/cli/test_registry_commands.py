@@ -1,13 +1,18 @@
 """What the commands print and how they exit."""
 
+import io
 import json
+import re
 from dataclasses import replace
 
+import numpy as np
 import pytest
 import tyro
 from registry_samples import BAD_REPORT, REJECTED, named, publish
 
+from asset_factory.factory.cli import gc
 from asset_factory.factory.cli import registry as commands
+from asset_factory.factory.cli import run as factory
 from asset_factory.factory.cli.build import Build, idle_retries
 from asset_factory.factory.cli.listing import List
 from asset_factory.factory.cli.listing import run as run_list
@@ -15,11 +20,13 @@ from asset_factory.factory.cli.show import Show
 from asset_factory.factory.cli.show import run as run_show
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.registry import Registry
+from asset_factory.factory.runtime.store import Store
 
 ROOMS = {
     List: run_list,
     Show: run_show,
     commands.RegistryCommand: commands.run,
+    gc.Gc: gc.run,
 }
 
 
@@ -50,16 +57,75 @@ def test_listing(root, run):
         0,
         ["cabinet-1", "chest-1", "fridge-1"],
     )
-    _, out = run(List, "--output", root, "--status", "passed", "--category", "fridge", "--json")
+    _, out = run(List, "--output", root, "--where", "status = passed and category=fridge", "--json")
     assert [row["id"] for row in json.loads(out)] == ["fridge-1"]
     _, out = run(List, "--output", root, "--limit", 1)
     assert "the first 1; --after cabinet-1 goes on" in out
     _, out = run(List, "--output", root, "--limit", 2, "--after", "cabinet-1")
     assert "--after" not in out
-    with pytest.raises(
-        ConfigError, match=r"--status: is 'good', want one of passed, rejected, unjudged"
-    ):
-        run(List, "--output", root, "--status", "good")
+
+
+@pytest.mark.parametrize(
+    ("where", "ids"),
+    [
+        ('category != "fridge" and parts >= 1', ["cabinet-1", "chest-1"]),
+        ("status != passed", ["chest-1"]),
+        ("joints > 0 and gpu-ready = yes", ["cabinet-1", "fridge-1"]),
+        ("hulls > 100000", []),
+    ],
+)
+def test_conditions_choose(where, ids, root, run):
+    _, out = run(List, "--output", root, "--where", where, "--json")
+    assert [row["id"] for row in json.loads(out)] == ids
+
+
+@pytest.mark.parametrize(
+    ("where", "told"),
+    [
+        ("status = good", "status is 'good'; there are passed, rejected, unjudged"),
+        ("catgory = fridge", "no column 'catgory'; did you mean 'category'?"),
+        ("category = fridge or joints > 1", "cannot read 'category = fridge or joints > 1'"),
+        ("category = fridge and", "cannot read 'and'"),
+        ("joints > many", "joints is 'many', want a whole number"),
+        ("category > fridge", "is no number"),
+        ("category = a and category = b", "is there twice"),
+        ("status = passed; drop table assets", "cannot read"),
+    ],
+)
+def test_conditions_that_cannot_be_say_what_can(where, told, root, run):
+    with pytest.raises(ConfigError, match=re.escape(told)):
+        run(List, "--output", root, "--where", where)
+
+
+def test_a_value_that_no_asset_has_is_told(root, capsys):
+    assert factory(["list", "--output", str(root), "--where", "category = frige"]) == 0
+    printed = capsys.readouterr()
+    assert "no asset has category 'frige'; did you mean 'fridge'?" in printed.err
+    assert printed.out == "no assets with category = frige\n"
+
+
+def test_removing_takes_what_is_named_and_asks(root, monkeypatch, capsys):
+    remove = ["remove", "--output", str(root)]
+    assert factory([*remove, "fridge-1"]) == 2
+    assert "--yes does it" in capsys.readouterr().err
+    monkeypatch.setattr("sys.stdin", Terminal("n\n"))
+    assert factory([*remove, "fridge-1"]) == 0
+    assert Registry(root).find("fridge-1") is not None
+    monkeypatch.setattr("sys.stdin", Terminal("y\n"))
+    assert factory([*remove, "fridge-1"]) == 0
+    assert factory([*remove, "--where", "status = rejected", "--yes"]) == 0
+    assert [entry.id for entry in Registry(root).entries()] == ["cabinet-1"]
+    assert not (root / "assets" / "fridge-1").exists()
+    assert not (root / "rejected" / "chest-1").exists()
+    assert factory([*remove, "--yes"]) == 2
+    assert factory([*remove, "--where", "hulls > 9999", "--yes"]) == 2
+
+
+class Terminal(io.StringIO):
+    """Somebody who answers."""
+
+    def isatty(self) -> bool:
+        return True
 
 
 def test_showing(root, run):
@@ -85,12 +151,10 @@ def test_rebuild_and_gc(root, run):
         run(commands.RegistryCommand, "rebuild", "--output", root)[1]
         == "3 entries; 0 folders could not be read\n"
     )
-    assert (
-        "freed 0 B"
-        in run(
-            commands.RegistryCommand, "gc", "--output", root, "--older-than", 30, "--keep-gb", 1
-        )[1]
-    )
+    Store(root / ".cache").save("stage-0", {"zeros": np.zeros(10)})
+    _, told = run(gc.Gc, "--output", root, "--older-than", 30)
+    assert "freed 0 B" in told
+    assert re.search(r"the cache holds 1 results, \d+ B; --keep-gb 1 makes it smaller", told)
 
 
 def test_out_and_in_and_the_difference(root, run, tmp_path):

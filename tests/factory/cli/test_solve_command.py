@@ -1,7 +1,5 @@
 """``factory solve``: what is written, what is not done twice, and what the exit code says."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from types import SimpleNamespace
@@ -98,6 +96,21 @@ def test_the_record_is_the_same_every_time_and_nothing_is_asked_twice(output, no
     row = json.loads(first)["attempts"][0]
     assert (row["joint"], row["robot"], row["solved"], row["steps"]) == ("hinge", "panda", True, 7)
     assert not {"seconds", "actions"} & set(row)
+
+
+def test_a_video_of_what_is_solved_already_is_made(output, notes, robots, monkeypatch):
+    command.run(command.Solve(output=output))
+    filmed = []
+
+    def film(_, attempt):
+        filmed.append((attempt.joint, attempt.robot))
+        (output / "solving" / f"{attempt.asset}-{attempt.joint}-{attempt.robot}.mp4").touch()
+        return True
+
+    monkeypatch.setattr(command, "_film", film)
+    for _ in range(2):
+        command.run(command.Solve(output=output, video=True))
+    assert filmed == [("hinge", "panda"), ("slide", "fetch")]
 
 
 def test_an_altered_asset_and_more_tries_are_asked_again(output, notes, robots):

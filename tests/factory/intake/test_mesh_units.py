@@ -186,6 +186,8 @@ def test_the_longer_sidecar_name_wins(tmp_path):
         ("density = nan", "positive"),
         ('up = "north"', "want one of"),
         ("category = 3", "text"),
+        ('category = "firdge"', "did you mean 'fridge'"),
+        ('category = "spaceship"', "state its height"),
         ("not toml at all", "TOML"),
         ('annotation = "absent.npz"', "does not exist"),
     ],

@@ -57,7 +57,7 @@ def test_an_interrupted_job_has_registered_what_was_finished(number, code, tmp_p
     with begun(tmp_path / "in", tmp_path / "out") as process:
         process.send_signal(number)
         assert process.wait(PATIENCE_S) == code
-        assert process.stdout.read() == "interrupted\n"
+        assert process.stdout.read() == "interrupted 0\n"
     assert not any(is_alive(worker) for worker in workers(tmp_path / "in"))
     assert {entry.status for entry in Registry(tmp_path / "out").entries()} == {"passed"}
     assert len(Registry(tmp_path / "out").entries()) == 3
@@ -89,6 +89,31 @@ def test_a_job_that_winds_up_begins_nothing_more(tmp_path, monkeypatch):
     assert (winding.left, winding.state) == (8 - len(finished), "interrupted")
     rest = job(inputs, tmp_path / "out")
     assert len(list(rest.run())) == 8
+
+
+def test_a_job_out_of_time_stops_what_runs_and_registers_nothing_of_it(tmp_path):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "slow.stl").write_text("solid slow")
+    command = [sys.executable, str(SCRIPT), str(tmp_path / "in"), str(tmp_path / "out")]
+    started = time.monotonic()
+    told = subprocess.run([*command, "--max-s", "8"], capture_output=True, text=True, check=True)
+    assert time.monotonic() - started < PATIENCE_S
+    assert told.stdout == "out_of_time 1\n"
+    assert Registry(tmp_path / "out").entries() == ()
+
+
+def test_with_one_worker_ctrl_c_builds_what_is_begun_and_no_more(tmp_path):
+    (tmp_path / "in").mkdir()
+    for number in range(3):
+        (tmp_path / "in" / f"nap_{number}.stl").write_text("solid nap")
+    command = [sys.executable, str(SCRIPT), str(tmp_path / "in"), str(tmp_path / "out")]
+    with subprocess.Popen(
+        [*command, "--wind-up", "--one"], stdout=subprocess.PIPE, text=True
+    ) as process:
+        wait_for(lambda: (tmp_path / "in" / MADE).exists() and made(tmp_path / "in"))
+        process.send_signal(signal.SIGINT)
+        assert process.stdout.read() == "passed\ninterrupted 2\n"
+    assert made(tmp_path / "in") == ["nap_0.stl"]
 
 
 def test_a_killed_job_leaves_no_orphans_and_the_next_one_does_the_rest(tmp_path, monkeypatch):

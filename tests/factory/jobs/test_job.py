@@ -1,14 +1,15 @@
 """A job does each thing once, says what it did, and goes on where another one stopped."""
 
-from __future__ import annotations
-
 import errno
 import json
+import os
 import shutil
 import threading
+import time
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from job_samples import PLAIN, Inline, job, made, pretend, write_inputs
 
@@ -25,7 +26,7 @@ from asset_factory.factory.registry.registration import register
 from asset_factory.factory.registry.report_file import BuildReport
 from asset_factory.factory.registry.result import Result
 from asset_factory.factory.runtime.stages import Stages
-from asset_factory.factory.runtime.store import digest_file, folder_digests
+from asset_factory.factory.runtime.store import Store, digest_file, folder_digests
 from asset_factory.sim_checks import Finding, Report, Severity
 from asset_factory.sim_checks.report import KILLED, OUT_OF_TIME, Status
 
@@ -46,6 +47,18 @@ def test_the_same_job_again_does_nothing(tmp_path):
     assert made(tmp_path / "in") == calls
     assert all(result.known and result.reused == ("build",) for result in again)
     assert [(r.input, r.entry) for r in again] == [(r.input, r.entry) for r in first]
+
+
+def test_a_job_leaves_no_more_of_the_cache_than_its_settings_say(tmp_path):
+    inputs = write_inputs(tmp_path / "in", 1)
+    store = Store(tmp_path / "out" / ".cache")
+    for name, age_s in (("old", 7200.0), ("new", 0.0)):
+        store.save(f"stage-{name}", {"a": np.arange(1000)})
+        (file,) = store.root.rglob(f"stage-{name}.npz")
+        os.utime(file, (time.time() - age_s,) * 2)
+    list(job(inputs, tmp_path / "out", replace(PLAIN, cache_gb=1e-7)).run())
+    assert store.load("stage-old") is None
+    assert store.load("stage-new") is not None
 
 
 def test_only_what_is_missing_or_another_is_built(tmp_path):

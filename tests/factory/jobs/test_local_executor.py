@@ -1,9 +1,8 @@
 """Calls that crash, hang or eat memory cost only themselves; a million need no more than ten."""
 
-from __future__ import annotations
-
 import os
 import signal
+import threading
 import time
 from collections.abc import Callable
 from typing import Any
@@ -13,6 +12,7 @@ import pytest
 from asset_factory.factory.jobs import Call, LocalExecutor
 from asset_factory.factory.jobs.executor import AHEAD
 from asset_factory.sim_checks.processes.isolation import Limits
+from asset_factory.sim_checks.processes.place import at
 
 GENEROUS = Limits(wall_s=60.0)
 CALLS: list[str] = []
@@ -116,6 +116,47 @@ def test_workers_are_kept_and_replaced():
     ]
     assert processes[0] == processes[1] == processes[2] != processes[3]
     assert processes[3] == processes[4] == processes[5]
+
+
+def solids(_):
+    with at("solids"):
+        time.sleep(1.0)
+
+
+def test_what_is_under_way_is_told_with_its_stage():
+    executor = LocalExecutor(1)
+    seen: set[tuple[str, str]] = set()
+    done = threading.Event()
+
+    def look():
+        while not done.wait(0.05):
+            seen.update((each.name, each.place) for each in executor.under_way())
+
+    watcher = threading.Thread(target=look)
+    watcher.start()
+    list(executor.run(solids, [Call("oven", {"_": 0})], GENEROUS))
+    done.set()
+    watcher.join()
+    assert ("oven", "solids") in seen
+    assert executor.under_way() == ()
+
+
+def test_what_is_not_wanted_or_too_late_is_not_made():
+    late = Call("late", {"seconds": 0.0}, until=time.time() - 1.0)
+    unwanted = Call("unwanted", {"seconds": 0.0}, wanted=lambda: False)
+    for _, outcome in LocalExecutor(1).run(nap, [late, unwanted], GENEROUS):
+        assert (outcome.value, outcome.failure) == (None, None)
+
+
+def test_what_runs_past_its_time_is_ended_also_in_a_used_process():
+    started = time.monotonic()
+    calls = [
+        Call("first", {"seconds": 0.0}),
+        Call("long", {"seconds": 60.0}, until=time.time() + 8.0),
+    ]
+    *_, (_, outcome) = LocalExecutor(1).run(nap, calls, GENEROUS)
+    assert (outcome.value, outcome.failure) == (None, None)
+    assert time.monotonic() - started < 40.0
 
 
 def test_closing_kills_what_is_under_way():

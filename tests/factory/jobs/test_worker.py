@@ -1,6 +1,5 @@
 """A warm worker's assets are those of a new one, whatever it built before."""
 
-import time
 from pathlib import Path
 
 import pytest
@@ -52,11 +51,3 @@ def test_one_judge_is_kept_for_one_configuration():
 def test_simulators_share_what_processors_the_workers_leave(monkeypatch):
     monkeypatch.setattr(local, "processors", lambda: 8)
     assert [LocalExecutor(workers).engines for workers in (1, 3, 8, 9)] == [8, 2, 1, 1]
-
-
-def test_too_late_is_not_begun(tmp_path):
-    late = worker.build_here(
-        tmp_path / "in.stl", tmp_path / "s", PLAIN, tmp_path, time.time() - 1.0, None
-    )
-    assert late is None
-    assert not (tmp_path / "s").exists()

@@ -8,9 +8,11 @@ from registry_samples import publish, three_entries
 
 from asset_factory.factory.intake.discover import find_inputs
 from asset_factory.factory.registry import verify as verify_module
+from asset_factory.factory.registry.aside import set_asset_aside
 from asset_factory.factory.registry.database import writing
 from asset_factory.factory.registry.rows import delete, insert
-from asset_factory.factory.registry.verify import Settled, mend_rows, settle, verify, withdraw
+from asset_factory.factory.registry.verify import Settled, mend_rows, settle, verify
+from asset_factory.factory.runtime.layout import WITHDRAWN
 from asset_factory.factory.runtime.store import folder_digests
 
 
@@ -93,6 +95,6 @@ def test_a_process_that_dies_withdrawing_is_finished_by_the_next(registry, monke
     with monkeypatch.context() as dying:
         dying.setattr(where, step, dies)
         with pytest.raises(KeyboardInterrupt):
-            withdraw(registry, "cabinet-1")
+            set_asset_aside(registry, "cabinet-1", WITHDRAWN)
     assert mended(registry) == {"cabinet-1": Settled.WITHDRAWN}
     assert verify(registry) == ()

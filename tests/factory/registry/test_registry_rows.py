@@ -71,7 +71,8 @@ def test_what_physx_does_not_take_on_a_gpu_is_filtered_out(registry, code, capsy
         # Of what did not pass nothing is said.
         assert ids(registry.entries(gpu_ready="")) == ["fridge-2"]
         rebuild(registry.root)
-    assert run_command(["list", "--output", str(registry.root), "--gpu-ready", "--json"]) == 0
+    ask = ["list", "--output", str(registry.root), "--where", "gpu_ready = yes", "--json"]
+    assert run_command(ask) == 0
     assert [row["id"] for row in json.loads(capsys.readouterr().out)] == ready
 
 

@@ -26,6 +26,25 @@ def test_what_was_saved_is_loaded(tmp_path):
     np.testing.assert_array_equal(store.load(key)["a"], np.arange(6.0).reshape(2, 3))
 
 
+def test_equal_arrays_are_kept_once_and_all_are_packed(tmp_path):
+    noise = np.random.default_rng(0).random(20_000)
+    arrays = {"a": noise, "b": noise.copy(), "c": noise[::-1], "flat": np.zeros(100_000)}
+    store = Store(tmp_path / "cache")
+    store.save("stage-0", arrays)
+    loaded = store.load("stage-0")
+    assert set(loaded) == set(arrays)
+    for name, array in arrays.items():
+        np.testing.assert_array_equal(loaded[name], array)
+        assert loaded[name].dtype == array.dtype
+    size = store.size()
+    assert size.files == 1
+    assert size.bytes < 2.1 * noise.nbytes
+    (file,) = (tmp_path / "cache").rglob("*.npz")
+    before = file.read_bytes()
+    store.save("stage-0", arrays)
+    assert file.read_bytes() == before
+
+
 @pytest.mark.parametrize("damage", [b"", b"PK\x03\x04", b"not an archive"])
 def test_a_damaged_file_is_a_miss(tmp_path, damage):
     store = Store(tmp_path)

@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 from one_piece import bin_with_lid, drawers, plain_box
 
-from asset_factory.factory.articulate.auto.articulator import WithoutNetwork
-from asset_factory.factory.articulate.auto.one_piece import MeshOrigin, seam_hypotheses
-from asset_factory.factory.config import AutoConfig
+from asset_factory.factory.articulate.auto.one_piece import MeshOrigin, least_of, seam_hypotheses
+from asset_factory.factory.articulate.auto.trust import load_trust
 from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.learn.objects import make_object
 
@@ -40,7 +39,7 @@ def test_only_what_bends_a_little_everywhere_is_a_skin():
 
 
 def test_auto_reads_a_skin_by_its_seams():
-    found = WithoutNetwork(AutoConfig()).articulate(drawers())
+    found = seam_hypotheses(drawers(), least_of(load_trust(), None), "auto")[0].articulation
     assert [joint.kind for joint in found.joints] == ["prismatic"] * 3
     assert found.articulator == "auto"
 
@@ -57,7 +56,7 @@ def test_what_is_unsure_stays_with_the_base():
 
 
 def test_other_hypotheses_differ_from_the_likeliest():
-    found = WithoutNetwork(AutoConfig(least_confidence=0.0)).hypotheses(bin_with_lid())
+    found = seam_hypotheses(bin_with_lid(), 0.0, "auto")
     told = [
         [(joint.kind, joint.axis.tolist()) for joint in each.articulation.joints] for each in found
     ]

@@ -31,14 +31,15 @@ def made(monkeypatch):
     """Calls in this process, whose outcome a test sets; each notes what it saw of its input."""
     seen = []
 
-    def work(function, arguments, limits, settings):
-        path = arguments[HERE]["source"]
+    def work(child, function, limits, *, retries, until):
+        path = function.keywords[HERE]["source"]
         seen.append((path, path.read_text()))
         return work.outcome
 
     work.seen = seen
     work.outcome = Outcome("value", None, "", "", 0.0)
-    monkeypatch.setattr("asset_factory.factory.jobs.ray.worker.work", work)
+    monkeypatch.setattr("asset_factory.factory.jobs.ray.worker._child", lambda settings: None)
+    monkeypatch.setattr("asset_factory.factory.jobs.ray.worker.tried", work)
     return work
 
 

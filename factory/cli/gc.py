@@ -1,0 +1,48 @@
+"""``factory gc``: what a registry holds besides assets, and room made of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..errors import ConfigError, Exit
+from ..registry import Registry
+from ..registry.cleaning import collect_garbage
+from ..runtime.terminal import say
+from .flags import OfRegistry
+from .registry_printing import print_freed, size
+
+_GB = 1e9
+_DAY_S = 86_400.0
+
+
+@dataclass(frozen=True)
+class Gc(OfRegistry):
+    """Remove what dead processes left, and cached results by age and size; say what is left.
+
+    Never what a running job holds: its staging folders are locked, and what was used within the
+    last hour stays. A build keeps the cache below `cache_gb` of its settings by itself.
+
+    Example: factory gc --output out/ --keep-gb 0
+    """
+
+    older_than: float | None = None
+    """Cached results that nobody used for so many days go."""
+    keep_gb: float | None = None
+    """So much of the cache may stay [GB]; the longest unused goes first."""
+
+
+def run(command: Gc) -> int:
+    """Remove it; returns the exit code."""
+    for name, value in (("older-than", command.older_than), ("keep-gb", command.keep_gb)):
+        if value is not None and not value >= 0.0:
+            raise ConfigError(f"--{name}: is {value:g}, want at least 0")
+    freed = collect_garbage(
+        Registry(command.output).root,
+        older_than_s=None if command.older_than is None else command.older_than * _DAY_S,
+        keep_bytes=None if command.keep_gb is None else int(command.keep_gb * _GB),
+    )
+    print_freed(freed)
+    if freed.kept.files:
+        smaller = "" if command.keep_gb is not None else "; --keep-gb 1 makes it smaller"
+        say(f"the cache holds {freed.kept.files} results, {size(freed.kept.bytes)}{smaller}")
+    return Exit.OK

@@ -1,0 +1,91 @@
+"""Which assets are wanted, as people type it: ``category = fridge and joints > 1``."""
+
+from __future__ import annotations
+
+import re
+from difflib import get_close_matches
+from typing import Any
+
+from asset_factory.sim_checks import Status
+
+from ..errors import ConfigError
+from .entry import SOLVED
+from .registry import Registry
+from .rows import Condition, Filters
+from .split import SPLITS
+
+YES_NO = ("yes", "no")
+#: Columns that have one of a few values, any text, and a number.
+CHOICES = {"status": tuple(Status), "split": SPLITS, "solved": SOLVED, "gpu_ready": YES_NO}
+TEXTS = ("category", "reason", "license", "tag", "name")
+COUNTS = ("parts", "joints", "hulls")
+COLUMNS = (*CHOICES, *TEXTS, *COUNTS)
+EXAMPLE = 'want e.g. "category = fridge and joints > 1"'
+_CONDITION = re.compile(r'\s*([\w-]+)\s*(<=|>=|!=|=|<|>)\s*("[^"]*"|[^\s"<>=!]+)\s*(and\b|$)')
+#: Values that an error lists.
+_LISTED = 12
+
+
+def parse_where(text: str, **defaults: str) -> Filters:
+    """Return the filters that a text asks for: conditions joined by ``and``, each given once.
+
+    Args:
+        text: such as ``status = rejected and hulls >= 32``; values with blanks in quotes; empty
+            for all.
+        defaults: columns that are asked for unless the text speaks of them.
+
+    Raises:
+        ConfigError: it cannot be read; what would be right.
+    """
+    equal: dict[str, Any] = {}
+    others: list[Condition] = []
+    rest = text
+    last = ""
+    while rest.strip() or last:
+        found = _CONDITION.match(rest)
+        if found is None:
+            raise ConfigError(f"--where: cannot read {rest.strip() or last!r}; {EXAMPLE}")
+        condition = _checked(found[1].replace("-", "_"), found[2], found[3].strip('"'))
+        if condition.operator == "=" and condition.column not in COUNTS:
+            if condition.column in equal:
+                raise ConfigError(f"--where: {condition.column} is there twice, want it once")
+            equal[condition.column] = condition.value
+        else:
+            others.append(condition)
+        last = found[4]
+        rest = rest[found.end() :]
+    spoken = {*equal, *(condition.column for condition in others)}
+    usual = {name: value for name, value in defaults.items() if name not in spoken}
+    return Filters(**usual, **equal, others=tuple(others))
+
+
+def _checked(column: str, operator: str, value: str) -> Condition:
+    if column not in COLUMNS:
+        raise ConfigError(f"--where: no column {column!r}; {_meant(column, COLUMNS)}")
+    if column in COUNTS:
+        if not value.isdecimal():
+            raise ConfigError(f"--where: {column} is {value!r}, want a whole number")
+        return Condition(column, operator, int(value))
+    if operator not in ("=", "!=") or (column == "tag" and operator != "="):
+        raise ConfigError(f"--where: {column} {operator} {value}: is no number; {EXAMPLE}")
+    if column in CHOICES and value not in CHOICES[column]:
+        raise ConfigError(f"--where: {column} is {value!r}; {_meant(value, CHOICES[column])}")
+    return Condition(column, operator, value)
+
+
+def unknown_values(registry: Registry, filters: Filters) -> str:
+    """Return a sentence about a value that no asset of a registry has; empty if each has some."""
+    for column in TEXTS:
+        value = getattr(filters, column)
+        if value is not None:
+            there = registry.values(column)
+            if value not in there:
+                return f"no asset has {column} {value!r}; {_meant(value, there)}"
+    return ""
+
+
+def _meant(typed: str, known: tuple[str, ...]) -> str:
+    near = get_close_matches(typed, known, n=1)
+    there = ", ".join(each or '""' for each in known[:_LISTED])
+    more = f" and {len(known) - _LISTED} more" if len(known) > _LISTED else ""
+    return f"did you mean {near[0]!r}?" if near else f"there are {there or 'none'}{more}"

@@ -1,0 +1,81 @@
+"""One input has one current asset: a corrected sidecar leaves no twin that tasks draw."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+from job_samples import job
+
+from asset_factory.envs.assets import read_registry
+from asset_factory.factory.cli import run
+from asset_factory.factory.registry import Registry
+from asset_factory.factory.registry.aside import superseded
+
+BOX = """
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 1
+v 1 0 1
+v 1 1 1
+v 0 1 1
+f 4 3 2 1
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+"""
+
+
+def built(folder: Path, height: float, output: Path) -> tuple[str, tuple[str, ...]]:
+    """The id of the box in a folder, once it is built at a height, and what it replaced."""
+    folder.mkdir(exist_ok=True)
+    (folder / "box.obj").write_text(BOX)
+    (folder / "box.toml").write_text(f"height = {height}\n")
+    (result,) = job((folder / "box.obj",), output).run()
+    assert result.entry.status == "passed"
+    return result.entry.id, result.replaced
+
+
+def test_a_corrected_sidecar_supersedes_and_one_put_back_comes_back(tmp_path, capsys) -> None:
+    out = tmp_path / "out"
+    wrong, _ = built(tmp_path / "in", 1.0, out)
+    Registry(out).note(wrong, tags=("kept",))
+    right, replaced = built(tmp_path / "in", 2.0, out)
+    assert wrong != right
+    assert replaced == (wrong,)
+    assert [entry.id for entry in Registry(out).entries()] == [right]
+    assert list(read_registry(out)) == [right]
+    assert [entry.id for entry in superseded(out)] == [wrong]
+    assert run(["list", "--output", str(out), "--superseded", "--json"]) == 0
+    assert [row["id"] for row in json.loads(capsys.readouterr().out)] == [wrong]
+
+    again, replaced = built(tmp_path / "in", 1.0, out)
+    assert (again, replaced) == (wrong, (right,))
+    assert Registry(out).entry(wrong).tags == ("kept",)
+
+
+def test_the_same_file_elsewhere_stays_what_it_was(tmp_path) -> None:
+    out = tmp_path / "out"
+    first, _ = built(tmp_path / "one", 1.0, out)
+    assert built(tmp_path / "two", 1.0, out) == (first, ())
+    second, replaced = built(tmp_path / "two", 2.0, out)
+    assert replaced == ()
+    assert {entry.id for entry in Registry(out).entries()} == {first, second}
+    # Once nobody has it any more, it goes with the next correction.
+    shutil.rmtree(tmp_path / "one")
+    (tmp_path / "two" / "box.obj").rename(tmp_path / "two" / "gone.obj")
+    assert built(tmp_path / "two", 3.0, out)[1] == (second,)
+
+
+def test_another_mesh_in_its_place_is_another_input(tmp_path) -> None:
+    out = tmp_path / "out"
+    first, _ = built(tmp_path / "in", 1.0, out)
+    (tmp_path / "in" / "box.obj").write_text(f"{BOX}\nv 5 5 5\n")
+    (result,) = job((tmp_path / "in" / "box.obj",), out).run()
+    assert {entry.id for entry in Registry(out).entries()} == {first, result.entry.id}
+    assert result.replaced == ()
