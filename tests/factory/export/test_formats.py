@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from asset_factory.factory.geometry.coupling import with_common_ranges
 from export_samples import PROVENANCE, box, boxes_asset, cabinet
 from format_readers import READERS, animated_glb, pxr_usd
 
@@ -15,6 +14,7 @@ from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.export.formats import FORMATS, formats_named
 from asset_factory.factory.export.manifest import Manifest
+from asset_factory.factory.geometry.coupling import with_common_ranges
 from asset_factory.factory.intake.load import load
 from asset_factory.sim_checks import run_checks
 from asset_factory.sim_checks.description import Mimic
