@@ -17,12 +17,7 @@ from small_cabinet import write_urdf
 from asset_factory.envs.tasks import catalog as tasks
 from asset_factory.factory.articulate import catalog as articulators
 from asset_factory.factory.cli import commands as cli
-from asset_factory.factory.config import (
-    BuildConfig,
-    DecomposeConfig,
-    IntakeConfig,
-    RepairConfig,
-)
+from asset_factory.factory.config import BuildConfig, DecomposeConfig, IntakeConfig, RepairConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.export import formats as export_formats

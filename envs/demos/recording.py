@@ -26,12 +26,7 @@ def record(registry: str, episode: Episode, settings: Settings, folder: str) -> 
     """
     attempt = attempted(
         SolveTask(
-            registry,
-            episode.asset,
-            episode.joint,
-            settings.robot,
-            episode.seed,
-            settings.tries,
+            registry, episode.asset, episode.joint, settings.robot, episode.seed, settings.tries
         )
     )
     taken = Taken(

@@ -150,11 +150,7 @@ def _body(layout: Layout, part: int, looks: dict[Look, str]) -> ElementTree.Elem
     return body
 
 
-def _geoms(
-    body: ElementTree.Element,
-    files: LinkFiles,
-    looks: dict[Look, str],
-) -> None:
+def _geoms(body: ElementTree.Element, files: LinkFiles, looks: dict[Look, str]) -> None:
     for piece in files.visuals:
         mesh = _inside(piece.file.as_posix()).removesuffix(".obj")
         SubElement(

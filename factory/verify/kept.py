@@ -51,9 +51,7 @@ def kept_of(hypothesis: Articulation, made: Articulation, measured: Mapping[str,
     links = measured.get("lint", {}).get("links", [])
     covered = [float(link["covered"]) for link in links if "covered" in link] or [1.0]
     return Kept(
-        sum(shares) / len(shares) if shares else 1.0,
-        sum(covered) / len(covered),
-        min(covered),
+        sum(shares) / len(shares) if shares else 1.0, sum(covered) / len(covered), min(covered)
     )
 
 

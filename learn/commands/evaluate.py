@@ -192,12 +192,7 @@ def _requests(command: Evaluate) -> tuple[Request, ...]:
 
 
 def _of_set(command: Evaluate) -> tuple[Request, ...]:
-    from ..evaluate.cases import (
-        folder_requests,
-        procedural_requests,
-        real_requests,
-        skin_requests,
-    )
+    from ..evaluate.cases import folder_requests, procedural_requests, real_requests, skin_requests
     from ..evaluate.listing import read_list
 
     if command.kind == "procedural" or command.data is None:

@@ -31,11 +31,7 @@ from .split import read_split
 
 #: A child is replaced when it holds more than this [bytes].
 LARGE_CHILD = 1536 * 1024 * 1024
-COMMON_MODULES = (
-    "scipy.spatial",
-    "scipy.sparse.csgraph",
-    "asset_factory.learn.datasets.making",
-)
+COMMON_MODULES = ("scipy.spatial", "scipy.sparse.csgraph", "asset_factory.learn.datasets.making")
 
 
 @dataclass(frozen=True)

@@ -11,10 +11,7 @@ from asset_factory.factory.articulate.articulator import Articulator
 from asset_factory.factory.articulate.detected.agreement import ALONE, PROPOSED, SIGNS
 from asset_factory.factory.articulate.detected.articulator import ASKED, LEAST_SCORE
 from asset_factory.factory.articulate.detected.merging import seen_parts
-from asset_factory.factory.articulate.detected.rating import (
-    CellParts,
-    support_of_box,
-)
+from asset_factory.factory.articulate.detected.rating import CellParts, support_of_box
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.mesh import FloatArray
 from asset_factory.factory.models.detector.canvas import SIDES, STRIDE, look_at

@@ -24,12 +24,7 @@ from ..motions.motion_sample import MotionSample, motion_samples
 from .perceptron import Examples, FitSettings, Weighing, fit_perceptron
 from .writing import networks_stored
 
-INPUTS = {
-    "guided": NAMES,
-    "blind": NAMES,
-    "turn_range": TURN_SETTING,
-    "slide_range": SLIDE_SETTING,
-}
+INPUTS = {"guided": NAMES, "blind": NAMES, "turn_range": TURN_SETTING, "slide_range": SLIDE_SETTING}
 HIDDEN = 12
 RANGE_HIDDEN = 8
 #: Of ratings, and of ranges.

@@ -93,11 +93,7 @@ def fit_perceptron(numbers: Numbers, loss: Loss, settings: FitSettings) -> Perce
 
     start = spread * np.random.default_rng(settings.seed).normal(size=sum(sizes))
     best = minimize(
-        objective,
-        start,
-        jac=True,
-        method="L-BFGS-B",
-        options={"maxiter": settings.steps},
+        objective, start, jac=True, method="L-BFGS-B", options={"maxiter": settings.steps}
     )
     found = unpacked(np.asarray(best.x))
     width = settings.width

@@ -87,9 +87,7 @@ def _simplified(
     import fast_simplification
 
     fewer, kept = fast_simplification.simplify(
-        np.asarray(vertices, dtype=np.float32),
-        np.asarray(faces, dtype=np.int32),
-        target_count=most,
+        np.asarray(vertices, dtype=np.float32), np.asarray(faces, dtype=np.int32), target_count=most
     )
     kept = np.asarray(kept, dtype=np.int64)
     fewer = np.asarray(fewer, dtype=np.float64)

@@ -146,10 +146,7 @@ def annotated(npz: bytes) -> dict[str, bytes]:
 
 def network_shapes() -> dict[str, tuple[int, ...]]:
     """The tensors of a network as small as can be."""
-    from asset_factory.factory.models.network.shape import (
-        NetworkShape,
-        expected_tensors,
-    )
+    from asset_factory.factory.models.network.shape import NetworkShape, expected_tensors
 
     return expected_tensors(NetworkShape(hidden=8, blocks=1, heads=2, features=0))
 

@@ -10,14 +10,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-from fuzz_cases import (
-    Case,
-    annotated,
-    packed,
-    prediction,
-    seeds,
-    zipped,
-)
+from fuzz_cases import Case, annotated, packed, prediction, seeds, zipped
 from fuzz_hostile import ELSEWHERE, links
 from fuzz_hostile_weights import Bomb, locked
 

@@ -29,12 +29,7 @@ def _engraved(solid, *lines, front=0.0):
 
 def frame(x0, z0, x1, z1):
     """The four sides of a rectangle."""
-    return (
-        ((x0, z0), (x1, z0)),
-        ((x0, z1), (x1, z1)),
-        ((x0, z0), (x0, z1)),
-        ((x1, z0), (x1, z1)),
-    )
+    return (((x0, z0), (x1, z0)), ((x0, z1), (x1, z1)), ((x0, z0), (x0, z1)), ((x1, z0), (x1, z1)))
 
 
 def bar(low, high, off=0.03):

@@ -156,11 +156,7 @@ def _value_at_pose(joint: PhysicsJoint, first: FloatArray, second: FloatArray) -
 
 
 def _by_rank(
-    links: list[_Link],
-    group: list[int],
-    roots: set[int],
-    world: int | None,
-    face_group: IntArray,
+    links: list[_Link], group: list[int], roots: set[int], world: int | None, face_group: IntArray
 ) -> list[int]:
     """Return the groups, best root first: world, articulation root, no ``body1``, then size."""
     faces = Counter(face_group.tolist())

@@ -160,11 +160,7 @@ def _all_apart(
 
 
 def _apart(
-    one: Hull,
-    other: Hull,
-    way: list[Step],
-    clearance_m: float,
-    whole: tuple[float, float],
+    one: Hull, other: Hull, way: list[Step], clearance_m: float, whole: tuple[float, float]
 ) -> Sides:
     """Cut two hulls apart in the cheapest way: both by planes, pose by pose, or one carved."""
     depths = [meeting(one, other, step.pose, behind=step.behind).depth for step in way]

@@ -74,11 +74,7 @@ def depth_at(a: Hull, b: Hull, pose: FloatArray) -> float:
 
 
 def meeting(
-    a: Hull,
-    b: Hull,
-    pose: FloatArray,
-    most: int = 6,
-    behind: FloatArray | None = None,
+    a: Hull, b: Hull, pose: FloatArray, most: int = 6, behind: FloatArray | None = None
 ) -> HullMeeting:
     """Find the face normals that separate two hulls best; if they overlap, some unlike those too.
 
@@ -144,10 +140,7 @@ def cut_apart(
         # Of cuts that differ by rounding only the first.
         best = int((left >= left.max() - ROUNDING_SHARE * (a.volume + b.volume)).argmax())
     cut = clipped if deep else given_way
-    return (
-        cut(a, normals[best], float(ends[best])),
-        cut(b, -backs[best], -float(starts[best])),
-    )
+    return (cut(a, normals[best], float(ends[best])), cut(b, -backs[best], -float(starts[best])))
 
 
 def _thicker_gives(a: Hull, b: Hull, pose: FloatArray, direction: FloatArray) -> float:

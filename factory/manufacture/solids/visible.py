@@ -17,16 +17,7 @@ from .box import Box
 from .drawer import WALL_M
 from .panel import FlatPanel
 from .seam import CutSkin
-from .surfaces import (
-    boundary,
-    flipped,
-    inside_of,
-    outline_of,
-    outside_of,
-    plate,
-    rectangle,
-    rim,
-)
+from .surfaces import boundary, flipped, inside_of, outline_of, outside_of, plate, rectangle, rim
 from .work import Workpiece
 
 #: A part whose skin covers less than this share of its pieces' surface is a shred.

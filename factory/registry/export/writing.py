@@ -8,7 +8,7 @@ import os
 import shutil
 import tarfile
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +16,7 @@ from typing import IO, Any, cast
 
 from ...errors import ConfigError, RegistryError
 from ...runtime.remote import is_url, located, shown, told
-from ...runtime.store import WRITING_PREFIX
+from ...runtime.store import WRITING_PREFIX, writing
 
 TAR_ENDINGS = (".tar", ".tar.gz", ".tgz")
 _MODE = 0o644
@@ -42,39 +42,26 @@ def write_export(files: Iterable[tuple[str, bytes]], target: str) -> Written:
     Raises:
         RegistryError: the target cannot be written, or fsspec is needed and not installed.
     """
-    count = Count(files)
+    sizes: list[int] = []
+    files = _counted(files, sizes)
     try:
         if is_url(target):
-            _write_url(count, target)
+            _write_url(files, target)
         elif target.endswith(TAR_ENDINGS):
-            _write_archive_file(count, Path(target))
+            _write_archive_file(files, Path(target))
         else:
-            _write_folder(count, Path(target))
+            _write_folder(files, Path(target))
     except OSError as error:
         sentence = f"{shown(target)}: cannot be written ({told(error, target)})"
         raise RegistryError(sentence) from (None if is_url(target) else error)
-    return Written(count.files, count.bytes)
+    return Written(len(sizes), sum(sizes))
 
 
-class Count:
-    """Counts what passes.
-
-    Attributes:
-        files, bytes: so far.
-    """
-
-    def __init__(self, items: Iterable[tuple[str, bytes]]) -> None:
-        self._items = iter(items)
-        self.files = self.bytes = 0
-
-    def __iter__(self) -> Count:
-        return self
-
-    def __next__(self) -> tuple[str, bytes]:
-        name, data = next(self._items)
-        self.files = self.files + 1
-        self.bytes = self.bytes + len(data)
-        return name, data
+def _counted(files: Iterable[tuple[str, bytes]], sizes: list[int]) -> Iterator[tuple[str, bytes]]:
+    """Pass files on, and note the size of each [bytes]."""
+    for name, data in files:
+        sizes.append(len(data))
+        yield name, data
 
 
 def write_archive(
@@ -100,15 +87,8 @@ def write_archive(
 
 def _write_archive_file(files: Iterable[tuple[str, bytes]], target: Path) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=WRITING_PREFIX)
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            write_archive(files, stream, compressed=not target.name.endswith(".tar"))
-            os.fchmod(stream.fileno(), _MODE)
-        os.replace(temporary, target)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+    with writing(target) as stream:
+        write_archive(files, stream, compressed=not target.name.endswith(".tar"))
 
 
 def _write_folder(files: Iterable[tuple[str, bytes]], target: Path) -> None:

@@ -124,7 +124,7 @@ def test_removing_takes_what_is_named_and_asks(root, monkeypatch, capsys):
 class Terminal(io.StringIO):
     """Somebody who answers."""
 
-    def isatty(self) -> bool:
+    def isatty(self):
         return True
 
 

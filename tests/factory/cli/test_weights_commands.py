@@ -14,16 +14,11 @@ from asset_factory.factory.cli.flags import InputFlags, input_config
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.network.shape import expected_tensors
 from asset_factory.factory.models.partfield.shape import UNUSED, PartFieldShape
-from asset_factory.factory.models.partfield.shape import (
-    expected_tensors as expected_field_tensors,
-)
+from asset_factory.factory.models.partfield.shape import expected_tensors as expected_field_tensors
 from asset_factory.factory.models.particulate.field import load_field
 from asset_factory.factory.models.particulate.model import load_model
 from asset_factory.factory.models.weights.checkpoint import convert, describe
-from asset_factory.factory.models.weights.safetensors import (
-    read_safetensors,
-    write_safetensors,
-)
+from asset_factory.factory.models.weights.safetensors import read_safetensors, write_safetensors
 from asset_factory.factory.models.weights.sources import PARTFIELD, PARTICULATE, fetch
 from asset_factory.factory.runtime.store import digest_file
 

@@ -9,11 +9,7 @@ from export_samples import box, boxes_asset, cabinet
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Inertial
 from asset_factory.factory.export.links import safe_tensor
-from asset_factory.factory.export.resistance import (
-    GRAVITY,
-    joint_resistances,
-    resistance_notes,
-)
+from asset_factory.factory.export.resistance import GRAVITY, joint_resistances, resistance_notes
 
 
 def one_joint(joint, child_center=(0.0, 0.0, 2.0)):

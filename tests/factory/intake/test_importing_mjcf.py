@@ -212,8 +212,7 @@ def test_a_body_too_light_for_mujoco_is_lifted_all_the_same(tmp_path):
 
 def test_where_a_missing_file_was_looked_for_is_noted(tmp_path):
     path = write(
-        tmp_path,
-        '<compiler meshdir="meshes"/><asset><mesh name="m" file="no.stl"/></asset>',
+        tmp_path, '<compiler meshdir="meshes"/><asset><mesh name="m" file="no.stl"/></asset>'
     )
     log = ReadLog()
     with pytest.raises(InputRejected):

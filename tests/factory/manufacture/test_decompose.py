@@ -12,17 +12,9 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind, P
 from asset_factory.factory.config import DecomposeConfig
 from asset_factory.factory.errors import InputRejected, Unjudged
 from asset_factory.factory.manufacture.decompose import ladder
-from asset_factory.factory.manufacture.decompose.convex import (
-    depth_below,
-    hull_of,
-    surface_points,
-)
+from asset_factory.factory.manufacture.decompose.convex import depth_below, hull_of, surface_points
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls, decompose
-from asset_factory.factory.manufacture.decompose.methods import (
-    MOST_SEARCHED,
-    SolidPieces,
-    refined,
-)
+from asset_factory.factory.manufacture.decompose.methods import MOST_SEARCHED, SolidPieces, refined
 from asset_factory.factory.manufacture.decompose.outside import uncovered
 from asset_factory.factory.manufacture.decompose.room import NOWHERE
 from asset_factory.factory.manufacture.decompose.solids import manifold_of, manifold_of_hull, union

@@ -7,11 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from manifold3d import Manifold
 
-from asset_factory.factory.manufacture.decompose.convex import (
-    depth_below,
-    hull_of,
-    limit_vertices,
-)
+from asset_factory.factory.manufacture.decompose.convex import depth_below, hull_of, limit_vertices
 from asset_factory.factory.manufacture.decompose.cut import as_one, cut_along_faces
 from asset_factory.factory.manufacture.decompose.merge import merge
 from asset_factory.factory.manufacture.decompose.outside import uncovered

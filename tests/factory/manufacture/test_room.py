@@ -7,10 +7,7 @@ import trimesh
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.config import DecomposeConfig
 from asset_factory.factory.manufacture.decompose.convex import depth_below
-from asset_factory.factory.manufacture.decompose.decompose import (
-    decompose,
-    error_for,
-)
+from asset_factory.factory.manufacture.decompose.decompose import decompose, error_for
 from asset_factory.factory.mesh import Mesh
 
 CONFIG = DecomposeConfig(resolution=300, iterations=20, nodes=5)

@@ -14,18 +14,10 @@ from asset_factory.factory.mesh import Material, concatenate
 from asset_factory.learn.datasets.categories import categories_of, prefix_of
 from asset_factory.learn.datasets.description import find_descriptions
 from asset_factory.learn.datasets.partnet import find_partnet, words
-from asset_factory.learn.datasets.predictions import (
-    find_predictions,
-    read_prediction_item,
-)
+from asset_factory.learn.datasets.predictions import find_predictions, read_prediction_item
 from asset_factory.learn.datasets.settings import SourceSettings
 from asset_factory.learn.datasets.split import is_held_out
-from asset_factory.learn.objects.export import (
-    FileFrame,
-    write_annotation,
-    write_obj,
-    write_sidecar,
-)
+from asset_factory.learn.objects.export import FileFrame, write_annotation, write_obj, write_sidecar
 
 
 def touch(path, text="<robot/>"):

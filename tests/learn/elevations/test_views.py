@@ -5,12 +5,7 @@ import pytest
 
 from asset_factory.factory.articulate.seams.sight import CUES
 from asset_factory.factory.part import OpensBy
-from asset_factory.learn.elevations.views import (
-    UNKNOWN,
-    read_views,
-    views_of,
-    write_views,
-)
+from asset_factory.learn.elevations.views import UNKNOWN, read_views, views_of, write_views
 from asset_factory.learn.objects import make_object
 
 

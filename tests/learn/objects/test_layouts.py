@@ -6,13 +6,7 @@ from hypothesis import strategies as st
 
 from asset_factory.learn.objects.kit.chance import Chance
 from asset_factory.learn.objects.kit.hinges import SLACK, swing
-from asset_factory.learn.objects.kit.layouts import (
-    column,
-    divided,
-    drawers,
-    random_node,
-    row,
-)
+from asset_factory.learn.objects.kit.layouts import column, divided, drawers, random_node, row
 
 MIX = {
     "drawer": 1.0,

@@ -7,12 +7,7 @@ import pytest
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.geometry.components import connected_components
-from asset_factory.learn.objects import (
-    MixtureSettings,
-    make_object,
-    sample_object,
-    training_object,
-)
+from asset_factory.learn.objects import MixtureSettings, make_object, sample_object, training_object
 from asset_factory.learn.objects.mixture import in_character
 
 

@@ -13,12 +13,7 @@ from asset_factory.factory.config import BuildConfig, IntakeConfig
 from asset_factory.factory.geometry.posing import posed
 from asset_factory.factory.intake.load import load
 from asset_factory.factory.mesh import Material, concatenate
-from asset_factory.learn.objects import (
-    artist_like,
-    fused_like,
-    make_object,
-    write_sample,
-)
+from asset_factory.learn.objects import artist_like, fused_like, make_object, write_sample
 
 
 def read(path):

@@ -21,16 +21,7 @@ from asset_factory.learn.objects.kit.shapes import (
     ribbon,
     stack,
 )
-from asset_factory.learn.objects.kit.spans import (
-    X,
-    Y,
-    Z,
-    about,
-    between,
-    shares,
-    span,
-    within,
-)
+from asset_factory.learn.objects.kit.spans import X, Y, Z, about, between, shares, span, within
 
 
 def bounds(forms):

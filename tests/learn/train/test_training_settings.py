@@ -4,11 +4,7 @@ import pytest
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.network.shape import SIZES
-from asset_factory.learn.train.recipes import (
-    load_train_config,
-    parse_train_config,
-    recipe_names,
-)
+from asset_factory.learn.train.recipes import load_train_config, parse_train_config, recipe_names
 
 DATA = '[[data]]\nkind = "procedural"\n'
 

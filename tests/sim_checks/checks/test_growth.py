@@ -28,8 +28,7 @@ def counted(monkeypatch, owner, name, work):
 
 @pytest.mark.parametrize("make", [chain, keyboard])
 @pytest.mark.parametrize(
-    ("owner", "name"),
-    [(Collider, "stand"), (Orbit, "swept_bounds"), (kinematics, "joint_motion")],
+    ("owner", "name"), [(Collider, "stand"), (Orbit, "swept_bounds"), (kinematics, "joint_motion")]
 )
 def test_twice_the_links_take_twice_the_work(make, owner, name, monkeypatch):
     config = PenetrationConfig(combinations=0)

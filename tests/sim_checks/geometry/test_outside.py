@@ -1,24 +1,33 @@
-"""How far points lie outside hulls: closed forms, and the nearest point of every triangle."""
+"""How far points lie outside hulls, the checks' and the maker's: closed forms, and triangles."""
 
 import numpy as np
 import pytest
 import trimesh
-from box_world import box_hull
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from asset_factory.factory.manufacture.decompose.convex import hull_of
+from asset_factory.factory.manufacture.decompose.outside import outside, uncovered
 from asset_factory.sim_checks.geometry.hull import convex_hull
 from asset_factory.sim_checks.geometry.outside import distance_outside
 
-CUBE = box_hull((0.0, 0.0, 0.0), (2.0, 2.0, 2.0))
+CUBE = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
 #: 20 mm thick at x = 0, an edge like a knife's at x = 0.4.
-WEDGE = convex_hull(
-    np.array(
-        [[x, y, z * (0.4 - x) / 0.4] for x in (0.0, 0.4) for y in (0, 1) for z in (0.01, -0.01)]
-    )
-)
+WEDGE = np.array([[x, y, z] for x, z in ((0, 0.01), (0, -0.01), (0.4, 0)) for y in (0, 1)])
 
 
+def by_checks(points, *bodies):
+    return distance_outside(points, [convex_hull(body) for body in bodies])
+
+
+def by_maker(points, *bodies):
+    return outside([hull_of(body) for body in bodies], points)
+
+
+either = pytest.mark.parametrize("measure", [by_checks, by_maker])
+
+
+@either
 @pytest.mark.parametrize(
     ("point", "distance"),
     [
@@ -30,23 +39,30 @@ WEDGE = convex_hull(
     ],
     ids=["inside", "face", "before a face", "beside an edge", "beyond a corner"],
 )
-def test_a_cube_s_distances_are_exact(point, distance):
-    assert distance_outside(np.array([point]), [CUBE]) == pytest.approx([distance], abs=1e-15)
+def test_a_cube_s_distances_are_exact(measure, point, distance):
+    assert measure(np.array([point]), CUBE) == pytest.approx([distance], abs=1e-15)
 
 
-def test_beyond_a_knife_s_edge_the_distance_is_that_of_the_edge():
-    point = np.array([[0.7, 0.5, 0.0]])
+@either
+def test_beyond_a_knife_s_edge_the_distance_is_that_of_the_edge(measure):
     # No face plane is nearly as far: each passes within 8 mm.
-    assert (point @ WEDGE.normals.T - WEDGE.offsets).max() < 0.008
-    assert distance_outside(point, [WEDGE]) == pytest.approx([0.3], abs=1e-12)
+    assert measure(np.array([[0.7, 0.5, 0.0]]), WEDGE) == pytest.approx([0.3], abs=1e-12)
 
 
-def test_of_several_hulls_the_nearest_counts():
+@either
+def test_of_several_hulls_the_nearest_counts(measure):
     # The wedge's planes pass nearer to the point than the cube's, but the cube is nearer.
-    cube = box_hull((0.7, 0.5, 0.12), (0.2, 0.2, 0.2))
+    cube = 0.1 * CUBE + [0.7, 0.5, 0.12]
     point = np.array([[0.7, 0.5, 0.0]])
-    assert distance_outside(point, [WEDGE, cube]) == pytest.approx([0.02], abs=1e-12)
-    assert distance_outside(point, [cube, WEDGE]) == pytest.approx([0.02], abs=1e-12)
+    assert measure(point, WEDGE, cube) == pytest.approx([0.02], abs=1e-12)
+    assert measure(point, cube, WEDGE) == pytest.approx([0.02], abs=1e-12)
+
+
+def test_without_hulls_everything_is_bare_and_without_points_nothing():
+    assert outside([], np.zeros((2, 3))).tolist() == [np.inf, np.inf]
+    assert len(by_maker(np.zeros((0, 3)), CUBE)) == 0
+    assert uncovered([hull_of(CUBE)], np.zeros((0, 3))) == 0.0
+    assert uncovered([hull_of(WEDGE)], np.array([[0.7, 0.5, 0.0]])) == pytest.approx(0.3)
 
 
 def to_triangles(points, hull):
@@ -67,15 +83,17 @@ def to_triangles(points, hull):
 @settings(deadline=None)
 def test_no_triangle_is_nearer_and_one_is_as_near(seed, corners, size, away):
     generator = np.random.default_rng(seed)
-    hulls = [
-        convex_hull(away + (generator.normal(size=(corners, 3)) + shift) * size)
-        for shift in generator.normal(scale=2.0, size=(3, 3))
-    ]
+    shifts = generator.normal(scale=2.0, size=(3, 3))
+    drawn = [away + (generator.normal(size=(corners, 3)) + shift) * size for shift in shifts]
+    # The maker has no hulls of what is next to flat.
+    bodies = [body for body in drawn if hull_of(body)]
+    assume(bodies)
+    hulls = [convex_hull(body) for body in bodies]
     on = hulls[0].vertices[hulls[0].triangles].mean(axis=1)
-    points = np.concatenate(
-        [away + generator.normal(scale=3.0, size=(40, 3)) * size, on, on + 1e-4]
-    )
+    far = away + generator.normal(scale=3.0, size=(1100, 3)) * size
+    points = np.concatenate([far, on, on + 1e-4])
     inside = [(points @ hull.normals.T <= hull.offsets).all(axis=1) for hull in hulls]
     expected = np.min([to_triangles(points, hull) for hull in hulls], axis=0)
     expected[np.any(inside, axis=0)] = 0.0
-    assert distance_outside(points, hulls) == pytest.approx(expected, abs=1e-7)
+    for measure in (by_checks, by_maker):
+        assert measure(points, *bodies) == pytest.approx(expected, abs=1e-7)

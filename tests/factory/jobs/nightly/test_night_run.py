@@ -224,11 +224,7 @@ def test_a_new_night_leaves_the_interrupted_one_as_it_is(workshop, config):
 def test_a_night_that_ran_out_of_time_is_finished_and_says_what_is_left(workshop, config):
     workshop.most_hours = 2
     report = run(workshop, config)
-    assert (report.night.state, report.night.passed, report.night.waiting) == (
-        "out_of_time",
-        2,
-        1,
-    )
+    assert (report.night.state, report.night.passed, report.night.waiting) == ("out_of_time", 2, 1)
     assert report.night.exit_code == 0
     assert report.attention == ("Not begun: 1 input; the next night takes them up.",)
     workshop.most_hours = None

@@ -53,11 +53,7 @@ def test_a_folder_that_is_sent_arrives_whole_and_leaves_nothing(tmp_path, betwee
     assert filled.folder.is_relative_to(tmp_path / "staging")
     assert sorted(
         path.relative_to(filled.folder).as_posix() for path in filled.folder.rglob("*")
-    ) == [
-        "meshes",
-        "meshes/a.bin",
-        "robot.urdf",
-    ]
+    ) == ["meshes", "meshes/a.bin", "robot.urdf"]
     assert (filled.folder / "meshes" / "a.bin").read_bytes() == bytes(range(256)) * 5000
     assert not list(between.iterdir())
 

@@ -107,10 +107,7 @@ def test_the_folder_keeps_its_name(inputs, folder):
 
 def test_another_than_was_sent_is_refused(inputs):
     sent = packed(inputs / "box_0.stl")
-    with (
-        pytest.raises(ExchangeError, match="digest"),
-        sent.sent.unpacked(sent.data[:-1] + b"x"),
-    ):
+    with pytest.raises(ExchangeError, match="digest"), sent.sent.unpacked(sent.data[:-1] + b"x"):
         pass
 
 

@@ -8,10 +8,7 @@ from plain_solids import box
 from target_worlds import BAR, BODY, HINGE, PANEL, SLIDE, best, moved, world
 
 from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
-from asset_factory.factory.manufacture.targets.standing import (
-    BASE_RADIUS_M,
-    standing_place,
-)
+from asset_factory.factory.manufacture.targets.standing import BASE_RADIUS_M, standing_place
 
 INERTIAL = Inertial(1.0, np.zeros(3), np.eye(3))
 

@@ -9,23 +9,13 @@ import torch  # noqa: TID253
 import torch.nn.functional as F  # noqa: N812, TID253
 from weight_rule import weights
 
-from asset_factory.factory.models.network.shape import (
-    NetworkShape,
-    expected_tensors,
-    read_shape,
-)
+from asset_factory.factory.models.network.shape import NetworkShape, expected_tensors, read_shape
 from asset_factory.factory.models.network.transformer import PartArticulationTransformer
 from asset_factory.factory.models.partfield.encoder import PartFieldEncoder
 from asset_factory.factory.models.partfield.shape import PartFieldShape, read_partfield_shape
-from asset_factory.factory.models.partfield.shape import (
-    expected_tensors as expected_field_tensors,
-)
+from asset_factory.factory.models.partfield.shape import expected_tensors as expected_field_tensors
 from asset_factory.factory.models.particulate.field import FeatureField, load_field
-from asset_factory.factory.models.particulate.model import (
-    Model,
-    PointCloud,
-    load_model,
-)
+from asset_factory.factory.models.particulate.model import Model, PointCloud, load_model
 
 KEPT = Path(__file__).with_name("parity.npz")
 TINY = NetworkShape(hidden=48, blocks=2, heads=4, features=32)

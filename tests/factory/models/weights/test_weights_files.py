@@ -19,10 +19,7 @@ from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.weights import pickled
 from asset_factory.factory.models.weights.checkpoint import load_tensors, open_checkpoint
 from asset_factory.factory.models.weights.pickled import unpack
-from asset_factory.factory.models.weights.safetensors import (
-    read_safetensors,
-    write_safetensors,
-)
+from asset_factory.factory.models.weights.safetensors import read_safetensors, write_safetensors
 from asset_factory.sim_checks.processes.isolation import Failure, Outcome
 
 pytestmark = pytest.mark.usefixtures("warm_reader")
