@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -226,13 +227,16 @@ class Articulation:
 
     def together(self, joint: Joint, value: float) -> dict[str, float]:
         """Return the values of a joint, and of all that move with it, where it is at ``value``."""
-        mimics = sound_chains({each.name: each.mimic for each in self.joints})
-        whole = {name: whole_chain(name, mimics) for name in mimics}
-        free = Mimic(joint.name)
-        own = whole.get(joint.name, free)
+        own = self._chains.get(joint.name, Mimic(joint.name))
         at = value / own.multiplier
-        led = {n: m.multiplier * at for n, m in whole.items() if m.leader == own.leader}
+        led = {n: m.multiplier * at for n, m in self._chains.items() if m.leader == own.leader}
         return {own.leader: at, **led, joint.name: value}
+
+    @cached_property
+    def _chains(self) -> Mapping[str, Mimic]:
+        """Return for each follower the free joint at the head of its chain, and its ratio to it."""
+        mimics = sound_chains({joint.name: joint.mimic for joint in self.joints})
+        return {name: whole_chain(name, mimics) for name in mimics}
 
     def part_mesh(self, part: int) -> Mesh:
         """Return the faces of one part, in the object frame at rest."""

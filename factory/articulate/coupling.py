@@ -75,7 +75,9 @@ def _is_common(joints: Sequence[Joint], whole: Mimic) -> bool:
     if limits is None or limits[1] - limits[0] <= NO_RANGE:
         return False
     leader = next(joint for joint in joints if joint.name == whole.leader)
-    return not leader.turns or max(-limits[0], limits[1]) <= MOST_TURN or np.isinf(limits).all()
+    return (
+        not leader.turns or max(-limits[0], limits[1]) <= MOST_TURN or bool(np.isinf(limits).all())
+    )
 
 
 def _depth(name: str, mimics: dict[str, Mimic]) -> int:

@@ -65,8 +65,8 @@ def _couple(root: ElementTree.Element, layout: Layout) -> None:
     equality = SubElement(root, "equality") if mimics else root
     for name, mimic in mimics.items():
         ratio = scientific([mimic.multiplier])
-        polynomial = {"polycoef": f"0 {ratio} 0 0 0"}
-        SubElement(equality, "joint", joint1=name, joint2=mimic.leader, **polynomial)
+        words = {"joint1": name, "joint2": mimic.leader, "polycoef": f"0 {ratio} 0 0 0"}
+        SubElement(equality, "joint", words)
 
 
 def _defaults() -> ElementTree.Element:

@@ -185,7 +185,7 @@ def _joint(
     made.CreateLocalRot0Attr(turned)
     made.CreateLocalRot1Attr(turned)
     made.CreateAxisAttr("X")
-    per_unit = 180.0 / np.pi if joint.turns else 1.0
+    per_unit = _per_unit(joint)
     if joint.kind is not JointKind.CONTINUOUS:
         made.CreateLowerLimitAttr(joint.lower * per_unit)
         made.CreateUpperLimitAttr(joint.upper * per_unit)
@@ -198,8 +198,13 @@ def _joint(
         attribute.Set(value)
     if joint.mimic is not None:
         leader = layout.asset.articulation.joint(joint.mimic.leader)
-        units = per_unit / (180.0 / np.pi if leader.turns else 1.0)
-        _couple(made.GetPrim(), leader.name, joint.mimic.multiplier * units)
+        ratio = joint.mimic.multiplier * per_unit / _per_unit(leader)
+        _couple(made.GetPrim(), leader.name, ratio)
+
+
+def _per_unit(joint: Joint) -> float:
+    """Return the file's units, degrees or metres, in one of the joint's."""
+    return 180.0 / np.pi if joint.turns else 1.0
 
 
 def _couple(prim: Usd.Prim, leader: str, ratio: float) -> None:

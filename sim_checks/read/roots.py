@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
-from itertools import islice
+from functools import cached_property
+from itertools import chain, islice
 from pathlib import Path, PurePosixPath
 from urllib.parse import unquote
 
@@ -157,8 +158,22 @@ class Roots:
             if name in (root.name, _package_name(root)):
                 yield root
             yield root / name
+        yield from self._index.get(name, ())
+
+    @cached_property
+    def _index(self) -> Mapping[str, list[Path]]:
+        """Return the folders in the given roots, and in those, by their and their packages' names.
+
+        As in a workspace, where packages lie in repositories.
+        """
+        found: dict[str, list[Path]] = {}
         for root in self._given:
-            yield from (folder / name for folder in _subfolders(root))
+            children = _subfolders(root)
+            inner = (folder for child in children for folder in _subfolders(child))
+            for folder in islice(chain(children, inner), MOST_SUBFOLDERS):
+                for name in {folder.name, _package_name(folder)}:
+                    found.setdefault(name, []).append(folder)
+        return found
 
 
 def _subfolders(root: Path) -> list[Path]:

@@ -111,12 +111,14 @@ def test_what_no_root_holds_is_refused_with_the_flag_that_helps(tmp_path: Path, 
 def test_another_package_is_found_in_a_root_its_folders_and_the_ros_path(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """As in a workspace: <root>/description and <root>/repository/description."""
+    """As in a workspace: in a root or a repository, by the folder's name or the package's."""
     path = write_package(tmp_path / "bringup", "bringup", "package://description/meshes/")
     assert codes(checked(path)) == ["missing_file"]
-    for where in ("description", "repository/description"):
+    for where in ("description", "repository/description", "repository/main"):
         workspace = tmp_path / where.replace("/", "_")
         write_meshes(workspace / where / "meshes")
+        if where.endswith("main"):
+            (workspace / where / "package.xml").write_text(PACKAGE.format("description"))
         assert codes(checked(path)) == ["missing_file"]
         assert is_sound(checked(path, workspace))
         monkeypatch.setenv("ROS_PACKAGE_PATH", f"/nowhere{os.pathsep}{workspace}")
