@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ..errors import RegistryError
 from ..runtime.layout import SUPERSEDED, WITHDRAWN
-from .database import writing
+from .database import connected
 from .entry import Entry, entry_from
 from .registry import Registry
 from .report_file import read_report
@@ -45,7 +45,12 @@ def keep_current(registry: Registry, inputs: Sequence[InputNow]) -> tuple[str, .
     Returns the ids of the superseded.
     """
     left: list[str] = []
-    with writing(registry.root) as connection:
+    if not inputs:
+        return ()
+    with connected(registry.root) as connection:
+        # A power cut may take this back, which leaves a twin: no reason to wait for the disk.
+        connection.execute("PRAGMA synchronous = NORMAL")
+        connection.execute("BEGIN IMMEDIATE")
         for statement in _TABLES:
             connection.execute(statement)
         for each in inputs:
@@ -66,6 +71,7 @@ def keep_current(registry: Registry, inputs: Sequence[InputNow]) -> tuple[str, .
                 for (place,) in connection.execute("SELECT place FROM inputs WHERE id = ?", (old,))
             )
         ]
+        connection.execute("COMMIT")
     there = tuple(old for old in unused if registry.find(old) is not None)
     for old in there:
         set_asset_aside(registry, old, SUPERSEDED)
