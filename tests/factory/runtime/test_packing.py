@@ -88,7 +88,7 @@ def test_arrays_keep_their_bits_through_the_store(tmp_path) -> None:
 def test_a_report_comes_back_as_it_was() -> None:
     finding = Finding(
         "tilted",
-        Severity.SOFT,
+        Severity.WARNING,
         "leans",
         joint="hinge",
         parts=("a", "b"),

@@ -51,7 +51,7 @@ def refusing(monkeypatch: pytest.MonkeyPatch, number: int, names: list[str], cod
         name = names[number]
         if f'"{name}"' not in bundle.urdf.read_text(encoding="utf-8"):
             return verdict
-        found = Finding(code, Severity.HARD, f"bullet: {name} is stuck", "bullet", name)
+        found = Finding(code, Severity.ERROR, f"bullet: {name} is stuck", "bullet", name)
         return Verdict(replace(verdict.report, findings=(*verdict.report.findings, found)))
 
     monkeypatch.setattr(rounds, "validate", validate)

@@ -55,7 +55,7 @@ def joint(result: CheckResult, name: str) -> dict[str, Any]:
 
 
 def hard(result: CheckResult) -> list[str]:
-    return [finding.code for finding in result.findings if finding.severity is Severity.HARD]
+    return [finding.code for finding in result.findings if finding.severity is Severity.ERROR]
 
 
 def tray(side: float, top: float, back: float, travel: float = 0.3) -> Thing:

@@ -39,7 +39,7 @@ def test_a_number_that_is_none_is_a_verdict(
     tmp_path: Path, judge: Judge, old: str, new: str, code: str
 ) -> None:
     report = judge.check(write_urdf(tmp_path, replace={old: new}), ENGINES)
-    assert report.hard[0].code == code
+    assert report.errors[0].code == code
     assert report.status is not Status.UNJUDGED
     assert code in report.to_json()
 

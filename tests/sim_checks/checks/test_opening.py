@@ -51,7 +51,7 @@ def checked(description: Description) -> tuple[CheckResult, dict[str, dict[str, 
 
 
 def hard(result: CheckResult) -> list[tuple[str, str | None]]:
-    return [(item.code, item.joint) for item in result.findings if item.severity is Severity.HARD]
+    return [(item.code, item.joint) for item in result.findings if item.severity is Severity.ERROR]
 
 
 #: Before the drawer, gone to the right.

@@ -23,7 +23,7 @@ def check(description: Description) -> CheckResult:
 
 
 def hard(result: CheckResult) -> list[Finding]:
-    return [finding for finding in result.findings if finding.severity is Severity.HARD]
+    return [finding for finding in result.findings if finding.severity is Severity.ERROR]
 
 
 def codes(result: CheckResult) -> list[str]:

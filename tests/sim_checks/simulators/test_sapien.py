@@ -73,13 +73,13 @@ def test_dropped_joint_friction_is_said(tmp_path: Path) -> None:
     edit = {"</joint>\n</robot>": '<dynamics friction="0.3" damping="0.2"/></joint>\n</robot>'}
     result = judge(write_urdf(tmp_path, replace=edit), "sapien")
     assert codes(result) == []
-    assert codes(result, Severity.SOFT) == ["friction_ignored"]
+    assert codes(result, Severity.NOTE) == ["friction_ignored"]
 
 
 def test_mjcf_is_not_judged_and_says_so(tmp_path: Path) -> None:
     result = judge(write_mjcf(tmp_path), "sapien")
     assert codes(result) == []
-    assert codes(result, Severity.SOFT) == ["format_not_loaded"]
+    assert codes(result, Severity.NOTE) == ["format_not_loaded"]
 
 
 def test_a_heavy_lid_opens_against_gravity_damping_and_friction(tmp_path: Path) -> None:
