@@ -37,7 +37,7 @@ class Row:
 
     Attributes:
         exhibit: what was shown.
-        kind: ``hard``, ``soft`` or ``sound``: what the verdict ought to be.
+        kind: ``error``, ``warning`` or ``sound``: what the verdict ought to be.
         cells: detector -> ``own``, ``other: ...``, ``missed``, ``alarm: ...``, ``-`` or ``not
             asked``.
         passed: the verdict of the judge as a whole; ``None`` where it raised.
@@ -53,7 +53,7 @@ class Row:
         """What the verdict is worth."""
         if self.passed is None:
             return "NO VERDICT"
-        if self.kind == "hard":
+        if self.kind == "error":
             return "FALSE PASS" if self.passed else "rejected"
         return "passed" if self.passed else "FALSE ALARM"
 
@@ -62,15 +62,15 @@ def exhibits() -> list[Exhibit]:
     """Everything: broken, blind spots, sound."""
     spots = list(blind_spots())
     unseen = [
-        Exhibit(spot.name, spot.build, spot.fault, "hard", ()) for spot in spots if spot.fault
+        Exhibit(spot.name, spot.build, spot.fault, "error", ()) for spot in spots if spot.fault
     ]
-    alarms = [Exhibit(spot.name, spot.build, None, "hard", ()) for spot in spots if not spot.fault]
+    alarms = [Exhibit(spot.name, spot.build, None, "error", ()) for spot in spots if not spot.fault]
     return [*broken(), *unseen, *good(ALL), *alarms]
 
 
 def shown(exhibit: Exhibit, judge: Judge) -> Row:
     """Judge one exhibit in a folder of its own."""
-    kind = "sound" if exhibit.code is None else "hard" if exhibit.rejected else "soft"
+    kind = "sound" if exhibit.code is None else "error" if exhibit.rejected else "warning"
     with tempfile.TemporaryDirectory() as folder:
         path = exhibit.build(Path(folder))
         try:
@@ -102,7 +102,7 @@ def cell(exhibit: Exhibit, report: Report, detector: str) -> str:
 def hard_codes(findings: Sequence[Finding]) -> str:
     """The codes of the hard ones, each once."""
     return ", ".join(
-        dict.fromkeys(finding.code for finding in findings if finding.severity is Severity.HARD)
+        dict.fromkeys(finding.code for finding in findings if finding.severity is Severity.ERROR)
     )
 
 
@@ -120,7 +120,7 @@ def table(rows: Sequence[Row]) -> str:
     ]
     for row in rows:
         fault = "sound" if row.exhibit.code is None else f"`{row.exhibit.code}`"
-        fault += " (soft)" if row.kind == "soft" else ""
+        fault += " (warning)" if row.kind == "warning" else ""
         lines.append(
             f"| {row.exhibit.name} | {fault} | {' | '.join(row.cells.values())} | {row.outcome} |"
         )
@@ -151,19 +151,19 @@ def main() -> None:
         os.chdir(folder)
         rows = [shown(exhibit, judge) for exhibit in exhibits()]
         os.chdir(ROOT)
-    outcomes = Counter(row.outcome for row in rows if row.kind != "soft")
-    soft = [row for row in rows if row.kind == "soft"]
+    outcomes = Counter(row.outcome for row in rows if row.kind != "warning")
+    soft = [row for row in rows if row.kind == "warning"]
     line = {
         "benchmark": "confusion_table",
-        "faults": sum(row.kind == "hard" for row in rows),
+        "faults": sum(row.kind == "error" for row in rows),
         "rejected": outcomes["rejected"],
         "rejected_by_own_code": sum(
-            row.kind == "hard" and "own" in row.cells.values() for row in rows
+            row.kind == "error" and "own" in row.cells.values() for row in rows
         ),
         "false_passes": [row.exhibit.name for row in rows if row.outcome == "FALSE PASS"],
         "no_verdict": [row.exhibit.name for row in rows if row.outcome == "NO VERDICT"],
-        "soft": len(soft),
-        "soft_told": sum("own" in row.cells.values() for row in soft),
+        "warnings": len(soft),
+        "warnings_told": sum("own" in row.cells.values() for row in soft),
         "sound": sum(row.kind == "sound" for row in rows),
         "false_alarms": [row.exhibit.name for row in rows if row.outcome == "FALSE ALARM"],
         "missed": [

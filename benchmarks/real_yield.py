@@ -190,7 +190,9 @@ def made_of(folder: Path, seconds: float, source: Path) -> Made:
     kept = stored.report.measurements.get("kept", {})
     return Made(
         source_of(source),
-        "" if stored.report.passed else (stored.report.hard[0].code if stored.report.hard else "?"),
+        ""
+        if stored.report.passed
+        else (stored.report.errors[0].code if stored.report.errors else "?"),
         int(entry["hulls"]),
         float(kept.get("range", 1.0)),
         float(kept.get("coverage", 1.0)),

@@ -19,6 +19,7 @@ from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import tyro
 
 from asset_factory.envs.tasks.catalog import TASKS
@@ -28,11 +29,13 @@ from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.intake import stated
 from asset_factory.factory.reasons import TABLES
 from asset_factory.learn.train.settings import TrainConfig
-from asset_factory.sim_checks import Finding
+from asset_factory.sim_checks import Disagreement, Finding, Report
 from asset_factory.sim_checks.reasons import DEGREES
+from asset_factory.sim_checks.report import VERSION
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS
 
 ROOT = Path(__file__).resolve().parents[1]
+DIALECT = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
 RESULTS = ROOT / "benchmarks" / "results"
 MARKED = re.compile(r"(<!-- table: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
@@ -65,10 +68,18 @@ def table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
 def reasons() -> str:
     """Every code, by what became of the input."""
     text = ""
+    found: set[str] = set()
     for heading, codes in TABLES.items():
-        rows = [(f"`{code}`", meaning) for code, meaning in codes.items()]
+        rows = [(anchored(code, found), meaning) for code, meaning in codes.items()]
         text += f"## {heading}\n\n{table(('code', 'meaning'), rows)}\n"
     return text
+
+
+def anchored(code: str, found: set[str]) -> str:
+    """A code as its row's first cell, with an anchor where it comes first."""
+    anchor = "" if code in found else f'<a id="{code}"></a>'
+    found.add(code)
+    return f"{anchor}`{code}`"
 
 
 def degrees() -> str:
@@ -207,8 +218,34 @@ def parts_schema() -> str:
         for key, value in form.get("properties", {}).items():
             meaning = _cell(attributes(getattr(stated, name))[key])
             form["properties"][key] = {"description": meaning, **value}
-    dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
-    return json.dumps({**dialect, **schema}, indent=1) + "\n"
+    return json.dumps({**DIALECT, **schema}, indent=1) + "\n"
+
+
+def report_schema() -> str:
+    """Return the JSON schema of a report; a build's has more keys, which it leaves open."""
+    types = [Report, Finding, Disagreement]
+    _, forms = msgspec.json.schema_components(types, ref_template="#/$defs/{name}")
+    for each in types:
+        form = forms[each.__name__]
+        form["description"] = (inspect.getdoc(each) or "").partition("\n")[0]
+        meanings = attributes(each)
+        form["properties"] = {
+            key: {
+                "description": meanings[key],
+                **{k: v for k, v in value.items() if k != "default"},
+            }
+            for key, value in form["properties"].items()
+        }
+        form["required"] = list(form["properties"])
+        form["additionalProperties"] = each is Report
+    report = forms.pop("Report")
+    report["properties"] = {
+        "version": {"description": "of this form.", "const": VERSION},
+        "passed": {"description": "whether no finding is an error.", "type": "boolean"},
+        **report["properties"],
+    }
+    report["required"] = list(report["properties"])
+    return json.dumps({**DIALECT, **report, "$defs": forms}, indent=1) + "\n"
 
 
 def results() -> str:
@@ -252,7 +289,10 @@ WRITERS: Mapping[str, Callable[[], str]] = {
 }
 
 #: Files that are written whole.
-FILES: Mapping[str, Callable[[], str]] = {"docs/parts.schema.json": parts_schema}
+FILES: Mapping[str, Callable[[], str]] = {
+    "docs/parts.schema.json": parts_schema,
+    "docs/report.schema.json": report_schema,
+}
 
 if __name__ == "__main__":
     sys.exit(main())

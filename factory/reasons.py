@@ -46,7 +46,7 @@ DATASET: Mapping[str, str] = {
 }
 
 #: Said of an asset on the way; no reason to reject.
-SOFT: Mapping[str, str] = {
+WARNINGS: Mapping[str, str] = {
     "hidden_overlap": "what two parts overlapped at a joint was cut out of collision geometry [mm]",
     "planed": "what was taken off collision geometry that can be seen, so that parts clear [mm]",
     "meshes_overlap": "hulls were left overlapping, because the meshes themselves do",
@@ -66,10 +66,11 @@ UNJUDGED: Mapping[str, str] = {
 TABLES: Mapping[str, Mapping[str, str]] = {
     "The input could not become an asset": INPUT,
     "The object cannot be trained on, or evaluated": DATASET,
-    "The asset was made and did not pass": judge.HARD,
+    "The asset was made and did not pass": judge.ERRORS,
     "The description could not be read": judge.UNREADABLE,
     "Nobody could say (status `unjudged`, exit code 3)": {**judge.UNJUDGED, **UNJUDGED},
-    "Worth knowing, no reason to reject": {**judge.SOFT, **SOFT},
+    "Worth knowing, no reason to reject": {**judge.WARNINGS, **WARNINGS},
+    "How it was validated, nothing to mend": judge.NOTES,
 }
 
 #: Every code there is.

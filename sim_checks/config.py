@@ -179,8 +179,8 @@ class LintConfig:
             move a slide by different lengths, and a reader that takes it for a unit vector turns a
             hinge by another angle.
         gyration_share: a radius of gyration above this share of the link's diagonal is reported; a
-            uniform rod, the extreme, has 0.29. Above the whole diagonal it rejects: even two points
-            in opposite corners have 0.5.
+            uniform rod, the extreme, has 0.29. Mass spread further along an axis than half the
+            link's extent, with the slack of its centre, rejects: two points at its ends have that.
         slide_share: a slide longer than this many diagonals of the object rejects; the longest
             drawers travel less than one.
         turns: a revolute joint of more turns than this rejects: degrees written as radians, mostly.
@@ -191,6 +191,8 @@ class LintConfig:
             to something; linkages that are written as one joint have their axis within a diagonal.
         apart: what a joint moves may lie this many times the larger of its own and the rest's
             diagonal away from the rest; further off, the two are no one object.
+        finger_m: what a joint moves comes this near to what carries it in some pose [m], a finger's
+            width, or it is fastened to nothing; hinges and slides that nobody modelled fit in.
         pull_soft_n, pull_hard_n: a joint whose friction, or damping when opened in ``opening_s``
             [s], takes more force at the far edge than this is reported, or rejects [N]. Arms of
             robots pull some 30 N; a stiff fridge takes 60; with more than 100 N not even a person
@@ -233,6 +235,7 @@ class LintConfig:
     axis_soft: float = 1.0
     axis_hard: float = 2.0
     apart: float = 1.0
+    finger_m: float = 0.02
     pull_soft_n: float = 30.0
     pull_hard_n: float = 100.0
     opening_s: float = 3.0

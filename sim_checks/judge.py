@@ -90,7 +90,7 @@ class Judge:
             return outcome.value
         if isinstance(outcome.error, DescriptionError):
             return Examination(
-                None, (Finding(outcome.error.code, Severity.HARD, outcome.error.message),)
+                None, (Finding(outcome.error.code, Severity.ERROR, outcome.error.message),)
             )
         failure = _failure(outcome, path)
         second = child.call(examine_here, path, self._config, limits=limits, native=False).value
@@ -195,7 +195,7 @@ def readable(path: Path, folder: Path, options: ReadOptions) -> Gathered:
     if not is_usd(path):
         return gather(path, folder, options)
     words = f"{path.name} was judged as the URDF that says the same: no engine here reads USD"
-    told = Finding("read_as_urdf", Severity.SOFT, words)
+    told = Finding("read_as_urdf", Severity.NOTE, words)
     return Gathered(write_as_urdf(path, folder), findings=(told,))
 
 
@@ -248,7 +248,7 @@ def _unasked(description: Description, simulators: Sequence[str]) -> list[Findin
         f"none of {', '.join(simulators)} loads {description.format} here: "
         f"nobody drove {description.path.name}; ask {readers}"
     )
-    return [Finding("not_simulated", Severity.HARD, message)]
+    return [Finding("not_simulated", Severity.ERROR, message)]
 
 
 def _failure(outcome: Outcome[Any], path: Path) -> Finding:
@@ -260,7 +260,7 @@ def _failure(outcome: Outcome[Any], path: Path) -> Finding:
 
 def _unread(error: Exception) -> Finding:
     if isinstance(error, DescriptionError):
-        return Finding(error.code, Severity.HARD, error.message)
+        return Finding(error.code, Severity.ERROR, error.message)
     return _unanswered(str(error), error)
 
 
@@ -270,6 +270,6 @@ def _unanswered(message: str, error: Exception | None) -> Finding:
     Readers in children of their own raise the first two; see :func:`~.read.native.require_word`.
     """
     if isinstance(error, TimeoutError):
-        return Finding("check_timeout", Severity.HARD, message, cause=OUT_OF_TIME)
+        return Finding("check_timeout", Severity.ERROR, message, cause=OUT_OF_TIME)
     cause = KILLED if isinstance(error, ChildProcessError) else None
-    return Finding("check_crashed", Severity.HARD, message, cause=cause)
+    return Finding("check_crashed", Severity.ERROR, message, cause=cause)

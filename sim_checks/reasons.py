@@ -31,7 +31,7 @@ UNREADABLE: Mapping[str, str] = {
 }
 
 #: These reject.
-HARD: Mapping[str, str] = {
+ERRORS: Mapping[str, str] = {
     "rest_penetration": "two parts overlap too deeply with every joint closed [mm]",
     "sweep_penetration": "as a joint moves, two parts penetrate deeper than at rest [mm]",
     "jammed": "a bounded force does not open the joint [share of its range]",
@@ -40,7 +40,7 @@ HARD: Mapping[str, str] = {
     "others_moved": "driving one joint moves another [share of its range]",
     "limit_overshoot": "a joint passes its limit [share of its range]",
     "creeps": "left alone, a joint moves that its friction should hold [m or rad]",
-    "energy_grows": "left alone, parts gain energy that nothing gave them [J]; soft up to 2 m/s",
+    "energy_grows": "left alone, parts gain energy that nothing gave them [J]; to 2 m/s a warning",
     "not_finite": "a simulator produced NaN or infinity",
     "shape_dropped": "the simulator holds fewer collision shapes of a link than the file",
     "link_missing": "the simulator does not hold a link of the file",
@@ -59,12 +59,13 @@ HARD: Mapping[str, str] = {
     "mimic_limits": "joints that move together have no common range",
     "load_failed": "the loader refused the file, in its own words",
     "range_implausible": "a slide over two diagonals [m], or a hinge over two turns [rad]",
-    "axis_remote": "a hinge axis two diagonals away from its part [m]; soft from one on",
+    "axis_remote": "a hinge axis two diagonals away from its part [m]; a warning from one on",
     "part_remote": "what a joint moves lies further from all else than either is across [m]",
-    "friction_excessive": "friction takes over 100 N at the far edge to open [N]; soft over 30",
-    "damping_excessive": "damping takes over 100 N at the far edge to open [N]; soft over 30",
+    "part_detached": "what a joint moves comes near what carries it in no pose [mm]",
+    "friction_excessive": "friction takes over 100 N at the far edge [N]; over 30 a warning",
+    "damping_excessive": "damping takes over 100 N at the far edge [N]; over 30 a warning",
     "collision_scale": "collision geometry ten times smaller or larger than what is visible",
-    "inertia_impossible": "a radius of gyration larger than the link [m]",
+    "inertia_impossible": "mass spread further along an axis than the link reaches [m]",
     "many_hull_vertices": "over 4000 corners of one hull: each engine makes another shape of it",
     "no_collision": "a visible link that nothing can touch",
     "degenerate_collision": "a collision shape without volume",
@@ -149,7 +150,7 @@ DEGREES: Mapping[str, tuple[str, str, str]] = {
     ),
     "inertia_implausible": (
         "a radius of gyration over half the link's diagonal",
-        "over all of it (`inertia_impossible`)",
+        "mass spread over half of an axis' extent and 10 % of the diagonal (`inertia_impossible`)",
         "a uniform rod has 0.29, two points in opposite corners 0.5",
     ),
     "many_hull_vertices": (
@@ -186,7 +187,7 @@ UNJUDGED: Mapping[str, str] = {
 GPU_LIMITS = frozenset({"oblong_hull", "many_hulls", "many_hull_vertices"})
 
 #: Worth knowing, no reason to reject.
-SOFT: Mapping[str, str] = {
+WARNINGS: Mapping[str, str] = {
     "hinge_overlap": "the knuckle of a hinge; MuJoCo is told not to collide that pair [mm]",
     "excluded_penetration": "parts that overlap and that the file excludes from contact [mm]",
     "joint_dependency": "a joint that opens only after others, which open without it",
@@ -217,6 +218,13 @@ SOFT: Mapping[str, str] = {
     "zero_outside_limits": "0, where simulators start, is no value of the joint",
     "axis_not_unit": "an axis that is not of length 1, by which some loaders scale",
     "no_moving_joint": "nothing moves",
+    "loader_warning": "a loader's warning, in its own words",
+    "engine_warning": "an engine's warning, in its own words",
+    "damping_stiff": "damping that Bullet, which integrates it explicitly, turns into an explosion",
+}
+
+#: How the file was validated, and what an engine is by nature: nothing in the file to mend.
+NOTES: Mapping[str, str] = {
     "not_driven": "a joint without a range, which the simulators did not drive",
     "friction_ignored": "the simulator drops joint friction",
     "damping_ignored": "the simulator drops joint damping",
@@ -225,7 +233,5 @@ SOFT: Mapping[str, str] = {
     "read_by_xacro": "a xacro file, judged as the URDF that it makes",
     "read_from_root": "files of the description lie outside its folder, in its package or a root",
     "format_not_loaded": "the simulator does not read this format",
-    "loader_warning": "a loader's warning, in its own words",
-    "engine_warning": "an engine's warning, in its own words",
-    "damping_stiff": "damping that Bullet, which integrates it explicitly, turns into an explosion",
+    "simulated_beside": "no engine asked reads the format; a file beside it that says the same ran",
 }

@@ -12,12 +12,23 @@ from .reasons import UNJUDGED
 
 
 class Severity(StrEnum):
-    """Whether a finding decides the verdict."""
+    """Whether a finding decides the verdict; the gravest first."""
 
-    HARD = "hard"
+    ERROR = "error"
     """The asset must not be used: it is rejected."""
-    SOFT = "soft"
-    """Worth knowing; the asset may pass with it."""
+    WARNING = "warning"
+    """Worth mending; the asset may pass with it."""
+    NOTE = "note"
+    """Told of how it was validated; the file needs no change."""
+
+    @classmethod
+    def _missing_(cls, value: object) -> Severity | None:
+        """Return the severity that a report of version 1 means."""
+        return {"hard": cls.ERROR, "soft": cls.WARNING}.get(str(value))
+
+
+#: Version of a report's JSON form, which ``docs/report.schema.json`` describes.
+VERSION = 2
 
 
 class Status(StrEnum):
@@ -45,7 +56,7 @@ class Finding:
 
     Attributes:
         code: stable reason code, e.g. ``rest_penetration``.
-        severity: errors (``hard``) reject, warnings (``soft``) do not.
+        severity: ``error`` rejects, ``warning`` and ``note`` do not.
         message: one sentence with the number in it: what, where, what would be right.
         simulator: who found it, for findings that belong to one simulator.
         joint: name of the joint concerned.
@@ -125,24 +136,25 @@ class Report:
     @property
     def passed(self) -> bool:
         """Tell whether there is no error and validation finished."""
-        return not self.hard
+        return not self.errors
 
     @property
-    def hard(self) -> tuple[Finding, ...]:
+    def errors(self) -> tuple[Finding, ...]:
         """Return the findings that reject."""
-        return tuple(f for f in self.findings if f.severity is Severity.HARD)
+        return tuple(f for f in self.findings if f.severity is Severity.ERROR)
 
     @property
     def status(self) -> Status:
         """Return ``unjudged`` where a check crashed or timed out and nothing else rejects."""
         if self.passed:
             return Status.PASSED
-        judged = any(f.code not in UNJUDGED_CODES for f in self.hard)
+        judged = any(f.code not in UNJUDGED_CODES for f in self.errors)
         return Status.REJECTED if judged else Status.UNJUDGED
 
     def to_dict(self) -> dict[str, Any]:
-        """Return JSON data: ``passed``, ``findings`` and the rest."""
+        """Return JSON data: ``version``, ``passed``, ``findings`` and the rest."""
         return {
+            "version": VERSION,
             "passed": self.passed,
             "description": self.description,
             "simulators": list(self.simulators),

@@ -111,7 +111,7 @@ def test_a_decomposition(monkeypatch):
 def test_a_repair(monkeypatch):
     line = example("A repair", monkeypatch).LINE
     monkeypatch.setattr(repair, "REPAIRS", (*repair.REPAIRS, line))
-    jammed = Finding("jammed", Severity.HARD, "it jams", joint="button")
+    jammed = Finding("jammed", Severity.ERROR, "it jams", joint="button")
     verdict = Verdict(Report("asset.urdf", findings=(jammed,)))
     spare = Spare(frozenset({"button"}))
     plan = repair.next_plan(verdict, Plan(), RepairConfig(), spare)

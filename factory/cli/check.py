@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import json
-import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from queue import SimpleQueue
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import tyro
 from tyro.conf import Positional
 
-from asset_factory.sim_checks import Report, Status
+from asset_factory.sim_checks import Finding, Report, Status
+from asset_factory.sim_checks.grouping import described, excuse_unread, told_once
 from asset_factory.sim_checks.read.usd.layers import is_usd
 
 from ..errors import ConfigError, Exit
@@ -23,6 +23,8 @@ from ..presets import load_config
 from ..runtime.store import write_json
 from ..runtime.terminal import complain, say
 from . import console
+from .baseline import read_baseline, without_known, write_baseline
+from .check_formats import FORMATS, PAGE, total
 from .flags import DEFAULT_SIMULATORS, RootFlags, simulators_named, workers_fitting
 
 if TYPE_CHECKING:
@@ -35,7 +37,7 @@ class Check:
     """Validate URDF, MJCF or USD files, anyone's.
 
     Exit codes: 0 every file got a verdict; 3 some file could not be validated; 2 wrong usage;
-    1 something was rejected and --strict was given.
+    1 something was rejected and --strict was given. With --baseline only new findings count.
 
     Example: factory check robot.urdf others/ --sim all --json report.json
     """
@@ -56,6 +58,14 @@ class Check:
     """An SRDF whose exempt pairs hold for the one file checked; by default the one beside it."""
     reading: tyro.conf.OmitArgPrefixes[RootFlags] = field(default_factory=RootFlags)
     """Where descriptions may read."""
+    format: Literal["text", "json", "sarif", "junit", "markdown", "github"] = "text"
+    """How to print it: text as files are done, the others at the end. github: annotations."""
+    baseline: Path | None = None
+    """A file of known findings, which are left out but for JSON and fail nothing."""
+    write_baseline: Path | None = None
+    """Where to write all findings of this run as known; none of them fails it."""
+    verbose: bool = False
+    """Print every finding, not the worst of each code."""
 
 
 def run(command: Check) -> int:
@@ -65,30 +75,60 @@ def run(command: Check) -> int:
     simulators = simulators_named(command.sim)
     config = load_config(command.config).checks
     workers = workers_fitting(command.workers, CHECK_BYTES)
+    known = read_baseline(command.baseline) if command.baseline else frozenset()
     files = _described(command.files)
-    reports = []
-    printed = command.json is None or str(command.json) != "-"
     options = replace(command.reading.options(command.files), srdf=command.srdf)
     if command.srdf is not None and not (command.srdf.is_file() and len(files) == 1):
         raise ConfigError(f"--srdf: want a file, for one description; got {len(files)} of them")
+    form = "json" if str(command.json) == "-" else command.format
+    reports: list[Report] = []
+    new: list[tuple[str, Report]] = []
+    seen: set[Hashable] = set()
+    told: list[Finding] = []
     with _checked(files, simulators, config, workers, options) as checked:
-        for report in checked:
+        for (path, _), report in zip(files, checked, strict=True):
             reports.append(report)
-            if printed:
-                console.print_report(report)
-            # Where reports go elsewhere than to the terminal, that says how far it is.
-            if sys.stderr.isatty() and not (printed and sys.stdout.isatty()):
-                complain(f"{len(reports)} of {len(files)} files checked")
+            file = _name_of(path)
+            new.append((file, without_known(file, report, known)))
+            if form == "text":
+                told += _print_new(path, new[-1][1], seen, verbose=command.verbose)
     data: Any = [report.to_dict() for report in reports]
     data = data if len(data) > 1 or any(path.is_dir() for path in command.files) else data[0]
-    if not printed:
-        say(json.dumps(data, indent=2))
-    elif command.json is not None:
+    if form == "text":
+        more = "" if command.verbose else "; --verbose prints each finding"
+        say(f"{total(new, told)}{more}; {PAGE} says what a code means")
+    else:
+        say(json.dumps(data, indent=2) if form == "json" else FORMATS[form](new))
+    if command.json is not None and str(command.json) != "-":
         write_json(command.json, data)
-    statuses = {report.status for report in reports}
+    if command.write_baseline is not None:
+        write_baseline(
+            command.write_baseline,
+            [(_name_of(path), r) for (path, _), r in zip(files, reports, strict=True)],
+        )
+        return Exit.OK
+    statuses = {report.status for _, report in new}
     if Status.UNJUDGED in statuses:
         return Exit.UNJUDGED
     return Exit.REJECTED if command.strict and Status.REJECTED in statuses else Exit.OK
+
+
+def _print_new(path: Path, report: Report, seen: set[Hashable], *, verbose: bool) -> list[Finding]:
+    """Print a report but for findings ``seen`` in another file of its asset; return the others."""
+    asset = path.parent, described(report)
+    once = [(asset, told_once(each)) for each in report.findings]
+    kept = [each for each, key in zip(report.findings, once, strict=True) if key not in seen]
+    console.print_report(report, kept, verbose=verbose)
+    seen.update(once if described(report) is not None else ())
+    return kept
+
+
+def _name_of(path: Path) -> str:
+    """Return a path as the working directory has it, with forward slashes."""
+    here = Path.cwd()
+    return (
+        path.resolve().relative_to(here) if path.resolve().is_relative_to(here) else path
+    ).as_posix()
 
 
 @contextmanager
@@ -116,8 +156,9 @@ def _checked(
         # Someone who interrupts does not wait for files that are under way.
         stack.callback(pool.shutdown, wait=False, cancel_futures=True)
 
-        def check(path: Path, name: str | None) -> Report:
+        def check(number: int, path: Path, name: str | None) -> Report:
             judge = judges.get()
+            complain(f"checking {name or path} ({number} of {len(files)})")
             try:
                 report = judge.check(path, simulators, options=options)
             finally:
@@ -125,9 +166,18 @@ def _checked(
             return replace(report, description=name or report.description)
 
         def in_order() -> Iterator[Report]:
-            futures = [pool.submit(check, path, name) for path, name in files]
-            for future in futures:
-                yield future.result()
+            futures = [pool.submit(check, n, *file) for n, file in enumerate(files, 1)]
+            for (path, _), future in zip(files, futures, strict=True):
+                report = future.result()
+                if any(each.code == "not_simulated" for each in report.findings):
+                    # Only here does a report wait for files after it.
+                    beside = [
+                        other.result()
+                        for (near, _), other in zip(files, futures, strict=True)
+                        if near.parent == path.parent and near != path
+                    ]
+                    report = excuse_unread(report, beside)
+                yield report
 
         yield in_order()
 

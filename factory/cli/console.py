@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from datetime import timedelta
 from pathlib import Path
@@ -24,6 +24,7 @@ from rich.table import Table
 from rich.text import Text
 
 from asset_factory.sim_checks import Disagreement, Finding, Report, Severity, Status
+from asset_factory.sim_checks.grouping import group_findings
 
 from ..models.weights.checkpoint import WeightsInfo
 from ..registry import Entry
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
     from ..jobs.executor import UnderWay
 
 STATUS_STYLE = {Status.PASSED: "green", Status.REJECTED: "red", Status.UNJUDGED: "yellow"}
-_SEVERITIES = {Severity.HARD: ("red", "error"), Severity.SOFT: ("yellow", "warning")}
+_STYLES = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.NOTE: "blue"}
 #: In a table of more inputs than this, those known from before are left out.
 LISTED = 100
 #: Inputs at work that are named beside the bar.
@@ -225,8 +226,16 @@ def _or_dash(value: float | None) -> str:
     return "-" if value is None else f"{value:.2f}"
 
 
-def print_report(report: Report) -> None:
-    """Print one checked file: its verdict and every finding."""
+def print_report(
+    report: Report, findings: Sequence[Finding] | None = None, *, verbose: bool = True
+) -> None:
+    """Print one checked file: its verdict and findings, all of them or the worst of each code.
+
+    Args:
+        report: of the file.
+        findings: those to tell, where others were told of the same asset; all of them by default.
+        verbose: whether to print each.
+    """
     console = terminal()
     verdict = report.status
     engines = ", ".join(report.simulators) or "no simulator"
@@ -234,8 +243,14 @@ def print_report(report: Report) -> None:
         f"[{STATUS_STYLE[verdict]}]{verdict}[/] {escape(report.description)} [dim]({engines})[/]"
     )
     console.print(heading, soft_wrap=True)
-    for finding in report.findings:
-        console.print(f"  {_finding_line(finding)}", soft_wrap=True)
+    told = report.findings if findings is None else findings
+    for group in group_findings(told):
+        for finding in group if verbose else group[:1]:
+            line = _finding_line(finding, 1 if verbose else len(group))
+            console.print(f"  {line}", soft_wrap=True)
+    if len(told) < len(report.findings):
+        same = len(report.findings) - len(told)
+        console.print(f"  [dim]and {same} as in another file of this asset, above[/]")
     for disagreement in report.disagreements:
         console.print(f"  {_disagreement_line(disagreement)}", soft_wrap=True)
 
@@ -253,12 +268,11 @@ def _disagreement_line(disagreement: Disagreement) -> str:
     )
 
 
-def _finding_line(finding: Finding) -> str:
-    style, severity = _SEVERITIES[finding.severity]
+def _finding_line(finding: Finding, count: int) -> str:
     where = f" [{finding.simulator}]" if finding.simulator else ""
-    return (
-        f"[{style}]{severity}[/] {escape(finding.code)}{escape(where)}: {escape(finding.message)}"
-    )
+    many = f" ({count} of them, the worst)" if count > 1 else ""
+    told = f"{finding.code}{where}{many}: {finding.message}"
+    return f"[{_STYLES[finding.severity]}]{finding.severity}[/] {escape(told)}"
 
 
 def print_entries(entries: tuple[Entry, ...]) -> None:

@@ -127,7 +127,7 @@ def _unjudged(error: OSError) -> Unjudged:
     hung = isinstance(error, TimeoutError)
     code = "reading_timeout" if hung else "reading_killed"
     cause = OUT_OF_TIME if hung else KILLED
-    return Unjudged(Finding(code, Severity.HARD, str(error), cause=cause))
+    return Unjudged(Finding(code, Severity.ERROR, str(error), cause=cause))
 
 
 def loaded_key(path: Path, reads: Reads, config: BuildConfig) -> str:

@@ -80,7 +80,7 @@ def _hulls(
     return found, [
         Finding(
             "hulls_joined",
-            Severity.SOFT,
+            Severity.WARNING,
             f"part {planned.parts[part].name!r}: {len(plain[part].hulls)} hulls joined to "
             f"{len(found[part].hulls)} with an error of {1000 * error_m:g} mm",
             parts=(planned.parts[part].name,),
@@ -152,12 +152,12 @@ def _own_findings(asset: Asset) -> Iterator[Finding]:
         for sentence in body.degraded:
             yield Finding(
                 "degraded_decomposition",
-                Severity.SOFT,
+                Severity.WARNING,
                 f"part {part.name!r}: {sentence}",
                 parts=(part.name,),
             )
     for note in asset.articulation.notes:
-        yield Finding("articulation_note", Severity.SOFT, note)
+        yield Finding("articulation_note", Severity.WARNING, note)
 
 
 def _separation_findings(separation: Separation) -> Iterator[Finding]:
@@ -165,7 +165,7 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
         done = "cut apart at rest only" if refusal.at_rest else "left as they are"
         message = f"the hulls of {pair[0]!r} and {pair[1]!r} were {done}: {refusal.reason}"
         code = "meshes_overlap" if refusal.meshes else "not_separated"
-        yield Finding(code, Severity.SOFT, message, parts=pair)
+        yield Finding(code, Severity.WARNING, message, parts=pair)
     for pair, depth in separation.hidden.items():
         message = (
             f"{pair[0]!r} and {pair[1]!r} overlap by {depth * 1000:.2f} mm at rest; "
@@ -173,7 +173,7 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
         )
         yield Finding(
             "hidden_overlap",
-            Severity.SOFT,
+            Severity.WARNING,
             message,
             parts=pair,
             value=round(depth * 1000, 4),
@@ -187,7 +187,7 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
         )
         yield Finding(
             "planed",
-            Severity.SOFT,
+            Severity.WARNING,
             f"so that {pair[0]!r} and {pair[1]!r} are clear of one another, their collision "
             f"geometry was cut back where that can be seen: {told}",
             parts=pair,

@@ -108,7 +108,7 @@ def refused(
     """Return the product of an input that could not become an asset; ``shown`` is kept of it."""
     finding = Finding(
         code=rejection.code,
-        severity=Severity.HARD,
+        severity=Severity.ERROR,
         message=rejection.message,
         value=rejection.value,
         unit=rejection.unit,

@@ -78,7 +78,7 @@ def register_failure(
     late = outcome.failure is Failure.TIMEOUT
     code = "build_timeout" if late else ALWAYS if stage else ONCE
     message = f"building {source.name}: {sentence(outcome, stage)}"
-    finding = Finding(code, Severity.HARD, message, cause=OUT_OF_TIME if late else None)
+    finding = Finding(code, Severity.ERROR, message, cause=OUT_OF_TIME if late else None)
     bad_luck = outcome.failure is Failure.CRASHED and not stage
     origin.keyed = not (bad_luck or isinstance(outcome.error, OSError))
     entry, told = without_asset(origin, finding, Status.UNJUDGED)

@@ -319,7 +319,7 @@ def read_manifest(folder: Path) -> Manifest | None:
 
 def _completed(entry: Entry, told: BuildReport, content: Path) -> Entry:
     """Fill in an entry from its files. Raises RegistryError if it cannot be an entry."""
-    hard = told.report.hard
+    hard = told.report.errors
     entry = replace(entry, message=entry.message or (hard[0].message if hard else ""))
     if not entry.license and (content / MANIFEST).is_file():
         stated = json.loads((content / MANIFEST).read_bytes()).get("license")

@@ -93,7 +93,7 @@ def _lost(draft: HypothesisDraft) -> Finding:
     told = ", ".join(
         _told(draft.articulation, joint) for joint in draft.articulation.movable_joints
     )
-    return Finding("other_reading", Severity.SOFT, f"read otherwise ({told}), it {why}")
+    return Finding("other_reading", Severity.WARNING, f"read otherwise ({told}), it {why}")
 
 
 def _told(articulation: Articulation, joint: Joint) -> str:

@@ -148,7 +148,7 @@ def _said(verdict: Verdict) -> Verdict:
 
     What that one would have said is not known, so nothing is repaired or chosen by the rest.
     """
-    for finding in verdict.report.hard:
+    for finding in verdict.report.errors:
         if finding.stopped:
             raise Unjudged(finding)
     return verdict

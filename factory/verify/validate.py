@@ -59,7 +59,7 @@ class Verdict:
     @property
     def reason(self) -> Finding | None:
         """Return the first finding that rejects; ``None`` if it passed."""
-        return self.report.hard[0] if self.report.hard else None
+        return self.report.errors[0] if self.report.errors else None
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from ..config import CheckConfig
 from ..description import Description
+from .attachment import check_attachment
 from .lint import check_lint
 from .penetration import check_penetration
 from .result import CheckResult
@@ -33,6 +34,11 @@ class StaticCheck:
 #: Every check, in the order in which they speak.
 CHECKS = (
     StaticCheck("lint", lambda file, config: check_lint(file, config.lint), native=False),
+    StaticCheck(
+        "attachment",
+        lambda file, config: check_attachment(file, config.lint),
+        needs_tree=True,
+    ),
     StaticCheck("standing", lambda file, config: check_standing(file, config.standing)),
     StaticCheck(
         "penetration",

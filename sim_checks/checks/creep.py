@@ -85,7 +85,7 @@ def _findings(
             f"{unit} in {config.held_s:g} s though its friction of {line.friction:.3g} holds its "
             f"weight; at most {allowed:.3g} {unit} is allowed{_remedy(held, simulator, soft)}"
         )
-        severity = Severity.SOFT if soft else Severity.HARD
+        severity = Severity.WARNING if soft else Severity.ERROR
         moved = round(held.moved, DECIMALS)
         limit = round(allowed, DECIMALS)
         yield Finding("creeps", severity, message, simulator, line.name, parts, moved, unit, limit)

@@ -20,7 +20,7 @@ from .creep import check_creep
 from .extent import undriven
 from .loading import check_loading
 from .motion import check_motion
-from .result import CheckResult, error, warning
+from .result import CheckResult, error, note
 
 
 def judge_in_simulator(
@@ -46,9 +46,9 @@ def judge_in_simulator(
     if description.format not in engine.formats:
         message = (
             f"{name} loads {' and '.join(engine.formats)} here, not {description.format}: "
-            "it did not judge this file"
+            "it did not validate this file"
         )
-        return _only(warning("format_not_loaded", message, simulator=name))
+        return _only(note("format_not_loaded", message, simulator=name))
     too_large = undriven(description, name, config.work)
     if too_large is not None:
         return _only(too_large)

@@ -94,7 +94,7 @@ def _joint_findings(
         free = joint.kind == "floating" and not any(
             other.child == joint.parent for other in description.joints
         )
-        severity = Severity.SOFT if free else Severity.HARD
+        severity = Severity.WARNING if free else Severity.ERROR
         message = (
             f"joint {joint.name!r} is of type {joint.kind!r}; want one of {', '.join(KNOWN_KINDS)}"
         )
@@ -114,7 +114,7 @@ def _joint_findings(
         )
         yield Finding(
             "axis_not_unit",
-            Severity.HARD if far else Severity.SOFT,
+            Severity.ERROR if far else Severity.WARNING,
             message,
             joint=joint.name,
             parts=parts,

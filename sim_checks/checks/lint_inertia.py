@@ -42,7 +42,7 @@ def missing_inertia_findings(description: Description) -> Iterator[Finding]:
                 f"link {name!r} {what} no inertia: every simulator invents another; "
                 "state its mass, centre of mass and moments in an <inertial>"
             )
-            severity = Severity.HARD if moves else Severity.SOFT
+            severity = Severity.ERROR if moves else Severity.WARNING
             yield Finding("missing_inertia", severity, message, parts=(name,))
 
 
@@ -103,7 +103,9 @@ def _plausible(
     box = np.array([everything.min(axis=0), everything.max(axis=0)])
     yield from _center(link, inertia.center, box, config)
     gyration = math.sqrt(float(moments[2]) / inertia.mass)
-    yield from _gyration(link, gyration, box, diagonal, config)
+    second = np.trace(inertia.tensor) / 2.0 - np.diag(inertia.tensor)
+    spread = np.sqrt(np.maximum(second, 0.0) / inertia.mass)
+    yield from _gyration(link, gyration, spread, box, diagonal, config)
     yield from _density(link, inertia.mass, config)
 
 
@@ -125,7 +127,7 @@ def _center(
     )
     yield Finding(
         "center_outside",
-        Severity.HARD if hard else Severity.SOFT,
+        Severity.ERROR if hard else Severity.WARNING,
         message,
         parts=(link.name,),
         value=round(1000 * outside, 4),
@@ -153,7 +155,7 @@ def _density(link: Link, mass: float, config: LintConfig) -> Iterator[Finding]:
     )
     yield Finding(
         "density_implausible",
-        Severity.HARD if hard else Severity.SOFT,
+        Severity.ERROR if hard else Severity.WARNING,
         message,
         parts=(link.name,),
         value=float(f"{density:.4g}"),
@@ -163,18 +165,38 @@ def _density(link: Link, mass: float, config: LintConfig) -> Iterator[Finding]:
 
 
 def _gyration(
-    link: Link, gyration: float, box: FloatArray, diagonal: float, config: LintConfig
+    link: Link,
+    gyration: float,
+    spread: FloatArray,
+    box: FloatArray,
+    diagonal: float,
+    config: LintConfig,
 ) -> Iterator[Finding]:
-    across = float(np.linalg.norm(np.ptp(box, axis=0)))
+    """Check an inertia against the extents that it must fit in.
+
+    Args:
+        link: whose.
+        gyration: the largest radius of gyration [m].
+        spread: root mean square distance of its mass from its centre along each axis [m], shape
+            [3].
+        box: lowest and highest corner around all its shapes [m], shape [2, 3].
+        diagonal: of its collision shapes [m].
+        config: thresholds.
+    """
+    extent = np.ptp(box, axis=0)
+    # Within an extent mass spreads furthest at its two ends, half of it at each.
+    most = extent / 2.0 + max(config.center_hard * float(np.linalg.norm(extent)), config.center_m)
+    axis = int(np.argmax(spread / most))
     number = round(gyration, 6) if math.isfinite(gyration) else None
-    if gyration > across:
+    if spread[axis] > most[axis]:
         message = (
-            f"link {link.name!r}: radius of gyration {gyration:.3g} m is more than its diagonal of "
-            f"{across:.3g} m: no mass within it has such an inertia"
+            f"link {link.name!r}: its inertia spreads its mass by {spread[axis]:.3g} m along "
+            f"{'xyz'[axis]}, where it is {extent[axis]:.3g} m long: no mass within it does"
         )
-        limit = round(across, 6)
+        value = float(f"{spread[axis]:.6g}") if math.isfinite(spread[axis]) else None
+        limit = round(float(most[axis]), 6)
         yield error(
-            "inertia_impossible", message, parts=(link.name,), value=number, unit="m", limit=limit
+            "inertia_impossible", message, parts=(link.name,), value=value, unit="m", limit=limit
         )
     elif gyration > config.gyration_share * diagonal:
         message = (

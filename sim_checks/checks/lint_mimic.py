@@ -81,7 +81,7 @@ def _limit_findings(
             )
         yield Finding(
             "mimic_limits",
-            Severity.HARD if stuck else Severity.SOFT,
+            Severity.ERROR if stuck else Severity.WARNING,
             message,
             joint=joint.name,
             parts=(joint.parent, joint.child),

@@ -130,7 +130,7 @@ def _place_findings(
     size = _diagonal(moved)
     if not (moved and rest and size > 0.0):
         return
-    gap = _gap(np.vstack(moved), np.vstack(rest))
+    gap = box_gap(np.vstack(moved), np.vstack(rest))
     most = config.apart * max(size, _diagonal(rest))
     if gap > most:
         message = (
@@ -169,7 +169,7 @@ def _axis_findings(
             f"further than what it moves is across, {size:.3g} m: a hinge is fastened to something"
         )
         limit = round((config.axis_hard if hard else config.axis_soft) * size, 6)
-        severity = Severity.HARD if hard else Severity.SOFT
+        severity = Severity.ERROR if hard else Severity.WARNING
         parts = (joint.parent, joint.child)
         yield Finding(
             "axis_remote",
@@ -184,7 +184,7 @@ def _axis_findings(
         )
 
 
-def _gap(first: FloatArray, second: FloatArray) -> float:
+def box_gap(first: FloatArray, second: FloatArray) -> float:
     """Return the distance between the boxes around two sets of points [m]; 0 if they meet."""
     apart = np.maximum(
         first.min(axis=0) - second.max(axis=0), second.min(axis=0) - first.max(axis=0)

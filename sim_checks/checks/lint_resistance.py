@@ -78,7 +78,7 @@ def _force_findings(
                 f"joint {joint.name!r}: it takes {force:.4g} N{where} to {purpose}, "
                 f"want at most {limit:g} N"
             )
-            severity = Severity.HARD if hard else Severity.SOFT
+            severity = Severity.ERROR if hard else Severity.WARNING
             parts = (joint.parent, joint.child)
             yield Finding(
                 code, severity, message, None, joint.name, parts, round(force, 3), "N", limit

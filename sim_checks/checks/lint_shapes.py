@@ -95,7 +95,7 @@ def _hull_findings(
             if hard
             else "GPU simulation allows"
         )
-        severity = Severity.HARD if hard else Severity.SOFT
+        severity = Severity.ERROR if hard else Severity.WARNING
         message = f"{name} has a hull of {hull.corners} corners; {allowed} {most}"
         count = float(hull.corners)
         limit = float(most)

@@ -48,7 +48,7 @@ def _link_findings(
     link: Link, held: LoadedLink | None, simulator: str, config: LoadingConfig
 ) -> Iterator[Finding]:
     def found(
-        code: str, message: str, severity: Severity = Severity.HARD, **numbers: Any
+        code: str, message: str, severity: Severity = Severity.ERROR, **numbers: Any
     ) -> Finding:
         return Finding(
             code,
@@ -76,7 +76,7 @@ def _link_findings(
         yield found(
             "shape_added",
             message,
-            Severity.SOFT,
+            Severity.WARNING,
             value=float(held.shapes),
             unit="shapes",
             limit=float(written),
@@ -85,7 +85,7 @@ def _link_findings(
     if link.inertia is None or link.inertia.mass <= 0.0 or held.moments is None:
         return
     # What never moves is compared where the engine holds it, but its mass changes nothing.
-    weight = Severity.SOFT if held.static else Severity.HARD
+    weight = Severity.WARNING if held.static else Severity.ERROR
     mass = link.inertia.mass
     if not (sensible(mass) and sensible(link.inertia.center) and sensible(link.inertia.tensor)):
         # The lint says so; there is no number to hold anyone to.
@@ -101,7 +101,7 @@ def _link_findings(
 def _inertia_findings(
     name: str, inertia: LinkInertia, held: LoadedLink, simulator: str, config: LoadingConfig
 ) -> Iterator[Finding]:
-    severity = Severity.SOFT if held.static else Severity.HARD
+    severity = Severity.WARNING if held.static else Severity.ERROR
     # A tensor that is no tensor is the lint's business; here only whether the engine holds the
     # same.
     written = np.linalg.eigvalsh(0.5 * (inertia.tensor + inertia.tensor.T))

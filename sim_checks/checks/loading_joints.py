@@ -17,7 +17,7 @@ from ..geometry.coupling import whole_chain
 from ..geometry.kinematics import MOVING_KINDS, sound_mimics, unit_axis
 from ..report import Finding
 from ..simulators.simulator import LoadedJoint
-from .result import error, warning
+from .result import error, note, warning
 
 #: Names spelled out in a sentence that concerns many.
 MOST_NAMES = 4
@@ -226,7 +226,7 @@ def _ignored(
                 names.append(line.name)
         if names:
             message = f"{simulator} drops the {quantity} that the file gives to {listed(names)}"
-            yield warning(
+            yield note(
                 f"{quantity}_ignored",
                 message,
                 simulator=simulator,

@@ -13,7 +13,7 @@ from ..config import CheckConfig, MotionConfig
 from ..description import Description
 from ..report import Finding, Severity
 from ..simulators.simulator import Fall, FallMotion, JointMotion, Observation, RestMotion
-from .result import CheckResult, error, warning
+from .result import CheckResult, error, note, warning
 
 #: Numbers in a report keep this many decimals: engines differ in the last bits from machine to
 #: machine.
@@ -62,9 +62,7 @@ def check_motion(
     for name in idle:
         message = f"{simulator}: joint {name!r} was not driven: it has no range from lower to upper"
         findings.append(
-            warning(
-                "not_driven", message, simulator=simulator, joint=name, parts=parts.get(name, ())
-            )
+            note("not_driven", message, simulator=simulator, joint=name, parts=parts.get(name, ()))
         )
     measurements: dict[str, Any] = {
         "joints": [_rounded(asdict(motion)) for motion in observation.motions],
@@ -112,20 +110,22 @@ def _motion_findings(
             f"reached {motion.reached:.1%} of its range{_stuck(motion)}, "
             f"{config.reach_fraction:.0%} is wanted{_blocker(motion)}"
         )
-        yield found("jammed", Severity.HARD, message, motion.reached, config.reach_fraction)
+        yield found("jammed", Severity.ERROR, message, motion.reached, config.reach_fraction)
     elif motion.returned > config.return_fraction:
         message = (
             f"stayed {motion.returned:.1%} open{_stuck(motion)} after driving back, "
             f"at most {config.return_fraction:.0%} may remain{_blocker(motion)}"
         )
-        yield found("not_returned", Severity.HARD, message, motion.returned, config.return_fraction)
+        yield found(
+            "not_returned", Severity.ERROR, message, motion.returned, config.return_fraction
+        )
     beyond = motion.overshoot / motion.range if motion.range > 0.0 else 0.0
     if beyond > config.overshoot_soft:
-        severity = Severity.HARD if beyond > config.overshoot_hard else Severity.SOFT
+        severity = Severity.ERROR if beyond > config.overshoot_hard else Severity.WARNING
         message = f"passed its limit by {motion.overshoot:.4g} ({beyond:.1%} of its range)"
         yield found("limit_overshoot", severity, message, beyond, config.overshoot_soft)
     if motion.others_moved > config.others_soft:
-        severity = Severity.HARD if motion.others_moved > config.others_hard else Severity.SOFT
+        severity = Severity.ERROR if motion.others_moved > config.others_hard else Severity.WARNING
         message = (
             f"pushed joint {motion.pushed!r} by {motion.others_moved:.1%} of that joint's range"
         )
@@ -148,7 +148,7 @@ def _rest_findings(
         yield error("not_finite", message, simulator=simulator, joint=rest.joint, parts=parts)
         return
     if rest.share > config.drift_soft:
-        severity = Severity.HARD if rest.share > config.drift_hard else Severity.SOFT
+        severity = Severity.ERROR if rest.share > config.drift_hard else Severity.WARNING
         who = " and ".join(map(repr, rest.pushed_by)) if rest.pushed_by else "parts"
         message = (
             f"{simulator}: joint {rest.joint!r} moved {rest.share:.1%} of its range by itself, "
@@ -224,7 +224,7 @@ def _energy(
     joint: str | None = None,
     parts: tuple[str, ...] = (),
 ) -> Finding:
-    severity = Severity.HARD if height > config.energy_hard_m else Severity.SOFT
+    severity = Severity.ERROR if height > config.energy_hard_m else Severity.WARNING
     allowed = max(config.energy_floor_j, config.energy_soft_m * energy / height)
     message = (
         f"{simulator}: {energy:.4g} J came from nowhere while {where}, "

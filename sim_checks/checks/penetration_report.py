@@ -64,10 +64,10 @@ def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> list[F
 
 def _judged(code: str, contact: Contact) -> tuple[str, Severity]:
     if contact.kind is PairKind.HINGE:
-        return "hinge_overlap", Severity.SOFT
+        return "hinge_overlap", Severity.WARNING
     if contact.kind is PairKind.EXCLUDED:
-        return "excluded_penetration", Severity.SOFT
-    return code, Severity.HARD
+        return "excluded_penetration", Severity.WARNING
+    return code, Severity.ERROR
 
 
 def _why(code: str) -> str:
@@ -87,15 +87,15 @@ def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> list[Findin
         if pair.excess <= config.excess_m:
             continue
         code, severity = _judged("sweep_penetration", pair.contact)
-        if severity is Severity.HARD and sweep.alternative is not None:
+        if severity is Severity.ERROR and sweep.alternative is not None:
             code = "joint_dependency"
-            severity = Severity.SOFT
+            severity = Severity.WARNING
         message = (
             f"as {sweep.joint} moves, {a} and {b} penetrate {mm(pair.excess):.2f} mm deeper than "
             f"at rest, worst at {pair.at:.4g} {unit}{_near(pair.contact)}; "
             f"at most {limit:g} mm is allowed{_why(code)}"
         )
-        if severity is Severity.HARD and sweep.waits_for:
+        if severity is Severity.ERROR and sweep.waits_for:
             message += f"; {' and '.join(sweep.waits_for)} would have to make way, but never opens"
         if code == "joint_dependency":
             message = (
@@ -152,7 +152,7 @@ def _neighbour_findings(
         findings.append(
             _finding(
                 "combination_penetration",
-                Severity.SOFT,
+                Severity.WARNING,
                 message,
                 pair.contact,
                 value,
@@ -178,7 +178,9 @@ def _combination_findings(
         message = f"{a} and {b} penetrate {mm(excess):.2f} mm deeper than at rest when {pose}"
         limit = mm(config.excess_m)
         findings.append(
-            _finding("combination_penetration", Severity.SOFT, message, contact, mm(excess), limit)
+            _finding(
+                "combination_penetration", Severity.WARNING, message, contact, mm(excess), limit
+            )
         )
     return findings
 

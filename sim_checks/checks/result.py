@@ -35,9 +35,14 @@ class Details(TypedDict, total=False):
 
 def error(code: str, message: str, **details: Unpack[Details]) -> Finding:
     """Return a finding that rejects the asset."""
-    return Finding(code, Severity.HARD, message, **details)
+    return Finding(code, Severity.ERROR, message, **details)
 
 
 def warning(code: str, message: str, **details: Unpack[Details]) -> Finding:
     """Return a finding with which the asset may pass."""
-    return Finding(code, Severity.SOFT, message, **details)
+    return Finding(code, Severity.WARNING, message, **details)
+
+
+def note(code: str, message: str, **details: Unpack[Details]) -> Finding:
+    """Return a finding that asks for no change of the file."""
+    return Finding(code, Severity.NOTE, message, **details)

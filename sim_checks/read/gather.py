@@ -67,7 +67,7 @@ def gather(path: Path, folder: Path, options: ReadOptions) -> Gathered:
     else:
         _copy_urdf(path, document, copies, target)
         _copy_srdf(options.srdf or path.with_name(target.name).with_suffix(SRDF), copies, target)
-    told = Finding("read_by_xacro", Severity.SOFT, f"{path.name} was expanded by xacro")
+    told = Finding("read_by_xacro", Severity.NOTE, f"{path.name} was expanded by xacro")
     findings = (*([told] if made else []), *([_told(path, roots)] if strays else []))
     return Gathered(target, (*included, *copies.originals), findings)
 
@@ -82,7 +82,7 @@ def _told(path: Path, roots: Roots) -> Finding:
     else:
         above = f"{roots.levels} folder{'' if roots.levels == 1 else 's'} above"
         words = f"{path.name} refers to files of its package, whose package.xml lies {above} it"
-    return Finding("read_from_root", Severity.SOFT, words)
+    return Finding("read_from_root", Severity.NOTE, words)
 
 
 def _references(document: ET.Element) -> list[ET.Element]:

@@ -42,7 +42,7 @@ def asked(tree):
 
 
 def test_the_judge_says_and_asks_only_what_is_declared():
-    declared = {*judge.UNREADABLE, *judge.HARD, *judge.SOFT, *judge.UNJUDGED}
+    declared = {*judge.UNREADABLE, *judge.ERRORS, *judge.WARNINGS, *judge.NOTES, *judge.UNJUDGED}
     for path, tree in sources("sim_checks"):
         assert {*said(tree), *asked(tree)} <= declared, path
 

@@ -17,7 +17,7 @@ REJECTED = replace(
     PASSED, status="rejected", reason="rest_penetration", message="5 mm deep", license=""
 )
 REPORT = BuildReport(Report("asset.urdf"))
-_DEEP = Finding("rest_penetration", Severity.HARD, "5 mm deep", value=5.0, unit="mm", limit=2.0)
+_DEEP = Finding("rest_penetration", Severity.ERROR, "5 mm deep", value=5.0, unit="mm", limit=2.0)
 BAD_REPORT = BuildReport(Report("asset.urdf", findings=(_DEEP,)))
 MANIFEST = {
     "name": "cabinet",

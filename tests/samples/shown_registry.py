@@ -29,7 +29,7 @@ _MEASURED = MeasuredPenetration(
 )
 HIT = Finding(
     "sweep_penetration",
-    Severity.HARD,
+    Severity.ERROR,
     "as hinge moves, part_1 and part_2 penetrate 4.20 mm deeper than at rest",
     joint="hinge",
     parts=("part_1", "part_2"),
@@ -37,8 +37,8 @@ HIT = Finding(
     unit="mm",
     limit=1.0,
 )
-OTHER = Finding("other_reading", Severity.SOFT, f"read otherwise, it is rejected {HOSTILE}")
-WORDS = Finding("articulation_note", Severity.SOFT, HOSTILE, parts=(HOSTILE,))
+OTHER = Finding("other_reading", Severity.WARNING, f"read otherwise, it is rejected {HOSTILE}")
+WORDS = Finding("articulation_note", Severity.WARNING, HOSTILE, parts=(HOSTILE,))
 
 
 def bundle_in(folder: Path) -> Path:
@@ -69,7 +69,7 @@ def make_registry(root: Path) -> Registry:
     hit = _rejected("hitting-2", HIT)
     with registry.staging_folder() as staging:
         registry.reject(hit, BuildReport(report), bundle_in(staging / "two"))
-    none = Finding("no_movable_joint", Severity.HARD, HOSTILE)
+    none = Finding("no_movable_joint", Severity.ERROR, HOSTILE)
     registry.reject(_rejected("still-3", none), BuildReport(Report("a.glb", findings=(none,))))
     return registry
 

@@ -100,7 +100,7 @@ def judge(path: Path, simulator: str, config: CheckConfig | None = None) -> Chec
     return judge_in_simulator(read_description(path), simulator, config or CheckConfig())
 
 
-def codes(result: CheckResult, severity: Severity = Severity.HARD) -> list[str]:
+def codes(result: CheckResult, severity: Severity = Severity.ERROR) -> list[str]:
     return [finding.code for finding in result.findings if finding.severity is severity]
 
 

@@ -47,7 +47,7 @@ def on_paper(path):
             warnings.simplefilter("ignore", RuntimeWarning)
             findings = examine_here(path, CheckConfig()).findings
     except DescriptionError as error:
-        return {error.code: "hard"}
+        return {error.code: "error"}
     return told(Report(path.name, (), findings), "static")
 
 
@@ -62,7 +62,7 @@ def test_a_fault_in_an_engine_is_caught_by_its_own_code(exhibit, tmp_path, judge
     for engine in ENGINES:
         code = exhibit.expected(engine)
         if code is not None:
-            severity = "hard" if engine in exhibit.engines else exhibit.severity
+            severity = "error" if engine in exhibit.engines else exhibit.severity
             assert told(report, engine).get(code) == severity, (engine, report.findings)
     assert report.passed != exhibit.rejected
 
@@ -70,7 +70,7 @@ def test_a_fault_in_an_engine_is_caught_by_its_own_code(exhibit, tmp_path, judge
 @named(GOOD)
 def test_what_is_sound_passes_on_paper_and_in_every_engine(exhibit, tmp_path, judge):
     report = judge.check(exhibit.build(tmp_path), ENGINES)
-    assert report.hard == ()
+    assert report.errors == ()
 
 
 @pytest.mark.parametrize("spot", list(blind_spots()), ids=lambda spot: spot.name)

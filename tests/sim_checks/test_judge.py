@@ -70,7 +70,7 @@ def test_a_file_that_was_changed_is_judged_as_it_is_now(tmp_path):
             os.utime(tmp_path / "drawer_0.obj", (1e9, 1e9))
             report = judge.check(path, ENGINES)
             assert report.passed is passes
-            engines = {finding.simulator for finding in report.hard if finding.code == "jammed"}
+            engines = {finding.simulator for finding in report.errors if finding.code == "jammed"}
             assert ("mujoco" in engines) is (not passes and "mujoco" in ENGINES)
 
 
@@ -86,7 +86,7 @@ def test_an_engine_that_asks_for_too_much_memory_is_stopped(good):
     # Enough for Python to start, and for nothing else.
     config = CheckConfig(child=ChildConfig(memory_bytes=200 * 2**20))
     report = run_checks(good, ENGINES[:1], config)
-    assert report.hard[0].code == "check_crashed"
+    assert report.errors[0].code == "check_crashed"
     assert report.status is Status.UNJUDGED
 
 

@@ -7,10 +7,10 @@ import pytest
 from asset_factory.sim_checks import Finding, Report, Severity, Status
 
 HARD = Finding(
-    "rest_penetration", Severity.HARD, "5 mm", parts=("a", "b"), value=5.0, unit="mm", limit=2.0
+    "rest_penetration", Severity.ERROR, "5 mm", parts=("a", "b"), value=5.0, unit="mm", limit=2.0
 )
-SOFT = Finding("loader_warning", Severity.SOFT, "hm", simulator="sapien", joint="hinge")
-CRASH = Finding("simulator_crashed", Severity.HARD, "killed by SIGSEGV", simulator="pybullet")
+SOFT = Finding("loader_warning", Severity.WARNING, "hm", simulator="sapien", joint="hinge")
+CRASH = Finding("simulator_crashed", Severity.ERROR, "killed by SIGSEGV", simulator="pybullet")
 
 
 @pytest.mark.parametrize(

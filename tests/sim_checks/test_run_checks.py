@@ -38,7 +38,7 @@ def test_a_sound_file_passes_with_its_clearance_measured(tmp_path):
 
 def test_an_overlap_rejects_and_the_report_survives_json(tmp_path):
     report = run_checks(drawer(tmp_path, -0.004), ())
-    assert [finding.code for finding in report.hard] == ["rest_penetration"]
+    assert [finding.code for finding in report.errors] == ["rest_penetration"]
     assert report.status is not Status.UNJUDGED
     assert Report.from_dict(report.to_dict()).to_json() == report.to_json()
 
@@ -64,7 +64,7 @@ def test_an_unreadable_file_is_one_finding_and_no_simulator_is_asked(tmp_path):
 def test_two_roots_are_rejected_without_a_sweep(tmp_path):
     boxes = {"a": ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), "b": ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))}
     report = run_checks(write_urdf(tmp_path, boxes, ""), ())
-    assert [finding.code for finding in report.hard] == ["not_a_tree"]
+    assert [finding.code for finding in report.errors] == ["not_a_tree"]
 
 
 def test_an_unknown_simulator_is_wrong_usage(tmp_path):
@@ -85,8 +85,8 @@ def dying_examine(path, config, *, native=True):
 def test_a_crash_of_the_check_is_a_finding_and_the_lint_still_speaks(tmp_path, monkeypatch):
     monkeypatch.setattr("asset_factory.sim_checks.judge.examine_here", dying_examine)
     report = run_checks(drawer(tmp_path, 0.003), ())
-    assert [finding.code for finding in report.hard] == ["check_crashed"]
-    assert "SIGSEGV" in report.hard[0].message
+    assert [finding.code for finding in report.errors] == ["check_crashed"]
+    assert "SIGSEGV" in report.errors[0].message
     assert "lint" in report.measurements
     assert report.status is Status.UNJUDGED
 
@@ -94,7 +94,7 @@ def test_a_crash_of_the_check_is_a_finding_and_the_lint_still_speaks(tmp_path, m
 def test_a_check_that_takes_too_long_is_a_finding(tmp_path):
     config = replace(CheckConfig(), child=ChildConfig(wall_s=0.01))
     report = run_checks(drawer(tmp_path, 0.003), (), config)
-    assert report.hard[0].code == "check_timeout"
+    assert report.errors[0].code == "check_timeout"
 
 
 BOX_MJCF = """<mujoco><worldbody><body name="shell"><geom type="box" size=".1 .1 .1"/>
@@ -109,7 +109,9 @@ def test_a_file_that_nobody_drove_has_not_passed(tmp_path, simulators, status):
     (tmp_path / "box.xml").write_text(BOX_MJCF)
     report = run_checks(tmp_path / "box.xml", simulators)
     assert report.status == status
-    assert ("not_simulated" in [finding.code for finding in report.hard]) is (status == "unjudged")
+    assert ("not_simulated" in [finding.code for finding in report.errors]) is (
+        status == "unjudged"
+    )
 
 
 def test_only_who_took_part_is_named(tmp_path):

@@ -163,4 +163,4 @@ def _reply(answer: bytes) -> Reply:
 
 
 def _unavailable(sentence: str) -> Finding:
-    return Finding("model_unavailable", Severity.HARD, sentence, cause=OUT_OF_TIME)
+    return Finding("model_unavailable", Severity.ERROR, sentence, cause=OUT_OF_TIME)

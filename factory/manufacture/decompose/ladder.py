@@ -104,9 +104,9 @@ def _answer(attempt: _Attempt) -> tuple[list[Triangles], str | None]:
         outcome.unwrap()
     message = f"{attempt.name}: {outcome.detail}"
     if outcome.failure is Failure.TIMEOUT:
-        raise Unjudged(Finding("decomposition_timeout", Severity.HARD, message, cause=OUT_OF_TIME))
+        raise Unjudged(Finding("decomposition_timeout", Severity.ERROR, message, cause=OUT_OF_TIME))
     if outcome.killed:
-        raise Unjudged(Finding("decomposition_killed", Severity.HARD, message, cause=KILLED))
+        raise Unjudged(Finding("decomposition_killed", Severity.ERROR, message, cause=KILLED))
     if outcome.failure is not None:
         return [], f"{outcome.failure}, {outcome.detail}"
     return outcome.value or [], None

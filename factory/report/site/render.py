@@ -70,5 +70,5 @@ def packed(model: bytes) -> str:
 @cache
 def _templates() -> Environment:
     return environment(
-        __package__, HARD=Severity.HARD, PASSED=Status.PASSED, STATUSES=tuple(Status)
+        __package__, HARD=Severity.ERROR, PASSED=Status.PASSED, STATUSES=tuple(Status)
     )

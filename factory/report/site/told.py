@@ -91,7 +91,7 @@ class AssetPage:
         """Return the findings by severity and code, in the order in which they were found."""
         found: dict[tuple[bool, str], list[FindingTold]] = {}
         for told in self.findings:
-            error = told.finding.severity is Severity.HARD
+            error = told.finding.severity is Severity.ERROR
             found.setdefault((error, told.finding.code), []).append(told)
         return tuple(
             FindingGroup(code, error, MEANINGS.get(code, ""), tuple(group))
@@ -170,7 +170,7 @@ def with_model(page: AssetPage, model: bytes) -> AssetPage:
     found = _findings(page.report, places)
     faults = [places.of(told.finding) for told in found if told.place >= 0]
     failed = page.entry.status is not Status.PASSED
-    hard = [told.place for told in found if told.finding.severity is Severity.HARD]
+    hard = [told.place for told in found if told.finding.severity is Severity.ERROR]
     first = next((faults[place] for place in hard if place >= 0), None) if failed else None
     data = {
         "name": page.entry.id,
@@ -198,7 +198,7 @@ def _findings(report: Report, places: Places | None) -> tuple[FindingTold, ...]:
     # The validator says the same of the URDF and of the MJCF.
     once = {(each.code, each.message): each for each in reversed(report.findings)}
     findings = (each for each in report.findings if each is once[each.code, each.message])
-    ordered = sorted(findings, key=lambda finding: finding.severity is not Severity.HARD)
+    ordered = sorted(findings, key=lambda finding: finding.severity is not Severity.ERROR)
     for finding in ordered[:_MAX_FINDINGS]:
         if finding.code == OTHER_HYPOTHESIS:
             continue

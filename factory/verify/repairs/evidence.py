@@ -32,14 +32,14 @@ class RepairEvidence:
     asset: Asset | None = None
 
     @property
-    def hard(self) -> tuple[Finding, ...]:
+    def errors(self) -> tuple[Finding, ...]:
         """Return the findings that reject."""
-        return self.verdict.report.hard
+        return self.verdict.report.errors
 
     @property
     def codes(self) -> frozenset[str]:
         """Return the codes of the findings that reject."""
-        return frozenset(finding.code for finding in self.hard)
+        return frozenset(finding.code for finding in self.errors)
 
     def found(self, code: str) -> Iterator[Finding]:
         """Yield the findings of one code, errors and warnings."""

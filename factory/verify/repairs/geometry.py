@@ -44,7 +44,7 @@ def fit_closely(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     if plan.closely or plan.fewer is not None:
         return None
     joined = {part for each in evidence.found("hulls_joined") for part in each.parts}
-    if not any(joined.intersection(each.parts or joined) for each in evidence.hard):
+    if not any(joined.intersection(each.parts or joined) for each in evidence.errors):
         return None
     left = Repair(RepairKind.HULLS_NOT_JOINED, parts=tuple(sorted(joined)))
     return replace(plan, closely=True, repairs=(*plan.repairs, left))
@@ -54,7 +54,7 @@ def build_fronts(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """Build front plates that stick in what is around them anew, once, with room for each."""
     if plan.build_fronts or not evidence.spare.fronts:
         return None
-    stuck = [finding for finding in evidence.hard if finding.code in STUCK]
+    stuck = [finding for finding in evidence.errors if finding.code in STUCK]
     if not stuck:
         return None
     built = Repair(RepairKind.FRONTS_BUILT, parts=tuple(sorted(evidence.spare.fronts)))
@@ -73,7 +73,7 @@ def hollow_out(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     Other hulls are cut apart anew: thin walls need less room than what filled them.
     """
     filled = {
-        part for each in evidence.hard if each.code == "interior_filled" for part in each.parts
+        part for each in evidence.errors if each.code == "interior_filled" for part in each.parts
     }
     new = frozenset(filled) - plan.hollow
     if not new:

@@ -26,9 +26,9 @@ def give_up_guesses(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """
     if evidence.codes <= {"sweep_penetration"} or not evidence.codes <= BY_A_GUESS:
         return None
-    overlapping = [finding for finding in evidence.hard if finding.code == "rest_penetration"]
+    overlapping = [finding for finding in evidence.errors if finding.code == "rest_penetration"]
     going: dict[str, Finding] = {}
-    for finding in evidence.hard:
+    for finding in evidence.errors:
         doubtful = _named(finding, evidence)
         if not doubtful and finding.code not in MAY_GO:
             return None

@@ -25,7 +25,7 @@ def pull_in(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     if asset is None or "rest_penetration" not in evidence.codes:
         return None
     stuck = {
-        part for each in evidence.hard if each.code == "rest_penetration" for part in each.parts
+        part for each in evidence.errors if each.code == "rest_penetration" for part in each.parts
     }
     lower = dict(plan.lower)
     repairs = list(plan.repairs)

@@ -1,10 +1,9 @@
 """`factory check` judges files and folders with one judge, prints at once, and names each path."""
 
-from __future__ import annotations
-
 import json
 import re
 import threading
+from pathlib import Path
 
 import pytest
 
@@ -43,10 +42,11 @@ def test_a_folder_is_judged_file_by_file_with_its_path_as_the_name(tmp_path, cap
         ("good/asset.urdf", True),
     ]
     lines = capsys.readouterr().out.splitlines()
-    assert [line.split(" (")[0] for line in lines if not line.startswith(" ")] == [
+    assert [line.split(" (")[0] for line in lines[:-1] if not line.startswith(" ")] == [
         "rejected bad/asset.urdf",
         "passed good/asset.urdf",
     ]
+    assert lines[-1].startswith("2 files: 1 passed, 1 rejected, 0 could not be validated; 1 error")
 
 
 def test_one_file_gives_one_report_and_no_other_output(tmp_path, capsys):
@@ -70,8 +70,8 @@ def test_reports_are_printed_as_they_come(tmp_path, monkeypatch):
         assert path.stem == "one" or printed.wait(60.0)
         return check(judge, path, *rest)
 
-    def noted(report):
-        print_report(report)
+    def noted(*told, verbose):
+        print_report(*told, verbose=verbose)
         printed.set()
 
     monkeypatch.setattr(Judge, "check", watched)
@@ -122,7 +122,9 @@ def test_many_files_are_judged_at_once_and_told_in_the_order_given(tmp_path, mon
 
     monkeypatch.setattr(Judge, "check", watched)
     assert run(["check", *map(str, files), "--sim", "", "--workers", "2"]) == 0
-    lines = [line for line in capsys.readouterr().out.splitlines() if not line.startswith(" ")]
+    told = capsys.readouterr()
+    assert all(f"checking {path} (" in told.err for path in files)
+    lines = [line for line in told.out.splitlines()[:-1] if not line.startswith(" ")]
     assert [line.split(" (")[0] for line in lines] == [f"passed {name}.urdf" for name in names]
     assert len(judges) == 2
 
@@ -131,3 +133,75 @@ def test_workers_have_to_be_some(tmp_path, capsys):
     path = write(tmp_path / "asset.urdf", 0.004)
     assert run(["check", str(path), "--sim", "", "--workers", "0"]) == 2
     assert "--workers: is 0, want at least 1" in capsys.readouterr().err
+
+
+MJCF = """<mujoco><worldbody><body name="shell">{0}<body name="drawer"><joint name="slide"
+type="slide" axis="1 0 0" range="0 {2}"/>{1}</body></body></worldbody></mujoco>"""
+GEOM = '<geom type="box" size="0.2 0.1 0.1" pos="0 {0} 0" mass="1"/>'
+
+
+def mjcf_beside(urdf, upper):
+    path = urdf.with_suffix(".xml")
+    path.write_text(MJCF.format(GEOM.format(0), GEOM.format(0.204), upper))
+    return path
+
+
+@pytest.mark.parametrize(("upper", "code"), [(0.3, 0), (0.2, 3)])
+def test_a_format_that_no_engine_reads_is_judged_by_the_file_beside_it_that_says_the_same(
+    tmp_path, capsys, upper, code
+):
+    pytest.importorskip("sapien")
+    # Told before the file that speaks for it.
+    mjcf_beside(write(tmp_path / "z.urdf", 0.004), upper).rename(tmp_path / "a.xml")
+    assert run(["check", str(tmp_path), "--sim", "sapien"]) == code
+    out = capsys.readouterr().out
+    assert ("note simulated_beside: " in out) is (code == 0)
+    assert ("error not_simulated: " in out) is (code == 3)
+    assert ("z.urdf, which has the same joints" in out) is (code == 0)
+
+
+def test_findings_are_told_once_by_code_with_the_worst_first(tmp_path, capsys):
+    path = write(tmp_path / "asset.urdf", -0.004)
+    text = path.read_text()
+    first, second = (text.replace('axis xyz="1 0 0"', f'axis xyz="{n} 0 0"') for n in (2, 5))
+    joint = second[second.index("<joint") : second.index("</robot>")].replace("slide", "other")
+    link = BODY.format(at="0 0.5 0")
+    joint = joint.replace('child link="drawer"', 'child link="tray"')
+    path.write_text(first.replace("</robot>", f'<link name="tray">{link}</link>{joint}</robot>'))
+    assert run(["check", str(tmp_path), "--sim", ""]) == 0
+    lines = [line.strip() for line in capsys.readouterr().out.splitlines()]
+    axes = [line for line in lines if "axis_not_unit" in line]
+    assert len(axes) == 1
+    assert axes[0].startswith("error axis_not_unit (2 of them, the worst): joint 'other'")
+    severities = [line.split()[0] for line in lines if line.split()[0] in ("error", "warning")]
+    assert severities == sorted(severities)
+    assert run(["check", str(tmp_path), "--sim", "", "--verbose"]) == 0
+    assert capsys.readouterr().out.count("error axis_not_unit: ") == 2
+
+
+def test_what_the_urdf_was_told_for_is_not_told_again_of_the_mjcf(tmp_path, capsys):
+    urdf = write(tmp_path / "asset.urdf", -0.004)
+    path = mjcf_beside(urdf, 0.3)
+    path.write_text(path.read_text().replace("0.204", "0.196"))
+    assert run(["check", str(tmp_path), "--sim", ""]) == 0
+    out = capsys.readouterr().out
+    assert out.count("rest_penetration") == 1
+    assert "as in another file of this asset" in out
+    assert "2 files: 0 passed, 2 rejected, 0 could not be validated; 1 error" in out
+
+
+def test_only_what_the_baseline_does_not_know_fails(tmp_path, capsys):
+    path = write(tmp_path / "asset.urdf", -0.004)
+    known = str(tmp_path / "known.json")
+    check = ["check", str(path), "--sim", "", "--strict"]
+    assert run(check) == 1
+    assert run([*check, "--write-baseline", known]) == 0
+    capsys.readouterr()
+    assert run([*check, "--baseline", known]) == 0
+    assert "rest_penetration" not in capsys.readouterr().out
+    path.write_text(path.read_text().replace('axis xyz="1 0 0"', 'axis xyz="2 0 0"'))
+    assert run([*check, "--baseline", known]) == 1
+    assert re.findall(r"error (\w+)", capsys.readouterr().out) == ["axis_not_unit"]
+    Path(known).write_text('{"version": 7}')
+    assert run([*check, "--baseline", known]) == 2
+    assert "no baseline" in capsys.readouterr().err

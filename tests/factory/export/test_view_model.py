@@ -44,7 +44,7 @@ def test_what_was_rejected_keeps_what_is_shown_and_no_asset(tmp_path):
     source = tmp_path / "cabinet.stl"
     source.write_bytes(b"solid\nendsolid\n")
     asset = cabinet()
-    bad = Finding("rest_penetration", Severity.HARD, "5 mm deep")
+    bad = Finding("rest_penetration", Severity.ERROR, "5 mm deep")
     with registry.staging_folder() as staging:
         bundle = export_bundle(asset, PROVENANCE, staging / "0")
         write_model(asset, bundle.folder)

@@ -294,5 +294,5 @@ def test_that_something_was_stopped_is_not_remembered_as_an_answer(tmp_path):
     origin.reads = {path.name: digest_file(path)}
     for cause, remembered in ((KILLED, False), (OUT_OF_TIME, False), (None, True)):
         message = "mujoco died on asset.xml"
-        finding = Finding("simulator_crashed", Severity.HARD, message, cause=cause)
+        finding = Finding("simulator_crashed", Severity.ERROR, message, cause=cause)
         assert bool(without_asset(origin, finding, Status.UNJUDGED)[0].key) == remembered

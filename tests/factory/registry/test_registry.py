@@ -57,7 +57,7 @@ def test_an_asset_that_is_later_rejected_is_no_longer_published(registry):
     folder = registry.reject(REJECTED, BAD_REPORT)
     assert not published.exists()
     assert registry.entries() == (REJECTED,)
-    assert registry.report(REJECTED).hard[0].value == 5.0
+    assert registry.report(REJECTED).errors[0].value == 5.0
     assert folder.parent == registry.rejected
     publish(registry)
     assert not folder.exists()

@@ -55,8 +55,10 @@ def test_filters(registry, filters, expected):
 
 @pytest.mark.parametrize("code", ["many_hulls", "many_hull_vertices", "oblong_hull"])
 def test_what_physx_does_not_take_on_a_gpu_is_filtered_out(registry, code, capsys):
-    beyond = Finding(code, Severity.SOFT, "beyond what a GPU takes", value=65.0, limit=64.0)
-    harmless = Finding("collision_gap", Severity.SOFT, "a gap", value=12.0, unit="mm", limit=10.0)
+    beyond = Finding(code, Severity.WARNING, "beyond what a GPU takes", value=65.0, limit=64.0)
+    harmless = Finding(
+        "collision_gap", Severity.WARNING, "a gap", value=12.0, unit="mm", limit=10.0
+    )
     for asset_id, finding in (("shelf-1", beyond), ("shelf-2", harmless)):
         with registry.staging_folder() as staging:
             bundle = staging / "bundle"

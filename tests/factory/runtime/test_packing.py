@@ -1,7 +1,5 @@
 """What is packed comes back equal, and what was not packed is refused."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -88,7 +86,7 @@ def test_arrays_keep_their_bits_through_the_store(tmp_path):
 def test_a_report_comes_back_as_it_was():
     finding = Finding(
         "tilted",
-        Severity.SOFT,
+        Severity.WARNING,
         "leans",
         joint="hinge",
         parts=("a", "b"),

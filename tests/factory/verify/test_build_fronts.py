@@ -27,7 +27,7 @@ FRONTS = Spare(fronts=frozenset({"drawer"}))
 
 
 def rejected(code):
-    finding = Finding(code, Severity.HARD, "it does", parts=("base", "drawer"))
+    finding = Finding(code, Severity.ERROR, "it does", parts=("base", "drawer"))
     return Verdict(Report("asset.urdf", findings=(finding,)))
 
 

@@ -21,7 +21,7 @@ from asset_factory.sim_checks import Finding, Report, Severity
 from asset_factory.sim_checks.report import OUT_OF_TIME
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "meshes"
-DEEP = Finding("sweep_penetration", Severity.HARD, "5 mm deep", value=5.0, unit="mm", limit=2.0)
+DEEP = Finding("sweep_penetration", Severity.ERROR, "5 mm deep", value=5.0, unit="mm", limit=2.0)
 ASSET = cabinet()
 
 
@@ -102,7 +102,7 @@ def test_beyond_the_most_work_only_the_likeliest_is_made(tmp_path, monkeypatch):
 def test_a_reading_whose_check_hung_gives_its_place_to_no_other(tmp_path, monkeypatch):
     _reading_as(monkeypatch, lambda right: right, lambda right: right)
     honest = rounds.inspect
-    late = Finding("check_timeout", Severity.HARD, "no answer", cause=OUT_OF_TIME)
+    late = Finding("check_timeout", Severity.ERROR, "no answer", cause=OUT_OF_TIME)
     asked = []
 
     def inspect(bundle, *more):
@@ -122,8 +122,8 @@ def test_a_reading_whose_check_hung_gives_its_place_to_no_other(tmp_path, monkey
 
 def test_a_simulator_that_hung_neither_rejects_nor_repairs(tmp_path, monkeypatch):
     honest = rounds.validate
-    late = Finding("simulator_timeout", Severity.HARD, "no answer", "bullet", cause=OUT_OF_TIME)
-    jammed = Finding("jammed", Severity.HARD, "sapien: stuck", "sapien")
+    late = Finding("simulator_timeout", Severity.ERROR, "no answer", "bullet", cause=OUT_OF_TIME)
+    jammed = Finding("jammed", Severity.ERROR, "sapien: stuck", "sapien")
 
     def validate(*asked):
         verdict = honest(*asked)

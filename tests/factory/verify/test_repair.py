@@ -53,7 +53,7 @@ def joint(name="hinge", upper=2.0, clear_until=None, pairs=()):
 
 
 def hard(code, parts=("base", "door"), name=None):
-    return Finding(code, Severity.HARD, f"{code} happened", joint=name, parts=parts)
+    return Finding(code, Severity.ERROR, f"{code} happened", joint=name, parts=parts)
 
 
 def verdict(*findings, rest=(), joints=()):
@@ -82,7 +82,7 @@ def test_hulls_that_nearly_touch_are_cut_apart_once(where):
 
 
 def test_a_knuckle_that_remains_is_excluded_once():
-    given = verdict(Finding("hinge_overlap", Severity.SOFT, "knuckle", parts=("door", "base")))
+    given = verdict(Finding("hinge_overlap", Severity.WARNING, "knuckle", parts=("door", "base")))
     plan = next_plan(given, Plan(), CONFIG, NONE_SMALL)
     assert plan.exclude == {("base", "door")}
     assert next_plan(given, plan, CONFIG, NONE_SMALL) is None
@@ -128,7 +128,7 @@ def test_what_no_repair_mends_gets_no_plan(code):
 
 
 def lying_in(*parts):
-    return Finding("rest_penetration", Severity.HARD, "they overlap", parts=parts)
+    return Finding("rest_penetration", Severity.ERROR, "they overlap", parts=parts)
 
 
 GUESSES = Spare(frozenset({"a_hinge", "b_hinge"}), {"b": "b_hinge", "a": "a_hinge"})
@@ -157,14 +157,14 @@ def test_a_guessed_part_that_lies_in_a_known_one_is_given_up_and_two_known_ones_
 
 
 def test_of_what_jams_only_the_guess_worth_least_is_given_up():
-    jammed = Finding("jammed", Severity.HARD, "a jams", joint="a_hinge", joints=("b_hinge",))
+    jammed = Finding("jammed", Severity.ERROR, "a jams", joint="a_hinge", joints=("b_hinge",))
     pushed = Finding(
-        "others_moved", Severity.HARD, "a is pushed", joint="best", joints=("a_hinge",)
+        "others_moved", Severity.ERROR, "a is pushed", joint="best", joints=("a_hinge",)
     )
     plan = next_plan(verdict(jammed, pushed), Plan(), CONFIG, GUESSES)
     assert plan.given_up == {"b_hinge"}
     assert [each.sentence for each in plan.repairs] == ["gave up b_hinge: a jams"]
-    alone = Finding("jammed", Severity.HARD, "the best one jams", joint="best")
+    alone = Finding("jammed", Severity.ERROR, "the best one jams", joint="best")
     assert next_plan(verdict(jammed, alone), Plan(), CONFIG, GUESSES) is None
 
 
@@ -192,11 +192,11 @@ def test_what_nobody_gets_into_is_made_hollow_once():
     assert next_plan(found, plan, CONFIG, NONE_SMALL) is None
     assert next_plan(found, Plan(), RepairConfig(kinds="geometry"), NONE_SMALL) == plan
     assert next_plan(found, Plan(), RepairConfig(kinds="none"), NONE_SMALL) is None
-    soft = Finding("interior_filled", Severity.SOFT, "little is left", parts=("lever",))
+    soft = Finding("interior_filled", Severity.WARNING, "little is left", parts=("lever",))
     assert next_plan(verdict(soft), Plan(), CONFIG, NONE_SMALL) is None
 
 
-JOINED = Finding("hulls_joined", Severity.SOFT, "12 hulls joined to 8", parts=("base",))
+JOINED = Finding("hulls_joined", Severity.WARNING, "12 hulls joined to 8", parts=("base",))
 
 
 def test_hulls_that_were_joined_are_left_apart_before_any_joint_is_changed():

@@ -1,7 +1,5 @@
 """What only simulators refuse is repaired too: the guess that is worth least is given up."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 
@@ -50,7 +48,7 @@ def refusing(monkeypatch, number, names, code):
         name = names[number]
         if f'"{name}"' not in bundle.urdf.read_text(encoding="utf-8"):
             return verdict
-        found = Finding(code, Severity.HARD, f"bullet: {name} is stuck", "bullet", name)
+        found = Finding(code, Severity.ERROR, f"bullet: {name} is stuck", "bullet", name)
         return Verdict(replace(verdict.report, findings=(*verdict.report.findings, found)))
 
     monkeypatch.setattr(rounds, "validate", validate)

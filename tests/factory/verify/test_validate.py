@@ -57,12 +57,12 @@ class Hurried:
 
     def examine(self, path):
         self.examined += 1
-        late = Finding("check_timeout", Severity.HARD, "no answer in 120 s")
+        late = Finding("check_timeout", Severity.ERROR, "no answer in 120 s")
         return Examination(None, (late,) if self.examined == 1 else ())
 
     def check(self, path, simulators, examined):
         self.checked += 1
-        late = Finding("simulator_timeout", Severity.HARD, "no answer in 120 s", "sapien")
+        late = Finding("simulator_timeout", Severity.ERROR, "no answer in 120 s", "sapien")
         first = simulators and self.checked == 1
         return Report(path.name, simulators, (*examined.findings, *((late,) if first else ())))
 

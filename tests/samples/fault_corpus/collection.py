@@ -16,7 +16,7 @@ def good(categories: tuple[str, ...] = QUICK) -> tuple[Exhibit, ...]:
     """Sound exhibits: things of boxes, and the generator's objects of these categories."""
     things = [exhibit for make in GOOD for exhibit in both(make().name, make(), None)]
     objects = [
-        Exhibit(f"made_{category}.{suffix}", made(category, 1, suffix), None, "hard", ())
+        Exhibit(f"made_{category}.{suffix}", made(category, 1, suffix), None, "error", ())
         for category in categories
         for suffix in ("urdf", "mjcf")
     ]

@@ -33,14 +33,14 @@ class Exhibit:
     name: str
     build: Builder
     code: str | None = None
-    severity: Literal["hard", "soft"] = "hard"
+    severity: Literal["error", "warning", "note"] = "error"
     seen_by: tuple[str, ...] = ("static",)
     engines: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def rejected(self) -> bool:
         """Whether the judge as a whole must reject it."""
-        return bool(self.engines) or (self.code is not None and self.severity == "hard")
+        return bool(self.engines) or (self.code is not None and self.severity == "error")
 
     def expected(self, detector: str) -> str | None:
         """The code that a detector must find; ``None`` where it need not say anything."""
@@ -58,7 +58,10 @@ def mjcf(thing: Thing) -> Builder:
 
 
 def both(
-    name: str, thing: Thing, code: str | None, severity: Literal["hard", "soft"] = "hard"
+    name: str,
+    thing: Thing,
+    code: str | None,
+    severity: Literal["error", "warning", "note"] = "error",
 ) -> Iterable[Exhibit]:
     """The same thing in both formats, which the static checks must see alike."""
     yield Exhibit(f"{name}.urdf", urdf(thing), code, severity, ("static",) if code else ())

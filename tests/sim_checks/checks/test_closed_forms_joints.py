@@ -48,7 +48,7 @@ def joint(result, name):
 
 
 def hard(result):
-    return [finding.code for finding in result.findings if finding.severity is Severity.HARD]
+    return [finding.code for finding in result.findings if finding.severity is Severity.ERROR]
 
 
 def tray(side, top, back, travel=0.3):

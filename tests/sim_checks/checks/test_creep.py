@@ -122,7 +122,7 @@ def test_of_three_values_the_worst_is_told_once():
 
 def test_where_no_file_can_tell_the_engine_creep_is_a_warning():
     found = told(slide(25.0), HoldMotion("j0", {"j0": 0.15}, 0.1), soft=True)
-    assert [str(item.severity) for item in found] == ["soft"]
+    assert [str(item.severity) for item in found] == ["warning"]
 
 
 def test_what_its_own_weight_should_move_does_not_creep():
@@ -135,7 +135,7 @@ def test_what_its_own_weight_should_move_does_not_creep():
 
 def test_infinity_while_held_rejects():
     (found,) = told(slide(25.0), HoldMotion("j0", {"j0": 0.15}, 0.0, finite=False))
-    assert (found.code, str(found.severity)) == ("not_finite", "hard")
+    assert (found.code, str(found.severity)) == ("not_finite", "error")
 
 
 def in_mujoco(folder, **press):

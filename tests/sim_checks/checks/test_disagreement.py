@@ -51,7 +51,7 @@ def measured(*pairs, unit="m", **engines):
 def no(code, *simulators, joint="slide", joints=(), message=""):
     parts = ("shell", "drawer") if joint else ()
     return [
-        Finding(code, Severity.HARD, message, simulator, joint, parts, joints=joints)
+        Finding(code, Severity.ERROR, message, simulator, joint, parts, joints=joints)
         for simulator in simulators
     ]
 
@@ -201,7 +201,7 @@ def test_parts_in_one_another_drive_a_joint_past_its_limit():
 
 
 def test_damping_that_explodes_in_bullet_alone():
-    stiff = Finding("damping_stiff", Severity.SOFT, "", None, "slide", ("shell", "drawer"), 13.5)
+    stiff = Finding("damping_stiff", Severity.WARNING, "", None, "slide", ("shell", "drawer"), 13.5)
     found = only([stiff, *no("jammed", "pybullet")], measured(**engines("jammed", "pybullet")))
     assert "13.5 times the speed" in found.reason
     assert (

@@ -14,8 +14,8 @@ from asset_factory.sim_checks.description import DescribedShape, Description, Li
 from asset_factory.sim_checks.report import Report, Severity
 
 Break = Callable[[Description], Description]
-HARD = Severity.HARD
-SOFT = Severity.SOFT
+HARD = Severity.ERROR
+SOFT = Severity.WARNING
 
 
 def found(description):
@@ -67,6 +67,10 @@ def test_a_sound_cabinet_has_no_findings():
         (lambda d: with_joint(d, "hinge", axis=np.array([0.0, 0.0, 1.005])), "axis_not_unit", SOFT),
         (inertia(mass=float("nan")), "inertia_not_finite", HARD),
         (inertia(moments=(0.0, 0.01, 0.01)), "inertia_not_positive", HARD),
+        (inertia(moments=(0.001, 0.001, 0.02)), "inertia_triangle", HARD),
+        (inertia(moments=(0.16, 0.28, 0.4)), "inertia_implausible", SOFT),
+        (inertia(moments=(0.6, 0.6, 0.6)), "inertia_impossible", HARD),
+        (inertia(moments=(10.0, 10.0, 10.0)), "inertia_impossible", HARD),
         (inertia(mass=1e300), "inertia_not_finite", HARD),
         (inertia(mass=1e-300, moments=(1e-5, 1e-5, 1e-5)), "inertia_impossible", HARD),
         (

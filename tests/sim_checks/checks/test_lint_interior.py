@@ -69,7 +69,7 @@ def test_boards_as_hulls_leave_the_whole_inside_free():
 
 def test_one_hull_over_the_whole_carcass_leaves_nothing():
     severities, numbers = told(seen_and_touched(BOARDS, SOLID))
-    assert severities == [Severity.HARD]
+    assert severities == [Severity.ERROR]
     assert numbers == {"interior_kept": 0.0, "pocket_kept": 0.0}
 
 
@@ -81,12 +81,12 @@ def test_the_share_kept_is_the_share_of_the_height_left_free(share):
     # Of the inside, 18 mm to 782 mm high, less a voxel or two along the boards.
     free = np.clip((0.782 - 0.8 * share) / 0.764, 0.0, 1.0)
     assert numbers["pocket_kept"] == pytest.approx(free, abs=0.04)
-    assert (severities == [Severity.HARD]) == (numbers["pocket_kept"] < 0.5)
+    assert (severities == [Severity.ERROR]) == (numbers["pocket_kept"] < 0.5)
 
 
 def test_a_table_is_no_container_so_its_filled_underside_is_only_reported():
     severities, numbers = told(seen_and_touched(TABLE, (((0.0, 0.0, 0.36), (1.2, 0.8, 0.71)),)))
-    assert severities == [Severity.SOFT]
+    assert severities == [Severity.WARNING]
     assert numbers == {"interior_kept": 0.0, "pocket_kept": None}
 
 
@@ -104,7 +104,7 @@ def test_the_gap_behind_a_handle_is_not_worth_a_word():
     grip = (((0.2, -0.065, 0.4), (0.02, 0.02, 0.22)),)
     filled = (*door, ((0.2, -0.04, 0.4), (0.02, 0.08, 0.22)))
     severities, numbers = told(seen_and_touched((*door, *handle, *grip), filled))
-    assert Severity.HARD not in severities
+    assert Severity.ERROR not in severities
     assert numbers["pocket_kept"] is None
 
 
@@ -121,14 +121,14 @@ def test_a_slot_too_narrow_for_a_hand_is_no_pocket():
     severities, numbers = told(
         seen_and_touched(small, (((0.0, 0.0, 0.006), (0.024, 0.024, 0.012)),))
     )
-    assert Severity.HARD not in severities
+    assert Severity.ERROR not in severities
     assert numbers["pocket_kept"] is None
 
 
 def test_a_cap_open_below_is_no_pocket_but_the_same_as_a_drawer_is():
     filled = seen_and_touched(DRAWER, (((0.0, 0.0, 0.1), (0.418, 0.418, 0.2)),))
-    assert told(filled, DOWN)[0] == [Severity.HARD]
-    assert told(filled, -DOWN)[0] == [Severity.SOFT]
+    assert told(filled, DOWN)[0] == [Severity.ERROR]
+    assert told(filled, -DOWN)[0] == [Severity.WARNING]
 
 
 def test_thin_sheets_do_not_leak_whatever_their_direction():
@@ -160,7 +160,7 @@ def test_a_dense_round_mesh_costs_no_more_memory_than_its_points():
     # All corners of the hull against all its faces would be 27 GB.
     assert told(Link("ball", None, cube, (shape, inner)))[0] == []
     severities, numbers = told(Link("bowl", None, cube, bowl))
-    assert severities == [Severity.HARD]
+    assert severities == [Severity.ERROR]
     assert numbers["pocket_kept"] == 0.0
 
 

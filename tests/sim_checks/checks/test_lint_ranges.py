@@ -36,7 +36,7 @@ def hinged(distance, rest=0.0):
 )
 def test_a_drawer_that_leaves_for_good_is_refused(upper, reason):
     found = finding(with_joint(cabinet(), "slide", upper=upper), "range_implausible")
-    assert (found.severity, found.joint, found.value) == (Severity.HARD, "slide", upper)
+    assert (found.severity, found.joint, found.value) == (Severity.ERROR, "slide", upper)
     assert ("millimetres" in found.message) == bool(reason)
 
 
@@ -81,14 +81,14 @@ def test_a_tap_of_two_turns_and_a_wheel_without_end_are_fair():
 def test_a_range_that_opens_nothing_is_told(name, upper, tiny):
     found = finding(with_joint(cabinet(), name, upper=upper), "range_tiny")
     assert (found is not None) == tiny
-    assert found is None or found.severity is Severity.SOFT
+    assert found is None or found.severity is Severity.WARNING
 
 
 @pytest.mark.parametrize("number", [0.0, -1.0, float("nan")])
 @pytest.mark.parametrize("word", ["effort", "velocity"])
 def test_a_drive_that_cannot_drive_is_told(word, number):
     found = finding(with_joint(cabinet(), "slide", **{word: number}), "invalid_effort")
-    assert (found.severity, found.joint) == (Severity.SOFT, "slide")
+    assert (found.severity, found.joint) == (Severity.WARNING, "slide")
     assert word in found.message
 
 
@@ -100,7 +100,7 @@ def test_a_drive_that_drives_is_fair():
 
 @pytest.mark.parametrize(
     ("distance", "severity"),
-    [(0.0, None), (0.45, None), (0.55, Severity.SOFT), (1.1, Severity.HARD)],
+    [(0.0, None), (0.45, None), (0.55, Severity.WARNING), (1.1, Severity.ERROR)],
 )
 def test_a_hinge_axis_far_from_everything_is_told(distance, severity):
     """The flap is 0.5 m across, the axis lies as far beyond it as told; the cube is farther."""
@@ -138,6 +138,6 @@ def test_a_part_further_off_than_the_larger_is_across_is_no_part(gap, told):
     found = finding(lamp(gap), "part_remote")
     assert (found is not None) is told
     if found is not None:
-        assert found.severity is Severity.HARD
+        assert found.severity is Severity.ERROR
         assert found.value == pytest.approx(gap)
         assert found.limit == pytest.approx(math.hypot(0.4, 0.3, 0.02), abs=1e-6)

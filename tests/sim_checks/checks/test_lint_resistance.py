@@ -29,7 +29,7 @@ def door(friction=0.0, damping=0.0):
 
 
 @pytest.mark.parametrize(
-    ("force", "severity"), [(29.0, None), (31.0, Severity.SOFT), (101.0, Severity.HARD)]
+    ("force", "severity"), [(29.0, None), (31.0, Severity.WARNING), (101.0, Severity.ERROR)]
 )
 def test_friction_counts_as_the_pull_at_the_far_edge(force, severity):
     found = finding(door(friction=force * REACH), "friction_excessive")
@@ -39,7 +39,7 @@ def test_friction_counts_as_the_pull_at_the_far_edge(force, severity):
 
 
 @pytest.mark.parametrize(
-    ("force", "severity"), [(29.0, None), (31.0, Severity.SOFT), (101.0, Severity.HARD)]
+    ("force", "severity"), [(29.0, None), (31.0, Severity.WARNING), (101.0, Severity.ERROR)]
 )
 def test_damping_counts_as_the_pull_that_opens_it_in_three_seconds(force, severity):
     found = finding(door(damping=force * REACH / 0.5), "damping_excessive")
@@ -53,7 +53,7 @@ def test_a_slide_needs_no_lever():
     ]
     slide = joint("slide", "prismatic", "frame", "drawer", (0.0, 0.0, 0.0), (0, 1, 0), (0.0, 0.3))
     found = finding(described(links, [replace(slide, friction=1e4)]), "friction_excessive")
-    assert (found.value, found.severity) == (1e4, Severity.HARD)
+    assert (found.value, found.severity) == (1e4, Severity.ERROR)
 
 
 @pytest.mark.parametrize(("share", "told"), [(0.9, False), (1.1, True)])

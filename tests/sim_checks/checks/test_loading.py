@@ -107,7 +107,7 @@ def test_the_ground_is_no_link_too_many(description):
 def test_the_mass_of_a_base_that_never_moves_is_compared_where_it_is_held(description):
     lighter = with_link(faithful(description), "carcass", mass=1.0, static=True)
     (finding,) = check_loading(description, "engine", lighter, CheckConfig()).findings
-    assert (finding.code, finding.severity) == ("mass_mismatch", Severity.SOFT)
+    assert (finding.code, finding.severity) == ("mass_mismatch", Severity.WARNING)
 
 
 def test_single_precision_is_no_lie(description):
@@ -230,7 +230,7 @@ def test_an_engine_that_does_not_answer_in_time_is_a_finding(description):
     pytest.importorskip("mujoco")
     config = CheckConfig(child=ChildConfig(wall_s=0.01))
     (finding,) = in_simulator.judge_in_simulator(description, "mujoco", config).findings
-    assert (finding.code, finding.severity) == ("simulator_timeout", Severity.HARD)
+    assert (finding.code, finding.severity) == ("simulator_timeout", Severity.ERROR)
     assert finding.code in UNJUDGED_CODES
 
 

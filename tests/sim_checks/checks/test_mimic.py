@@ -100,21 +100,21 @@ def test_followers_that_agree_with_their_leader_but_not_with_each_other_hold_it_
     tree = build_tree(description)
     assert coupled_range(tree, tree.free[0]) is None
     found = [f for f in check_lint(description, LintConfig()).findings if f.code == "mimic_limits"]
-    assert [(f.joint, f.severity) for f in found] == [("b", Severity.HARD), ("c", Severity.HARD)]
+    assert [(f.joint, f.severity) for f in found] == [("b", Severity.ERROR), ("c", Severity.ERROR)]
     assert "so none can" in found[0].message
 
 
 @pytest.mark.parametrize(
     ("mimics", "code", "severity", "value"),
     [
-        ({"b": Mimic("ghost")}, "mimic_unknown", Severity.HARD, None),
-        ({"b": Mimic("b")}, "mimic_unknown", Severity.HARD, None),
-        ({"b": Mimic("c"), "c": Mimic("b")}, "mimic_unknown", Severity.HARD, None),
-        ({"b": Mimic("a", float("nan"))}, "mimic_not_finite", Severity.HARD, None),
-        ({"b": Mimic("a", 1.5)}, "mimic_limits", Severity.SOFT, 0.5),
-        ({"b": Mimic("a", 1.0, -0.2)}, "mimic_limits", Severity.SOFT, 0.2),
-        ({"b": Mimic("a", 1.0, 1.5)}, "mimic_limits", Severity.HARD, 1.5),
-        ({"b": Mimic("a", -1.0)}, "mimic_limits", Severity.HARD, 1.0),
+        ({"b": Mimic("ghost")}, "mimic_unknown", Severity.ERROR, None),
+        ({"b": Mimic("b")}, "mimic_unknown", Severity.ERROR, None),
+        ({"b": Mimic("c"), "c": Mimic("b")}, "mimic_unknown", Severity.ERROR, None),
+        ({"b": Mimic("a", float("nan"))}, "mimic_not_finite", Severity.ERROR, None),
+        ({"b": Mimic("a", 1.5)}, "mimic_limits", Severity.WARNING, 0.5),
+        ({"b": Mimic("a", 1.0, -0.2)}, "mimic_limits", Severity.WARNING, 0.2),
+        ({"b": Mimic("a", 1.0, 1.5)}, "mimic_limits", Severity.ERROR, 1.5),
+        ({"b": Mimic("a", -1.0)}, "mimic_limits", Severity.ERROR, 1.0),
     ],
 )
 def test_each_fault_of_a_follower_has_its_code(mimics, code, severity, value):

@@ -1,7 +1,5 @@
 """One drive for every engine; here it moves a world whose mechanics are known in closed form."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 
@@ -177,7 +175,7 @@ def test_a_joint_that_does_not_come_back_is_refused_and_makes_no_way_for_another
     observation = Observation(world.model, motions=(barred, latched))
     findings = check_motion(nothing(), "engine", observation, CheckConfig()).findings
     found = {finding.joint: (finding.code, str(finding.severity)) for finding in findings}
-    assert found == {"j0": ("jammed", "hard"), "j1": ("not_returned", "hard")}
+    assert found == {"j0": ("jammed", "error"), "j1": ("not_returned", "error")}
 
 
 @pytest.mark.parametrize(("lid_waits_for", "opens"), [(set(), True), ({0}, False)])
@@ -294,15 +292,15 @@ GOOD = JointMotion("j", 1.0, 0.0, 0.0, 0.0, 1.0, finite=True, range=0.3, pushed=
     ("changes", "expected"),
     [
         ({}, []),
-        ({"reached": 0.5}, [("jammed", "hard", 0.5)]),
-        ({"returned": 0.2}, [("not_returned", "hard", 0.2)]),
-        ({"overshoot": 0.009}, [("limit_overshoot", "soft", 0.03)]),
-        ({"overshoot": 0.09}, [("limit_overshoot", "hard", 0.3)]),
-        ({"others_moved": 0.06}, [("others_moved", "soft", 0.06)]),
-        ({"others_moved": 0.6}, [("others_moved", "hard", 0.6)]),
-        ({"finite": False}, [("not_finite", "hard", None)]),
-        ({"energy": 3.0, "energy_height": 0.3}, [("energy_grows", "hard", 3.0)]),
-        ({"energy": 3.0, "energy_height": 0.06}, [("energy_grows", "soft", 3.0)]),
+        ({"reached": 0.5}, [("jammed", "error", 0.5)]),
+        ({"returned": 0.2}, [("not_returned", "error", 0.2)]),
+        ({"overshoot": 0.009}, [("limit_overshoot", "warning", 0.03)]),
+        ({"overshoot": 0.09}, [("limit_overshoot", "error", 0.3)]),
+        ({"others_moved": 0.06}, [("others_moved", "warning", 0.06)]),
+        ({"others_moved": 0.6}, [("others_moved", "error", 0.6)]),
+        ({"finite": False}, [("not_finite", "error", None)]),
+        ({"energy": 3.0, "energy_height": 0.3}, [("energy_grows", "error", 3.0)]),
+        ({"energy": 3.0, "energy_height": 0.06}, [("energy_grows", "warning", 3.0)]),
         ({"energy": 3.0, "energy_height": 0.04}, []),
         ({"energy": 0.009, "energy_height": 9.0}, []),
     ],
@@ -313,7 +311,7 @@ def test_each_fault_of_a_motion_is_named_with_its_number(changes, expected):
     assert [(f.code, str(f.severity), f.value) for f in findings] == expected
 
 
-@pytest.mark.parametrize(("share", "expected"), [(0.01, []), (0.05, ["soft"]), (0.5, ["hard"])])
+@pytest.mark.parametrize(("share", "expected"), [(0.01, []), (0.05, ["warning"]), (0.5, ["error"])])
 def test_parts_that_push_each_other_at_rest_are_named(share, expected):
     observation = Observation(
         LoadedModel((), (), ()), rest=(RestMotion("j", 0.3 * share, share, finite=True),)
@@ -348,14 +346,14 @@ def test_only_what_weight_moves_is_said_to_open_by_its_weight(pushed, expected):
         fall=Fall((FallMotion("j", 0.12, 0.4), FallMotion("k", 0.01, 0.04))),
     )
     findings = check_motion(nothing(), "engine", observation, CheckConfig()).findings
-    assert [(f.code, str(f.severity)) for f in findings] == [(code, "soft") for code in expected]
+    assert [(f.code, str(f.severity)) for f in findings] == [(code, "warning") for code in expected]
     assert all("'door' and 'shelf'" in f.message for f in findings if f.code == "pushed_at_rest")
 
 
 def test_a_fall_to_infinity_is_hard():
     observation = Observation(LoadedModel((), (), ()), fall=Fall(finite=False))
     (finding,) = check_motion(nothing(), "engine", observation, CheckConfig()).findings
-    assert (finding.code, str(finding.severity)) == ("not_finite", "hard")
+    assert (finding.code, str(finding.severity)) == ("not_finite", "error")
 
 
 def nothing():

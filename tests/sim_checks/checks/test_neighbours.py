@@ -34,7 +34,7 @@ def test_what_a_spread_of_poses_steps_over_is_found_where_it_is():
     (found,) = result.findings
     assert (found.code, found.severity, set(found.parts)) == (
         "combination_penetration",
-        Severity.SOFT,
+        Severity.WARNING,
         {"needle", "plate"},
     )
     assert "across" in found.message

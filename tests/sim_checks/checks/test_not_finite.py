@@ -32,7 +32,7 @@ def judge():
 )
 def test_a_number_that_is_none_is_a_verdict(tmp_path, judge, old, new, code):
     report = judge.check(write_urdf(tmp_path, replace={old: new}), ENGINES)
-    assert report.hard[0].code == code
+    assert report.errors[0].code == code
     assert report.status is not Status.UNJUDGED
     assert code in report.to_json()
 

@@ -19,7 +19,7 @@ def check(description):
 
 
 def hard(result):
-    return [finding for finding in result.findings if finding.severity is Severity.HARD]
+    return [finding for finding in result.findings if finding.severity is Severity.ERROR]
 
 
 def codes(result):

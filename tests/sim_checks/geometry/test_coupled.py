@@ -1,7 +1,5 @@
 """Followers move with their leaders and never alone; all that they meet on the way is found."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import pairwise
 
@@ -51,7 +49,7 @@ def checked(description):
 def test_coupled_doors_that_meet_on_their_way_are_caught_where_geometry_says():
     """At angle a, the far edges pass the middle by w |cos a| - g/2 and more: worst when shut."""
     findings, measured = checked(doors(0.51, mimic=Mimic("lead")))
-    assert findings == [("sweep_penetration", "hard", "lead")]
+    assert findings == [("sweep_penetration", "error", "lead")]
     (sweep,) = measured["joints"]
     (pair,) = sweep["pairs"]
     assert pair["depth_mm"] == pytest.approx(20.0, rel=0.02)
@@ -87,7 +85,7 @@ def test_a_follower_that_runs_ahead_at_rest_stands_where_its_leader_puts_it():
         "base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1)), ((-0.08, 0.0, 0.0), (0.04, 0.04, 0.4))]
     )
     findings, _ = checked(replace(turned, links=(post, *turned.links[1:])))
-    assert ("rest_penetration", "hard", None) in findings
+    assert ("rest_penetration", "error", None) in findings
 
 
 def test_two_slides_that_follow_one_another_are_measured_exactly():
@@ -103,7 +101,7 @@ def test_two_slides_that_follow_one_another_are_measured_exactly():
         ),
     ]
     findings, measured = checked(described([base, left, right], lines))
-    assert findings == [("sweep_penetration", "hard", "a")]
+    assert findings == [("sweep_penetration", "error", "a")]
     assert measured["joints"][0]["pairs"][0]["depth_mm"] == pytest.approx(10.0, rel=0.02)
 
 
@@ -122,7 +120,7 @@ def test_a_coupled_drawer_needs_a_door_that_opens_alone():
         ),
     ]
     findings, measured = checked(described([base, door, tray, twin], lines))
-    assert findings == [("joint_dependency", "soft", "lead")]
+    assert findings == [("joint_dependency", "warning", "lead")]
     assert {item["joint"]: item["needs_open"] for item in measured["joints"]} == {
         "door_slide": [],
         "lead": ["door_slide"],

@@ -93,7 +93,7 @@ def judged(path, engine):
 
 
 def hard(findings):
-    return {finding.code for finding in findings if finding.severity is Severity.HARD}
+    return {finding.code for finding in findings if finding.severity is Severity.ERROR}
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -140,7 +140,7 @@ def test_only_sapien_couples_two_doors_of_one_carcass_the_wrong_way_round(tmp_pa
     findings, _ = judged(coupled(tmp_path, mimic, drawer=False), engine)
     wrong = [f for f in findings if f.code == "mimic_mismatch"]
     assert [(f.joint, f.severity) for f in wrong] == (
-        [("led", Severity.HARD)] if engine == "sapien" else []
+        [("led", Severity.ERROR)] if engine == "sapien" else []
     )
     assert hard(findings) <= {"mimic_mismatch"}
 

@@ -152,5 +152,5 @@ def test_the_judge_says_of_usd_what_it_says_of_the_same_urdf(tmp_path):
     assert usd.status is urdf.status is Status.PASSED
     told = [(finding.code, finding.parts) for finding in usd.findings[1:]]
     assert told == [(finding.code, finding.parts) for finding in urdf.findings]
-    assert broken.hard[0].code == "unreadable"
+    assert broken.errors[0].code == "unreadable"
     assert replace(broken, findings=()).description == "asset.usda"

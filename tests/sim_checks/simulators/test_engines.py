@@ -103,7 +103,7 @@ def test_swapped_limits_are_lost_and_said_to_be(tmp_path, engine):
     swapped = {'lower="0" upper="0.3"': 'lower="0.3" upper="0"'}
     result = judge(write_urdf(tmp_path, replace=swapped), engine)
     assert codes(result).count("limit_mismatch") == 2
-    assert engine == "pybullet" or "not_driven" in codes(result, Severity.SOFT)
+    assert engine == "pybullet" or "not_driven" in codes(result, Severity.NOTE)
 
 
 @of_engines("mujoco")

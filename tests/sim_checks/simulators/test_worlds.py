@@ -144,7 +144,7 @@ def test_an_arm_opens_by_its_weight_and_neither_rests_nor_falls_with_made_up_ene
 @pytest.mark.parametrize("engine", ENGINES)
 def test_what_hangs_on_its_stop_does_not_open_by_itself(tmp_path, engine):
     result = judged(write_lid(tmp_path), engine)
-    assert "opens_by_itself" not in codes(result, Severity.SOFT)
+    assert "opens_by_itself" not in codes(result, Severity.WARNING)
     # 20 kg, 0.3 m from the hinge.
     assert moved(result, "hinge")["weight_closed"] == pytest.approx(20 * 9.81 * 0.3, rel=1e-4)
     assert abs(moved(result, "hinge")["weight_open"]) < 2.0
@@ -205,7 +205,7 @@ def test_siblings_that_lie_in_one_another_push_and_are_named(tmp_path, engine):
 
 # The others never let a link touch the one that it is jointed to.
 @pytest.mark.parametrize("engine", ENGINES[1:3])
-@pytest.mark.parametrize(("depth", "expected"), [(0.02, []), (0.07, ["soft"]), (0.2, ["hard"])])
+@pytest.mark.parametrize(("depth", "expected"), [(0.02, []), (0.07, ["warning"]), (0.2, ["error"])])
 def test_a_part_shot_out_of_another_made_energy_from_nowhere(tmp_path, engine, depth, expected):
     cube = (0.8, 0.8, 0.8)
     slide = (
@@ -319,5 +319,5 @@ def chain(links):
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_joint_of_a_chain_is_driven_without_shaking_the_others(tmp_path, engine):
     result = judged(written(tmp_path, chain(10)), engine)
-    assert [finding for finding in result.findings if finding.severity is Severity.HARD] == []
+    assert [finding for finding in result.findings if finding.severity is Severity.ERROR] == []
     assert max(row["others_moved"] for row in result.measurements["joints"]) < 0.01

@@ -203,10 +203,10 @@ def test_findings_lead_to_the_pose_in_which_they_show(registry):
     places = Places(scene, measured)
     fault = places.of(HIT)
     assert (fault.values, fault.point) == ({"hinge": 0.8}, POINT)
-    jammed = Finding("jammed", Severity.HARD, "x", joint="slide", value=0.1, unit="m")
+    jammed = Finding("jammed", Severity.ERROR, "x", joint="slide", value=0.1, unit="m")
     found = places.of(jammed)
     assert found.values == {"slide": 0.1}
-    assert places.of(Finding("no_mass", Severity.HARD, "x")) is None
+    assert places.of(Finding("no_mass", Severity.ERROR, "x")) is None
     assert places.clearance() == -4.2
     assert Places(scene, {"asset.urdf": {"penetration": {"from": "elsewhere"}}}).sweeps() == {}
 

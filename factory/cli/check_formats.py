@@ -1,0 +1,212 @@
+"""Reports of ``factory check`` in the forms that other tools read."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree as ET
+
+import asset_factory
+from asset_factory.sim_checks import Finding, Report, Severity, Status
+from asset_factory.sim_checks.grouping import group_findings
+
+from ..reasons import TABLES
+from ..runtime.terminal import one_line, printable
+
+#: Where each code is explained, in the project's documentation.
+PAGE = "docs/reasons.md"
+SARIF = "https://json.schemastore.org/sarif-2.1.0.json"
+Checked = Sequence[tuple[str, Report]]
+
+
+def page_of(code: str) -> str:
+    """Return where a code is explained."""
+    return f"{PAGE}#{code}"
+
+
+def meaning_of(code: str) -> str:
+    """Return what a code means; empty for one that is not known."""
+    return next((codes[code] for codes in TABLES.values() if code in codes), "")
+
+
+def as_sarif(checked: Checked) -> str:
+    """Return SARIF 2.1.0, which code hosts show beside the lines: one result for each finding."""
+    codes = sorted({each.code for _, report in checked for each in report.findings})
+    rules = [
+        {
+            "id": code,
+            "shortDescription": {"text": meaning_of(code) or code},
+            "help": {"text": page_of(code), "markdown": f"[{code}]({page_of(code)})"},
+        }
+        for code in codes
+    ]
+    results = []
+    for file, report in checked:
+        lines = _lines(file)
+        results += [_sarif_result(file, each, lines) for each in report.findings]
+    driver = {"name": "factory check", "version": asset_factory.__version__, "rules": rules}
+    run = {"tool": {"driver": driver}, "columnKind": "utf16CodeUnits", "results": results}
+    return json.dumps({"$schema": SARIF, "version": "2.1.0", "runs": [run]}, indent=2)
+
+
+def _sarif_result(file: str, finding: Finding, lines: Sequence[str]) -> dict[str, Any]:
+    place = {
+        "physicalLocation": {
+            "artifactLocation": {"uri": _uri(file)},
+            "region": {"startLine": _line(finding, lines)},
+        },
+        "logicalLocations": [{"name": name, "kind": "member"} for name in _names(finding)],
+    }
+    known_by = "/".join((finding.code, finding.simulator or "", *sorted(_names(finding))))
+    return {
+        "ruleId": finding.code,
+        "level": str(finding.severity),
+        "message": {"text": _told(finding)},
+        "locations": [place],
+        "partialFingerprints": {"place/v1": known_by},
+    }
+
+
+def as_junit(checked: Checked) -> str:
+    """Return JUnit's XML: a suite for each file, a case for each code; warnings are its output."""
+    root = ET.Element("testsuites", name="factory check")
+    for file, report in checked:
+        suite = ET.SubElement(root, "testsuite", name=printable(file))
+        groups = group_findings(report.findings)
+        failed = 0
+        for group in groups:
+            case = ET.SubElement(suite, "testcase", classname=printable(file), name=group[0].code)
+            text = printable("\n".join(_told(each) for each in group))
+            if group[0].severity is Severity.ERROR:
+                failed += 1
+                failure = ET.SubElement(case, "failure", message=one_line(_told(group[0])))
+                failure.text = f"{text}\n{page_of(group[0].code)}"
+            else:
+                ET.SubElement(case, "system-out").text = text
+        if not failed:
+            ET.SubElement(suite, "testcase", classname=printable(file), name="passed")
+        suite.set("tests", str(len(suite)))
+        suite.set("failures", str(failed))
+    ET.indent(root)
+    return ET.tostring(root, encoding="unicode", xml_declaration=True)
+
+
+def as_markdown(checked: Checked) -> str:
+    """Return a table for each file that has findings, and the totals."""
+    lines = [f"**{total(checked)}**"]
+    for file, report in checked:
+        lines += ["", f"### {report.status}: {_cell(file)}", ""]
+        if report.findings:
+            lines += ["| | code | times | the worst |", "|---|---|---|---|"]
+        for group in group_findings(report.findings):
+            code = group[0].code
+            lines.append(
+                f"| {group[0].severity} | [{code}]({page_of(code)}) | {len(group)} "
+                f"| {_cell(_told(group[0]))} |"
+            )
+    return "\n".join(lines)
+
+
+def as_github(checked: Checked) -> str:
+    """Return workflow commands of GitHub: one annotation for each code of a file, errors first.
+
+    GitHub shows ten errors and ten warnings of a step.
+    """
+    words = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "notice"}
+    told = []
+    for file, report in checked:
+        lines = _lines(file)
+        for group in group_findings(report.findings):
+            worst = group[0]
+            many = f" ({len(group)} of them, the worst)" if len(group) > 1 else ""
+            place = f"file={_property(file)},line={_line(worst, lines)}"
+            text = _data(f"{_told(worst)}{many}; {page_of(worst.code)}")
+            title = f"title={_property(worst.code)}"
+            order = list(Severity).index(worst.severity)
+            told.append((order, f"::{words[worst.severity]} {place},{title}::{text}"))
+    return "\n".join(
+        [text for _, text in sorted(told, key=lambda each: each[0])] + [total(checked)]
+    )
+
+
+def total(checked: Checked, told: Sequence[Finding] | None = None) -> str:
+    """Return one line: how many files became what, and how many findings are told."""
+    statuses = [report.status for _, report in checked]
+    if told is None:
+        told = [each for _, report in checked for each in report.findings]
+    findings = [each.severity for each in told]
+    files = ", ".join(
+        (
+            f"{statuses.count(Status.PASSED)} passed",
+            f"{statuses.count(Status.REJECTED)} rejected",
+            f"{statuses.count(Status.UNJUDGED)} could not be validated",
+        )
+    )
+    found = ", ".join(_counted(findings.count(each), each) for each in Severity)
+    return f"{_counted(len(checked), 'file')}: {files}; {found}"
+
+
+def _counted(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def _told(finding: Finding) -> str:
+    where = f"[{finding.simulator}] " if finding.simulator else ""
+    return f"{where}{finding.message}"
+
+
+def _names(finding: Finding) -> tuple[str, ...]:
+    """Return the joints and links that a finding is about."""
+    joints = finding.joints or ((finding.joint,) if finding.joint else ())
+    return (*joints, *finding.parts)
+
+
+def _lines(file: str) -> tuple[str, ...]:
+    """Return the lines of a text file; of a binary one nothing that names are found in."""
+    return tuple(Path(file).read_text(encoding="utf-8", errors="replace").splitlines())
+
+
+def _line(finding: Finding, lines: Sequence[str]) -> int:
+    """Return the line that first names what a finding is about; 1 where none does."""
+    for name in _names(finding):
+        said = re.compile(rf"""\bname\s*=\s*["']{re.escape(name)}["']""")
+        found = next(_matching(said, lines), 0)
+        if found:
+            return found
+    return 1
+
+
+def _matching(said: re.Pattern[str], lines: Sequence[str]) -> Iterator[int]:
+    return (number for number, line in enumerate(lines, 1) if said.search(line))
+
+
+def _uri(file: str) -> str:
+    from urllib.parse import quote
+
+    return quote(file)
+
+
+def _data(text: str) -> str:
+    """Return a text as workflow commands escape it: a name in a file may hold another command."""
+    return printable(text).replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+
+
+def _property(text: str) -> str:
+    return _data(text).replace(":", "%3A").replace(",", "%2C")
+
+
+def _cell(text: str) -> str:
+    """Return a text as a table's cell: no markup, no line breaks."""
+    return re.sub(r"([\\`*_\[\]<>|#])", r"\\\1", one_line(text))
+
+
+#: How reports may be printed at the end; ``text`` and ``json`` are the command's own.
+FORMATS: Mapping[str, Callable[[Checked], str]] = {
+    "sarif": as_sarif,
+    "junit": as_junit,
+    "markdown": as_markdown,
+    "github": as_github,
+}

@@ -1,0 +1,135 @@
+"""Does what a joint moves come near what carries it, anywhere on its way?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from ..config import LintConfig
+from ..description import Description, FloatArray, IntArray, JointLine
+from ..geometry.collision import Skin
+from ..geometry.kinematics import build_tree, joint_motion, sweep_range
+from .lint_ranges import box_gap, closed_poses
+from .result import CheckResult, error
+
+#: Poses along a joint that are asked, both ends among them.
+POSES = 9
+
+
+def check_attachment(description: Description, config: LintConfig) -> CheckResult:
+    """Find moving parts that no pose brings within a finger's width of what carries them.
+
+    Args:
+        description: as read; its links form one tree.
+        config: how wide a finger is.
+    """
+    surfaces = _Surfaces(description)
+    findings = []
+    for joint in surfaces.tree.moving:
+        gap = surfaces.smallest_gap(joint, config.finger_m)
+        if gap <= config.finger_m:
+            continue
+        message = (
+            f"what joint {joint.name!r} moves stays {1000 * gap:.1f} mm away from what carries it, "
+            f"{joint.parent!r}, in every pose; want at most {1000 * config.finger_m:g} mm somewhere"
+        )
+        findings.append(
+            error(
+                "part_detached",
+                message,
+                joint=joint.name,
+                parts=(joint.parent, joint.child),
+                value=round(1000 * gap, 4),
+                unit="mm",
+                limit=1000 * config.finger_m,
+            )
+        )
+    return CheckResult(tuple(findings))
+
+
+class _Surfaces:
+    """The triangles of links, with every joint at lower, in the root's frame."""
+
+    def __init__(self, description: Description) -> None:
+        self.tree = build_tree(description)
+        self._poses = closed_poses(self.tree)
+        self._links = {link.name: link for link in description.links}
+        self._part_of = self.tree.part_of()
+        self._joint_above = {joint.child: joint for joint in self.tree.order}
+        self._still: dict[tuple[int, bool], tuple[FloatArray, Skin] | None] = {}
+
+    def smallest_gap(self, joint: JointLine, enough: float) -> float:
+        """Return the smallest gap along a joint's way [m], or the first that is ``enough``.
+
+        0 where there is nothing to measure. What can be touched is asked first: visible meshes may
+        be large.
+        """
+        part = self._carrier(joint)
+        limits = sweep_range(joint)
+        smallest = np.inf
+        if part is None or limits is None:
+            return 0.0
+        for visible in (False, True):
+            moved = self._triangles(sorted(self.tree.below(joint)), visible=visible)
+            still = self._ready(part, visible=visible)
+            if moved is None or still is None:
+                continue
+            for vertices in self._along(joint, limits, moved[0]):
+                gap = box_gap(vertices, still[0])
+                if gap <= enough:
+                    gap = Skin(vertices, moved[1]).distance(still[1])
+                smallest = min(smallest, gap)
+                if smallest <= enough:
+                    return smallest
+        return float(smallest) if np.isfinite(smallest) else 0.0
+
+    def _carrier(self, joint: JointLine) -> int | None:
+        """Return the part that a joint hangs on: its parent's, or the next above with shapes."""
+        link = joint.parent
+        while True:
+            part = self._part_of[link]
+            names = self.tree.parts[part]
+            if any(self._links[name].collisions or self._links[name].visuals for name in names):
+                return part
+            above = [self._joint_above[name] for name in names if name in self._joint_above]
+            outer = [each.parent for each in above if self._part_of[each.parent] != part]
+            if not outer:
+                return None
+            link = outer[0]
+
+    def _ready(self, part: int, *, visible: bool) -> tuple[FloatArray, Skin] | None:
+        """Return a part's corners and its triangles held ready; ``None`` where it has none."""
+        if (part, visible) not in self._still:
+            found = self._triangles(self.tree.parts[part], visible=visible)
+            ready = None if found is None else (found[0], Skin(*found))
+            self._still[part, visible] = ready
+        return self._still[part, visible]
+
+    def _triangles(
+        self, names: Sequence[str], *, visible: bool
+    ) -> tuple[FloatArray, IntArray] | None:
+        """Return corners [m] and faces of links' visible or collision shapes; ``None`` if none."""
+        vertices = []
+        faces = []
+        count = 0
+        for name in names:
+            link = self._links[name]
+            pose = self._poses[name]
+            for shape in link.visuals if visible else link.collisions:
+                vertices.append(shape.vertices @ pose[:3, :3].T + pose[:3, 3])
+                faces.append(shape.faces + count)
+                count += len(shape.vertices)
+        if not any(map(len, faces)):
+            return None
+        return np.vstack(vertices), np.vstack(faces)
+
+    def _along(
+        self, joint: JointLine, limits: tuple[float, float], vertices: FloatArray
+    ) -> Iterator[FloatArray]:
+        """Yield points that a joint moves, given at lower, at poses along its range."""
+        frame = self._poses[joint.parent] @ joint.origin
+        start = np.linalg.inv(self._poses[joint.child])
+        for value in np.linspace(*limits, POSES):
+            pose = frame @ joint_motion(joint, float(value)) @ start
+            yield vertices @ pose[:3, :3].T + pose[:3, 3]

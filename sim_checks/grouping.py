@@ -1,0 +1,92 @@
+"""Findings as somebody reads them: by code, the gravest first, each told once of an asset."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Hashable, Sequence
+from dataclasses import replace
+
+from .measurements import penetrations
+from .report import Finding, Report, Severity
+
+#: Digits that figures of one asset share, whichever of its files they were taken from.
+DIGITS = 3
+
+
+def group_findings(findings: Sequence[Finding]) -> tuple[tuple[Finding, ...], ...]:
+    """Return findings by severity and code, errors first, the worst figure of each group first."""
+    groups: dict[tuple[Severity, str], list[Finding]] = {}
+    for finding in findings:
+        groups.setdefault((finding.severity, finding.code), []).append(finding)
+    order = list(Severity)
+    return tuple(
+        tuple(sorted(group, key=_excess, reverse=True))
+        for (severity, _), group in sorted(groups.items(), key=lambda each: order.index(each[0][0]))
+    )
+
+
+def _excess(finding: Finding) -> float:
+    """Return how far a figure is beyond its limit, as the logarithm of their ratio."""
+    value = abs(finding.value or 0.0)
+    limit = abs(finding.limit or 0.0)
+    if value > 0.0 and limit > 0.0:
+        return abs(math.log(value / limit))
+    return math.inf if limit > 0.0 and finding.value is not None else value
+
+
+def told_once(finding: Finding) -> Hashable:
+    """Return what the same finding shares in every file that describes one asset.
+
+    Shapes have other names in an MJCF, and a pair may come the other way round.
+    """
+    places = finding.parts or finding.joints or (finding.joint,)
+    value = None if finding.value is None else f"{finding.value:.{DIGITS}g}"
+    said = finding.message if places == (None,) and value is None else ""
+    return finding.code, finding.severity, finding.simulator, frozenset(places), value, said
+
+
+def described(report: Report) -> Hashable:
+    """Return the joints, their ranges and the links with shapes; ``None`` where that is unknown.
+
+    Files of one asset share it: what was measured of one of them holds for the others.
+    """
+    measured = penetrations({"": report.measurements})
+    if not measured:
+        return None
+    links = report.measurements["lint"]["links"]
+    return (
+        tuple(
+            sorted(
+                (joint.joint, joint.unit, f"{joint.lower:.{DIGITS}g}", f"{joint.upper:.{DIGITS}g}")
+                for joint in measured[0].joints
+            )
+        ),
+        frozenset(
+            link["link"] for link in links if link["collision_shapes"] or link["visual_shapes"]
+        ),
+    )
+
+
+def excuse_unread(report: Report, beside: Collection[Report]) -> Report:
+    """Return a report without its ``not_simulated`` where a file beside it was simulated instead.
+
+    An engine that does not read a format by nature says nothing of the asset, if it drove another
+    file that has the same joints, ranges and links.
+
+    Args:
+        report: of one file.
+        beside: of the other files in its folder.
+    """
+    asset = described(report)
+    driven = [each for each in beside if each.simulators and described(each) == asset]
+    if asset is None or not driven:
+        return report
+    message = (
+        f"no engine asked loads this format; {driven[0].description}, which has the same joints, "
+        f"ranges and links, was driven in {', '.join(driven[0].simulators)}"
+    )
+    note = Finding("simulated_beside", Severity.NOTE, message)
+    return replace(
+        report,
+        findings=tuple(note if each.code == "not_simulated" else each for each in report.findings),
+    )

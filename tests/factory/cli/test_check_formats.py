@@ -1,0 +1,106 @@
+"""Reports in the forms that other tools read: each holds every finding, and none breaks out."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import defusedxml.ElementTree
+import jsonschema
+import pytest
+from test_check_command import write
+
+import asset_factory
+from asset_factory.factory.cli.check_formats import FORMATS, as_github, page_of
+from asset_factory.factory.cli.commands import run
+from asset_factory.sim_checks import Finding, Report, Severity
+
+DOCS = Path(__file__).resolve().parents[3] / "docs"
+HOSTILE = "a|b::error::%\n</failure>]]>\x1b\x00 `<b>`"
+
+
+@pytest.fixture
+def checked(tmp_path: Path) -> list[tuple[str, Report]]:
+    path = write(tmp_path / "asset.urdf", -0.004)
+    found = (
+        Finding("friction_ignored", Severity.NOTE, "note", "sapien", joints=("slide",)),
+        Finding(
+            "oblong_hull", Severity.WARNING, HOSTILE, parts=("drawer",), value=99.0, limit=64.0
+        ),
+        Finding("jammed", Severity.ERROR, "stuck", "mujoco", "slide", value=0.5, limit=0.95),
+        Finding("jammed", Severity.ERROR, "worse", "sapien", "slide", value=0.1, limit=0.95),
+    )
+    return [(str(path), Report("asset.urdf", ("sapien",), found))]
+
+
+def test_sarif_names_code_level_file_and_line(checked: list[tuple[str, Report]]) -> None:
+    (sarif,) = json.loads(FORMATS["sarif"](checked))["runs"]
+    assert [each["level"] for each in sarif["results"]] == ["note", "warning", "error", "error"]
+    assert {each["id"] for each in sarif["tool"]["driver"]["rules"]} == {
+        "friction_ignored", "oblong_hull", "jammed",
+    }  # fmt: skip
+    prints = [each["partialFingerprints"]["place/v1"] for each in sarif["results"]]
+    assert len(set(prints)) == 4
+    Path(checked[0][0]).write_text('<robot>\n<link name="drawer"/>\n<joint name="slide"/></robot>')
+    (sarif,) = json.loads(FORMATS["sarif"](checked))["runs"]
+    places = [each["locations"][0]["physicalLocation"] for each in sarif["results"]]
+    assert [each["region"]["startLine"] for each in places] == [3, 2, 3, 3]
+
+
+def test_junit_fails_by_code(checked: list[tuple[str, Report]]) -> None:
+    (suite,) = defusedxml.ElementTree.fromstring(FORMATS["junit"](checked).encode())
+    assert (suite.get("tests"), suite.get("failures")) == ("3", "1")
+    failed = [case.get("name") for case in suite if case.find("failure") is not None]
+    assert failed == ["jammed"]
+    assert "stuck" in suite[0].find("failure").text
+    clean = [(checked[0][0], Report("asset.urdf"))]
+    (suite,) = defusedxml.ElementTree.fromstring(FORMATS["junit"](clean).encode())
+    assert (suite.get("tests"), suite.get("failures")) == ("1", "0")
+
+
+def test_github_has_errors_first_and_no_command_of_a_stranger(
+    checked: list[tuple[str, Report]],
+) -> None:
+    *lines, total = as_github(checked).splitlines()
+    assert [line.split(" ")[0] for line in lines] == ["::error", "::warning", "::notice"]
+    assert "worse (2 of them, the worst)" in lines[0]
+    assert page_of("jammed") in lines[0]
+    assert "1 file: 0 passed, 1 rejected" in total
+
+
+def test_markdown_is_a_table_that_nobody_breaks(checked: list[tuple[str, Report]]) -> None:
+    rows = [line for line in FORMATS["markdown"](checked).splitlines() if line.startswith("| ")]
+    assert len(rows) == 4
+    assert all(row.replace("\\|", "").count("|") == 5 for row in rows)
+    assert "<b>" not in "".join(rows).replace("\\<", "")
+
+
+def test_every_format_is_printed_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = write(tmp_path / "asset.urdf", -0.004)
+    for form in FORMATS:
+        assert run(["check", str(path), "--sim", "", "--strict", "--format", form]) == 1
+        out = capsys.readouterr().out
+        assert "rest_penetration" in out
+        assert not out.startswith("rejected")
+    assert run(["check", str(path), "--sim", "", "--format", "json"]) == 0
+    assert json.loads(capsys.readouterr().out)["passed"] is False
+
+
+def test_reports_keep_to_their_schema_and_codes_have_their_place(tmp_path: Path) -> None:
+    schema = json.loads((DOCS / "report.schema.json").read_text())
+    validator = jsonschema.Draft202012Validator(schema)
+    validator.check_schema(schema)
+    report = asset_factory.check(write(tmp_path / "asset.urdf", -0.004), simulators=())
+    data = json.loads(report.to_json())
+    validator.validate(data)
+    assert Report.from_dict(data) == report
+    for wrong in ({**data, "version": 1}, {**data, "passed": "no"}):
+        assert not validator.is_valid(wrong)
+    for key, value in (("extra", 1), ("severity", "hard")):
+        changed = {**data, "findings": [{**data["findings"][0], key: value}]}
+        assert not validator.is_valid(changed)
+    data["findings"][0]["severity"] = "hard"
+    assert not validator.is_valid(data)
+    assert Report.from_dict(data).findings[0].severity is Severity.ERROR
+    page = (DOCS / "reasons.md").read_text()
+    assert all(f'id="{each.code}"' in page for each in report.findings)
