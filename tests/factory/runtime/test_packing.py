@@ -1,5 +1,7 @@
 """What is packed comes back equal, and what was not packed is refused."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
