@@ -15,8 +15,6 @@ so: ``gym.make("asset_factory.envs:OpenJoint-v1", registry=DIR)``. ManiSkill, SA
 imported by the first ``gym.make``. ``docs/maniskill.md`` tells the rest.
 """
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import Any
 

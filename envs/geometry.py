@@ -1,7 +1,5 @@
 """Where an asset's links and hulls are at given joint values: plain arrays, no simulator."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path

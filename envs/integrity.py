@@ -1,7 +1,5 @@
 """Whether an asset's files are still those that were validated."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from asset_factory.factory.errors import RegistryError

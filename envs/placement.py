@@ -1,7 +1,5 @@
 """Where the robot stands and where the cameras are: plain geometry, no simulator."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 

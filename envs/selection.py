@@ -1,7 +1,5 @@
 """The assets and joints of a registry that a task is about; errors that name the alternatives."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The target joint of each parallel environment as tensors: set per episode, read without loops."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """An articulation with everything a simulator needs: hulls, inertias, handles."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """The pipeline, in order: one input in, one registry entry out."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

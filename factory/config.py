@@ -1,7 +1,5 @@
 """One frozen configuration per stage; defaults are here, presets in ``configs/`` override them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 from asset_factory.sim_checks.config import LIMIT, CheckConfig

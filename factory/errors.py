@@ -16,8 +16,6 @@
 A bad asset is data and ends in a report; every other exception is a broken program.
 """
 
-from __future__ import annotations
-
 from enum import IntEnum
 
 from asset_factory.sim_checks import Finding

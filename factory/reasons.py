@@ -3,8 +3,6 @@
 What the judge may say is in :mod:`asset_factory.sim_checks.reasons`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from asset_factory.sim_checks import reasons as judge

@@ -1,7 +1,5 @@
 """Every threshold of the checks, with its unit and the reason for its default."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """What a URDF or MJCF file says, before any simulator has had a chance to drop some of it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path

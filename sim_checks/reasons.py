@@ -1,7 +1,5 @@
 """Every code that the judge may say, and what it means; ``docs/reasons.md`` is made from this."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 #: The description could not be read, so nothing else was asked.

@@ -1,7 +1,5 @@
 """Validate one file: one call of :class:`~asset_factory.sim_checks.judge.Judge`."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 ``docs/demonstrations.md`` describes how they are made.
 """
 
-from __future__ import annotations
-
 from .episodes import VERSION, Episode, Settings, Shard, Taken
 
 __all__ = ["VERSION", "Episode", "Settings", "Shard", "Taken"]

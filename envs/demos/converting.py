@@ -1,7 +1,5 @@
 """Actions of ``pd_joint_pos`` as actions of another control mode that take a robot the same way."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

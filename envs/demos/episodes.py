@@ -1,7 +1,5 @@
 """Which episodes are demonstrated, in which shard each belongs, and what came of one."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version

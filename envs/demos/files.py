@@ -5,8 +5,6 @@ an ``.h5`` that can be seen is complete, and its JSON is there. A shard without 
 ``.h5``.
 """
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Sequence

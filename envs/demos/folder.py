@@ -1,7 +1,5 @@
 """A folder of demonstrations: one run at a time, of one kind, with every episode in one file."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress

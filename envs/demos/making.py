@@ -1,7 +1,5 @@
 """Making shards: what is missing, in processes that may die, and nothing twice."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path

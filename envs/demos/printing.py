@@ -1,7 +1,5 @@
 """What ``factory demos`` shows and sums up."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import asdict

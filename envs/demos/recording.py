@@ -1,7 +1,5 @@
 """One episode: solved, then acted again before ManiSkill's recorder, in a process that may die."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any

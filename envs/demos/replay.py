@@ -8,8 +8,6 @@ unless pictures are wanted, tasks are found in files that the tool itself wrote,
 pd_ee_...`` works for a robot that does not look along x.
 """
 
-from __future__ import annotations
-
 import multiprocessing
 import sys
 from collections.abc import Iterator, Sequence

@@ -3,8 +3,6 @@
 ``docs/solving.md`` describes how.
 """
 
-from __future__ import annotations
-
 from .attempt import REASONS, Attempt
 from .solve import make_episodes, replay, solve_joint
 

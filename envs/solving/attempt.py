@@ -1,7 +1,5 @@
 """What came of trying to open a joint."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Acting: what is planned becomes actions of the environment, and what came of them is watched."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any

@@ -1,7 +1,5 @@
 """A solved episode as a video."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

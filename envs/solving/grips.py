@@ -1,7 +1,5 @@
 """Hand poses to open a joint: closed around a target, or with the fingers behind a surface."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product

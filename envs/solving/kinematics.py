@@ -1,7 +1,5 @@
 """A robot's link tree as arrays: many poses at once, and joint values for many hand poses."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """From a grip to joint values: take hold, and go along with the joint as far as the arm can."""
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """What ``factory solve`` shows."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The robots' hands, and what an action of each says in ``pd_joint_pos``."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

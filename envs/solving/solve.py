@@ -1,7 +1,5 @@
 """Whether a robot opens a joint: scripted episodes of ``OpenJoint-v1`` until one is solved."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What a robot does in one episode: the best grip first, another one where that loses the joint."""
 
-from __future__ import annotations
-
 from collections.abc import Set
 from dataclasses import dataclass
 

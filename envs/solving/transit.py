@@ -1,7 +1,5 @@
 """Free motion of the arm: a straight line in joint space, or RRT-Connect if that is blocked."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..assets import FloatArray

@@ -1,7 +1,5 @@
 """An episode as a planner sees it, without the simulator: robot, object and target joint."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Arguments of ``gym.make`` or a command, checked before anything loads: one clear error each."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from asset_factory.factory.errors import ConfigError

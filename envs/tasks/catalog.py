@@ -1,7 +1,5 @@
 """The tasks there are, in one list, and how gymnasium and ManiSkill come to know them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

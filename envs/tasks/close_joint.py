@@ -1,7 +1,5 @@
 """``CloseJoint-v1``: close one joint of an asset from a registry that stands open."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import torch  # noqa: TID253 - this module is only imported to make an environment

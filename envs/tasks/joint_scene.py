@@ -1,7 +1,5 @@
 """The scene of every task: the assets of a registry, a robot before each, and its builders."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar

@@ -1,7 +1,5 @@
 """What all tasks share: an episode, its state, what is seen of it and what it is worth."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import sapien  # noqa: TID253 - this module is only imported to make an environment

@@ -1,7 +1,5 @@
 """``OpenDoor-v1``: open one hinged part of an asset from a registry."""
 
-from __future__ import annotations
-
 from .catalog import known_to_maniskill
 from .open_joint import OpenJointEnv
 

@@ -1,7 +1,5 @@
 """``OpenDrawer-v1``: open one sliding part of an asset from a registry."""
 
-from __future__ import annotations
-
 from .catalog import known_to_maniskill
 from .open_joint import OpenJointEnv
 

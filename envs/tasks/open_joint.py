@@ -1,7 +1,5 @@
 """``OpenJoint-v1``: open one door, drawer, lid or knob of an asset from a registry."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import torch  # noqa: TID253 - this module is only imported to make an environment

@@ -1,7 +1,5 @@
 """Many environments on a CPU: one process each, since PhysX simulates one scene per process."""
 
-from __future__ import annotations
-
 from typing import Any
 
 

@@ -1,7 +1,5 @@
 """``SetJoint-v1``: bring one joint of an asset from a registry to a given opening."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import torch  # noqa: TID253 - this module is only imported to make an environment

@@ -1,7 +1,5 @@
 """The one interface behind which every articulation method stands."""
 
-from __future__ import annotations
-
 from typing import Protocol, runtime_checkable
 
 from ..articulation import Articulation

@@ -1,7 +1,5 @@
 """The articulators there are: one file each, one line here."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module

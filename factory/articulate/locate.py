@@ -1,7 +1,5 @@
 """What parts are that came without a word about it: their kind, and the panel that they close."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The articulator that asks the Part Articulation Transformer."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import partial
 

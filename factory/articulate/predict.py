@@ -1,7 +1,5 @@
 """One input's articulation alone, without making anything of it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """An articulation some of whose parts stay where they are."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 from types import MappingProxyType

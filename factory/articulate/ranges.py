@@ -1,7 +1,5 @@
 """Joint ranges made sound: limits finite and ordered, the input pose at zero, lower = closed."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

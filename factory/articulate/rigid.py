@@ -1,7 +1,5 @@
 """The articulator that moves nothing."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..articulation import Articulation, Part

@@ -1,7 +1,5 @@
 """Inputs that lie down as they are read: files that break glTF's rule that y is up, and others."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from ..articulation import Articulation, Part

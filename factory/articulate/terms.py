@@ -1,7 +1,5 @@
 """License terms that trained weights put on what they help to make."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Fewer parts: what does not move is one part, and what carries nothing is none."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

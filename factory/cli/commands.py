@@ -1,7 +1,5 @@
 """The ``factory`` command: parse, call one function, leave with its exit code."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Callable, Sequence

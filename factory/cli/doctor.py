@@ -1,7 +1,5 @@
 """``factory doctor``: what works on this machine, and what to install for the rest."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import asdict, dataclass
 from pathlib import Path

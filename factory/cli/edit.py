@@ -1,7 +1,5 @@
 """``factory edit``: say on a page what opens, and build it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 

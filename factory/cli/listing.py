@@ -1,7 +1,5 @@
 """``factory list``: what a registry holds."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import asdict, dataclass, field
 

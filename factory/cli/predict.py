@@ -1,7 +1,5 @@
 """``factory predict``: what moves in one input."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass, field
 from pathlib import Path

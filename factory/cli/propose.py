@@ -1,7 +1,5 @@
 """``factory propose``: what somebody is shown and told who says what opens."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -1,7 +1,5 @@
 """``factory list``, ``show`` and ``registry``: what a registry holds, keeps, exports, imports."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass

@@ -1,7 +1,5 @@
 """What people see of a registry's upkeep in a terminal."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 

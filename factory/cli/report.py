@@ -1,7 +1,5 @@
 """``factory report``: a registry as pages that people look at."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

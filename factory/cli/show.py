@@ -1,7 +1,5 @@
 """``factory show``: one asset, and what was said of it."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import asdict, dataclass
 

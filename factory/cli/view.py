@@ -1,7 +1,5 @@
 """``factory view``: one file of anybody's, in the viewer of the report."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

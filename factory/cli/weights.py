@@ -1,7 +1,5 @@
 """``factory weights``: what a checkpoint holds, and a safe form of it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated

@@ -1,7 +1,5 @@
 """Where the camera stands: in front of what opens, a little to the side and above."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

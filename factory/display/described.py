@@ -1,7 +1,5 @@
 """The scene of anybody's URDF or MJCF file, or of a mesh."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -6,8 +6,6 @@ One animation opens and closes every joint. What glTF has no word for, such as l
 ``extras``.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What every GLB is made of: the binary chunk, surfaces, materials, the container."""
 
-from __future__ import annotations
-
 import json
 import struct
 from typing import Any

@@ -1,7 +1,5 @@
 """The scene of an asset that was just made: nothing is read from files."""
 
-from __future__ import annotations
-
 import io
 from dataclasses import replace
 

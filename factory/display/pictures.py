@@ -1,7 +1,5 @@
 """The pictures of one asset: closed, open, its hulls, and moving."""
 
-from __future__ import annotations
-
 import colorsys
 import io
 from collections.abc import Mapping

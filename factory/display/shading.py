@@ -1,7 +1,5 @@
 """How what was met looks: plain daylight, darker in corners, with fine lines where shapes end."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """A contact sheet: many assets on one PNG, each with its name and its verdict."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Sequence
 from dataclasses import dataclass

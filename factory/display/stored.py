@@ -1,7 +1,5 @@
 """A scene read back from a GLB of :mod:`.glb`; of nobody else's."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator
 from dataclasses import replace

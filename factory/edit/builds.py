@@ -1,7 +1,5 @@
 """One build at a time, as a child process that can be killed."""
 
-from __future__ import annotations
-
 import json
 import os
 import signal

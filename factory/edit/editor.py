@@ -1,7 +1,5 @@
 """The page's own server: what is at each of its addresses, and nothing else."""
 
-from __future__ import annotations
-
 import json
 import secrets
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """What is known of an object's parts, as boxes on its sides: a first statement to correct."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

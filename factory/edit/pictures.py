@@ -1,7 +1,5 @@
 """The sides of a mesh as pictures to draw boxes on."""
 
-from __future__ import annotations
-
 import io
 from dataclasses import dataclass
 

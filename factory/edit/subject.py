@@ -1,7 +1,5 @@
 """What is edited: a mesh, where its sidecar goes, and the asset that was made of it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

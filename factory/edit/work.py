@@ -1,7 +1,5 @@
 """What is done with an edited mesh, in a child process: a file of anybody's may take any time."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path

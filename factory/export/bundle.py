@@ -1,7 +1,5 @@
 """Asset -> Bundle: one folder of URDF, MJCF, meshes, manifest; same bytes for the same asset."""
 
-from __future__ import annotations
-
 import shutil
 from dataclasses import dataclass, replace
 from pathlib import Path

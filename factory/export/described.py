@@ -1,7 +1,5 @@
 """Asset -> Manifest."""
 
-from __future__ import annotations
-
 from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Every format that an asset is written in, one file of this package each."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.util import find_spec

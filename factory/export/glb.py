@@ -4,8 +4,6 @@ Link nodes have the frames of the URDF, below one node that turns z up into glTF
 say what glTF has no word for. The first animation opens everything, then comes one for each joint.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """What all formats agree on: link names, frames, inertias and the drives' limits."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from pathlib import Path

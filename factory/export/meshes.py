@@ -1,7 +1,5 @@
 """Deterministic OBJ and MTL text for visual pieces and collision hulls."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 

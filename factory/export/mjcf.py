@@ -8,8 +8,6 @@ MuJoCo's joint friction is a soft constraint: what it should hold creeps in prop
 ``1 - solimpfriction``. :data:`FRICTION_IMPEDANCE` makes that as little as MuJoCo allows.
 """
 
-from __future__ import annotations
-
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 

@@ -1,7 +1,5 @@
 """What pages and pictures show of an asset, as one GLB file: its looks, its hulls, its joints."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from ..asset import Asset

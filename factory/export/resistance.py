@@ -30,8 +30,6 @@ coefficient on the joint's load. Measured on a level drawer of 2 kg, 0.05 holds 
 nothing to everything.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

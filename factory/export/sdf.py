@@ -4,8 +4,6 @@ Poses are written relative to the parent link, so that the text reads like the U
 collision mesh for convex only where it is told so.
 """
 
-from __future__ import annotations
-
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 

@@ -1,7 +1,5 @@
 """Numbers as text: short, and the same for the same value on every machine."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from xml.etree import ElementTree
 

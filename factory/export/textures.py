@@ -1,7 +1,5 @@
 """Textures as PNG files named by their content, so that two different images never share a name."""
 
-from __future__ import annotations
-
 import hashlib
 import io
 from pathlib import Path

@@ -10,8 +10,6 @@ An asset without any joint becomes a valid URDF of one link, which MuJoCo and Py
 takes it for a plain actor, not an articulation.
 """
 
-from __future__ import annotations
-
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 

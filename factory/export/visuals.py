@@ -1,7 +1,5 @@
 """What is seen: each part's faces, split into pieces of one material, handles apart."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path
 

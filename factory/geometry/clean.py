@@ -1,7 +1,5 @@
 """From a triangle soup to a mesh: bad faces dropped and counted, vertices welded by position."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

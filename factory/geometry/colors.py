@@ -1,7 +1,5 @@
 """Linear light and the numbers that screens and image files have for it (sRGB, IEC 61966-2-1)."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 

@@ -1,7 +1,5 @@
 """Which faces hang together: components robust to double-sided faces and touching boxes."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..mesh import IntArray, Mesh

@@ -1,7 +1,5 @@
 """Triangles cut along planes: into pieces that keep what their corners had."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

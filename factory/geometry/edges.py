@@ -1,7 +1,5 @@
 """Edges at which two faces meet, and what hangs together over links of any kind."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

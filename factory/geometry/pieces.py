@@ -5,8 +5,6 @@ the smoothed normals of two neighbours turn, and where the colour jumps. What is
 part goes on to the neighbour that it is parted from least.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

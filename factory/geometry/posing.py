@@ -1,7 +1,5 @@
 """The same object in another pose: joints opened or closed, or all turned about the vertical."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 

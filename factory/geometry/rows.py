@@ -1,7 +1,5 @@
 """Equal rows of a table."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 

@@ -1,7 +1,5 @@
 """What a format reader hands to cleaning: triangles as in the file, not welded nor dropped."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 

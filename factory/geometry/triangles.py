@@ -1,7 +1,5 @@
 """How large triangles are, which way they face, and how far they reach."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 

@@ -1,7 +1,5 @@
 """Parts made one with what they hang on."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 

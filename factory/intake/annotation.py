@@ -1,7 +1,5 @@
 """Parts and joints as somebody wrote them down, before they are made into a valid tree."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

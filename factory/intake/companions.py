@@ -1,7 +1,5 @@
 """Which files an input may be made of, told from names in its text: what to send along with it."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterator

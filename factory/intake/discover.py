@@ -1,7 +1,5 @@
 """Which files under the given paths are inputs."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """The files of one input: below one folder, within one budget, digested as they are read."""
 
-from __future__ import annotations
-
 import os
 import re
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """Textures: kept as they were encoded, re-encoded only where simulators could not read them."""
 
-from __future__ import annotations
-
 import io
 import warnings
 

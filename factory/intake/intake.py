@@ -1,7 +1,5 @@
 """What intake hands on: a mesh, and everything that was assumed or changed on the way."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Which inputs may be used: an input's license, against those that the configuration allows."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from fnmatch import fnmatchcase
 

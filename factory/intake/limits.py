@@ -1,7 +1,5 @@
 """Refusing what is too large before any memory is taken for it."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..errors import InputRejected

@@ -1,7 +1,5 @@
 """Input file -> Intake: a plain mesh, or a description whose parts and joints come with it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from asset_factory.sim_checks.read.usd.layers import SUFFIXES as USD_SUFFIXES

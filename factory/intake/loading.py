@@ -1,7 +1,5 @@
 """Any mesh file becomes an :class:`Intake` in metres, z up, or a rejection with a reason code."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Inputs behind URLs: copied beside the registry once, and again where they changed."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Iterator, Sequence

@@ -1,7 +1,5 @@
 """Safe names for assets, from the names of files."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

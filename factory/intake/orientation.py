@@ -1,7 +1,5 @@
 """Which way is up: rotations that turn a named axis to +Z."""
 
-from __future__ import annotations
-
 from types import MappingProxyType
 
 import numpy as np

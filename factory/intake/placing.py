@@ -1,7 +1,5 @@
 """Which way an input is turned and how large it is, as somebody says: an option, or a sidecar."""
 
-from __future__ import annotations
-
 from ..config import IntakeConfig
 from ..errors import ConfigError, InputRejected
 from ..mesh import FloatArray

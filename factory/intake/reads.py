@@ -1,7 +1,5 @@
 """Which files an input was made of: those read, and those looked for but missing."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 from collections.abc import Mapping

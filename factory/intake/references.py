@@ -1,7 +1,5 @@
 """What files and folders the text of a description names, found without parsing it."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterator

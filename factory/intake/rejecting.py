@@ -1,7 +1,5 @@
 """What a reader of descriptions refuses, as the rejection of an input."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path

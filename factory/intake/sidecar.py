@@ -1,7 +1,5 @@
 """What a user writes beside a mesh: ``chair.toml`` or ``chair.glb.toml`` next to ``chair.glb``."""
 
-from __future__ import annotations
-
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Real-world sizes by category, and which factor makes a mesh's units metres."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 from collections.abc import Mapping

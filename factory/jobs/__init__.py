@@ -3,8 +3,6 @@
 :class:`~.job.Job` is the whole of it; :func:`run_builds` a job on this machine.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 

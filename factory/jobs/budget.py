@@ -1,7 +1,5 @@
 """How much a job may do, and what it does again."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from datetime import datetime

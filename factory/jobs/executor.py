@@ -1,7 +1,5 @@
 """The one interface behind which every way of running many calls stands."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar

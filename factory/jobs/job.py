@@ -1,7 +1,5 @@
 """Many inputs into one registry: known ones are answered, new ones built, failures listed."""
 
-from __future__ import annotations
-
 import errno
 import os
 import time

@@ -1,7 +1,5 @@
 """What a job did, as JSON lines to read while it runs; times are here, not in artefacts."""
 
-from __future__ import annotations
-
 import json
 import os
 from contextlib import suppress

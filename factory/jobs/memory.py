@@ -1,7 +1,5 @@
 """As many workers as this machine has processors and free memory for."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The report of a registry, drawn by a few workers: only what is new or changed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.util import find_spec

@@ -1,7 +1,5 @@
 """Is an input already known? Asked without loading it, by the files it was made of last time."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Iterable, Iterator, Sequence

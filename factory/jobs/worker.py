@@ -1,7 +1,5 @@
 """A worker's side of a job: one input after the other, with validators that stay warm."""
 
-from __future__ import annotations
-
 import shutil
 import time
 from collections.abc import Mapping

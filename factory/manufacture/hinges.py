@@ -3,8 +3,6 @@
 About the front one inset doors pass their frame, about the back one doors before it half round.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Which part another one lies on: a handle that is no part of its own belongs to its door."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 
 import numpy as np

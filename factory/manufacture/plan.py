@@ -1,7 +1,5 @@
 """How an object is made differently from the plain way, because a repair asks for it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 

@@ -1,7 +1,5 @@
 """Where two parts are as seen from one another, along the joints between them."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..articulation import Articulation, Joint

@@ -1,7 +1,5 @@
 """The stage Articulation -> Asset: hulls, inertias, handles, targets, by a repair plan."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial

@@ -3,8 +3,6 @@
 It needs no framework, so that every installation reads a mesh alike.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -3,8 +3,6 @@
 A card names the command and the seed that made the file, what it learned from, and its figures.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache

@@ -1,7 +1,5 @@
 """Presets: TOML files that state differences from the defaults of :class:`BuildConfig`."""
 
-from __future__ import annotations
-
 import tomllib
 from dataclasses import fields, is_dataclass, replace
 from difflib import get_close_matches

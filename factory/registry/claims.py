@@ -1,7 +1,5 @@
 """Who works on what: locks by name, so that two jobs on one registry do nothing twice."""
 
-from __future__ import annotations
-
 import errno
 import time
 from collections.abc import Iterator

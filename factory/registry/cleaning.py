@@ -1,7 +1,5 @@
 """What dead processes left, and what the cache need not keep."""
 
-from __future__ import annotations
-
 import os
 from contextlib import suppress
 from dataclasses import dataclass

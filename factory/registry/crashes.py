@@ -1,7 +1,5 @@
 """What is told of an input whose process died, and whether it would die again."""
 
-from __future__ import annotations
-
 import re
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The table of contents: SQLite, opened per query, rebuilt from the folders when it is lost."""
 
-from __future__ import annotations
-
 import errno
 import os
 import sqlite3

@@ -1,7 +1,5 @@
 """What differs between two registries, or between one and its past."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, fields
 from typing import Any

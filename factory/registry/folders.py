@@ -1,7 +1,5 @@
 """What the folders say: the truth that rows are made from."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path

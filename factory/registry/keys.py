@@ -1,7 +1,5 @@
 """What is known of an input by what it was made from: its verdict, or that it has none."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 from asset_factory import __version__

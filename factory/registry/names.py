@@ -1,7 +1,5 @@
 """Names of files that come from elsewhere."""
 
-from __future__ import annotations
-
 MAX_NAME = 255
 MAX_PATH = 1024
 

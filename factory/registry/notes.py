@@ -3,8 +3,6 @@
 It lies beside the assets, one file each, because an asset's own folder never changes.
 """
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Folders put in place by one rename, so that a reader finds the old or the new one, whole."""
 
-from __future__ import annotations
-
 import ctypes
 import errno
 import os

@@ -1,7 +1,5 @@
 """What a worker made of one input, ready to be registered by somebody else."""
 
-from __future__ import annotations
-
 import shutil
 from dataclasses import dataclass, field, replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Opening a registry, and its database rebuilt from the folders."""
 
-from __future__ import annotations
-
 import os
 import sqlite3
 from collections.abc import Iterable, Iterator, Sequence

@@ -1,7 +1,5 @@
 """A product, or the lack of one, becomes a registry entry and a result."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from time import perf_counter

@@ -1,7 +1,5 @@
 """``report.json`` of an entry: what the validator said, and what it was registered as."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass

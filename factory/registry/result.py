@@ -1,7 +1,5 @@
 """What became of one input: made by its worker, completed by the registry, listed in a summary."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any

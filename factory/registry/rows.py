@@ -1,7 +1,5 @@
 """Entries in and out of the database."""
 
-from __future__ import annotations
-
 import sqlite3
 from collections.abc import Iterable
 from dataclasses import dataclass, fields

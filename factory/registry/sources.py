@@ -1,7 +1,5 @@
 """Lists of entries, wherever they are written: a registry, an export's folder or archive."""
 
-from __future__ import annotations
-
 import json
 import tarfile
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Which assets are for training and which for testing."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from ..runtime.store import digest_bytes

@@ -1,7 +1,5 @@
 """Folders for half-made things that say whether anybody still works in them."""
 
-from __future__ import annotations
-
 import os
 import shutil
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """A registry's assets at a URL: whole files first, the index last, and only what is missing."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Iterable
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait

@@ -1,7 +1,5 @@
 """What works on this machine: every engine and library tried in a child process, not only found."""
 
-from __future__ import annotations
-
 import os
 import shutil
 from collections.abc import Callable, Iterator

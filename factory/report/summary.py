@@ -1,7 +1,5 @@
 """``summary.json``: what a job did, one row per input."""
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import dataclass
 from enum import StrEnum

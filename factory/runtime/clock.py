@@ -1,7 +1,5 @@
 """Wall-clock time by stage, for summaries; never for artefacts."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from time import perf_counter

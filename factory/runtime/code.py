@@ -4,8 +4,6 @@ Imports are found by reading sources: nothing is imported for it, nothing listed
 are read as text, in a few hundredths of a second; to parse them all would take one and more.
 """
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterator

@@ -4,8 +4,6 @@ A result is made again when its inputs, the settings, libraries or tables that t
 or the source that it runs are other ones, and only then.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, fields, is_dataclass
 from functools import lru_cache, reduce

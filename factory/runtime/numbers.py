@@ -1,7 +1,5 @@
 """Numbers as they are written: the same for the same value on every machine."""
 
-from __future__ import annotations
-
 #: Positions, angles, limits: a nanometre is below every simulator's single precision.
 DECIMALS = 9
 #: Significant digits of masses and inertias: two more than single precision holds, and four fewer

@@ -4,8 +4,6 @@ A value becomes one JSON text, beside the arrays that it holds. What comes back 
 types' own constructors, so that a damaged file ends in an error here and not in an asset.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import json
 import types

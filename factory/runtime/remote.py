@@ -1,7 +1,5 @@
 """Folders and files behind a URL that fsspec understands; nothing said of one names a secret."""
 
-from __future__ import annotations
-
 import hashlib
 import importlib
 import os

@@ -1,7 +1,5 @@
 """One input's stages: how long each took, and which were answered from the cache."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeVar

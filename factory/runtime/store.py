@@ -1,7 +1,5 @@
 """A disposable, content-addressed cache: results of expensive stages, by what went into them."""
 
-from __future__ import annotations
-
 import hashlib
 import io
 import json

@@ -1,7 +1,5 @@
 """The one way to a terminal: names in files may hold sequences that would steer it."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterable
 

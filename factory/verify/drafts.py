@@ -1,7 +1,5 @@
 """Several hypotheses of one input, each made and validated: which becomes the asset."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 

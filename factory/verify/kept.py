@@ -1,7 +1,5 @@
 """What repairs and hulls left of an object: of its joints' ranges, of its visible surfaces."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Verdict -> what to try next, or nothing. A pure function: same verdict, same plan."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from ..asset import Asset

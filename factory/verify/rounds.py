@@ -1,7 +1,5 @@
 """One hypothesis of an input, made, validated and repaired, round by round."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path

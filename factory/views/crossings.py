@@ -1,7 +1,5 @@
 """Where parallel rays cross a surface: one ray per pixel of an orthographic picture."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Views of a mesh's sides: depth, faces, parts, normals and colours."""
 
-from __future__ import annotations
-
 import io
 from dataclasses import dataclass
 from functools import cached_property, lru_cache

@@ -1,7 +1,5 @@
 """What people see of an evaluation: progress, and a table per grouping."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """``factory train``: flags, and the call."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated

@@ -1,7 +1,5 @@
 """Bring a dataset into the cache: ``python -m asset_factory.learn.datasets --help``."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 import time

@@ -6,8 +6,6 @@ name and files, the settings and the
 versions: an altered object has another one.
 """
 
-from __future__ import annotations
-
 import importlib.util
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor

@@ -1,7 +1,5 @@
 """The kinds of dataset that are known, and who reads each."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path

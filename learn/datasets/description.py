@@ -1,7 +1,5 @@
 """Folders with a URDF or an MJCF each, through the project's own importers."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Where a dataset's doors and drawers open to, so a wrong ``front`` is seen before training."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """One object of a dataset, before it is read; and where in a folder of folders the objects are."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """From an object's files to its sampled object in the cache, or to the reason why there is none."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The objects that small networks are fitted to: generated ones, and folders of descriptions."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """PartNet-Mobility: ``mobility.urdf``, meshes, ``meta.json`` (category). Fronts look along -X."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The release's joints: rows ``(l, l x p)`` of a turn and of a slide, and their ranges."""
 
-from __future__ import annotations
-
 import zipfile
 from pathlib import Path
 from typing import Any

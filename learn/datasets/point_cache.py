@@ -1,7 +1,5 @@
 """A sampled object from labelled points alone, as the release caches them for training."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.errors import InputRejected

@@ -4,8 +4,6 @@ The labels are those that the mesh's sidecar names, else ``<stem>.pred.npz`` or 
 beside it, else ``pred.npz`` in a folder with a single mesh.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path

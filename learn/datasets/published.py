@@ -7,8 +7,6 @@ holds the same about points instead of vertices, and no mesh; its points are tak
 Lengths are in units of the object's longest side.
 """
 
-from __future__ import annotations
-
 import zipfile
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Why an object is passed over, kept so that it is not asked again."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import asdict, dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The assets of a registry folder that passed, as the URDF files they were registered with."""
 
-from __future__ import annotations
-
 import sqlite3
 from pathlib import Path
 

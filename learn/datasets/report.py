@@ -1,7 +1,5 @@
 """What became of a dataset's objects."""
 
-from __future__ import annotations
-
 import json
 from collections import Counter
 from dataclasses import dataclass

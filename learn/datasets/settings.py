@@ -1,7 +1,5 @@
 """What decides which sampled object is made of an object, and what making it may cost."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from asset_factory.factory.config import IntakeConfig

@@ -1,7 +1,5 @@
 """Which objects are for training: lists of names, and a division that growth does not change."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Iterable
 from pathlib import Path

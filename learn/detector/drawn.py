@@ -1,7 +1,5 @@
 """Which generated objects the detector learns from."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.articulation import JointKind

@@ -1,7 +1,5 @@
 """How well the detector does on labelled objects that it was not trained on."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

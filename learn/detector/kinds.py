@@ -1,7 +1,5 @@
 """What the kinds of generated objects and of inventories are to the detector."""
 
-from __future__ import annotations
-
 from asset_factory.factory.models.detector.kinds import KINDS
 
 _ALIKE: dict[str, str] = {

@@ -1,7 +1,5 @@
 """How generated meshes look: what is drawn anew each time that an object is learned from."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

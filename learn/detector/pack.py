@@ -4,8 +4,6 @@
 --textures train_textures``.
 """
 
-from __future__ import annotations
-
 import argparse
 import io
 import json

@@ -1,7 +1,5 @@
 """Real meshes with their openings labelled by eye, as the detector sees them."""
 
-from __future__ import annotations
-
 import csv
 import json
 import zlib

@@ -1,7 +1,5 @@
 """Things on which nothing opens: bare furniture, crates, pots, screens, heaps of boxes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Objects made by worker processes while training runs, and the pool that it draws from."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from multiprocessing import get_context
 from multiprocessing.shared_memory import SharedMemory

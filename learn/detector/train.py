@@ -4,8 +4,6 @@ Meant for some minutes on one GPU: worker processes make objects all the while, 
 on the GPU, and everything that varies their looks happens there.
 """
 
-from __future__ import annotations
-
 import argparse
 import copy
 import json

@@ -1,7 +1,5 @@
 """The network of ``factory/models/picture_network.py``, to be trained."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import torch  # noqa: TID253 - this module is only imported to train

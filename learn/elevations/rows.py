@@ -1,7 +1,5 @@
 """What there is to learn from: features of candidates, and whether they are true."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What truly opens on an object's sides: rectangles, and how they open."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

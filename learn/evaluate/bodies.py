@@ -1,7 +1,5 @@
 """What of an articulation is scored: the parts that have faces, and how each of them moves."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

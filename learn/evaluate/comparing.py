@@ -1,7 +1,5 @@
 """Two methods on the same objects: joint figures are compared only where both found some."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from itertools import combinations
 from typing import Any

@@ -1,7 +1,5 @@
 """What an evaluation writes: JSON of everything, CSV with a line per case; no times in either."""
 
-from __future__ import annotations
-
 import csv
 import io
 from collections.abc import Sequence

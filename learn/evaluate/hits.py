@@ -1,7 +1,5 @@
 """Of all true moving parts, the share whose joint is right in one respect; missed is wrong."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.articulation import Joint

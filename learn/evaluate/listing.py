@@ -1,7 +1,5 @@
 """The frozen list of real objects: which, what they are, and which half may be tuned on."""
 
-from __future__ import annotations
-
 import csv
 import hashlib
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """An articulated object as a plain mesh: one surface that keeps no trace of its parts."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.articulation import Articulation, Part

@@ -1,7 +1,5 @@
 """Which predicted part stands for which true one, by the area that they share."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

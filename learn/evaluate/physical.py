@@ -5,8 +5,6 @@ by more than half (intersection over union) and moves of itself; types, axes and
 where the match covers so much.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

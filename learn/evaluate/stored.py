@@ -1,7 +1,5 @@
 """Objects read from files with their joints; cached, because the slowest take seconds."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Rows to tables: means over objects, pooled numbers over parts, by whatever groups are wanted."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 

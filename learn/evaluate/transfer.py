@@ -1,7 +1,5 @@
 """The truth on a mesh whose triangles an articulator has cut along its parts."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """One method on one case: what is asked of a child process, and the row that comes of it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import ExitStack

@@ -9,8 +9,6 @@
 Sides take hours of one core, the others up to one.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 from itertools import chain, islice

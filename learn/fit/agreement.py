@@ -1,7 +1,5 @@
 """Fits how likely a part is there by what the detector sees of it, on real labelled meshes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 

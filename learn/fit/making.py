@@ -1,7 +1,5 @@
 """What is made once and kept in a folder: the views and the rows of generated objects' sides."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

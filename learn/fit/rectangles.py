@@ -1,7 +1,5 @@
 """Fits the two networks of rectangles: which are panels, and how panels open."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

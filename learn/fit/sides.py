@@ -1,7 +1,5 @@
 """Trains the picture network of ``articulate/seams/sight.py`` on views of objects' sides."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path

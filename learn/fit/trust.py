@@ -1,7 +1,5 @@
 """Fits the trust in each source of ``auto`` on objects of known truth."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path

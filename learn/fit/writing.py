@@ -1,7 +1,5 @@
 """One way to write what was fitted: safetensors, and a card beside it that says how it was made."""
 
-from __future__ import annotations
-
 import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Labels as a network gives them: a lost handle, a drawer without its box, some neighbour."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.articulate.evidence import Partition

@@ -1,7 +1,5 @@
 """Known motions, as the evidence sees objects: parts with faces, closed, each with one joint."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -3,8 +3,6 @@
 python -m asset_factory.learn.objects FOLDER --category oven --seed 3 --open 0.5
 """
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

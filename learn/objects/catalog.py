@@ -1,7 +1,5 @@
 """The kinds of object there are."""
 
-from __future__ import annotations
-
 import zlib
 from collections.abc import Callable
 

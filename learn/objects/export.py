@@ -1,7 +1,5 @@
 """Objects as files: GLB, OBJ with MTL, sidecar and annotation. Same object, same bytes."""
 
-from __future__ import annotations
-
 import json
 import zipfile
 from dataclasses import dataclass

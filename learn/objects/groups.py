@@ -1,7 +1,5 @@
 """Groups of kinds of object, by what opens on them."""
 
-from __future__ import annotations
-
 #: Kinds with panels, with lids, and with neither.
 PANELLED = (
     "cabinet", "fridge", "oven", "microwave", "dishwasher", "dresser", "nightstand", "wardrobe",

@@ -1,7 +1,5 @@
 """What training sees: objects of all kinds, as artists, CAD and image-to-3D tools give them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

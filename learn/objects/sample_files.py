@@ -1,7 +1,5 @@
 """One labelled object as files: GLB, URDF with a mesh a link, and ``pred.npz``."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path

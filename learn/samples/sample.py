@@ -1,7 +1,5 @@
 """One training example: a sampled object in a random state, somewhere in the network's box."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

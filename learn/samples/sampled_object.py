@@ -1,7 +1,5 @@
 """A labelled object that training draws samples from: surface points, parts and motions."""
 
-from __future__ import annotations
-
 import zipfile
 import zlib
 from dataclasses import dataclass, fields

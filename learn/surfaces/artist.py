@@ -1,7 +1,5 @@
 """An object as artists and CAD programs leave it: boards, shells, sheets, little that is closed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial

@@ -1,7 +1,5 @@
 """What artists add and leave out: lettering, handles, what nobody sees from outside."""
 
-from __future__ import annotations
-
 from itertools import product
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What image-to-3D gives: one bumpy skin around an object, gaps closed, inside lost."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Skins as today's image-to-3D tools give them: fine, simplified, with seams engraved."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.spatial import cKDTree
 

@@ -1,7 +1,5 @@
 """Surfaces chamfered, bent, cut finer, taken apart, opened, made thin, doubled, inside out."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 from itertools import product

@@ -1,7 +1,5 @@
 """Solids become one skin: those of a part, or those of the whole object."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Everything that a run needs to go on as if it had never stopped."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The curves of a run: a table of numbers, and a picture of them."""
 
-from __future__ import annotations
-
 import csv
 import os
 from collections.abc import Iterable, Sequence

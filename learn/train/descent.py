@@ -1,7 +1,5 @@
 """One step down a loss, whatever network it is of; and the running mean of the weights."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The running mean of the weights, which generalises better than the last ones."""
 
-from __future__ import annotations
-
 from typing import Any
 
 Tensor = Any

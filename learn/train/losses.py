@@ -5,8 +5,6 @@ whole step first, over all its micro-batches and processes, so that however a st
 losses and gradients are the same.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, fields, replace
 from typing import Any

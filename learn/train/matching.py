@@ -1,7 +1,5 @@
 """Which query answers for which true part: the assignment that explains the points best."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

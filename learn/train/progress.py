@@ -1,7 +1,5 @@
 """What people see of a run while it goes on: a bar on a terminal, a line now and then elsewhere."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 """Training recipes: TOML files of differences from the default settings, checked as a whole."""
 
-from __future__ import annotations
-
 import tomllib
 from dataclasses import replace
 from importlib import resources

@@ -1,7 +1,5 @@
 """How fast the network learns, and from how many points, as the steps go by."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

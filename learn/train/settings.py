@@ -1,7 +1,5 @@
 """What a training run does: its settings."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A network in training: one step of it, and its state between steps."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from contextlib import AbstractContextManager

@@ -1,7 +1,5 @@
 """How good a network is on held-out examples: always the same ones, drawn the same way."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Do the same joint values give the same link poses in the engine and in our own kinematics?"""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from typing import Any

@@ -1,7 +1,5 @@
 """The checks that need no simulator: one file each, one line here."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

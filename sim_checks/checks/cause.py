@@ -1,7 +1,5 @@
 """Why two parts meet: the numbers taken of a contact, and what they say."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import StrEnum
 

@@ -1,7 +1,5 @@
 """Joint combinations worth trying: all open, and a spread that leaves no corner out."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53)

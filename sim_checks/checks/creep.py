@@ -4,8 +4,6 @@ What should be held is decided by the description alone: its masses, centres of 
 friction. What its weight should move is free to move.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

@@ -4,8 +4,6 @@ Only contacts that end in a finding are looked at, and of each sound joint the o
 hulls come nearest.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache

@@ -1,7 +1,5 @@
 """Questions that simulators answer differently: each answer, its number, the likely reason."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any

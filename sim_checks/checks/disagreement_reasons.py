@@ -1,7 +1,5 @@
 """Why engines disagree: known traits of each, held against the checks' own depths and gaps."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any

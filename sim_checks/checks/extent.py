@@ -3,8 +3,6 @@
 What is beyond is not validated rather than in part: such a file never passes.
 """
 
-from __future__ import annotations
-
 from ..config import WorkConfig
 from ..description import Description
 from ..geometry.kinematics import NotATree, build_tree, free_ranges

@@ -5,8 +5,6 @@ frame along the whole hinge side is none, however near the axis that lies; nor i
 turns into the frame, because there nothing overlaps at rest.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """One engine's verdict on one file: a killable child observes, checks compare what it saw."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Is the file itself sound: its tree, joints, masses and shapes?"""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

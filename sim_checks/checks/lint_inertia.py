@@ -1,7 +1,5 @@
 """Is a link's inertia one that a rigid body can have, and one that this body could have?"""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

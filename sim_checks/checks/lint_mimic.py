@@ -1,7 +1,5 @@
 """Can a joint that follows another do so?"""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from ..description import ABSURD, Description, JointLine, Mimic, sensible

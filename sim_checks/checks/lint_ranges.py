@@ -1,7 +1,5 @@
 """Are a joint's range, its axis and what may drive it of a size that fits the object?"""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress

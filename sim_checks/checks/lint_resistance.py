@@ -1,7 +1,5 @@
 """Do friction and damping of a joint let a hand open it, and can engines integrate them?"""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """Are the collision shapes what engines can take, and do they lie where the visible surface is?"""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import replace

@@ -5,8 +5,6 @@ What they do when both are, a spread of poses may step over: here one stands ope
 followed continuously.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 

@@ -6,8 +6,6 @@ with such others at upper as have been found to open themselves, one after the o
 Joints that make way only half open are not thought of.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 

@@ -1,7 +1,5 @@
 """Pairs of solids: which are exempt, and where they meet."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 

@@ -7,8 +7,6 @@ stops. Joints that follow another are never moved by themselves:
 wherever a joint goes, its followers are where it takes them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Everything that the penetration check measured, as a report holds it."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from ..measurements import (

@@ -1,7 +1,5 @@
 """What the penetration check measured, as findings and as JSON data."""
 
-from __future__ import annotations
-
 from collections.abc import Set
 
 from ..config import PenetrationConfig

@@ -1,7 +1,5 @@
 """The visible surfaces of a description's parts, held beside the hulls in any pose."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Which joints cannot reach one another, so that a simulator may drive them at the same time."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

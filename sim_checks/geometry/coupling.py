@@ -1,7 +1,5 @@
 """Joints that follow others: the leader of a chain, its map to them, and how far all can go."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 
 from ..description import Mimic, sensible

@@ -9,8 +9,6 @@ the origin might be nearest, until nothing is left to grow (G. van den Bergen's 
 2001, with a real convex hull in place of its fragile bookkeeping).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -14,8 +14,6 @@ without touching it has that one inside only if its own surface there is closed:
 hollow. Then the way out is measured from outside.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

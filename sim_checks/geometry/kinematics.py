@@ -1,7 +1,5 @@
 """Where every link is for given joint values: the checks' own forward kinematics."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Exact looks at two shapes, counted: what bounds the work on one file, on every machine alike."""
 
-from __future__ import annotations
-
 import math
 
 

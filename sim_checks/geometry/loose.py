@@ -1,7 +1,5 @@
 """Small loose pieces of a part's visible surface that lie at another part: stray labels."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..description import FloatArray, IntArray

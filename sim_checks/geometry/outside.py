@@ -1,7 +1,5 @@
 """How far points lie outside convex hulls, exactly."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

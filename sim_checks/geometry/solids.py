@@ -1,7 +1,5 @@
 """A description's collision hulls, part by part, ready to be posed."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What gravity pulls at a joint that stands still, by the description's own masses."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -7,8 +7,6 @@ looked at exactly, the direction found there lowers the bounds of all others, an
 when no interval can hold anything worse than the worst seen.
 """
 
-from __future__ import annotations
-
 import heapq
 from collections.abc import Sequence
 from dataclasses import dataclass, field

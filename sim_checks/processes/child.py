@@ -1,7 +1,5 @@
 """The child's side of isolation: answer questions within limits until the caller is gone."""
 
-from __future__ import annotations
-
 import ctypes
 import faulthandler
 import math

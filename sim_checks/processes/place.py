@@ -1,7 +1,5 @@
 """Where a process is in its work, on the disk, so that it is known after the process died."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager

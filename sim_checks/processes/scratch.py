@@ -1,7 +1,5 @@
 """Temporary folders that show whether their owner lives, so that a killed process's are found."""
 
-from __future__ import annotations
-
 import multiprocessing
 import multiprocessing.util
 import os

@@ -1,7 +1,5 @@
 """One thread of linear algebra in every child: as many children as processors share them."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager

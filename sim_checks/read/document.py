@@ -1,7 +1,5 @@
 """XML from strangers: parsed without entities, and never a file outside its folder."""
 
-from __future__ import annotations
-
 import errno
 import os
 import xml.etree.ElementTree as ET

@@ -1,7 +1,5 @@
 """Mesh files as plain triangles."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """MJCF as MuJoCo compiles it: defaults, classes and inferred inertias are the compiler's."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """How much a short MJCF becomes once MuJoCo has multiplied it, counted before it compiles."""
 
-from __future__ import annotations
-
 import math
 import xml.etree.ElementTree as ET
 from collections import Counter

@@ -1,7 +1,5 @@
 """Native readers of files from strangers: what they may take, and what their deaths say."""
 
-from __future__ import annotations
-
 import resource
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress

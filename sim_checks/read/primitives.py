@@ -1,7 +1,5 @@
 """Boxes, cylinders, spheres and their kin as triangle meshes, in their own frame."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 from itertools import combinations
 

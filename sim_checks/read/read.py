@@ -1,7 +1,5 @@
 """Choose the reader by what the file says it is."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

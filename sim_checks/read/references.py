@@ -3,8 +3,6 @@
 This is known before any is opened.
 """
 
-from __future__ import annotations
-
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Callable, Iterator, Sequence

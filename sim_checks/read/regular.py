@@ -1,7 +1,5 @@
 """Bytes of files from strangers: of regular files only, and never more than a limit."""
 
-from __future__ import annotations
-
 import errno
 import os
 import stat

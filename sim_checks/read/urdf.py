@@ -1,7 +1,5 @@
 """URDF as written, with every mesh that it names: http://wiki.ros.org/urdf/XML."""
 
-from __future__ import annotations
-
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
 from dataclasses import dataclass, field

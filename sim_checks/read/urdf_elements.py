@@ -1,7 +1,5 @@
 """Elements of a URDF as written: http://wiki.ros.org/urdf/XML."""
 
-from __future__ import annotations
-
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field, replace
 

@@ -1,7 +1,5 @@
 """Which engines there are, by name, without importing any of them."""
 
-from __future__ import annotations
-
 import difflib
 from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version

@@ -1,7 +1,5 @@
 """The drive from closed to open and back: one control law and force bound for every engine."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Sequence
 

@@ -1,7 +1,5 @@
 """Joints left alone part-way open, under gravity, where friction should hold them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

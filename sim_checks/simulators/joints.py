@@ -1,7 +1,5 @@
 """What rest, fall and drive ask of a world's joints: ends, couplings, and the mass each carries."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

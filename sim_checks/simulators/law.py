@@ -1,7 +1,5 @@
 """The pull of the hand that drives joints and of those that hold the others."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

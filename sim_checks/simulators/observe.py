@@ -1,7 +1,5 @@
 """One look at one file in one engine: load, poses, rest, sweep; runs inside a killable child."""
 
-from __future__ import annotations
-
 import os
 import re
 import sys

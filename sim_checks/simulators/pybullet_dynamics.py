@@ -4,8 +4,6 @@ Bullet holds inertia tensors of its inverse dynamics symmetric to the last bit; 
 heavy, turned ones (a fridge's door) differ there, and it answers nothing at all.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The object left alone: weightless, only contact moves it; with gravity, it falls as it may."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Which two links stand in a joint's way."""
 
-from __future__ import annotations
-
 from .simulator import World
 
 

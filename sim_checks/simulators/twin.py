@@ -1,7 +1,5 @@
 """A URDF's collision-only twin: the same physics without visuals, on which loaders may fail."""
 
-from __future__ import annotations
-
 import shutil
 import xml.etree.ElementTree as ET
 from pathlib import Path

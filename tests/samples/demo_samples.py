@@ -1,7 +1,5 @@
 """A drawer that a robot opens, and robots that succeed at once: episodes as recorded."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Boxes and cylinders as meshes of one material."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.mesh import Material, Mesh

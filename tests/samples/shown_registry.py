@@ -1,8 +1,6 @@
 """A registry with something to look at: a cabinet that passed, one whose door hits, one without
 a model, and names that are markup."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A job in a process of its own that somebody may kill: slow_job.py INPUTS OUTPUT [--wind-up]."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

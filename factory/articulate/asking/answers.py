@@ -1,7 +1,5 @@
 """Answers that a model gave, kept by what it was asked."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

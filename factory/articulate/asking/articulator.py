@@ -1,7 +1,5 @@
 """The articulator that asks a vision-language model what opens, and finds it on the mesh."""
 
-from __future__ import annotations
-
 import base64
 import json
 import re

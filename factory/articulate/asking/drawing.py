@@ -1,7 +1,5 @@
 """One side of a mesh as a picture that somebody reads boxes off."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 from scipy import ndimage

@@ -1,7 +1,5 @@
 """What somebody is told who looks at the sheet: how to say what opens."""
 
-from __future__ import annotations
-
 from ...intake.stated import Hinge, StatedKind
 
 _TEXT = """\

@@ -1,7 +1,5 @@
 """All that somebody is shown and told of one input."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

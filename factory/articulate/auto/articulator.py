@@ -1,7 +1,5 @@
 """The automatic articulator: network predictions, shape rules and geometric evidence combined."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from importlib.util import find_spec

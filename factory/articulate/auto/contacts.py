@@ -1,7 +1,5 @@
 """Loose pieces go to the part they touch: nothing hangs in the air."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

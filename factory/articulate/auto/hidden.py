@@ -1,7 +1,5 @@
 """Little pieces that no side shows, which only the network takes for movers."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...geometry.triangles import face_areas

@@ -1,7 +1,5 @@
 """Which parts can be there together, and what hangs on what."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

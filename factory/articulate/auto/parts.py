@@ -1,7 +1,5 @@
 """Parts that several views agree on, made one."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Everything that might move: what the rules of shape find, and what the network sees."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

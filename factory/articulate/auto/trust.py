@@ -1,7 +1,5 @@
 """How far to trust a proposal: its features, weighed by how right they were on made objects."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache

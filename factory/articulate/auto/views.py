@@ -1,7 +1,5 @@
 """What the network sees of an object from several sides, in the object's own frame."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

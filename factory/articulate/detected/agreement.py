@@ -1,7 +1,5 @@
 """How likely a part is there: what the detector sees of it, and how sure its proposer is."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 

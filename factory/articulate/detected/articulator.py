@@ -1,7 +1,5 @@
 """The articulator that looks: at parts that others propose, and for those that it alone sees."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """One part in its surroundings: everything that the evidence about its motion is read from."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from functools import cached_property
 

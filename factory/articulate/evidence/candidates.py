@@ -1,7 +1,5 @@
 """Where a part's axis could be: its edges, mid-lines, contacts and round pieces, and the guess."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """How far a part goes: as far as such parts do, and no further than the way is free."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

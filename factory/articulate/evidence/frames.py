@@ -1,7 +1,5 @@
 """Right-angled frames along a part's straight edges: the object's, levelled, and its own."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...mesh import FloatArray

@@ -1,7 +1,5 @@
 """What stands around a part, in cells: whether a moved point has gone through it is one look-up."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What another source, e.g. a network, says of a part's motion: an input of the evidence."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What a part looks like to somebody who wants to open it: where its front is, and its handle."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The most plausible motion of one part of a mesh, with what speaks for it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType

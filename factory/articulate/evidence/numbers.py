@@ -1,7 +1,5 @@
 """The evidence for and against each candidate, as one row of numbers with names."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...mesh import FloatArray

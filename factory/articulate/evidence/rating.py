@@ -1,7 +1,5 @@
 """How much each candidate's evidence weighs: a small learned judgement, and how sure it may be."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 

@@ -1,7 +1,5 @@
 """The setting that a moving part is in: what, besides its own evidence, tells how far it goes."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

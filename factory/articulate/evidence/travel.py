@@ -1,7 +1,5 @@
 """Candidates tried out: the part's points moved along each, and what they meet."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """How far parts usually go: learned shares of belief over steps of range."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

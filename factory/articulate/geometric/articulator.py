@@ -1,7 +1,5 @@
 """Articulation from geometry alone: no learning, few guesses, and each guess said."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What lies behind a front panel: a drawer's box, a cavity, or nothing to open."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Doors and drawers in the front of a scene."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...articulation import JointKind

@@ -1,7 +1,5 @@
 """How a front opens, judged by its handle, its shape and its neighbours."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...mesh import FloatArray

@@ -1,7 +1,5 @@
 """Doors of rooms and casement windows: a slab within a frame, nothing behind it."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...articulation import JointKind

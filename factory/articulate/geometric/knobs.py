@@ -1,7 +1,5 @@
 """Round knobs on the fixed front of an appliance."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 

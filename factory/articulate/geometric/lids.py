@@ -1,7 +1,5 @@
 """Lids of chests and bins, and the screens of closed laptops."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

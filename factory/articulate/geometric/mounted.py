@@ -1,7 +1,5 @@
 """What is mounted on a panel: handles, knobs, trim; and whether its surroundings are crowded."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Panels within panels, panels that share pieces, panels that nobody sees."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Front panels: pieces that look like the front of a door or a drawer, and what is on them."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...geometry.triangles import doubled_normals

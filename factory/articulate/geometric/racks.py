@@ -1,7 +1,5 @@
 """Baskets of wire behind a door: they slide out, as in a dishwasher."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components

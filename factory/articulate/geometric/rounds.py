@@ -1,7 +1,5 @@
 """What is round about an upright or a level axis and moves: caps, pot lids, turntables, wheels."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...articulation import JointKind

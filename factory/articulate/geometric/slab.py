@@ -1,7 +1,5 @@
 """A panel: a flat piece in the front plane, and what is mounted on it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

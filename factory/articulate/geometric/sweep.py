@@ -1,7 +1,5 @@
 """How far a slab can turn before it meets the rest: surrounding points against turned boxes."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...articulation import rotation_about

@@ -1,7 +1,5 @@
 """Doors of appliances: the large panel beside or below a row of knobs, handle or not."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

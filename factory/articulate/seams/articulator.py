@@ -1,7 +1,5 @@
 """The articulator of one-piece meshes: what opens, read from its sides."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Rectangles of a front that may be panels: closed by seams, or cut between handles."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """What panels say of each other: pairs of doors, chests of drawers."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from ...part import OpensBy

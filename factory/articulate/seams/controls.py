@@ -1,7 +1,5 @@
 """Knobs far apart on one strip, as stoves have them: turned, where knobs of drawers are pulled."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise

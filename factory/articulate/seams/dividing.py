@@ -1,7 +1,5 @@
 """Panels without a seam between them, cut between their handles."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

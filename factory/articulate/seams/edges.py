@@ -1,7 +1,5 @@
 """The back edge of a panel, where it is seen from beside: how thick a door is."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What is known of a rectangle that may be a panel, in figures that do not depend on size."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

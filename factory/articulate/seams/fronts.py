@@ -1,7 +1,5 @@
 """The four sides of an object, made ready to be searched for panels and lids."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Panels of which the picture network alone is sure, cut along the ends that it sees."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy import ndimage
 

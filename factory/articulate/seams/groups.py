@@ -1,7 +1,5 @@
 """Panels of a front, alone or several at once, and which of them can be there together."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeVar

@@ -1,7 +1,5 @@
 """Knobs of a one-piece mesh: small things of one size in a row, which are turned."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...part import PartKind

@@ -1,7 +1,5 @@
 """Which rectangles of a front are panels, by what was learned from generated objects."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

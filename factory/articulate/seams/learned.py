@@ -1,7 +1,5 @@
 """What was learned about panels and how they open: networks of a rectangle's features."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cache
 

@@ -1,7 +1,5 @@
 """Lids: a seam that runs around all four sides at one height, over something closed on top."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

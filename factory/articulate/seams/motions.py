@@ -1,7 +1,5 @@
 """How a panel opens: hinged at one of its edges, or sliding out."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Which rectangles of a front are panels that open."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Panels that were found between two planks, as far as the picture network sees them go."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

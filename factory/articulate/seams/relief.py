@@ -1,7 +1,5 @@
 """One side of an object as a relief: heights in pixels, colours and normals, ready to be read."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

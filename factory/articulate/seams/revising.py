@@ -1,7 +1,5 @@
 """What the picture network changes about panels that somebody else found on a side."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

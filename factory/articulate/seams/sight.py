@@ -3,8 +3,6 @@
 ``learn/fit`` trains it.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 

@@ -1,7 +1,5 @@
 """Doors without a handle: slabs in front of a box, whose back edge both sides beside them show."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 

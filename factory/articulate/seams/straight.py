@@ -1,7 +1,5 @@
 """How an object stands: its sides need not look along the axes of its file."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...articulation import rotation_about

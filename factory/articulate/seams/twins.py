@@ -1,7 +1,5 @@
 """Knobs of a pair of doors that have grown together over the seam between them."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

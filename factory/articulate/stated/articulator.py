@@ -1,7 +1,5 @@
 """The articulator of stated parts: what a sidecar says opens, found on the mesh."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace

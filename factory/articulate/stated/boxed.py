@@ -1,7 +1,5 @@
 """A stated part with the rectangle of seams that its box means."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 

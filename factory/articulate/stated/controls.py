@@ -1,7 +1,5 @@
 """Stated parts that close nothing: knobs, buttons, levers, wheels, caps."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Parts that are stated without a place: found by whoever guesses, and counted."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Stated lids: what of the mesh is above a box's lower edge, and where it is hinged."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 

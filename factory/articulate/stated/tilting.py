@@ -1,7 +1,5 @@
 """Panels that slope: a plane through what a box shows, and the panel on it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The mesh formats that are read, a line each."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path

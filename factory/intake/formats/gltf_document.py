@@ -4,8 +4,6 @@ Source: Khronos glTF 2.0 specification, chapters "GLB File Format Specification"
     Storage".
 """
 
-from __future__ import annotations
-
 import base64
 import json
 import struct

@@ -1,7 +1,5 @@
 """Base colours and base colour textures of a glTF asset."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

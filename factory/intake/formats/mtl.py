@@ -1,7 +1,5 @@
 """Wavefront material libraries: diffuse colour and diffuse map."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path
 

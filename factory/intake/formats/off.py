@@ -1,7 +1,5 @@
 """OFF and its coloured kin: text only, polygons fanned from their first corner, colours ignored."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

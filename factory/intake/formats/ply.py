@@ -1,7 +1,5 @@
 """PLY, text and binary: polygons fanned from their first corner, texture kept, colours averaged."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 Source: Greg Turk, The PLY Polygon File Format.
 """
 
-from __future__ import annotations
-
 import io
 from dataclasses import dataclass, field
 from typing import Any

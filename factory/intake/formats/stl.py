@@ -1,7 +1,5 @@
 """STL, binary and text. Facet normals are not kept: they repeat the winding."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

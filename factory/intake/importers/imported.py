@@ -1,7 +1,5 @@
 """What a reader of descriptions returns: meshes posed by part, and joints, in the root frame."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -3,8 +3,6 @@
 The format: https://mujoco.readthedocs.io/en/stable/XMLreference.html.
 """
 
-from __future__ import annotations
-
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from dataclasses import replace

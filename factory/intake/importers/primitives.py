@@ -1,7 +1,5 @@
 """Boxes, cylinders, spheres, capsules and ellipsoids as closed triangle meshes."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 

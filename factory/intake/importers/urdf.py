@@ -4,8 +4,6 @@ The format: http://wiki.ros.org/urdf/XML. What is allowed here and not there: se
 of one name, several ``<inertial>`` (neither matters to an import), and ``<capsule>``.
 """
 
-from __future__ import annotations
-
 import xml.etree.ElementTree as ET
 from collections import Counter
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The ``<material>`` of a URDF visual: global ones by name, local ones in place."""
 
-from __future__ import annotations
-
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The ``<geometry>`` of a URDF visual as a mesh in its own frame."""
 
-from __future__ import annotations
-
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
 from pathlib import Path

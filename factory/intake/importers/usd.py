@@ -3,8 +3,6 @@
 The schema: https://openusd.org/release/api/usd_physics_page_front.html.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

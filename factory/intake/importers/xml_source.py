@@ -1,7 +1,5 @@
 """Reading untrusted XML: no entities, no surprises, no file outside the description's folder."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from urllib.parse import unquote
 from xml.etree.ElementTree import Element

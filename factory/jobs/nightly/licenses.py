@@ -1,7 +1,5 @@
 """Which inputs may be built, by their licenses."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """How far a night is, at what rate, and how long it will still take."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from time import monotonic

@@ -1,7 +1,5 @@
 """One night, in order: tidy, verify, build and mend, compare, report."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field, replace

@@ -3,8 +3,6 @@
 configs/nightly.toml states every setting, with its unit and what it does.
 """
 
-from __future__ import annotations
-
 import os
 import tomllib
 from dataclasses import dataclass, field, replace

@@ -1,7 +1,5 @@
 """What a night calls upon."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A Ray cluster: one that is running, or one of this machine's processors while needed."""
 
-from __future__ import annotations
-
 import os
 import secrets
 import shutil

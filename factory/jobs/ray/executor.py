@@ -1,7 +1,5 @@
 """Calls on a Ray cluster: the same killable children, on whichever node has room."""
 
-from __future__ import annotations
-
 import pickle
 import time
 from collections.abc import Callable, Iterable, Iterator

@@ -1,7 +1,5 @@
 """How inputs reach nodes that do not see them: all files of one packed, told by their digest."""
 
-from __future__ import annotations
-
 import errno
 import hashlib
 import io

@@ -1,7 +1,5 @@
 """One network on every node of a Ray cluster; or one on a GPU, with a socket on every node."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import socket

@@ -1,7 +1,5 @@
 """Which of a cluster's nodes are given work."""
 
-from __future__ import annotations
-
 import os
 import socket
 import time

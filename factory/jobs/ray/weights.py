@@ -1,7 +1,5 @@
 """How checkpoints reach nodes: each once, told by its digest, and kept there."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import tempfile

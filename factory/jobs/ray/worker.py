@@ -1,7 +1,5 @@
 """A node's side of the Ray executor: each call in a killable child of the process Ray gives."""
 
-from __future__ import annotations
-
 import atexit
 import pickle
 import sys

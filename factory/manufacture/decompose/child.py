@@ -1,7 +1,5 @@
 """CoACD and V-HACD, which crash and hang: called in a child process only, and only here."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 

@@ -1,7 +1,5 @@
 """Convex hulls of points, and how far a surface lies below one."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 

@@ -1,7 +1,5 @@
 """Convex pieces by cutting along a solid's own planes: boards and boxes, exact, no search."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """The stage: every part of an articulation as convex hulls."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import partial

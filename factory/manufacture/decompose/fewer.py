@@ -1,7 +1,5 @@
 """An asset of many hulls gets fewer, further off the surfaces they stand for."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import partial
 

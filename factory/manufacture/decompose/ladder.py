@@ -1,7 +1,5 @@
 """The fallbacks of an exact split: CoACD, coarser CoACD, V-HACD, one hull; each is reported."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial

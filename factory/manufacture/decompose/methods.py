@@ -1,7 +1,5 @@
 """How one closed solid becomes convex pieces: every method, from the most faithful to the least."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

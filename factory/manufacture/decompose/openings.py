@@ -1,7 +1,5 @@
 """Openings of a surface: small ones are closed, and what nobody reaches into is one hull."""
 
-from __future__ import annotations
-
 import numpy as np
 from manifold3d import Manifold
 

@@ -1,7 +1,5 @@
 """One part: convex stays whole, boards are cut, the rest is searched, open surfaces get slabs."""
 
-from __future__ import annotations
-
 import numpy as np
 from manifold3d import Manifold
 

@@ -1,7 +1,5 @@
 """What a hull would fill: the pockets between it and what it stands for."""
 
-from __future__ import annotations
-
 import numpy as np
 from manifold3d import Manifold
 from scipy.spatial import HalfspaceIntersection, QhullError

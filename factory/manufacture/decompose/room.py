@@ -1,7 +1,5 @@
 """Where other parts are, at rest and on their way: room that no hull may take."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """Open surfaces as thin convex slabs: walls get a thickness, cavities stay open, none grow out."""
 
-from __future__ import annotations
-
 import heapq
 import math
 from dataclasses import dataclass, field

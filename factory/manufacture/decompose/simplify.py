@@ -1,7 +1,5 @@
 """Fewer triangles, still a closed manifold, hardly moved."""
 
-from __future__ import annotations
-
 import numpy as np
 from manifold3d import Manifold
 

@@ -1,7 +1,5 @@
 """From triangles to closed manifolds: the gate in front of everything native."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import manifold3d

@@ -1,7 +1,5 @@
 """Points spread over a surface, always the same ones."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...geometry.triangles import face_areas

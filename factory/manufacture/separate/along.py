@@ -1,7 +1,5 @@
 """The hulls of two parts cut apart along the whole way that they move against one another."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

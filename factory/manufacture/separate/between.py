@@ -1,7 +1,5 @@
 """What a long arm passes between two of the poses at which hulls were cut apart."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 from ...articulation import Articulation

@@ -1,7 +1,5 @@
 """Convex hulls that meet, cut by planes until there is a gap between them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

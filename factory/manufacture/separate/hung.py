@@ -1,7 +1,5 @@
 """Whether a joint turns its part as people hang doors, knobs and lids, or slides it straight."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What came of cutting the hulls of parts apart."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """How far the parts' own solids overlap, before any decomposition: a repair must not hide it."""
 
-from __future__ import annotations
-
 import manifold3d
 import numpy as np
 from manifold3d import Manifold

@@ -4,8 +4,6 @@ Planes cut off whatever lies on one side of them, so what is deep in a solid bod
 it. Nothing of the body is seen where a knob stands in it; there a hole costs nothing but volume.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

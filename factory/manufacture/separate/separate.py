@@ -1,7 +1,5 @@
 """The stage: which pairs are cut, by the first way that takes no more than it may."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial

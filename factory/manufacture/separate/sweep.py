@@ -1,7 +1,5 @@
 """How much deeper than at rest a joint drives hulls into one another."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

@@ -5,8 +5,6 @@ turned. Planes found pose by pose cut it from every side; a cylinder, or a plane
 one cut.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product

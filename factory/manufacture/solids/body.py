@@ -1,7 +1,5 @@
 """What is neither panel nor knob, and the body that holds them all."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy import ndimage
 from scipy.spatial import cKDTree

@@ -1,7 +1,5 @@
 """The step: from parts that are patches of one skin to solid parts, convex by construction."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

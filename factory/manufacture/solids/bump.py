@@ -1,7 +1,5 @@
 """Parts that are no panels: knobs, buttons and wheels, each closed by what its own skin says."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

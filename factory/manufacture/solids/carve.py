@@ -1,7 +1,5 @@
 """Panels' slabs, and what they leave of the rest: gaps, hollows, drawers' boxes."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy import ndimage
 

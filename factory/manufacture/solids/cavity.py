@@ -1,7 +1,5 @@
 """What is hollow behind a panel: boxes between walls, as deep as what lies behind allows."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The last cut: pieces of parts that move against one another, kept apart on all of their way."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import combinations
 

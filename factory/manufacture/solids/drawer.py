@@ -1,7 +1,5 @@
 """The box behind a drawer's front: a bottom, two sides and a back, clear of the carcass."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .box import Box

@@ -1,7 +1,5 @@
 """A frame along whose axes an object's panels lie: the object's own, turned about the vertical."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...articulation import Articulation, rotation_about

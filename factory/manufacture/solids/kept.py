@@ -1,7 +1,5 @@
 """Solids as they are kept between builds: without textures, which the input brings again."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Knobs, buttons and wheels, and the room that what holds them keeps free for them."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...articulation import Joint, JointKind

@@ -1,7 +1,5 @@
 """What is to be made of convex pieces: cells, and what must stay free of them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """Doors, drawers' fronts and lids, measured straight from the side that they close."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Convex pieces of matter in cells: cut along planes until each fills little and keeps clear."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Pieces stretched to what is seen of a part and lies outside all of them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

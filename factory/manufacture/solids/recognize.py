@@ -1,7 +1,5 @@
 """The panels among some parts, and the skin cut along their outlines."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Which parts get a body by construction: patches of one surface, and bare front plates."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...articulation import Articulation, JointKind

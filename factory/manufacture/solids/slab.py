@@ -1,7 +1,5 @@
 """A panel's own solid: a slab behind its face, what stands out of it apart, a lid hollowed."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What is seen where the skin ends: rims, backs and walls of hollows, as triangles."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import manifold3d

@@ -1,7 +1,5 @@
 """Where a moving part passes: poses along its joint, cells it enters, where its hinge may be."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """The mesh of an object with its inner faces, and a record of each."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

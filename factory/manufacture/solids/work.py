@@ -1,7 +1,5 @@
 """What the construction knows of an object while it is made."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

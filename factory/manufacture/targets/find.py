@@ -1,7 +1,5 @@
 """Articulation and hulls -> the places where each joint is best opened."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import islice

@@ -1,7 +1,5 @@
 """A parallel gripper, as coarse as a hand has to be to fit all of them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import hypot
 

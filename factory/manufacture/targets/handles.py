@@ -1,7 +1,5 @@
 """Where a robot takes hold of a moving part: found in its shape, never in a name."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

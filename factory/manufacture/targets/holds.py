@@ -1,7 +1,5 @@
 """Whether a hand can do it: close around a thing, hook behind it, or push."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 

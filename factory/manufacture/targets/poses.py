@@ -1,7 +1,5 @@
 """Where a hand might come to a moving part, before asking whether it can."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What sticks out of a part's front: handles and knobs, by their shape alone."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Where a robot's base stands to open a joint: beside what moves, before what it grasps."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What the detector looks at: five sides of an object, on square canvases of one scale."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import StrEnum
 

@@ -1,7 +1,5 @@
 """From the detector's dense answers to parts: boxes on sides, each with what it is."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What the detector says of a mesh."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields
 from functools import cache
 from importlib import resources

@@ -1,7 +1,5 @@
 """Kinds of object that the detector tells apart."""
 
-from __future__ import annotations
-
 KINDS = (
     "cabinet", "drawer_unit", "wardrobe", "fridge", "oven", "microwave", "dishwasher", "washer",
     "chest", "case", "bin", "door", "window", "desk", "table", "shelf", "bed", "chair", "sofa",

@@ -1,7 +1,5 @@
 """The detector's network: a picture backbone per side, attention between sides, dense answers."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

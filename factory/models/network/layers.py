@@ -1,7 +1,5 @@
 """The layers, named as in the release, so that its checkpoints load key by key."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

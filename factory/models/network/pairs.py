@@ -1,7 +1,5 @@
 """A number per pair of a row and a column, and its gradient, storing nothing per pair."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

@@ -1,7 +1,5 @@
 """In which type to multiply."""
 
-from __future__ import annotations
-
 from enum import StrEnum
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What kind of network a checkpoint holds, read off the names and shapes of its tensors."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Mapping

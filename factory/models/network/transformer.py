@@ -1,7 +1,5 @@
 """The Part Articulation Transformer: as it is trained, on batches, with gradients."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """PartField's encoder: a cloud makes a field, and the field gives any point a feature."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import torch  # noqa: TID253 - this module is only imported to make the encoder

@@ -1,7 +1,5 @@
 """What a PartField checkpoint holds, read off the names and shapes of its tensors."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Mapping

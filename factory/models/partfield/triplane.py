@@ -1,7 +1,5 @@
 """A transformer over the cells of three planes."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import torch  # noqa: TID253 - this module is only imported to make the encoder

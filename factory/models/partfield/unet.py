@@ -1,7 +1,5 @@
 """A U-Net over three planes, in which every plane hears of the other two."""
 
-from __future__ import annotations
-
 import itertools
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Points to features by way of a coarse grid of voxels, then to three planes."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import torch  # noqa: TID253 - this module is only imported to make the encoder

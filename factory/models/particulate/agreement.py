@@ -1,7 +1,5 @@
 """How far readings of the same mesh from different samples agree, and which one stands for all."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The most probable tree over a set of parts."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 

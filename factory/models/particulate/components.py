@@ -7,8 +7,6 @@ told the box, the place and the spread of its component. On a mesh of one piece 
 and nothing else.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 

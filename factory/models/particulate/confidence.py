@@ -1,7 +1,5 @@
 """Which points belong to which part, how sure that is, and parts too doubtful to keep."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The network's answer on points -> the part of each face, the tree, and each part's motion."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields
 from enum import StrEnum
 

@@ -1,7 +1,5 @@
 """PartField: features of points from a sample of the whole surface. All that others ask of it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Mesh -> reading: sample, ask the network, decode; several times over, if wanted."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Protocol
 

@@ -1,7 +1,5 @@
 """From labelled points to labelled faces, and faces that hang together made to agree."""
 
-from __future__ import annotations
-
 from enum import StrEnum
 
 import numpy as np

@@ -1,7 +1,5 @@
 """How one part moves: class, axes and ranges of the network's answer, in its own frame."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Stray patches of a label given to their surroundings, so a label is one patch per component."""
 
-from __future__ import annotations
-
 import heapq
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What the network says about one cloud of points, as plain arrays."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, fields
 from enum import IntEnum
 from typing import Protocol

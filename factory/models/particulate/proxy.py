@@ -1,7 +1,5 @@
 """A lighter stand-in for a very dense mesh, and the labels carried back to the mesh itself."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Edges at which a surface folds: where half of the network's points lie."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

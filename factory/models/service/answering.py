@@ -1,7 +1,5 @@
 """The network's side: a question as bytes in, its answer as bytes out."""
 
-from __future__ import annotations
-
 import itertools
 import threading
 from collections import OrderedDict

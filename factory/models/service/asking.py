@@ -1,7 +1,5 @@
 """The asker's side: a network that is elsewhere, and the same one at home where that is gone."""
 
-from __future__ import annotations
-
 import socket
 import time
 from collections.abc import Callable, Iterator

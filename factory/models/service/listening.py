@@ -1,7 +1,5 @@
 """A Unix socket at which questions arrive: bounded in number, in size and in time."""
 
-from __future__ import annotations
-
 import os
 import socket
 import threading

@@ -1,7 +1,5 @@
 """Messages between a service and its clients: a word, short texts, plain arrays; no code."""
 
-from __future__ import annotations
-
 import json
 import math
 import socket

@@ -1,7 +1,5 @@
 """Reading, describing and converting checkpoints of the networks this package knows."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass

@@ -7,8 +7,6 @@ Settings that a trainer stored beside its weights need no library: whatever they
 empty stand-in is made instead.
 """
 
-from __future__ import annotations
-
 import math
 import resource
 import tempfile

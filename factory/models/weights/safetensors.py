@@ -4,8 +4,6 @@ The library parses headers of up to 100 MB and takes the last of two tensors of 
 metadata in another order each time.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import struct

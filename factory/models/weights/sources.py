@@ -1,7 +1,5 @@
 """Where published weights come from, and under which terms."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 """Tensors that lie in a file, not yet read."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path

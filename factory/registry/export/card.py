@@ -1,7 +1,5 @@
 """What people read first in an export: a card of the dataset and its assets' license terms."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 

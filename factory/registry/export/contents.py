@@ -1,7 +1,5 @@
 """What lies in an export, file by file, in a fixed order."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict

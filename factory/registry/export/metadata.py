@@ -1,7 +1,5 @@
 """Tables of an export's assets that can be read without the assets."""
 
-from __future__ import annotations
-
 import importlib
 import io
 import json

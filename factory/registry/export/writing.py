@@ -1,7 +1,5 @@
 """Exports written: a folder, an archive, or either behind a URL."""
 
-from __future__ import annotations
-
 import gzip
 import io
 import os

@@ -1,7 +1,5 @@
 """Assets of an export, checked and published."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass

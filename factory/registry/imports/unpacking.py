@@ -1,7 +1,5 @@
 """An export's files, from archive or folder, into a folder of ours: regular, safe names."""
 
-from __future__ import annotations
-
 import gzip
 import os
 import re

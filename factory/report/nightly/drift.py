@@ -1,7 +1,5 @@
 """The yield of each source of inputs, against what it was over the last nights."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """What attempts come to: changes between nights, why inputs failed, where the time went."""
 
-from __future__ import annotations
-
 from collections import Counter, defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass

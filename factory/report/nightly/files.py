@@ -1,7 +1,5 @@
 """The folder of nights: what lies there, and how nights are named."""
 
-from __future__ import annotations
-
 import json
 import re
 from importlib.util import find_spec

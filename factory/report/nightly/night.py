@@ -1,7 +1,5 @@
 """One night: what became of each input, and the figures that this comes to."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from datetime import datetime, timedelta

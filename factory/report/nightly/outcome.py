@@ -1,7 +1,5 @@
 """What a night's exit code says, and the sentences behind it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 

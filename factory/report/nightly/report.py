@@ -1,7 +1,5 @@
 """All that is known of a night: what its summary, its page and its message are made from."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from functools import cached_property

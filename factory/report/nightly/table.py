@@ -1,7 +1,5 @@
 """``attempts.parquet``: a row per try of an input (the only file that says ``pyarrow``)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The page of one file, complete in itself."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

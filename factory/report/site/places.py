@@ -1,7 +1,5 @@
 """Where a finding is: the pose in which it shows, and the point."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any

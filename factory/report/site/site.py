@@ -1,7 +1,5 @@
 """The folder of a site: which pages are as they should be, and what is left to write."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """What the page of one asset says, as data: read from its folder, believed only as text."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path

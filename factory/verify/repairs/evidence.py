@@ -1,7 +1,5 @@
 """What a repair goes by: a verdict's findings and figures, and what the object can do without."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

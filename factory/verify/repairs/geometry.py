@@ -1,7 +1,5 @@
 """Repairs that change collision geometry only: joints and parts stay as they were stated."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from ...manufacture.plan import Plan

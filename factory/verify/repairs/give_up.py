@@ -1,7 +1,5 @@
 """A guessed part that cannot be a part of its own is none: the guess that is worth least goes."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from asset_factory.sim_checks import Finding

@@ -1,7 +1,5 @@
 """A joint that is slightly wrong: turned round, straightened, or hung at its panel's edge."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 

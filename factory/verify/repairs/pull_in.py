@@ -1,7 +1,5 @@
 """A joint whose closed end lies in something begins where it is free, no further than as shown."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

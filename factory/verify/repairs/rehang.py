@@ -1,7 +1,5 @@
 """A guessed hinge whose door swings into its frame goes to the door's front edge."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from ...manufacture.plan import Plan

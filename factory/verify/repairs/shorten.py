@@ -1,7 +1,5 @@
 """A joint that runs into something ends before it, or is fixed where the object can do without."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from ...asset import Asset

@@ -1,7 +1,5 @@
 """Boxes along the axes, and how far two of them agree."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.mesh import FloatArray

@@ -1,7 +1,5 @@
 """Labelled points and the joints that move them: what the published metrics compare."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

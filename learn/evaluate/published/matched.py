@@ -1,7 +1,5 @@
 """Parts matched by their centroids, and what is made of the parts without a partner."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The metrics as the paper words them: at rest, and with every part at its farthest."""
 
-from __future__ import annotations
-
 from ..score import Score
 from .cloud import ScoredCloud
 from .matched import matched

@@ -7,8 +7,6 @@ predicted ones the two lists of motions are exchanged. A hinge on the wrong side
 by this.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.mesh import FloatArray

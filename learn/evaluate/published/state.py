@@ -1,7 +1,5 @@
 """Two clouds in one state of their joints, compared part by part."""
 
-from __future__ import annotations
-
 from asset_factory.factory.mesh import FloatArray
 
 from .boxes import box_of, giou, iou

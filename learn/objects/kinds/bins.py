@@ -1,7 +1,5 @@
 """Bins: with a swing lid, a pedal, a push flap, on wheels; and pails."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.mesh import FloatArray

@@ -1,7 +1,5 @@
 """Boxes with flaps, cases, suitcases, mailboxes."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.mesh import FloatArray, Material

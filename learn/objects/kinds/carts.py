@@ -1,7 +1,5 @@
 """Trolleys, and whatever else stands on wheels."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.mesh import Material

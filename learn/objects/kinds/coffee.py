@@ -1,7 +1,5 @@
 """Coffee machines and toasters: boxes with small parts on every side."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.mesh import Material

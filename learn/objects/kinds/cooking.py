@@ -1,7 +1,5 @@
 """Ranges, ovens, hobs, hoods, microwaves and dishwashers."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 

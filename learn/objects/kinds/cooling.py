@@ -1,7 +1,5 @@
 """Refrigerators, freezers and wine coolers."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import partial
 

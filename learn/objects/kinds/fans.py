@@ -1,7 +1,5 @@
 """Fans and globes: what turns on a stand."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.mesh import Material

@@ -1,7 +1,5 @@
 """What is fitted to walls and pipes: faucets, valves, panels of switches."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.mesh import FloatArray, Material

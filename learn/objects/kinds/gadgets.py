@@ -1,7 +1,5 @@
 """Things for the hand, the nose and the wall: USB sticks, phones, cameras, clocks, eyeglasses."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.mesh import Material

@@ -1,7 +1,5 @@
 """Scissors, pliers, staplers, knives, pens."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 

@@ -1,7 +1,5 @@
 """Rows of kitchen units under one worktop, with what is built into them."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from ..kit.assembly import Assembly, facing_front, named

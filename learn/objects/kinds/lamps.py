@@ -1,7 +1,5 @@
 """Desk lamps and standing lamps."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.mesh import Material

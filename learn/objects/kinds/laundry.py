@@ -1,7 +1,5 @@
 """Washing machines and dryers."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Boxes with lids, and safes: chests, freezers, benches, strong doors with dials and wheels."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Doors and windows in their frames, with handles that turn on them."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Notebook computers and monitors; and what stands beside them: mice and printers."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Furniture to store things in: one plan per kind, casework for all."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial

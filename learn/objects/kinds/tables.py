@@ -1,7 +1,5 @@
 """Tables and desks: drawers under a top, cases beside the knees, leaves that fold."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from ..kit.assembly import BACK, FRONT, LEFT, RIGHT, Assembly, named

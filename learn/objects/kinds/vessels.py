@@ -1,7 +1,5 @@
 """Pots, kettles, bottles, dispensers, pepper mills: turned on a lathe, with a lid or a pump."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.mesh import Material

@@ -1,7 +1,5 @@
 """What is nailed together of boards: frames, carcasses, trays, racks; and what they stand on."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.mesh import Material

@@ -1,7 +1,5 @@
 """Cases with doors, drawers and shelves: what kitchens, wardrobes and windows have in common."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import NamedTuple, Unpack
 

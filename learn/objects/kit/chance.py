@@ -1,7 +1,5 @@
 """What is drawn at random: sizes, shares, looks."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import TypeVar
 

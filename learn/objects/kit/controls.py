@@ -1,7 +1,5 @@
 """Knobs, buttons and keys on a face; where the face is, its place says."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Where the axis of a door sits, and how far it opens without touching anything."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Colours and a wood texture, the same bytes everywhere."""
 
-from __future__ import annotations
-
 import struct
 import zlib
 

@@ -1,7 +1,5 @@
 """Lines in a plane [m], shape [count, 2]: arcs, ovals, rectangles with round corners."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Fronts of doors and drawers, in the styles that joiners and appliance makers give them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

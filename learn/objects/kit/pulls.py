@@ -1,7 +1,5 @@
 """Things to pull at, on a face that looks towards -Y."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

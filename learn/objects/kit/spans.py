@@ -4,8 +4,6 @@ Lengths are in metres. A span is the lower and the upper end along one axis. Whe
 a plane across an axis, its two coordinates are those of the other two axes in the order x, y, z.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Looks and proportions of casework, drawn at random."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Wheels on fixed axles, and wheels in forks that swivel."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.articulation import rotation_about

@@ -1,7 +1,5 @@
 """A USD stage written as the URDF that says the same, so that every engine can be asked."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from xml.etree import ElementTree

@@ -1,7 +1,5 @@
 """A rigid body of a USD stage, in its own frame."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

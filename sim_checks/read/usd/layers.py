@@ -1,7 +1,5 @@
 """Which files compose a USD asset, found before composing: none may be outside its folder."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """How many prims a short USD asset becomes once it is composed, counted before."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 

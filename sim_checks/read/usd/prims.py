@@ -1,7 +1,5 @@
 """What a prim of a USD stage is to physics, and whether it is shown."""
 
-from __future__ import annotations
-
 from itertools import islice
 from typing import Any
 

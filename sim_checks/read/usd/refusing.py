@@ -1,7 +1,5 @@
 """Whatever USD's library makes of a damaged file is a refusal, told as a sentence."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager

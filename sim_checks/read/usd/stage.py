@@ -1,7 +1,5 @@
 """A composed stage: rigid bodies with what is seen and touched of them, and joints between them."""
 
-from __future__ import annotations
-
 import importlib.util
 from collections.abc import Iterator
 from dataclasses import dataclass

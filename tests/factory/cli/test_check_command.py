@@ -1,7 +1,5 @@
 """`factory check` judges files and folders with one judge, prints at once, and names each path."""
 
-from __future__ import annotations
-
 import json
 import re
 import threading

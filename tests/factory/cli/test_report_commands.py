@@ -1,7 +1,5 @@
 """``factory report`` and ``factory view``."""
 
-from __future__ import annotations
-
 import pytest
 from shown_registry import bundle_in, make_registry
 

@@ -1,7 +1,5 @@
 """``factory solve``: what is written, what is not done twice, and what the exit code says."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from types import SimpleNamespace

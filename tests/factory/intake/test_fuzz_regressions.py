@@ -1,7 +1,5 @@
 """What fuzzing found in the input readers, each once: a verdict, no hang, crash or stray file."""
 
-from __future__ import annotations
-
 import json
 import os
 import struct

@@ -1,7 +1,5 @@
 """A job does each thing once, says what it did, and goes on where another one stopped."""
 
-from __future__ import annotations
-
 import errno
 import json
 import shutil

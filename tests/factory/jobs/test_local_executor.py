@@ -1,7 +1,5 @@
 """Calls that crash, hang or eat memory cost only themselves; a million need no more than ten."""
 
-from __future__ import annotations
-
 import os
 import signal
 import time

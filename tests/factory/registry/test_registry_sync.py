@@ -1,7 +1,5 @@
 """A registry at a URL: a real S3 server, cuts in the middle, nothing named before it is there."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

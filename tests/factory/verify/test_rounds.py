@@ -1,7 +1,5 @@
 """What only simulators refuse is repaired too: the guess that is worth least is given up."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Files that cannot be read, or must not be."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

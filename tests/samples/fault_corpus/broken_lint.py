@@ -1,7 +1,5 @@
 """Files that can be read and say something no sound asset says: joints, masses, shapes."""
 
-from __future__ import annotations
-
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """One drive for every engine; here it moves a world whose mechanics are known in closed form."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What stands in a joint's way may make way for it, but only if it opens before it."""
 
-from __future__ import annotations
-
 import pytest
 from box_world import Box, body, described, joint
 from fault_corpus.broken_motion import deadlock

@@ -1,7 +1,5 @@
 """Which links each engine lets touch: seen in its contacts, and said the same way in the report."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

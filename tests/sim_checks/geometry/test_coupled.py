@@ -1,7 +1,5 @@
 """Followers move with their leaders and never alone; all that they meet on the way is found."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import pairwise
 

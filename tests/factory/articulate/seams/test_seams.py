@@ -1,7 +1,5 @@
 """One-piece meshes: doors, drawers, flaps and lids read from their sides; what does not open."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

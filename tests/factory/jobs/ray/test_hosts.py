@@ -4,8 +4,6 @@ The hosts are network namespaces with addresses and a /tmp of their own; inputs 
 them over TCP, and assets come back through a real S3 server.
 """
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import sys
