@@ -256,17 +256,6 @@ def cases(
         yield make_case(request, store)
 
 
-def procedural_cases(
-    categories: Sequence[str],
-    seeds: Sequence[int],
-    poses: Sequence[str] = ("closed",),
-    yaws: Sequence[str] = ("front",),
-) -> Iterator[Case]:
-    """Yield procedural objects; arguments and errors as for :func:`procedural_requests`."""
-    for request in procedural_requests(categories, seeds, poses, yaws):
-        yield make_case(request)
-
-
 def _original(request: Request, store: Store | None) -> Articulation:
     if request.file is None:
         from ..objects import make_object

@@ -2,13 +2,13 @@
 
 import json
 import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
+from command_line import COMMAND
 
 from asset_factory.factory.build import build_asset
 from asset_factory.factory.cli.commands import run
@@ -17,19 +17,12 @@ from asset_factory.factory.jobs import run_builds
 from asset_factory.factory.registry import Registry
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "meshes"
+GENERATED = EXAMPLES.parent / "generated" / "fridge.glb"
 
 
 def build(output, *arguments):
     """As a user does: in a process of its own, so that no test shares its fork server."""
-    command = [
-        sys.executable,
-        "-m",
-        "asset_factory.factory.cli",
-        "build",
-        "--output",
-        str(output),
-        *map(str, arguments),
-    ]
+    command = [*COMMAND, "build", "--output", str(output), *map(str, arguments)]
     done = subprocess.run(command, check=False, capture_output=True, text=True, timeout=600)
     return done, json.loads((output / "summary.json").read_text())
 
@@ -149,49 +142,23 @@ def test_wrong_usage_exits_with_2_and_says_what_would_work(
 
 def test_what_is_left_is_said(tmp_path, capsys):
     trimesh.creation.box().export(tmp_path / "brick.stl")
+    asked = ["build", "--input", str(tmp_path / "brick.stl"), "--output", str(tmp_path / "out")]
     for flags, state in (
         (["--limit", "0"], "limit_reached"),
         (["--max-hours", "0"], "out_of_time"),
     ):
-        assert (
-            run(
-                [
-                    "build",
-                    "--input",
-                    str(tmp_path / "brick.stl"),
-                    "--output",
-                    str(tmp_path / "out"),
-                    *flags,
-                ]
-            )
-            == 0
-        )
+        assert run([*asked, *flags]) == 0
         summary = json.loads((tmp_path / "out" / "summary.json").read_text())
         assert (summary["state"], summary["left"], summary["inputs"]) == (state, 1, 0)
         assert "1 inputs are left" in capsys.readouterr().out
-    since = ["--since", "2999-01-01"]
-    assert (
-        run(
-            [
-                "build",
-                "--input",
-                str(tmp_path / "brick.stl"),
-                "--output",
-                str(tmp_path / "out"),
-                *since,
-            ]
-        )
-        == 0
-    )
+    assert run([*asked, "--since", "2999-01-01"]) == 0
 
 
 def test_an_output_that_cannot_be_made_exits_with_2(tmp_path, capsys):
     trimesh.creation.box().export(tmp_path / "brick.stl")
     (tmp_path / "out").write_text("a file")
-    assert (
-        run(["build", "--input", str(tmp_path / "brick.stl"), "--output", str(tmp_path / "out")])
-        == 2
-    )
+    asked = ["--input", str(tmp_path / "brick.stl"), "--output", str(tmp_path / "out")]
+    assert run(["build", *asked]) == 2
     assert "no registry can be made here" in capsys.readouterr().err
 
 
@@ -245,9 +212,8 @@ def test_overlapping_neighbours_are_rejected_with_the_millimetres(tmp_path):
     (tmp_path / "chest.urdf").write_text("".join([*urdf, "</robot>"]))
     result = build_asset(tmp_path / "chest.urdf", tmp_path / "out", BuildConfig(simulators=()))
     assert (result.entry.status, result.entry.reason) == ("rejected", "rest_penetration")
-    report = json.loads(
-        (tmp_path / "out" / "rejected" / result.entry.id / "report.json").read_text()
-    )
+    folder = tmp_path / "out" / "rejected" / result.entry.id
+    report = json.loads((folder / "report.json").read_text())
     (finding,) = [f for f in report["findings"] if f["code"] == "rest_penetration"]
     assert finding["value"] == pytest.approx(8.0, abs=0.01)
     assert set(finding["parts"]) == {"one", "two"}
@@ -256,13 +222,7 @@ def test_overlapping_neighbours_are_rejected_with_the_millimetres(tmp_path):
 
 
 def test_a_generated_skin_opens_in_all_three_simulators(tmp_path):
-    _, summary = build(
-        tmp_path,
-        "--input",
-        EXAMPLES.parent / "generated" / "fridge.glb",
-        "--sim",
-        "sapien,mujoco,pybullet",
-    )
+    _, summary = build(tmp_path, "--input", GENERATED, "--sim", "sapien,mujoco,pybullet")
     (row,) = summary["assets"]
     assert (row["status"], row["joints"]) == ("passed", 2), row
     manifest = json.loads((tmp_path / "assets" / row["id"] / "asset.json").read_text())
@@ -272,14 +232,7 @@ def test_a_generated_skin_opens_in_all_three_simulators(tmp_path):
 
 
 def test_without_an_interior_nothing_is_hollow(tmp_path):
-    _, summary = build(
-        tmp_path,
-        "--input",
-        EXAMPLES.parent / "generated" / "fridge.glb",
-        "--sim",
-        "mujoco",
-        "--no-interior",
-    )
+    _, summary = build(tmp_path, "--input", GENERATED, "--sim", "mujoco", "--no-interior")
     (row,) = summary["assets"]
     assert row["status"] == "passed", row
     manifest = json.loads((tmp_path / "assets" / row["id"] / "asset.json").read_text())

@@ -3,12 +3,12 @@
 import hashlib
 import json
 import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from command_line import COMMAND
 from tiny_checkpoint import write_checkpoint
 
 from asset_factory.factory.articulate.predict import predict
@@ -156,16 +156,7 @@ def test_wrong_usage_is_told_in_one_sentence(capsys, arguments, sentence):
 
 def test_a_build_with_weights_ends_in_a_verdict(tmp_path, checkpoint):
     output = tmp_path / "out"
-    command = [
-        sys.executable,
-        "-m",
-        "asset_factory.factory.cli",
-        "build",
-        "--input",
-        str(FRIDGE),
-        "--sim",
-        "mujoco",
-    ]
+    command = [*COMMAND, "build", "--input", str(FRIDGE), "--sim", "mujoco"]
     command += ["--output", str(output), "--articulator", "particulate"]
     command += ["--checkpoint", str(checkpoint), "--points", "1500"]
     done = subprocess.run(command, check=False, capture_output=True, text=True, timeout=300)
@@ -175,12 +166,6 @@ def test_a_build_with_weights_ends_in_a_verdict(tmp_path, checkpoint):
     (row,) = summary["assets"]
     assert (row["parts"], row["joints"]) == (3, 2)
     assert row["hulls"] > 2
-    report = json.loads(
-        (
-            output
-            / ("assets" if row["status"] == "passed" else "rejected")
-            / row["id"]
-            / "report.json"
-        ).read_text()
-    )
+    place = "assets" if row["status"] == "passed" else "rejected"
+    report = json.loads((output / place / row["id"] / "report.json").read_text())
     assert any(finding["code"] == "articulation_note" for finding in report["findings"])

@@ -1,14 +1,12 @@
 """A registry at a URL: a real S3 server, cuts in the middle, nothing named before it is there."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess
-import sys
 import time
 
 import pytest
+from command_line import COMMAND
 from registry_samples import named, publish
 from s3_server import BUCKET, SECRET, Line, s3_server
 
@@ -121,7 +119,7 @@ def test_an_index_names_nothing_that_is_not_there(registry, bucket, monkeypatch)
 @pytest.mark.parametrize("killed_at", [1, 9, 30])
 @pytest.mark.cluster
 def test_a_process_killed_in_the_middle_is_gone_on_with(registry, bucket, killed_at):
-    command = [sys.executable, "-m", "asset_factory.factory.cli", "registry", "sync", URL]
+    command = [*COMMAND, "registry", "sync", URL]
     command += ["--output", str(registry.root)]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     until = time.monotonic() + 60.0

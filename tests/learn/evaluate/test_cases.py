@@ -16,7 +16,6 @@ from asset_factory.learn.evaluate.cases import (
     cases,
     folder_requests,
     make_case,
-    procedural_cases,
     procedural_requests,
     skin_requests,
 )
@@ -172,7 +171,8 @@ def test_another_file_than_the_listed_one_is_refused(tmp_path):
 
 
 def test_procedural_objects_are_cases_too():
-    case, again = (next(procedural_cases(("cabinet",), (7,))) for _ in range(2))
+    (request,) = procedural_requests(("cabinet",), (7,))
+    case, again = (make_case(request) for _ in range(2))
     assert (case.name, case.source) == ("cabinet_7--closed-front", "procedural")
     assert same(case.articulation, again.articulation)
     assert case.articulation.movable_joints
@@ -180,7 +180,7 @@ def test_procedural_objects_are_cases_too():
 
 def test_unknown_poses_and_yaws_are_named(tmp_path):
     with pytest.raises(ConfigError, match="no pose 'ajar'; there are closed, open"):
-        next(procedural_cases(("cabinet",), (7,), poses=("ajar",)))
+        procedural_requests(("cabinet",), (7,), poses=("ajar",))
 
 
 def test_a_folder_of_objects_with_joints(tmp_path):

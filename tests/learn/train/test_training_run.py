@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 import torch  # noqa: TID253
 from box_sampled_objects import write_boxes
+from command_line import COMMAND
 from tiny_recipe import recipe
 
 from asset_factory.factory.cli.commands import run
@@ -76,18 +77,9 @@ def test_the_same_recipe_gives_the_same_bytes_and_workers_change_nothing(written
 def test_a_killed_run_goes_on_as_if_it_had_not_been(written, tmp_path):
     path, output = written
     other = tmp_path / "run"
-    command = [
-        sys.executable,
-        "-m",
-        "asset_factory.factory.cli",
-        "train",
-        str(path),
-        "--output",
-        str(other),
-    ]
-    process = subprocess.Popen(
-        command, stderr=subprocess.DEVNULL, env={**os.environ, "OMP_NUM_THREADS": "1"}
-    )
+    command = [*COMMAND, "train", str(path), "--output", str(other)]
+    one_thread = {**os.environ, "OMP_NUM_THREADS": "1"}
+    process = subprocess.Popen(command, stderr=subprocess.DEVNULL, env=one_thread)
     deadline = time.monotonic() + 120.0
     while (
         not (other / "last.pt").is_file() and time.monotonic() < deadline and process.poll() is None
@@ -293,15 +285,7 @@ def test_two_processes_learn_the_same_as_one(tmp_path):
     path.write_text(recipe(write_boxes(tmp_path / "data", 6), dropout=0.0, steps=8))
     assert train(Train(str(path), tmp_path / "one"))
     launch = [sys.executable, "-m", "torch.distributed.run", "--standalone", "--nproc-per-node=2"]
-    command = [
-        *launch,
-        "-m",
-        "asset_factory.factory.cli",
-        "train",
-        str(path),
-        "--output",
-        str(tmp_path / "two"),
-    ]
+    command = [*launch, *COMMAND[1:], "train", str(path), "--output", str(tmp_path / "two")]
     subprocess.run(command, check=True, timeout=300, env={**os.environ, "OMP_NUM_THREADS": "1"})
     one, two = (read_curve(tmp_path / name / "curves.csv") for name in ("one", "two"))
     for name, values in one.items():

@@ -4,17 +4,15 @@ The hosts are network namespaces with addresses and a /tmp of their own; inputs 
 them over TCP, and assets come back through a real S3 server.
 """
 
-from __future__ import annotations
-
 import shutil
 import subprocess
-import sys
 import tempfile
 import threading
 import time
 from pathlib import Path
 
 import pytest
+from command_line import COMMAND
 from hosts import hosts
 from input_files import write_inputs
 from s3_server import BUCKET, s3_server
@@ -59,7 +57,7 @@ def undisturbed(inputs, tmp_path_factory):
 
 def begun(inputs, output, *more, said=None, flags=FLAGS):
     """The command, in a process of its own: Ray reads the environment once and for all."""
-    command = [sys.executable, "-m", "asset_factory.factory.cli", "build", *flags, *more]
+    command = [*COMMAND, "build", *flags, *more]
     command += ["--input", inputs, "--output", output]
     return subprocess.Popen(command, stderr=said)
 
