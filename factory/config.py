@@ -326,8 +326,8 @@ class BuildConfig:
         asset_wall_s: longest a single input may take, repairs included [s].
         asset_memory_bytes: most address space of the process that builds one input [bytes].
         retries: further tries for an input whose process crashed, hung or ran out of memory.
-        cache_gb: a build leaves so much of the registry's cache, what was used within the last hour
-            not counted; 0: any amount [GB].
+        cache_gb: a build leaves so much of the registry's cache, results of the last hour not
+            counted; 0: any amount [GB].
     """
 
     articulator: str = "auto"

@@ -67,7 +67,7 @@ class Build:
     limit: int | None = None
     """Build at most so many; those known from before are not counted."""
     max_hours: float | None = None
-    """Stop after so long [h]; what runs then is left to the next run, as what was not begun."""
+    """Stop after so long [h]; inputs under way or not begun then are left to the next run."""
     since: str | None = None
     """Only inputs modified since: seconds ago, a date such as 2026-11-21, or a file's own time."""
     retry_rejected: tuple[str, ...] = ()

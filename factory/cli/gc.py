@@ -17,10 +17,10 @@ _DAY_S = 86_400.0
 
 @dataclass(frozen=True)
 class Gc(OfRegistry):
-    """Remove what dead processes left, and cached results by age and size; say what is left.
+    """Remove what dead processes left, and cached results by age and size; say how many stay.
 
-    Never what a running job holds: its staging folders are locked, and what was used within the
-    last hour stays. A build keeps the cache below `cache_gb` of its settings by itself.
+    Never what a running job holds: its staging folders are locked, and results of the last hour
+    stay. A build keeps the cache below `cache_gb` of its settings by itself.
 
     Example: factory gc --output out/ --keep-gb 0
     """

@@ -38,7 +38,7 @@ class Remove(OfRegistry):
 
 
 def run(command: Remove) -> int:
-    """Remove what is named; returns the exit code."""
+    """Remove the assets that are named; returns the exit code."""
     registry = Registry(command.output)
     if bool(command.ids) == bool(command.where):
         raise ConfigError("want ids, or --where with conditions")

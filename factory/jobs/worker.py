@@ -41,7 +41,7 @@ def build_here(
         engines: simulators that may run at once; verdicts do not depend on it.
 
     Returns:
-        What is to be registered.
+        The product, for the registry.
     """
     shutil.rmtree(staging, ignore_errors=True)
     staging.mkdir(parents=True)

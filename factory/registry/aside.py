@@ -90,7 +90,7 @@ def superseded(root: Path) -> tuple[Entry, ...]:
 
 
 def set_asset_aside(registry: Registry, asset_id: str, where: str) -> None:
-    """Drop an asset's row, and move its folder to ``where``; what was noted of it stays."""
+    """Drop an asset's row, and move its folder to ``where``; its notes stay."""
     with registry.unlisted(asset_id) as folders:
         for folder in folders or ():
             set_aside(registry, folder, Path(asset_id), where)

@@ -24,7 +24,7 @@ class Freed:
         staging: folders of processes that are dead; ``files`` counts them.
         unfinished: files that nobody finished writing.
         cache: results that can be computed again.
-        kept: of these, what is left.
+        kept: of these, those that stay.
     """
 
     staging: Trimmed

@@ -1,4 +1,4 @@
-"""Where the network runs: on what is there and does run it."""
+"""Where the network runs: on a GPU that is there and computes, else on the CPU."""
 
 from __future__ import annotations
 
