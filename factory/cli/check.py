@@ -9,7 +9,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from queue import SimpleQueue
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import tyro
 from tyro.conf import Positional
@@ -20,8 +20,8 @@ from asset_factory.sim_checks.read.usd.layers import is_usd
 
 from ..errors import ConfigError, Exit
 from ..presets import load_config
-from ..runtime.store import write_json
-from ..runtime.terminal import complain, say
+from ..runtime.store import write_json, write_whole
+from ..runtime.terminal import complain, printable, say
 from . import console
 from .baseline import read_baseline, without_known, write_baseline
 from .check_formats import FORMATS, PAGE, total
@@ -58,8 +58,9 @@ class Check:
     """An SRDF whose exempt pairs hold for the one file checked; by default the one beside it."""
     reading: tyro.conf.OmitArgPrefixes[RootFlags] = field(default_factory=RootFlags)
     """Where descriptions may read."""
-    format: Literal["text", "json", "sarif", "junit", "markdown", "github"] = "text"
-    """How to print it: text as files are done, the others at the end. github: annotations."""
+    format: str = "text"
+    """How to print it: text, as files are done, or json, sarif, junit, markdown or github, at the
+    end. FORMAT=FILE writes a file beside that; several are separated by commas."""
     baseline: Path | None = None
     """A file of known findings, which are left out but for JSON and fail nothing."""
     write_baseline: Path | None = None
@@ -80,7 +81,7 @@ def run(command: Check) -> int:
     options = replace(command.reading.options(command.files), srdf=command.srdf)
     if command.srdf is not None and not (command.srdf.is_file() and len(files) == 1):
         raise ConfigError(f"--srdf: want a file, for one description; got {len(files)} of them")
-    form = "json" if str(command.json) == "-" else command.format
+    form, written = _forms("json" if str(command.json) == "-" else command.format)
     reports: list[Report] = []
     new: list[tuple[str, Report]] = []
     seen: set[Hashable] = set()
@@ -99,6 +100,9 @@ def run(command: Check) -> int:
         say(f"{total(new, told)}{more}; {PAGE} says what a code means")
     else:
         say(json.dumps(data, indent=2) if form == "json" else FORMATS[form](new))
+    for other, target in written.items():
+        text = json.dumps(data, indent=2) if other == "json" else FORMATS[other](new)
+        write_whole(target, f"{printable(text)}\n".encode())
     if command.json is not None and str(command.json) != "-":
         write_json(command.json, data)
     if command.write_baseline is not None:
@@ -111,6 +115,19 @@ def run(command: Check) -> int:
     if Status.UNJUDGED in statuses:
         return Exit.UNJUDGED
     return Exit.REJECTED if command.strict and Status.REJECTED in statuses else Exit.OK
+
+
+def _forms(said: str) -> tuple[str, dict[str, Path]]:
+    """Return the format that is printed, and the files of others. Raises ConfigError."""
+    printed = [each for each in said.split(",") if "=" not in each]
+    written = dict(each.split("=", 1) for each in said.split(",") if "=" in each)
+    names = ("text", "json", *FORMATS)
+    wrong = {*printed, *written} - set(names) or ({"text"} & set(written))
+    if wrong or len(printed) > 1:
+        raise ConfigError(
+            f"--format: is {said!r}, want one of {', '.join(names)}, and FORMAT=FILE for others"
+        )
+    return next(iter(printed), "text"), {form: Path(file) for form, file in written.items()}
 
 
 def _print_new(path: Path, report: Report, seen: set[Hashable], *, verbose: bool) -> list[Finding]:

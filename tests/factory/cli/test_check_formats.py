@@ -82,8 +82,13 @@ def test_every_format_is_printed_alone(tmp_path: Path, capsys: pytest.CaptureFix
         out = capsys.readouterr().out
         assert "rest_penetration" in out
         assert not out.startswith("rejected")
-    assert run(["check", str(path), "--sim", "", "--format", "json"]) == 0
+    both = f"json,markdown={tmp_path}/a.md,junit={tmp_path}/a.xml"
+    assert run(["check", str(path), "--sim", "", "--format", both]) == 0
     assert json.loads(capsys.readouterr().out)["passed"] is False
+    assert "rest_penetration" in (tmp_path / "a.md").read_text()
+    assert "rest_penetration" in (tmp_path / "a.xml").read_text()
+    for wrong in ("yaml", "json,sarif", "text=a.txt"):
+        assert run(["check", str(path), "--sim", "", "--format", wrong]) == 2
 
 
 def test_reports_keep_to_their_schema_and_codes_have_their_place(tmp_path: Path) -> None:

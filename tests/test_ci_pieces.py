@@ -1,0 +1,91 @@
+"""The GitHub Action and the pre-commit hook, run here as their runners run them."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).resolve().parents[1]
+BODY = (
+    '<inertial><origin xyz="{0}"/><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" '
+    'ixy="0" ixz="0" iyz="0"/></inertial><collision><origin xyz="{0}"/>'
+    '<geometry><box size="0.4 0.2 0.2"/></geometry></collision>'
+)
+URDF = f"""<robot name="r">
+<link name="shell">{BODY.format("0 0 0")}</link>
+<link name="drawer">{BODY.format("0 0.204 0")}</link>
+<joint name="slide" type="prismatic"><parent link="shell"/><child link="drawer"/>
+<axis xyz="LENGTH 0 0"/><limit lower="0" upper="0.3" effort="10" velocity="1"/></joint></robot>
+"""
+
+
+@pytest.fixture
+def repository(tmp_path: Path) -> Path:
+    """A folder of assets, one sound and one not, where ``factory`` is this checkout's."""
+    for name, length in (("sound", "1"), ("broken", "2")):
+        path = tmp_path / "assets" / f"{name}.urdf"
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(URDF.replace("LENGTH", length))
+    program = tmp_path / "bin" / "factory"
+    program.parent.mkdir()
+    program.write_text(f'#!/bin/sh\nexec {sys.executable} -m asset_factory.factory.cli "$@"\n')
+    program.chmod(0o755)
+    return tmp_path
+
+
+def run(repository: Path, command: list[str], **env: str) -> subprocess.CompletedProcess[str]:
+    path = f"{repository / 'bin'}:{os.environ['PATH']}"
+    return subprocess.run(
+        command,
+        cwd=repository,
+        env={**os.environ, "PATH": path, **env},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def act(repository: Path, **inputs: str) -> subprocess.CompletedProcess[str]:
+    """Run the step of the Action that checks, its inputs filled in as GitHub does."""
+    action = yaml.safe_load((ROOT / "action.yml").read_text())
+    values = {name: each["default"] for name, each in action["inputs"].items()} | inputs
+    (step,) = (each for each in action["runs"]["steps"] if each.get("name") == "Check")
+    env = {
+        name: re.sub(r"\$\{\{ inputs\.(\w+) \}\}", lambda found: values[found[1]], value)
+        for name, value in step["env"].items()
+    }
+    summary = str(repository / "summary.md")
+    bash = ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", step["run"]]
+    return run(repository, bash, GITHUB_STEP_SUMMARY=summary, **env)
+
+
+def test_the_action_annotates_and_fails_for_what_is_new_alone(repository: Path) -> None:
+    done = act(repository, path="assets", sim="")
+    assert done.returncode == 1, done.stderr
+    assert done.stdout.startswith("::error file=assets/broken.urdf,line=4,title=axis_not_unit::")
+    assert "| error | [axis_not_unit](" in (repository / "summary.md").read_text()
+    sarif = json.loads((repository / "factory-check.sarif").read_text())
+    assert "axis_not_unit" in [each["ruleId"] for each in sarif["runs"][0]["results"]]
+    known = ["factory", "check", "assets", "--sim", "", "--write-baseline", "known.json"]
+    assert run(repository, known).returncode == 0
+    assert act(repository, path="assets", sim="", baseline="known.json").returncode == 0
+
+
+def test_the_hook_takes_the_files_it_names(repository: Path) -> None:
+    (hook,) = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())
+    staged = ["assets/broken.urdf", "assets/sound.urdf", "package.xml", "notes.txt"]
+    files = [each for each in staged if re.search(hook["files"], each)]
+    assert files == staged[:2]
+    entry = [*shlex.split(hook["entry"])[:-1], ""]
+    done = run(repository, [*entry, *files])
+    assert done.returncode == 1, done.stderr
+    assert "axis_not_unit" in done.stdout
+    assert run(repository, [*entry, "assets/sound.urdf"]).returncode == 0
