@@ -6,15 +6,17 @@ import json
 import re
 from dataclasses import replace
 from html.parser import HTMLParser
+from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 import pytest
-from export_samples import cabinet
+from export_samples import PROVENANCE, cabinet
 from registry_samples import PASSED
 from shown_registry import HIT, HOSTILE, POINT, bundle_in, make_registry
 
 from asset_factory.factory.display.made import scene_of
 from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.export.bundle import export_bundle
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.report.site.alone import page_of_file
 from asset_factory.factory.report.site.places import Places
@@ -29,6 +31,8 @@ from asset_factory.factory.report.site.site import (
 from asset_factory.factory.report.site.told import AssetPage, asset_page
 from asset_factory.sim_checks import Finding, Severity
 from asset_factory.sim_checks.measurements import penetrations
+
+EXAMPLES = Path(__file__).parents[4] / "examples"
 
 
 class Page(HTMLParser):
@@ -221,8 +225,13 @@ def test_findings_lead_to_the_pose_in_which_they_show(registry):
 
 def test_a_file_becomes_one_page_that_needs_nothing_else(tmp_path):
     folder = bundle_in(tmp_path / "bundle")
-    for file in ("asset.urdf", "asset.xml", "view.glb", "."):
-        text = page_of_file(folder / file)
+    export_bundle(cabinet(), PROVENANCE, tmp_path / "more", formats=("glb",))
+    own = [folder / name for name in ("asset.urdf", "asset.xml", "view.glb", ".")]
+    # Our own program wrote these, but they have no joints of ours.
+    meshes = [path for path in EXAMPLES.glob("*/*") if path.suffix in (".glb", ".obj")]
+    assert len(meshes) == 11
+    for file in (*own, tmp_path / "more/asset.glb", *meshes):
+        text = page_of_file(file)
         parsed = Page(text)
         assert parsed.loaded == []
         assert parsed.links == []
