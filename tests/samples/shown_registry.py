@@ -65,7 +65,9 @@ def make_registry(root: Path) -> Registry:
     with registry.staging_folder() as staging:
         registry.publish(passed, bundle_in(staging / "one"), told)
     measurements = {"asset.urdf": {"penetration": _MEASURED.to_dict()}}
-    report = Report("asset.urdf", ("mujoco",), (HIT, WORDS), measurements)
+    # The MJCF says the same with other last digits, and names the pair the other way round.
+    again = replace(HIT, message=f"{HIT.message} ", parts=HIT.parts[::-1], value=4.2001)
+    report = Report("asset.urdf", ("mujoco",), (WORDS, HIT, again), measurements)
     hit = _rejected("hitting-2", HIT)
     with registry.staging_folder() as staging:
         registry.reject(hit, BuildReport(report), bundle_in(staging / "two"))

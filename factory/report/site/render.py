@@ -10,10 +10,10 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from asset_factory.sim_checks import Severity, Status
+from asset_factory.sim_checks import Status
 
 from ..pages import environment, trusted
-from .told import AssetPage
+from .told import WORDS, AssetPage
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -69,6 +69,5 @@ def packed(model: bytes) -> str:
 
 @cache
 def _templates() -> Environment:
-    return environment(
-        __package__, HARD=Severity.HARD, PASSED=Status.PASSED, STATUSES=tuple(Status)
-    )
+    known = {"PASSED": Status.PASSED, "STATUSES": tuple(Status), "SEVERITIES": WORDS.values()}
+    return environment(__package__, **known)

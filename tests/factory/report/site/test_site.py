@@ -134,6 +134,25 @@ def test_what_was_rejected_has_its_place_and_its_picture(registry):
     assert (registry.rejected / "hitting-2" / "view.glb").is_file()
 
 
+def test_findings_are_told_once_in_groups_the_gravest_first(registry):
+    page = asset_page(registry.root, registry.entry("hitting-2"))
+    assert [(group.severity, group.code, len(group.findings)) for group in page.groups] == [
+        ("error", "sweep_penetration", 1),
+        ("warning", "articulation_note", 1),
+    ]
+    text = (registry.root / "report/a/hitting-2/index.html").read_text()
+    assert re.findall(r"<h3>(\w+)</h3>", text) == ["Errors", "Warnings"]
+
+
+def test_a_page_tells_size_units_and_how_to_load_an_asset(registry):
+    text = (registry.root / "report/a/cabinet-1/index.html").read_text()
+    assert "<span>0.6 x 0.45 x 0.8 m</span>" in text
+    assert re.search(r"[\d.]+ N m s/rad</td>\s*<td class=\"number\">[\d.]+ N m</td>", text)
+    assert re.search(r"[\d.]+ N s/m</td>\s*<td class=\"number\">[\d.]+ N</td>", text)
+    assert re.findall(r"<code>(import \w+)", text) == ["import mujoco", "import gymnasium"]
+    assert "import mujoco" not in (registry.root / "report/a/hitting-2/index.html").read_text()
+
+
 def test_without_a_model_the_page_still_says_why(registry):
     text = (registry.root / "report/a/still-3/index.html").read_text()
     assert "no_movable_joint" in text
