@@ -153,15 +153,22 @@ def named(
 ) -> dict[str, RegisteredAsset]:
     """Return those of a registry's assets that have these ids, sorted; all if there are no ids.
 
+    An id may be cut short where only one begins so.
+
     Raises:
-        RegistryError: no such asset; names those there are.
+        RegistryError: no such asset, or several; names those there are.
     """
+    whole = set()
     for id in ids:
-        if id not in assets:
-            raise RegistryError(
-                f"no asset {id!r} in {registry}; there are {listed(sorted(assets))}"
-            )
-    return {id: assets[id] for id in sorted(set(ids) or assets)}
+        begun = (
+            [id] if id in assets else [known for known in sorted(assets) if known.startswith(id)]
+        )
+        if len(begun) != 1:
+            found = f"{len(begun)} assets" if begun else "no asset"
+            there = listed(begun or sorted(assets))
+            raise RegistryError(f"{found} {id!r} in {registry}; there are {there}")
+        whole |= {begun[0]}
+    return {id: assets[id] for id in sorted(whole or assets)}
 
 
 def listed(names: list[str]) -> str:

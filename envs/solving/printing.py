@@ -36,13 +36,15 @@ class Progress:
 
 def print_table(attempts: Mapping[str, Sequence[Mapping[str, Any]]]) -> None:
     """Print all attempts, by asset."""
-    named = [Column(name, overflow="fold") for name in ("asset", "joint")]
-    table = Table(*named, "robot", "opened", "how", "steps", "peak N", "mean N", "why not")
+    console = Terminal()
     for asset, rows in attempts.items():
+        # An id stands alone in its line, whole however narrow the terminal is.
+        console.print(escape(asset), style="bold", soft_wrap=True)
+        joint = Column("joint", overflow="fold")
+        table = Table(joint, "robot", "opened", "how", "steps", "peak N", "mean N", "why not")
         for row in rows:
             colour = "green" if row["solved"] else "red"
             table.add_row(
-                escape(asset),
                 escape(row["joint"]),
                 row["robot"],
                 f"[{colour}]{row['open_fraction']:.0%}[/]",
@@ -52,7 +54,7 @@ def print_table(attempts: Mapping[str, Sequence[Mapping[str, Any]]]) -> None:
                 f"{row['mean_force_n']:.1f}",
                 "" if row["solved"] else escape(f"{row['reason']}: {row['message']}"),
             )
-    Terminal().print(table)
+        console.print(table)
 
 
 def _said(attempt: Attempt) -> str:

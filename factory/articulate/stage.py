@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 
+import numpy as np
+
 from ..articulation import Articulation, Joint, Part, Weights
 from ..config import BuildConfig
 from ..errors import ConfigError, InputRejected
@@ -14,6 +16,7 @@ from ..models.weights.sources import fetch
 from ..runtime.keys import Stage
 from ..runtime.stages import Stages
 from ..runtime.store import digest_file
+from .annotated import annotation_of
 from .articulator import make_hypotheses
 from .catalog import choose, entry_of
 from .locate import located
@@ -46,6 +49,12 @@ ARTICULATE = Stage(
     also=_weight_digests,
 )
 
+#: What helps where nothing is seen to move.
+WAY_FORWARD = (
+    "say what opens in a sidecar (docs/say-what-opens.md) or with `factory edit`, take what is "
+    "less sure with --config lenient, or ask the published network with --checkpoint paper"
+)
+
 
 def articulate(intake: Intake, config: BuildConfig) -> Articulation:
     """Return the likeliest kinematic tree of a loaded input, asked anew.
@@ -64,16 +73,35 @@ def hypotheses_of(intake: Intake, config: BuildConfig) -> tuple[Hypothesis, ...]
         InputRejected: ``no_movable_joint``, unless a rigid asset was asked for: there is nothing to
             open, so nothing to decompose, simulate or register.
     """
+    name = intake.provenance.input
+    rigid = config.articulator == "rigid"
+    if not rigid and intake.stated is None and annotation_of(intake) is None:
+        _refuse_flat(name, intake.mesh)
     found = make_hypotheses(choose(intake, config), intake.mesh)
     likeliest = found[0].articulation
-    if not likeliest.movable_joints and likeliest.articulator != "rigid":
-        why = f": {likeliest.notes[0]}" if likeliest.notes else ""
-        message = (
-            f"{intake.provenance.input}: nothing moves, says {likeliest.articulator}{why}; "
-            "want a joint to open"
+    if not likeliest.movable_joints and not rigid:
+        size = " x ".join(f"{side:.3g}" for side in intake.mesh.extents)
+        seen = "; ".join(likeliest.notes) or "nothing in this mesh looks as if it moved"
+        raise _nothing_moves(
+            name, f"in {size} m {likeliest.articulator} saw this: {seen}; {WAY_FORWARD}"
         )
-        raise InputRejected("no_movable_joint", message, value=0.0, unit="joints", limit=1.0)
     return tuple(replace(each, articulation=located(each.articulation)) for each in found)
+
+
+def _refuse_flat(name: str, mesh: Mesh) -> None:
+    """Raise InputRejected where all triangles are in one plane."""
+    used = mesh.vertices[np.unique(mesh.faces)]
+    spread = np.linalg.svd(used - used.mean(axis=0), compute_uv=False)
+    if spread[-1] <= spread[0] * 1e-6:
+        count = len(mesh.faces)
+        faces = "its one triangle is" if count == 1 else f"all its {count} triangles are"
+        wanted = "want a solid object, with parts that open"
+        raise _nothing_moves(name, f"{faces} in one plane; {wanted}")
+
+
+def _nothing_moves(name: str, why: str) -> InputRejected:
+    message = f"{name}: nothing moves: {why}"
+    return InputRejected("no_movable_joint", message, value=0.0, unit="joints", limit=1.0)
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from rich.progress import (
     TimeElapsedColumn,
     TimeRemainingColumn,
 )
-from rich.table import Table
+from rich.table import Column, Table
 from rich.text import Text
 
 from asset_factory.sim_checks import Disagreement, Finding, Report, Severity, Status
@@ -28,7 +28,6 @@ from asset_factory.sim_checks.grouping import group_findings
 
 from ..models.weights.checkpoint import WeightsInfo
 from ..registry import Entry
-from ..registry.report_file import BuildReport
 from ..registry.result import Result
 from ..report.summary import Summary
 from ..runtime.layout import ASSETS, REJECTED, SUMMARY
@@ -44,6 +43,8 @@ _STYLES = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.NOTE: "bl
 LISTED = 100
 #: Inputs at work that are named beside the bar.
 SHOWN_AT_WORK = 3
+#: Columns of a terminal that a list wants beside its ids; in a narrower one its lines are broken.
+LEAST_BESIDE = 52
 
 
 def follow(
@@ -170,7 +171,8 @@ def _sentence(result: Result) -> str:
 def print_results(summary: Summary, output: Path) -> None:
     """Print the table at the end of a build, and where to look."""
     console = terminal()
-    table = Table("asset", "parts", "joints", "hulls", "verdict", "reason")
+    whole = Column("asset", no_wrap=True)
+    table = Table(whole, "parts", "joints", "hulls", "verdict", "reason")
     results = sorted(summary.results, key=lambda result: result.input)
     listed = results if len(results) <= LISTED else [each for each in results if not each.known]
     for result in listed:
@@ -275,33 +277,26 @@ def _finding_line(finding: Finding, count: int) -> str:
     return f"[{_STYLES[finding.severity]}]{finding.severity}[/] {escape(told)}"
 
 
-def print_entries(entries: tuple[Entry, ...]) -> None:
-    """Print all rows of a registry."""
-    table = Table("id", "category", "parts", "joints", "hulls", "status", "reason")
-    for entry in entries:
-        table.add_row(escape(entry.id), escape(entry.category), *_told(entry), escape(entry.reason))
-    terminal().print(table)
+def print_entries(listed: Sequence[tuple[Entry, Manifest | None]]) -> None:
+    """Print rows of a registry with their manifests; ids are whole however narrow the terminal."""
+    console = terminal()
+    whole = [Column(name, no_wrap=True) for name in ("size [m]", "joints", "hulls")]
+    ends = [Column(name, overflow="fold") for name in ("category", "verdict")]
+    table = Table(Column("id", no_wrap=True), ends[0], *whole, ends[1], box=None, pad_edge=False)
+    for entry, manifest in listed:
+        _, *counts, status = _told(entry)
+        size = manifest.size.replace(" ", "") if manifest else "-"
+        verdict = f"{status}: {escape(entry.reason)}" if entry.reason else status
+        table.add_row(escape(entry.id), escape(entry.category), size, *counts, verdict)
+    longest = max((len(entry.id) for entry, _ in listed), default=0)
+    console.width = max(console.width, longest + LEAST_BESIDE)
+    console.print(table)
 
 
 def _told(entry: Entry) -> tuple[str, ...]:
     """Return an entry's counts and its coloured status, for a table."""
     counts = (entry.parts, entry.joints, entry.hulls)
     return *map(str, counts), f"[{STATUS_STYLE[entry.status]}]{entry.status}[/]"
-
-
-def print_entry(entry: Entry, folder: Path, told: BuildReport, manifest: Manifest | None) -> None:
-    """Print one asset with its findings, its repairs, and the proposals of its parts."""
-    console = terminal()
-    console.print(
-        f"{entry.id}: {entry.parts} parts, {entry.joints} movable joints, {entry.hulls} hulls",
-        markup=False,
-    )
-    console.print(str(folder), markup=False, soft_wrap=True)
-    print_report(told.report)
-    for repair in told.repairs:
-        console.print(f"  [green]repair[/] {escape(repair.sentence)}", soft_wrap=True)
-    for part, proposal in manifest.proposed.items() if manifest else ():
-        console.print(f"  [blue]part[/] {escape(f'{part}: {proposal.told}')}", soft_wrap=True)
 
 
 def print_weights(info: WeightsInfo) -> None:

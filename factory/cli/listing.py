@@ -55,7 +55,7 @@ def run(command: List) -> int:
     if not entries:
         say(f"no assets{f' with {command.where}' if command.where else ''}")
         return Exit.OK
-    console.print_entries(entries)
+    console.print_entries([(entry, registry.manifest(entry)) for entry in entries])
     if len(found) > len(entries):
         say(f"the first {len(entries)}; --after {entries[-1].id} goes on, --limit 0 shows all")
     return Exit.OK

@@ -175,7 +175,7 @@ def _rebuild(command: Rebuild) -> int:
 
 def _verify(command: Verify) -> int:
     registry = Registry(command.output)
-    ids = [registry.entry(asset_id).id for asset_id in command.ids]
+    ids = [registry.named(asset_id).id for asset_id in command.ids]
     problems = verify(registry, ids or None)
     if command.json:
         say(json.dumps([asdict(problem) for problem in problems], indent=2))
@@ -239,7 +239,8 @@ def _untag(command: Untag) -> int:
 
 def _retag(output: Path, asset_id: str, change: Callable[[set[str]], set[str]]) -> int:
     registry = Registry(output)
-    entry = registry.note(asset_id, tags=tuple(change(set(registry.entry(asset_id).tags))))
+    entry = registry.named(asset_id)
+    entry = registry.note(entry.id, tags=tuple(change(set(entry.tags))))
     say(f"{entry.id}: {', '.join(entry.tags) or 'no tags'}")
     return Exit.OK
 

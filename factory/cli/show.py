@@ -11,25 +11,25 @@ from ..errors import Exit
 from ..registry import Registry
 from ..runtime.layout import MANIFEST
 from ..runtime.terminal import say
-from . import console
+from . import showing
 from .flags import OfRegistry, Printed
 
 
 @dataclass(frozen=True)
 class Show(Printed, OfRegistry):
-    """Show one asset: its files, its joints, and what the validator said.
+    """Show one asset: its files, its joints, what the validator said, and how to load it.
 
     Example: factory show fridge-264720b5fe --output out/
     """
 
     id: Positional[str]
-    """As `factory list` prints it."""
+    """As `factory list` prints it, or its beginning."""
 
 
 def run(command: Show) -> int:
     """Print one row and its report; returns the exit code."""
     registry = Registry(command.output)
-    entry = registry.entry(command.id)
+    entry = registry.named(command.id)
     told = registry.told(entry)
     if command.json:
         folder = registry.folder(entry)
@@ -43,5 +43,5 @@ def run(command: Show) -> int:
         }
         say(json.dumps(data, indent=2))
     else:
-        console.print_entry(entry, registry.folder(entry), told, registry.manifest(entry))
+        showing.print_entry(entry, registry.root, told, registry.manifest(entry))
     return Exit.OK

@@ -35,7 +35,7 @@ class Solve:
     """
 
     ids: Positional[tuple[str, ...]] = ()
-    """Assets, as `factory list` prints them; all by default."""
+    """Assets, as `factory list` prints them, or their beginnings; all by default."""
     output: Path = Path("out")
     """The registry's folder."""
     joint: str | None = None
@@ -119,8 +119,8 @@ def _wanted(assets: dict[str, RegisteredAsset], command: Solve) -> dict[str, Reg
 
     wanted = named(assets, command.ids, command.output)
     if command.joint is not None:
-        for id in command.ids:
-            wanted[id].joint(command.joint)
+        for asset in wanted.values() if command.ids else ():
+            asset.joint(command.joint)
         wanted = {id: asset for id, asset in wanted.items() if _joints(asset, command)}
         if not wanted:
             names = sorted({joint.name for asset in assets.values() for joint in asset.openable})

@@ -9,6 +9,7 @@ from tyro.conf import Positional
 
 from ..config import BuildConfig
 from ..errors import ConfigError, Exit, InputRejected
+from ..registry import Registry
 from ..runtime.store import write_whole
 from ..runtime.terminal import say
 from .flags import in_own_process
@@ -23,7 +24,9 @@ class ViewFile:
     """
 
     file: Positional[Path]
-    """A URDF, MJCF or mesh file, or an asset's folder."""
+    """A URDF, MJCF or mesh file, an asset's folder, or its id with --output."""
+    output: Path | None = None
+    """The registry's folder of an id."""
     save: Path | None = None
     """Write the page to this file, and serve nothing."""
     port: int = 0
@@ -41,17 +44,21 @@ def run(command: ViewFile) -> int:
     missing = missing_library()
     if missing is not None:
         raise ConfigError(missing)
+    file = command.file
+    if command.output is not None and not file.exists():
+        registry = Registry(command.output)
+        file = registry.folder(registry.named(str(file)))
     # A file of anybody's may take any time and memory to read.
     try:
-        html = in_own_process(page_of_file, command.file, limits=BuildConfig())
+        html = in_own_process(page_of_file, file, limits=BuildConfig())
     except InputRejected as rejection:
-        raise ConfigError(f"{command.file}: {rejection.code}: {rejection.message}") from rejection
+        raise ConfigError(f"{file}: {rejection.code}: {rejection.message}") from rejection
     if html is None:
         return Exit.UNJUDGED
     page = html.encode()
     if command.save is None:
         with serve(one_page(page), command.port) as server:
-            say(f"{command.file.name} is shown at {server.url} until Ctrl-C")
+            say(f"{file.name} is shown at {server.url} until Ctrl-C")
             server.run()
         return Exit.OK
     try:

@@ -13,7 +13,6 @@ from ..errors import InputRejected
 from ..intake.files import InputFiles
 from ..intake.formats.gltf_document import GltfDocument
 from .glb import HULLS, REPLACED, VISUALS, flipped
-from .gltf import GENERATOR
 from .scene import SceneGraph, SceneJoint, SceneSurface
 
 MAX_BYTES = 512 * 2**20
@@ -23,17 +22,17 @@ _NO_FOLDER = Path(os.devnull)
 
 
 def read_model(path: Path) -> bytes:
-    """Return the bytes of such a file.
+    """Return the bytes of such a file, which :func:`scene_from` reads.
 
     Raises:
         OSError: it cannot be read.
-        ValueError: it is not a GLB file of ours, by its first words.
+        ValueError: it holds no scene of ours. Whose program wrote it says nothing of that: other
+            files of ours are plain meshes.
     """
     if path.is_symlink() or path.stat().st_size > MAX_BYTES:
         raise ValueError(f"{path.name}: want a file of at most {MAX_BYTES} bytes")
     data = path.read_bytes()
-    if _document(data).json.get("asset", {}).get("generator") != GENERATOR:
-        raise ValueError(f"{path.name}: is another program's")
+    scene_from(data)
     return data
 
 

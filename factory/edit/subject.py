@@ -57,7 +57,7 @@ def subject_of(given: Path, output: Path | None, usual: Path) -> Subject:
         folder = given.resolve()
     elif output is not None and given.name == str(given):
         registry = Registry(output)
-        folder = registry.folder(registry.entry(given.name))
+        folder = registry.folder(registry.named(given.name))
     else:
         raise ConfigError(
             f"{given}: no such file or asset; want a mesh, the folder of an asset such as "

@@ -136,7 +136,7 @@ def verdict_of(output: Path, asset_id: str) -> ShownVerdict:
     groups = [
         {
             "code": group.code,
-            "error": group.error,
+            "error": group.severity == "error",
             "meaning": group.meaning,
             "findings": [[each.finding.message, each.place] for each in group.findings],
         }

@@ -232,6 +232,12 @@ class Manifest:
         """Return every joint with a degree of freedom, by name."""
         return {joint.name: joint for joint in self.joints if joint.movable}
 
+    @property
+    def size(self) -> str:
+        """Return width, depth and height of the closed object for people, in metres."""
+        low, high = self.closed_bounds
+        return " x ".join(f"{b - a:.2g}" for a, b in zip(low, high, strict=True))
+
     def to_json(self) -> str:
         """Return the file's text."""
         fields = asdict(self)

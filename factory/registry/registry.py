@@ -232,6 +232,17 @@ class Registry:
         with connected(self.root) as connection:
             return self._entry(connection, asset_id)
 
+    def named(self, text: str) -> Entry:
+        """Return the row of that id, or the only one whose id begins so.
+
+        Raises:
+            RegistryError: there is none, or there are several; names similar ids.
+        """
+        with connected(self.root) as connection:
+            begun = [known for known in rows.near(connection, text) if known.startswith(text)]
+            unique = len(begun) == 1 and text and text not in begun
+            return self._entry(connection, begun[0] if unique else text)
+
     def known_key(self, key: str) -> Entry | None:
         """Find the entry that was made from exactly this, if its files are there."""
         return self.known_keys((key,)).get(key)

@@ -1,10 +1,7 @@
 """A registry with something to look at: a cabinet that passed, one whose door hits, one without
 a model, and names that are markup."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 from export_samples import PROVENANCE, cabinet
 from registry_samples import PASSED
@@ -13,7 +10,7 @@ from asset_factory.factory.export.bundle import export_bundle
 from asset_factory.factory.export.model import write_model
 from asset_factory.factory.manufacture.repair import Repair, RepairKind
 from asset_factory.factory.part import PartKind, PartSource, Proposer
-from asset_factory.factory.registry import Entry, Registry
+from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.report_file import BuildReport
 from asset_factory.sim_checks import Finding, Report, Severity
 from asset_factory.sim_checks.measurements import MeasuredJoint, MeasuredPair, MeasuredPenetration
@@ -41,7 +38,7 @@ OTHER = Finding("other_reading", Severity.WARNING, f"read otherwise, it is rejec
 WORDS = Finding("articulation_note", Severity.WARNING, HOSTILE, parts=(HOSTILE,))
 
 
-def bundle_in(folder: Path) -> Path:
+def bundle_in(folder):
     """A cabinet's bundle with its model, its manifest full of markup."""
     made = cabinet()
     body, door, *rest = made.articulation.parts
@@ -54,7 +51,7 @@ def bundle_in(folder: Path) -> Path:
     return folder
 
 
-def make_registry(root: Path) -> Registry:
+def make_registry(root):
     """The registry of the module's docstring."""
     registry = Registry(root, create=True)
     passed = replace(PASSED, category=HOSTILE)
@@ -65,7 +62,9 @@ def make_registry(root: Path) -> Registry:
     with registry.staging_folder() as staging:
         registry.publish(passed, bundle_in(staging / "one"), told)
     measurements = {"asset.urdf": {"penetration": _MEASURED.to_dict()}}
-    report = Report("asset.urdf", ("mujoco",), (HIT, WORDS), measurements)
+    # The MJCF says the same with other last digits, and names the pair the other way round.
+    again = replace(HIT, message=f"{HIT.message} ", parts=HIT.parts[::-1], value=4.2001)
+    report = Report("asset.urdf", ("mujoco",), (WORDS, HIT, again), measurements)
     hit = _rejected("hitting-2", HIT)
     with registry.staging_folder() as staging:
         registry.reject(hit, BuildReport(report), bundle_in(staging / "two"))
@@ -74,7 +73,7 @@ def make_registry(root: Path) -> Registry:
     return registry
 
 
-def _rejected(asset_id: str, finding: Finding) -> Entry:
+def _rejected(asset_id, finding):
     return replace(
         PASSED,
         id=asset_id,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from ...articulation import Articulation, Weights
 from ...errors import InputRejected
 from ...intake.stated import Stated
 from ...mesh import Mesh
-from ...models.detector.canvas import look_at
+from ...models.detector.canvas import OPENING, SORTS, look_at
 from ...models.detector.decode import Dense, Found
 from ...part import Part, PartKind, Proposer
 from ..articulator import Articulator, make_hypotheses
@@ -22,6 +23,9 @@ from ..stated.articulator import StatedArticulator, seen_from
 from .agreement import Agreement
 from .merging import DetectedPart, seen_parts
 from .rating import CellParts, support_of_box
+
+if TYPE_CHECKING:
+    from ...models.detector.detect import Detection
 
 #: Parts of a side with a lower score are not looked at.
 LEAST_SCORE = 0.5
@@ -69,7 +73,7 @@ class DetectedArticulator:
 
         detection = detect(mesh)
         least = self.agreement.least if self.least is None else self.least
-        rated = self._rated(detection.parts(LEAST_SCORE), mesh, detection.dense)
+        rated = self._rated(detection.parts(self._least_score), mesh, detection.dense)
         sure = [part for part in rated if part.probability >= least]
         left = [part for part in rated if part.probability < least]
         agreed = []
@@ -87,7 +91,9 @@ class DetectedArticulator:
         made = [*self._with(first, beside), *agreed]
         if len(sure) > len(first.movable_joints):
             made += self._with(rigid_articulation(mesh, self.name, ()), sure)
-        open_ = [each for each in made if each.movable_joints] or [self._still(mesh, agreed)]
+        open_ = [each for each in made if each.movable_joints] or [
+            self._still(agreed[0], detection)
+        ]
         notes = tuple(_said(part, least) for part in left[:MOST_TOLD])
         named = [
             replace(
@@ -147,9 +153,26 @@ class DetectedArticulator:
                 continue
         return []
 
-    def _still(self, mesh: Mesh, agreed: Sequence[Articulation]) -> Articulation:
-        notes = agreed[0].notes or ("nothing on its sides looks like a door, drawer or lid",)
-        return rigid_articulation(mesh, self.name, notes)
+    @property
+    def _least_score(self) -> float:
+        """Return the score from which parts of a side are looked at: less where little is asked."""
+        return LEAST_SCORE if self.least is None else min(LEAST_SCORE, self.least)
+
+    def _still(self, guess: Articulation, detection: Detection) -> Articulation:
+        """Return a guess that moves nothing, with notes on what was seen."""
+        looks = f"it looks like a {detection.kind.replace('_', ' ')}"
+        sure = f"with probability {detection.kinds.max():.2f}"
+        opens = f"it has something to open with probability {detection.opens:.2f}"
+        opening = [each for each in detection.parts(0.0) if each.sort in SORTS[:OPENING]]
+        surest = max(opening, key=lambda found: found.score, default=None)
+        notes = [f"{looks} {sure}; {opens}"]
+        if surest is not None and surest.score < self._least_score:
+            notes.append(
+                f"the surest part that its sides show is a {surest.sort.name.lower()} on the "
+                f"{surest.side}, with a score of {surest.score:.2f}, want "
+                f"{self._least_score:.2f}"
+            )
+        return rigid_articulation(guess.mesh, self.name, (*notes, *guess.notes))
 
 
 def _is_believed(part: Part) -> bool:

@@ -53,6 +53,6 @@ def _model(path: Path) -> bytes:
         try:
             return read_model(path)
         except (OSError, ValueError):
-            # Somebody else's GLB is a mesh.
+            # A GLB without joints of ours is a mesh.
             pass
     return glb_of(scene_of_file(path))

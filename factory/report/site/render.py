@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from asset_factory.sim_checks import Severity, Status
+from asset_factory.sim_checks import Status
 
 from ..pages import environment, trusted
 from .told import AssetPage
@@ -69,6 +69,9 @@ def packed(model: bytes) -> str:
 
 @cache
 def _templates() -> Environment:
-    return environment(
-        __package__, HARD=Severity.ERROR, PASSED=Status.PASSED, STATUSES=tuple(Status)
-    )
+    known = {
+        "PASSED": Status.PASSED,
+        "STATUSES": tuple(Status),
+        "SEVERITIES": [str(each) for each in Severity],
+    }
+    return environment(__package__, **known)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any
 
 from asset_factory.sim_checks import Finding, Report, Severity, Status
 from asset_factory.sim_checks.config import PenetrationConfig
+from asset_factory.sim_checks.grouping import told_once
 
 from ...display.camera import Viewpoint
 from ...display.described import scene_of_file
@@ -24,12 +25,15 @@ from ...registry import Entry
 from ...registry.registry import read_manifest
 from ...registry.report_file import BuildReport, StoredReport, read_report
 from ...runtime.layout import ASSETS, MODEL, REJECTED, URDF
+from ..loading import Snippet, loading_snippets
 from .places import Places
 
 MEANINGS = {code: meaning for table in TABLES.values() for code, meaning in table.items()}
 #: Findings on other hypotheses of the input have a section of their own.
 OTHER_HYPOTHESIS = "other_reading"
 _MAX_FINDINGS = 300
+#: Severities, the gravest first.
+ORDER = list(Severity)
 _MESSAGE = 240
 
 
@@ -43,10 +47,17 @@ class FindingTold:
 
 @dataclass(frozen=True)
 class FindingGroup:
-    """Findings of one code and severity, and what the code means."""
+    """Findings of one code and severity, and what the code means.
+
+    Attributes:
+        code: of all.
+        severity: ``error``, ``warning`` or ``note``.
+        meaning: of the code.
+        findings: all of them.
+    """
 
     code: str
-    error: bool
+    severity: str
     meaning: str
     findings: tuple[FindingTold, ...]
 
@@ -66,6 +77,7 @@ class AssetPage:
         places: poses and points that findings lead to.
         data: for the page's script, JSON data.
         folder: link to the asset's own folder; empty without one.
+        registry: name of its registry's folder.
         edit: command with which somebody says what opens; empty for what is only viewed.
         clearance: the smallest gap that was measured, negative for a depth [mm].
         fault: what the picture points at; ``None`` for one that passed.
@@ -81,6 +93,7 @@ class AssetPage:
     repairs: tuple[Repair, ...] = ()
     data: Mapping[str, Any] = field(default_factory=dict)
     folder: str = ""
+    registry: str = ""
     edit: str = ""
     clearance: float | None = None
     fault: Fault | None = None
@@ -89,14 +102,21 @@ class AssetPage:
     @property
     def groups(self) -> tuple[FindingGroup, ...]:
         """Return the findings by severity and code, in the order in which they were found."""
-        found: dict[tuple[bool, str], list[FindingTold]] = {}
+        found: dict[tuple[str, str], list[FindingTold]] = {}
         for told in self.findings:
-            error = told.finding.severity is Severity.ERROR
-            found.setdefault((error, told.finding.code), []).append(told)
+            severity = str(told.finding.severity)
+            found.setdefault((severity, told.finding.code), []).append(told)
         return tuple(
-            FindingGroup(code, error, MEANINGS.get(code, ""), tuple(group))
-            for (error, code), group in found.items()
+            FindingGroup(code, severity, MEANINGS.get(code, ""), tuple(group))
+            for (severity, code), group in found.items()
         )
+
+    @property
+    def snippets(self) -> tuple[Snippet, ...]:
+        """Return how other programs load an asset that passed."""
+        if self.manifest is None or self.entry.status is not Status.PASSED:
+            return ()
+        return loading_snippets(PurePath(self.registry), self.entry.id, self.manifest)
 
     def row(self) -> dict[str, Any]:
         """Return what the grid says of it, JSON data."""
@@ -152,6 +172,7 @@ def asset_page(root: Path, entry: Entry) -> AssetPage:
         hypotheses=tuple(f.message for f in report.findings if f.code == OTHER_HYPOTHESIS),
         repairs=told.repairs,
         folder=f"../../../{place}/{entry.id}/",
+        registry=root.absolute().name,
         edit=f"factory edit {root.absolute().name}/{place}/{entry.id}",
     )
     model = _model(folder)
@@ -196,9 +217,9 @@ def _findings(report: Report, places: Places | None) -> tuple[FindingTold, ...]:
     told = []
     number = 0
     # The validator says the same of the URDF and of the MJCF.
-    once = {(each.code, each.message): each for each in reversed(report.findings)}
-    findings = (each for each in report.findings if each is once[each.code, each.message])
-    ordered = sorted(findings, key=lambda finding: finding.severity is not Severity.ERROR)
+    once = {told_once(each): each for each in reversed(report.findings)}
+    findings = (each for each in report.findings if each is once[told_once(each)])
+    ordered = sorted(findings, key=lambda finding: ORDER.index(finding.severity))
     for finding in ordered[:_MAX_FINDINGS]:
         if finding.code == OTHER_HYPOTHESIS:
             continue

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 import tyro
 from registry_samples import BAD_REPORT, REJECTED, named, publish
+from shown_registry import make_registry
 
-from asset_factory.factory.cli import gc
+from asset_factory.factory.cli import console, gc
 from asset_factory.factory.cli import registry as commands
 from asset_factory.factory.cli import run as factory
 from asset_factory.factory.cli.build import Build, idle_retries
@@ -18,9 +19,10 @@ from asset_factory.factory.cli.listing import List
 from asset_factory.factory.cli.listing import run as run_list
 from asset_factory.factory.cli.show import Show
 from asset_factory.factory.cli.show import run as run_show
-from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.errors import ConfigError, RegistryError
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.runtime.store import Store
+from asset_factory.factory.runtime.terminal import Terminal
 
 ROOMS = {
     List: run_list,
@@ -108,10 +110,10 @@ def test_removing_takes_what_is_named_and_asks(root, monkeypatch, capsys):
     remove = ["remove", "--output", str(root)]
     assert factory([*remove, "fridge-1"]) == 2
     assert "--yes does it" in capsys.readouterr().err
-    monkeypatch.setattr("sys.stdin", Terminal("n\n"))
+    monkeypatch.setattr("sys.stdin", Answering("n\n"))
     assert factory([*remove, "fridge-1"]) == 0
     assert Registry(root).find("fridge-1") is not None
-    monkeypatch.setattr("sys.stdin", Terminal("y\n"))
+    monkeypatch.setattr("sys.stdin", Answering("y\n"))
     assert factory([*remove, "fridge-1"]) == 0
     assert factory([*remove, "--where", "status = rejected", "--yes"]) == 0
     assert [entry.id for entry in Registry(root).entries()] == ["cabinet-1"]
@@ -121,17 +123,56 @@ def test_removing_takes_what_is_named_and_asks(root, monkeypatch, capsys):
     assert factory([*remove, "--where", "hulls > 9999", "--yes"]) == 2
 
 
-class Terminal(io.StringIO):
+class Answering(io.StringIO):
     """Somebody who answers."""
 
     def isatty(self):
         return True
 
 
+@pytest.mark.parametrize("asset_id", ["filing_cabinet-657fead206", f"{'long_' * 16}-657fead206"])
+def test_ids_are_whole_in_a_list_of_80_columns(capsys, monkeypatch, asset_id):
+    monkeypatch.setattr(console, "terminal", lambda: Terminal(width=80))
+    rejected = named(asset_id, category="cabinet", reason="no_movable_joint", status="rejected")
+    console.print_entries([(named(asset_id, category="dishwasher"), None), (rejected, None)])
+    assert [line.split()[0] for line in capsys.readouterr().out.splitlines() if line[0] != " "] == [
+        "id",
+        asset_id,
+        asset_id,
+    ]
+
+
 def test_showing(root, run):
     _, out = run(Show, "cabinet-1", "--output", root, "--json")
     assert json.loads(out)["manifest"]["license"] == "CC0-1.0"
     assert json.loads(out)["changes"] == []
+
+
+def test_show_tells_size_joints_files_and_how_to_load_it(tmp_path, run):
+    root = make_registry(tmp_path / "out").root
+    _, out = run(Show, "cab", "--output", root)
+    assert "0.6 x 0.45 x 0.8 m" in out
+    assert re.search(r"^ *hinge +revolute +part_1 +0 deg +92 deg ", out, re.MULTILINE)
+    assert re.search(r"^ *slide +prismatic +part_2 +0 mm +300 mm ", out, re.MULTILINE)
+    assert "asset.json, asset.urdf, asset.xml, meshes/ (" in out
+    assert f"registry={str(root)!r}, asset='cabinet-1')" in out
+    (loading,) = re.findall(r"in MuJoCo:\n(.*\n.*)\n", out)
+    loaded: dict = {}
+    exec(loading, loaded)  # noqa: S102 - the lines that people are told to run
+    assert loaded["model"].njnt == 2
+
+
+def test_a_beginning_names_the_only_asset_that_has_it(root, run):
+    assert "fridge-1: " in run(Show, "f", "--output", root)[1]
+    assert run(commands.RegistryCommand, "tag", "fri", "cold", "--output", root)[1] == (
+        "fridge-1: cold\n"
+    )
+    assert run(commands.RegistryCommand, "verify", "cab", "--output", root)[0] == 0
+    publish(Registry(root), entry=named("fridge-10"))
+    assert "fridge-1: " in run(Show, "fridge-1", "--output", root)[1]
+    for wrong in ("fridge", "", "x"):
+        with pytest.raises(RegistryError, match="no asset"):
+            run(Show, wrong, "--output", root)
 
 
 def test_verify_exits_with_1_for_damage(root, run):

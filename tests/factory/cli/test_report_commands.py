@@ -47,6 +47,15 @@ def test_view_saves_one_page(tmp_path, capsys):
     assert saved.read_text().startswith("<!DOCTYPE html>")
 
 
+def test_view_takes_the_beginning_of_an_id(tmp_path, capsys):
+    root = make_registry(tmp_path / "out").root
+    saved = tmp_path / "page.html"
+    assert run(["view", "cab", "--output", str(root), "--save", str(saved)]) == 0
+    assert "cabinet" in saved.read_text()
+    assert run(["view", "chair", "--output", str(root), "--save", str(saved)]) == 2
+    assert "no asset 'chair'" in capsys.readouterr().err
+
+
 def test_view_reads_a_file_in_a_process_of_its_own(tmp_path, monkeypatch):
     folder = bundle_in(tmp_path / "bundle")
     monkeypatch.setattr("asset_factory.factory.display.described.read_description", None)

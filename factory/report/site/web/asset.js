@@ -1,4 +1,5 @@
 // One asset's page: sliders, switches, the plot, and findings that jump to where they are.
+import { Box3, Vector3 } from "three";
 import { Bodies } from "./hulls.js";
 import { Grab } from "./grab.js";
 import { Model, unpacked } from "./model.js";
@@ -10,6 +11,9 @@ const SWITCHES = [
   ["visuals", "Surface", "v"], ["hulls", "Hulls", "h"], ["axes", "Axes", "a"], ["limits", "Limits", "l"],
   ["contacts", "Contacts", "x"], ["replaced", "Before repairs", "b"],
 ];
+
+/** So many joints are shown without a filter. */
+const MANY = 12;
 
 function make(name, attributes = {}, ...children) {
   const made = document.createElement(name);
@@ -35,8 +39,11 @@ class Page {
     this.buttons();
     this.findings();
     this.keys();
-    const start = told.start;
-    if (start) this.show(start);
+    this.scale();
+    const { start } = told;
+    const posed = this.fromAddress();
+    if (posed.size) this.set(posed);
+    else if (start) this.show(start);
     else this.set(model.opened(0));
     document.body.classList.add("ready");
     if (model.hulls.length && model.free.length) this.plots();
@@ -65,15 +72,60 @@ class Page {
         type: "range", min: joint.lower, max: joint.upper, id: `joint-${number}`,
         step: (joint.upper - joint.lower) / 1000 || 1,
       });
-      const output = make("output", { for: slider.id });
-      slider.addEventListener("input", () => this.set(new Map([[joint.name, Number(slider.value)]])));
+      const pose = (value) => this.set(new Map([[joint.name, value]]));
+      const output = make("input", { class: "value", id: `value-${number}`, "aria-label": `${joint.name}, value`, autocomplete: "off" });
+      slider.addEventListener("input", () => pose(Number(slider.value)));
+      output.addEventListener("change", () => {
+        const value = joint.read(output.value);
+        pose(Number.isFinite(value) ? value : this.model.values.get(joint.name));
+      });
+      const below = this.model.below(joint);
+      const others = this.model.names.map((_, link) => link).filter((link) => !below.has(link));
+      const [from, to] = joint.ends.map((end) => make("span", {}, end));
+      const tools = make("span", { class: "tools" },
+        this.tool("Play", joint.name, () => this.play(joint)),
+        this.tool("Hide", joint.name, (button) => this.hide(button, below)),
+        this.tool("Alone", joint.name, (button) => this.hide(button, others)));
       const row = make("li", {}, make("label", { for: slider.id }, joint.name), output, slider,
-        make("span", { class: "ends" }, make("span", {}, joint.told(joint.lower)), make("span", {}, joint.told(joint.upper))));
+        make("span", { class: "ends" }, from, tools, to));
       for (const event of ["pointerenter", "focusin"]) row.addEventListener(event, () => { this.viewer.chosen = joint; });
       for (const event of ["pointerleave", "focusout"]) row.addEventListener(event, () => { this.viewer.chosen = null; });
       list.append(row);
-      this.sliders.set(joint.name, { slider, output, joint });
+      this.sliders.set(joint.name, { slider, output, joint, row });
     }
+    const filter = find("#joint-filter");
+    filter.hidden = this.sliders.size <= MANY;
+    filter.addEventListener("input", () => {
+      const wanted = filter.value.trim().toLowerCase();
+      for (const { row, joint } of this.sliders.values()) row.hidden = !joint.name.toLowerCase().includes(wanted);
+    });
+    const over = (joint) => {
+      this.viewer.chosen = joint;
+      for (const { row, joint: own } of this.sliders.values()) {
+        row.classList.toggle("over", own === joint);
+        if (own === joint) row.scrollIntoView({ block: "nearest" });
+      }
+    };
+    new Grab(this.viewer, {
+      over,
+      chose: (joint) => { this.stop(); over(joint); },
+      moved: (joint, value) => this.set(new Map([[joint.name, value]])),
+    });
+  }
+
+  tool(label, name, action) {
+    const button = make("button", { type: "button", "aria-label": `${label} ${name}`, "aria-pressed": "false" }, label);
+    button.addEventListener("click", () => action(button));
+    return button;
+  }
+
+  /** Hide links while a button is pressed; one button at a time. */
+  hide(button, links) {
+    const pressed = button.getAttribute("aria-pressed") === "false";
+    for (const other of document.querySelectorAll("#joints button")) other.setAttribute("aria-pressed", "false");
+    button.setAttribute("aria-pressed", String(pressed));
+    this.viewer.hidden = new Set(pressed ? links : []);
+    this.viewer.apply();
   }
 
   buttons() {
@@ -97,7 +149,7 @@ class Page {
     for (const [name, { slider, output, joint }] of this.sliders) {
       const value = this.model.values.get(name);
       slider.value = value;
-      output.textContent = joint.told(value);
+      output.value = joint.told(value);
       slider.setAttribute("aria-valuetext", joint.told(value));
       this.follow?.get(name)?.(value);
     }
@@ -106,6 +158,7 @@ class Page {
     this.checking = true;
     requestAnimationFrame(() => {
       this.checking = false;
+      if (!this.running) this.toAddress();
       const contacts = this.bodies.contacts(this.model.values, this.told.excess);
       this.viewer.point(contacts, this.place);
       this.tell(contacts);
@@ -114,12 +167,55 @@ class Page {
 
   tell(contacts) {
     const deepest = contacts.reduce((most, contact) => (contact.depth > (most?.depth ?? 0) ? contact : most), null);
+    const { rest } = this.bodies;
     const note = find("#contact");
     note.classList.toggle("bad", Boolean(deepest));
-    const names = deepest ? [deepest.one, deepest.other].map((hull) => this.model.names[hull.link]).join(" and ") : "";
-    note.textContent = deepest
-      ? `${names}: ${(1000 * deepest.depth).toFixed(1)} mm into each other`
-      : this.model.hulls.length ? "No contact in this pose" : "";
+    const nameOf = (link) => this.model.names[link];
+    const depth = (metres) => `${(1000 * metres).toFixed(1)} mm`;
+    if (!this.model.hulls.length) note.textContent = "No collision geometry in this file";
+    else if (deepest) {
+      const names = [deepest.one, deepest.other].map((hull) => nameOf(hull.link)).join(" and ");
+      note.textContent = `${names}: ${depth(deepest.depth)} into each other`;
+    } else {
+      const [links, most] = [...rest].reduce((a, b) => (b[1] > a[1] ? b : a), ["", 0]);
+      note.textContent = most > this.told.excess
+        ? `${links.split(",").map(nameOf).join(" and ")} overlap by ${depth(most)} when closed; no further contact in this pose`
+        : "No contact in this pose";
+    }
+  }
+
+  /** Values of joints that the address names after its #. */
+  fromAddress() {
+    const told = [...new URLSearchParams(location.hash.slice(1))].map(([name, text]) => [name, Number(text)]);
+    return new Map(told.filter(([name, value]) => this.sliders.has(name) && Number.isFinite(value)));
+  }
+
+  /** Put the pose into the address, so that it can be handed on; of what is closed, nothing. */
+  toAddress() {
+    const open = [...this.sliders.values()].map(({ joint }) => [joint, this.model.values.get(joint.name)])
+      .filter(([joint, value]) => Math.abs(value - joint.lower) > 1e-6)
+      .map(([joint, value]) => [joint.name, value.toFixed(4)]);
+    const hash = new URLSearchParams(open).toString();
+    if (hash !== location.hash.slice(1)) history.replaceState(null, "", hash ? `#${hash}` : location.pathname + location.search);
+  }
+
+  /** Draw a bar of a round length, as long as things at the middle of the object are. */
+  scale() {
+    const { viewer } = this;
+    const bar = find("#scale");
+    viewer.drawn = () => {
+      const { camera, controls, canvas } = viewer;
+      const tall = 2 * camera.position.distanceTo(controls.target) * Math.tan((camera.fov * Math.PI) / 360);
+      const rough = (110 / canvas.clientHeight) * tall;
+      const power = 10 ** Math.floor(Math.log10(rough));
+      const length = [5, 2, 1].find((factor) => factor * power <= rough) * power;
+      bar.style.width = `${(length / tall) * canvas.clientHeight}px`;
+      bar.textContent = length < 0.01 ? `${+(1000 * length).toPrecision(1)} mm` : length < 1 ? `${+(100 * length).toPrecision(1)} cm` : `${length} m`;
+    };
+    const box = new Box3().setFromPoints(viewer.closed);
+    const size = box.isEmpty() ? [] : box.getSize(new Vector3()).toArray();
+    const told = find("#size");
+    if (told) told.textContent = size.length ? `${size.map((side) => +side.toPrecision(2)).join(" x ")} m` : "";
   }
 
   /** Go to a pose, and mark a place in it. */
@@ -142,12 +238,13 @@ class Page {
     });
   }
 
-  play() {
+  /** Open and close one joint, or all of them, until it is stopped. */
+  play(joint = null) {
     if (this.running) return this.stop();
-    find("#play").setAttribute("aria-pressed", "true");
+    if (!joint) find("#play").setAttribute("aria-pressed", "true");
     this.run(4000, (part) => {
       const eased = 0.5 - 0.5 * Math.cos(2 * Math.PI * part);
-      this.set(this.model.opened(eased));
+      this.set(joint ? new Map([[joint.name, joint.at(eased)]]) : this.model.opened(eased));
       return true;
     });
   }

@@ -1,9 +1,12 @@
 // A part is taken hold of with the mouse and pulled along its joint.
 import { Raycaster, Vector2, Vector3 } from "three";
 
-/** Tells `moved(joint, value)` while a moving part is dragged, `chose(joint)` when it is taken. */
+/**
+ * Tells `moved(joint, value)` while a moving part is dragged, `chose(joint)` when it is taken, and
+ * `over(joint)` when the mouse comes over another one; null: over none.
+ */
 export class Grab {
-  constructor(viewer, { moved, chose }) {
+  constructor(viewer, { moved, chose, over }) {
     this.viewer = viewer;
     const { canvas } = viewer;
     let held = null;
@@ -18,12 +21,21 @@ export class Grab {
     }, true);
     canvas.addEventListener("pointermove", (event) => {
       if (!held) {
-        canvas.style.cursor = !event.buttons && this.hit(event) ? "grab" : "";
+        if (event.buttons) return;
+        const joint = this.hit(event)?.joint ?? null;
+        canvas.style.cursor = joint ? "grab" : "";
+        if (joint !== this.under) over?.(joint);
+        this.under = joint;
         return;
       }
       canvas.style.cursor = "grabbing";
       held.value = this.pulled(held, event);
       moved(held.joint, held.value);
+    });
+    canvas.addEventListener("pointerleave", () => {
+      if (held) return;
+      this.under = null;
+      over?.(null);
     });
     for (const end of ["pointerup", "pointercancel"]) {
       canvas.addEventListener(end, () => {

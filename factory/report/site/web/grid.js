@@ -38,6 +38,8 @@ class Grid {
     this.assets = assets;
     this.box = find("#grid");
     this.cards = new Map();
+    this.names = new Map();
+    for (const { name } of assets) this.names.set(name, (this.names.get(name) ?? 0) + 1);
     this.state = new URLSearchParams(location.hash.slice(1));
     for (const name of FILTERS) this.options(name);
     this.controls();
@@ -202,7 +204,7 @@ class Grid {
         link.addEventListener("blur", rest);
       }
     } else picture.append(make("span", "nothing", "no model"));
-    const name = make("strong", "", asset.name);
+    const name = make("strong", "", this.names.get(asset.name) > 1 ? asset.id : asset.name);
     const told = make("span", "told", asset.reason || asset.about);
     const verdict = make("span", "dot");
     const said = make("span", "hidden", `${asset.status}: `);

@@ -178,6 +178,21 @@ class Joint {
       : new Matrix4().makeRotationAxis(this.axis, value);
   }
 
+  get endless() {
+    return this.kind === "continuous";
+  }
+
+  /** The limits as people read them. */
+  get ends() {
+    return this.endless ? ["turns without end", ""] : [this.told(this.lower), this.told(this.upper)];
+  }
+
+  /** What somebody typed, in degrees or millimetres, as a value; NaN for what is no number. */
+  read(text) {
+    const value = Number.parseFloat(text) * (this.slides ? 1e-3 : Math.PI / 180);
+    return this.endless ? value : Math.min(Math.max(value, this.lower), this.upper);
+  }
+
   /** A value as people read it. */
   told(value) {
     return this.slides ? `${(1000 * value).toFixed(0)} mm` : `${((180 / Math.PI) * value).toFixed(0)}°`;

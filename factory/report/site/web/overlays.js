@@ -25,8 +25,11 @@ function arrow(tip, toward, size, material) {
   return mesh;
 }
 
-/** The axis of a joint and its range, in the frame of its parent; `size` is the object's [m]. */
-export function jointOverlay(joint, childCenter, size, colors) {
+/**
+ * The axis of a joint and its range, in the frame of its parent: `center` of what it moves and `half`
+ * of its diagonal; `size` is the object's [m].
+ */
+export function jointOverlay(joint, { center: childCenter, half }, size, colors) {
   const axis = new Group();
   const range = new Group();
   const thin = size * 0.0022;
@@ -36,7 +39,7 @@ export function jointOverlay(joint, childCenter, size, colors) {
   // An axis is drawn beside its part, not where its frame happens to lie.
   const middle = origin.clone().addScaledVector(along, center.clone().sub(origin).dot(along));
   const line = through(colors.accent, 0.9);
-  const reach = size * 0.2;
+  const reach = Math.min(half, size * 0.16) + size * 0.04;
   const start = joint.slides ? center : middle;
   const end = start.clone().addScaledVector(along, reach);
   axis.add(bar(start.clone().addScaledVector(along, -reach), end, thin, line), arrow(end, along, size * 0.018, line));
@@ -49,7 +52,7 @@ export function jointOverlay(joint, childCenter, size, colors) {
     const spoke = center.clone().sub(middle);
     spoke.addScaledVector(along, -spoke.dot(along));
     if (spoke.length() < size * 0.02) spoke.set(along.y, along.z, along.x).cross(along);
-    spoke.setLength(Math.min(Math.max(spoke.length(), size * 0.1), size * 0.3));
+    spoke.setLength(Math.min(Math.max(spoke.length(), half, size * 0.03), size * 0.3));
     const at = (value) => middle.clone().add(spoke.clone().applyAxisAngle(along, value));
     const points = Array.from({ length: 33 }, (_, step) => at(joint.at(step / 32)));
     range.add(new Mesh(new TubeGeometry(new CatmullRomCurve3(points), 48, thin * 1.4, 8), limits));

@@ -7,6 +7,11 @@ import {
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { jointOverlay, mark } from "./overlays.js";
 
+function cornersOf({ min, max }) {
+  return [0, 1, 2, 3, 4, 5, 6, 7].map((corner) => (
+    new Vector3(...[0, 1, 2].map((axis) => ((corner >> axis) & 1 ? max : min).getComponent(axis)))));
+}
+
 /** Shows a model on a canvas. `shown` says what: visuals, hulls, axes, limits, contacts, replaced. */
 export class Viewer {
   constructor(canvas, model, front) {
@@ -25,14 +30,22 @@ export class Viewer {
     this.controls.enableDamping = false;
     this.controls.addEventListener("change", () => this.draw());
     this.overlays = { axes: [], limits: [] };
+    this.hidden = new Set();
+    this.lights = new Map();
     this.marks = new Group();
     this.scene.add(this.marks);
     this.front = front;
     this.frame();
-    this.reset();
     this.light();
     this.prepare();
+    this.frame();
+    this.reset();
     this.apply();
+    // The wheel scrolls the page, until somebody means the model.
+    this.controls.enableZoom = false;
+    canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
+    canvas.addEventListener("focus", () => { this.controls.enableZoom = true; });
+    canvas.addEventListener("blur", () => { this.controls.enableZoom = false; });
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     model.changed = () => this.draw();
     const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -51,11 +64,14 @@ export class Viewer {
     });
     this.marks.clear();
     this.only = null;
+    this.hidden.clear();
+    this.lights.clear();
     this.overlays = { axes: [], limits: [] };
     this.model = model;
     this.scene.add(model.root);
     this.frame();
     this.prepare();
+    this.frame();
     this.apply();
     model.changed = () => this.draw();
   }
@@ -66,46 +82,57 @@ export class Viewer {
     const box = new Box3();
     this.corners = [];
     for (const share of [1, 0.5, 0]) {
+      this.closed = [];
       model.pose(model.opened(share));
       model.root.updateMatrixWorld(true);
       for (const mesh of model.visuals.length ? model.visuals : model.hulls) {
         mesh.geometry.computeBoundingBox();
-        const { min, max } = mesh.geometry.boundingBox;
-        for (let corner = 0; corner < 8; corner += 1) {
-          const [x, y, z] = [0, 1, 2].map((axis) => ((corner >> axis) & 1 ? max : min).getComponent(axis));
-          this.corners.push(new Vector3(x, y, z).applyMatrix4(mesh.matrixWorld));
-        }
+        this.closed.push(...cornersOf(mesh.geometry.boundingBox).map((corner) => corner.applyMatrix4(mesh.matrixWorld)));
       }
+      this.corners.push(...this.closed);
     }
     box.setFromPoints(this.corners);
     this.ground = box.isEmpty() ? 0 : box.min.z;
     this.size = Math.max(box.isEmpty() ? 1 : box.getSize(new Vector3()).length(), 1e-3);
     const center = box.isEmpty() ? new Vector3() : box.getCenter(new Vector3());
     this.home = { center, toward: new Vector3(...front).normalize() };
+    // Axes and limits are in the picture, too.
+    for (const { group } of [...this.overlays.axes, ...this.overlays.limits]) {
+      this.corners.push(...cornersOf(new Box3().setFromObject(group)));
+    }
     this.camera.near = this.size / 100;
     this.camera.far = this.size * 20;
   }
 
-  /** The nearest place from which all corners are in the picture. */
+  /** The nearest place that has the closed object in the middle and all corners in the picture. */
   reset() {
     const { center, toward } = this.home;
     const right = new Vector3(0, 0, 1).cross(toward).normalize();
     const axes = [right, toward.clone().cross(right)];
     const tall = Math.tan((this.camera.fov * Math.PI) / 360) * 0.9;
+    const halves = [tall * this.camera.aspect, tall];
     const target = center.clone();
-    let reach = this.size * 0.2;
-    axes.forEach((axis, number) => {
-      const half = number ? tall : tall * this.camera.aspect;
-      let [outer, inner] = [-Infinity, -Infinity];
-      for (const corner of this.corners) {
-        const from = corner.clone().sub(center);
-        outer = Math.max(outer, from.dot(axis) + half * from.dot(toward));
-        inner = Math.max(inner, -from.dot(axis) + half * from.dot(toward));
+    let reach = 0;
+    for (let round = 0; round < 6; round += 1) {
+      const seen = (corner, axis) => {
+        const from = corner.clone().sub(target);
+        return { aside: from.dot(axis), near: from.dot(toward) };
+      };
+      reach = this.size * 0.2;
+      axes.forEach((axis, number) => {
+        for (const corner of this.corners) {
+          const { aside, near } = seen(corner, axis);
+          reach = Math.max(reach, Math.abs(aside) / halves[number] + near);
+        }
+      });
+      for (const axis of axes) {
+        const ratios = this.closed.map((corner) => {
+          const { aside, near } = seen(corner, axis);
+          return aside / (reach - near);
+        });
+        if (ratios.length) target.addScaledVector(axis, (reach * (Math.max(...ratios) + Math.min(...ratios))) / 2);
       }
-      if (!this.corners.length) return;
-      target.addScaledVector(axis, (outer - inner) / 2);
-      reach = Math.max(reach, (outer + inner) / (2 * half));
-    });
+    }
     this.controls.target.copy(target);
     this.camera.position.copy(target).addScaledVector(toward, reach);
     this.controls.update();
@@ -140,6 +167,8 @@ export class Viewer {
     for (const mesh of model.visuals) {
       mesh.castShadow = true;
       mesh.receiveShadow = true;
+      // Hulls have faces in the same planes, and are drawn before them.
+      Object.assign(mesh.material, { polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 8 });
     }
     model.hulls.forEach((mesh, number) => {
       const color = new Color().setHSL((number * 0.618034) % 1, 0.42, 0.66);
@@ -165,11 +194,23 @@ export class Viewer {
         }
       }
       const center = box.isEmpty() ? new Vector3() : box.getCenter(new Vector3());
-      const { axis, range } = jointOverlay(joint, center, this.size, { accent: 0x2f6fde, limits: 0xd9822b });
+      const half = box.isEmpty() ? 0 : box.getSize(new Vector3()).length() / 2;
+      const { axis, range } = jointOverlay(joint, { center, half }, this.size, { accent: 0x2f6fde, limits: 0xd9822b });
       model.links[joint.parent].add(axis, range);
       this.overlays.axes.push({ joint, group: axis });
       this.overlays.limits.push({ joint, group: range });
     }
+  }
+
+  /** A material as it looks on the part that is pointed at. */
+  lighter(material) {
+    if (!this.lights.has(material)) {
+      const lit = material.clone();
+      lit.emissive = new Color(0x2f6fde);
+      lit.emissiveIntensity = 0.28;
+      this.lights.set(material, lit);
+    }
+    return this.lights.get(material);
   }
 
   /** The joint whose axis and limits are shown, whatever else is; null: none. */
@@ -180,13 +221,16 @@ export class Viewer {
 
   apply() {
     const { shown } = this;
+    const lit = this.only ? this.model.below(this.only) : new Set();
     for (const mesh of this.model.visuals) {
-      mesh.visible = shown.visuals;
+      mesh.visible = shown.visuals && !this.hidden.has(mesh.userData.link);
+      mesh.userData.plain ??= mesh.material;
+      mesh.material = lit.has(mesh.userData.link) ? this.lighter(mesh.userData.plain) : mesh.userData.plain;
     }
     for (const mesh of this.model.replaced) mesh.visible = shown.replaced;
     for (const mesh of this.model.hulls) {
       const met = shown.contacts && mesh.userData.met;
-      mesh.visible = shown.hulls || met;
+      mesh.visible = (shown.hulls || met) && !this.hidden.has(mesh.userData.link);
       mesh.material.color.copy(met ? new Color(0xe0352b) : mesh.userData.color);
       const glass = shown.visuals;
       mesh.material.transparent = glass;
@@ -239,6 +283,7 @@ export class Viewer {
     requestAnimationFrame(() => {
       this.waiting = false;
       this.renderer.render(this.scene, this.camera);
+      this.drawn?.();
     });
   }
 }

@@ -1,5 +1,6 @@
 """What others propose and the detector sees goes on moving; what it alone sees is added."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -89,7 +90,17 @@ def test_a_table_stays_shut_and_says_why():
     table = make_still("still_table", np.random.default_rng(4))
     (only,) = detected(rigid_articulation(table.mesh, "auto", ()))
     assert not only.articulation.movable_joints
-    assert only.articulation.notes
+    looks, surest = only.articulation.notes
+    assert re.fullmatch(
+        r"it looks like a [a-z ]+ with probability \d\.\d\d; "
+        r"it has something to open with probability 0\.\d\d",
+        looks,
+    )
+    assert re.fullmatch(
+        r"the surest part that its sides show is a [a-z]+ on the [a-z]+, "
+        r"with a score of 0\.[0-4]\d, want 0\.50",
+        surest,
+    )
 
 
 def test_parts_that_are_fixed_leave_their_faces_and_children_to_what_holds_them():

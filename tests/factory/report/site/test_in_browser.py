@@ -4,7 +4,10 @@ Slow, and it needs Chromium: ``make site-test``.
 """
 
 import json
+import math
+import re
 import shutil
+from dataclasses import replace
 
 import pytest
 from browser import CONTRAST, LAPTOP, PHONE, until
@@ -70,7 +73,158 @@ def test_a_slider_moves_its_part_and_no_other(opened, site):
     after = link_positions(page)
     assert after[2][1] == pytest.approx(before[2][1] - 0.3, abs=1e-6)
     assert after[:2] == before[:2]
-    assert page.locator("output[for=joint-1]").inner_text() == "300 mm"
+    assert page.get_by_role("textbox", name="slide, value").input_value() == "300 mm"
+    page.get_by_role("textbox", name="hinge, value").fill("45")
+    page.keyboard.press("Enter")
+    assert page.evaluate("factory.model.values.get('hinge')") == pytest.approx(math.radians(45.0))
+
+
+def test_a_pose_is_in_the_address_and_comes_back_from_it(opened, site):
+    page = opened(site / "a/cabinet-1/index.html")
+    page.get_by_role("button", name="Play slide").click()
+    until(page, "factory.model.values.get('slide') > 0.1")
+    assert page.evaluate("factory.model.values.get('hinge')") == 0.0
+    page.get_by_role("button", name="Play slide").click()
+    until(page, "location.hash.startsWith('#slide=0.')")
+    moved = page.evaluate("factory.model.values.get('slide')")
+    again = opened(page.url)
+    assert again.evaluate("factory.model.values.get('slide')") == pytest.approx(moved, abs=1e-3)
+
+
+def on_screen(page, link):
+    """Where the middle of a link's surface is in the window [pixels]."""
+    told = f"""(() => {{
+        const {{ model, viewer }} = factory;
+        const mesh = model.visuals.find((each) => each.userData.link === {link});
+        const at = mesh.geometry.boundingBox.min.clone().add(mesh.geometry.boundingBox.max);
+        at.multiplyScalar(0.5).applyMatrix4(mesh.matrixWorld).project(viewer.camera);
+        const box = viewer.canvas.getBoundingClientRect();
+        return [box.left + (at.x + 1) / 2 * box.width, box.top + (1 - at.y) / 2 * box.height];
+    }})()"""
+    return page.evaluate(told)
+
+
+def test_a_part_lights_up_with_its_row_and_is_dragged_open(opened, site):
+    page = opened(site / "a/cabinet-1/index.html")
+    page.wait_for_timeout(300)
+    x, y = on_screen(page, 2)
+    page.mouse.move(x, y)
+    assert page.locator("#joints .over label").inner_text() == "slide"
+    lit = "factory.model.visuals.filter((each) => each.material.emissiveIntensity < 1).length"
+    assert page.evaluate(lit) > 0
+    page.mouse.down()
+    page.mouse.move(x - 40, y + 30, steps=6)
+    page.mouse.up()
+    assert page.evaluate("factory.model.values.get('slide')") > 0.02
+    page.mouse.move(2, 2)
+    assert page.locator("#joints .over").count() == 0
+    assert page.evaluate(lit) == 0
+
+
+def test_parts_are_hidden_and_shown_alone(opened, site):
+    page = opened(site / "a/cabinet-1/index.html")
+    shown = """[...new Set(factory.model.visuals.filter((each) => each.visible)
+        .map((each) => each.userData.link))]"""
+    page.get_by_role("button", name="Hide hinge").click()
+    assert page.evaluate(shown) == [0, 2]
+    page.get_by_role("button", name="Alone hinge").click()
+    assert page.evaluate(shown) == [1]
+    page.get_by_role("button", name="Alone hinge").click()
+    assert page.evaluate(shown) == [0, 1, 2]
+
+
+@pytest.mark.parametrize("size", [LAPTOP, PHONE])
+def test_the_closed_object_is_in_the_middle_and_all_limits_are_in_the_picture(opened, site, size):
+    page = opened(site / "a/cabinet-1/index.html")
+    page.set_viewport_size(size)
+    page.wait_for_timeout(300)
+    page.get_by_role("button", name="Reset view").click()
+    seen = """(() => {
+        const { viewer } = factory;
+        viewer.camera.updateMatrixWorld();
+        const spots = (each) => each.map((corner) => corner.clone().project(viewer.camera));
+        const ranges = viewer.overlays.limits.flatMap(({ group }) => group.children.flatMap(
+            ({ geometry, matrixWorld }) => {
+                const { array } = geometry.getAttribute("position");
+                const point = (at) => viewer.closed[0].clone().fromArray(array, 3 * at);
+                return Array.from({ length: array.length / 3 },
+                    (_, at) => point(at).applyMatrix4(matrixWorld));
+            }));
+        const told = (axis) => spots(viewer.closed).map((spot) => spot[axis]);
+        return {
+            middle: ["x", "y"].map((axis) => Math.max(...told(axis)) + Math.min(...told(axis))),
+            reach: Math.max(...spots(ranges).flatMap(({ x, y }) => [Math.abs(x), Math.abs(y)])),
+        };
+    })()"""
+    found = page.evaluate(seen)
+    assert found["middle"] == pytest.approx([0.0, 0.0], abs=0.02)
+    assert 0.1 < found["reach"] <= 1.0
+
+
+def test_the_wheel_scrolls_the_page_until_the_model_is_clicked(opened, site):
+    page = opened(site / "a/cabinet-1/index.html")
+    far = "factory.viewer.camera.position.distanceTo(factory.viewer.controls.target)"
+    before = page.evaluate(far)
+    box = page.locator("#stage canvas").bounding_box()
+    page.mouse.move(box["x"] + 20, box["y"] + 20)
+    page.mouse.wheel(0, 200)
+    until(page, "scrollY > 100")
+    assert page.evaluate(far) == before
+    page.evaluate("scrollTo(0, 0)")
+    page.mouse.click(box["x"] + 20, box["y"] + 20)
+    page.mouse.wheel(0, 200)
+    until(page, f"{far} > {1.05 * before}")
+    assert page.evaluate("scrollY") == 0
+
+
+def described(tmp_path, links, joints):
+    """A page of links with a visual cube, and with a collision cube where ``True``."""
+    cube = "<geometry><box size='1 1 1'/></geometry>"
+    solid = f"<visual>{cube}</visual><collision>{cube}</collision>"
+    bodies = [
+        f"<link name='{name}'>{solid if hard else f'<visual>{cube}</visual>'}</link>"
+        for name, hard in links.items()
+    ]
+    file = tmp_path / "x.urdf"
+    file.write_text(f"<robot name='x'>{''.join(bodies)}{joints}</robot>")
+    page = tmp_path / "x.html"
+    page.write_text(page_of_file(file))
+    return page
+
+
+ENDLESS = (
+    "<joint name='turn' type='continuous'><parent link='a'/><child link='b'/>"
+    "<origin xyz='0.626 0 0'/><axis xyz='0 0 1'/></joint>"
+)
+
+
+def test_contact_is_told_only_where_something_can_touch(opened, tmp_path):
+    page = opened(described(tmp_path, {"a": False, "b": False}, ENDLESS))
+    until(page, "document.querySelector('#contact').textContent")
+    assert page.locator("#contact").inner_text() == "No collision geometry in this file"
+    assert page.locator("#size").inner_text() == "1.6 x 1 x 1 m"
+    assert "turns without end" in page.locator("#joints").inner_text()
+    page = opened(described(tmp_path, {"a": True, "b": True}, ENDLESS))
+    until(page, "document.querySelector('#contact').textContent")
+    told = "a and b overlap by 374.0 mm when closed; no further contact in this pose"
+    assert page.locator("#contact").inner_text() == told
+    assert page.evaluate("factory.model.visuals.every((each) => each.material.polygonOffset)")
+    assert re.fullmatch(r"[125]0* (cm|mm|m)", page.locator("#scale").inner_text())
+
+
+def test_a_hundred_joints_are_in_a_list_that_scrolls_and_filters(opened, tmp_path):
+    names = {f"key_{number}": False for number in range(115)}
+    joints = [
+        f"<joint name='press_{name}' type='prismatic'><parent link='body'/><child link='{name}'/>"
+        "<axis xyz='0 0 -1'/><limit lower='0' upper='0.01' effort='1' velocity='1'/></joint>"
+        for name in names
+    ]
+    page = opened(described(tmp_path, {"body": False, **names}, "".join(joints)))
+    rows = page.locator("#joints li")
+    assert rows.count() == 115
+    assert page.evaluate("document.querySelector('#joints').clientHeight < innerHeight")
+    page.get_by_role("searchbox", name="Search joints").fill("key_11")
+    assert [row.is_visible() for row in rows.all()].count(True) == 6
 
 
 def test_the_picture_changes_when_the_door_opens(opened, site):
@@ -122,6 +276,24 @@ def test_filters_filter_and_search_searches(opened, site):
     page.get_by_role("link", name="hitting").click()
     page.wait_for_selector("body.ready")
     assert "hitting-2" in page.url
+
+
+def test_tiles_of_the_same_name_have_their_ids(opened, tmp_path):
+    entries = [PASSED, replace(PASSED, id="cabinet-2"), replace(PASSED, id="oven-1", name="oven")]
+    page = opened(grid_of(tmp_path, [AssetPage(entry).row() for entry in entries]))
+    told = page.locator("#grid .card strong").all_inner_texts()
+    assert told == ["cabinet-1", "cabinet-2", "oven"]
+
+
+def grid_of(tmp_path, rows):
+    """A grid's page with those rows."""
+    fields = sorted(rows[0])
+    table = {"fields": fields, "rows": [[row[name] for name in fields] for row in rows]}
+    for name in STATIC_FILES:
+        shutil.copy(STATIC / name, tmp_path / name)
+    (tmp_path / "assets.js").write_text(f"factoryAssets={json.dumps(table)};")
+    (tmp_path / "index.html").write_text(grid_html(rows, 10, "many"))
+    return tmp_path / "index.html"
 
 
 def test_no_name_of_an_input_runs(opened, site):
@@ -190,19 +362,11 @@ def test_the_viewer_is_served_to_this_machine(browser, tmp_path):
 
 
 def test_ten_thousand_assets_open_fast_and_stay_light(opened, tmp_path, record_property):
-    from dataclasses import replace
-
     rows = [
         AssetPage(replace(PASSED, id=f"cabinet-{n:05d}", name=f"cabinet {n:05d}")).row()
         for n in range(MANY)
     ]
-    fields = sorted(rows[0])
-    table = {"fields": fields, "rows": [[row[name] for name in fields] for row in rows]}
-    for name in STATIC_FILES:
-        shutil.copy(STATIC / name, tmp_path / name)
-    (tmp_path / "assets.js").write_text(f"factoryAssets={json.dumps(table)};")
-    (tmp_path / "index.html").write_text(grid_html(rows, 10, "many"))
-    page = opened(tmp_path / "index.html")
+    page = opened(grid_of(tmp_path, rows))
     milliseconds = page.evaluate("performance.now()")
     assert page.locator("#grid .card").count() < 100
     scrolled = page.evaluate(SCROLL)

@@ -4,15 +4,17 @@ import json
 import re
 from dataclasses import replace
 from html.parser import HTMLParser
+from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 import pytest
-from export_samples import cabinet
+from export_samples import PROVENANCE, cabinet
 from registry_samples import PASSED
 from shown_registry import HIT, HOSTILE, POINT, bundle_in, make_registry
 
 from asset_factory.factory.display.made import scene_of
 from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.export.bundle import export_bundle
 from asset_factory.factory.report.site.alone import page_of_file
 from asset_factory.factory.report.site.places import Places
 from asset_factory.factory.report.site.render import grid_html, list_html
@@ -26,6 +28,8 @@ from asset_factory.factory.report.site.site import (
 from asset_factory.factory.report.site.told import AssetPage, asset_page
 from asset_factory.sim_checks import Finding, Severity
 from asset_factory.sim_checks.measurements import penetrations
+
+EXAMPLES = Path(__file__).parents[4] / "examples"
 
 
 class Page(HTMLParser):
@@ -124,6 +128,25 @@ def test_what_was_rejected_has_its_place_and_its_picture(registry):
     assert (registry.rejected / "hitting-2" / "view.glb").is_file()
 
 
+def test_findings_are_told_once_in_groups_the_gravest_first(registry):
+    page = asset_page(registry.root, registry.entry("hitting-2"))
+    assert [(group.severity, group.code, len(group.findings)) for group in page.groups] == [
+        ("error", "sweep_penetration", 1),
+        ("warning", "articulation_note", 1),
+    ]
+    text = (registry.root / "report/a/hitting-2/index.html").read_text()
+    assert re.findall(r"<h3>(\w+)</h3>", text) == ["Errors", "Warnings"]
+
+
+def test_a_page_tells_size_units_and_how_to_load_an_asset(registry):
+    text = (registry.root / "report/a/cabinet-1/index.html").read_text()
+    assert "<span>0.6 x 0.45 x 0.8 m</span>" in text
+    assert re.search(r"[\d.]+ N m s/rad</td>\s*<td class=\"number\">[\d.]+ N m</td>", text)
+    assert re.search(r"[\d.]+ N s/m</td>\s*<td class=\"number\">[\d.]+ N</td>", text)
+    assert re.findall(r"<code>(import \w+)", text) == ["import mujoco", "import gymnasium"]
+    assert "import mujoco" not in (registry.root / "report/a/hitting-2/index.html").read_text()
+
+
 def test_without_a_model_the_page_still_says_why(registry):
     text = (registry.root / "report/a/still-3/index.html").read_text()
     assert "no_movable_joint" in text
@@ -213,8 +236,13 @@ def test_findings_lead_to_the_pose_in_which_they_show(registry):
 
 def test_a_file_becomes_one_page_that_needs_nothing_else(tmp_path):
     folder = bundle_in(tmp_path / "bundle")
-    for file in ("asset.urdf", "asset.xml", "view.glb", "."):
-        text = page_of_file(folder / file)
+    export_bundle(cabinet(), PROVENANCE, tmp_path / "more", formats=("glb",))
+    own = [folder / name for name in ("asset.urdf", "asset.xml", "view.glb", ".")]
+    # Our own program wrote these, but they have no joints of ours.
+    meshes = [path for path in EXAMPLES.glob("*/*") if path.suffix in (".glb", ".obj")]
+    assert len(meshes) == 11
+    for file in (*own, tmp_path / "more/asset.glb", *meshes):
+        text = page_of_file(file)
         parsed = Page(text)
         assert parsed.loaded == []
         assert parsed.links == []

@@ -1,0 +1,37 @@
+"""Where nothing moves, the sentence says what was seen and what would help."""
+
+from __future__ import annotations
+
+import pytest
+
+from asset_factory.factory.articulate.stage import articulate
+from asset_factory.factory.config import BuildConfig, IntakeConfig
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.intake.load import load
+
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n"
+TETRAHEDRON = f"{TRIANGLE}v 1 1 0\nf 1 2 4\nf 2 3 4\nf 1 3 4\n"
+
+
+def rejected(tmp_path, text):
+    path = tmp_path / "shape.obj"
+    path.write_text(text)
+    with pytest.raises(InputRejected) as refused:
+        articulate(load(path, IntakeConfig()), BuildConfig(articulator="seams"))
+    assert refused.value.code == "no_movable_joint"
+    return refused.value.message
+
+
+def test_something_flat_is_told_that_it_has_no_inside(tmp_path):
+    wanted = "in one plane; want a solid object, with parts that open"
+    assert rejected(tmp_path, TRIANGLE).endswith(f"nothing moves: its one triangle is {wanted}")
+    two = f"{TRIANGLE}v 1 1 1\nf 2 4 3\n"
+    assert rejected(tmp_path, two).endswith(f"all its 2 triangles are {wanted}")
+
+
+def test_a_solid_is_told_its_size_and_every_way_to_say_more(tmp_path):
+    message = rejected(tmp_path, TETRAHEDRON)
+    seen = "nothing on its sides looks like a door, drawer or lid"
+    assert f"nothing moves: in 1 x 1 x 1 m seams saw this: {seen}; " in message
+    for way in ("sidecar", "factory edit", "--config lenient", "--checkpoint paper"):
+        assert way in message
