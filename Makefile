@@ -60,7 +60,7 @@ site:                               ## the scripts of the report's pages, from n
 
 site-test: $(VENV)/.ready-dev site  ## the pages in Chromium; the scripts are as npm makes them
 	git diff --exit-code -- $(WEB)/../static
-	$(BIN)/python -m pytest -m browser tests/factory/report/site tests/factory/edit
+	$(BIN)/python -m pytest -m browser tests/factory/report/site tests/factory/edit tests/test_docs.py
 
 # The variable silences an announcement of MkDocs's successor.
 docs: $(VENV)/.ready-dev            ## the docs as a site in build/docs; fails on broken links
