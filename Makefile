@@ -8,7 +8,7 @@ LINKED := pyproject.toml constraints.txt
 WEB := factory/report/site/web
 
 demo: $(VENV)/.ready                ## the main job on the example meshes
-	$(BIN)/factory build --input examples/meshes examples/generated --sim sapien --output out/
+	$(BIN)/factory build --input examples/meshes examples/generated examples/stated --sim sapien --output out/
 
 test: $(VENV)/.ready-dev            ## every test, two files at a time
 	$(BIN)/python -m pytest -n 2 --dist loadfile
