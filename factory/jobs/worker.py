@@ -44,7 +44,7 @@ def build_here(
         engines: simulators that may run at once; verdicts do not depend on it.
 
     Returns:
-        What is to be registered; ``None`` if it was too late to begin.
+        The product to register; ``None`` if it was too late to begin.
     """
     if until is not None and time.time() > until:
         return None
