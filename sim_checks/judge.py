@@ -242,7 +242,7 @@ def _failure(outcome: Outcome[Any], path: Path) -> Finding:
 
 
 def _unanswered(message: str, error: Exception | None) -> Finding:
-    """Tell what hung (TimeoutError) and what was ended (ChildProcessError) from what crashed.
+    """Tell a hang (TimeoutError) and an ended process (ChildProcessError) from a crash.
 
     Readers in children of their own raise the first two; see :func:`~.read.native.require_word`.
     """
