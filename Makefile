@@ -8,7 +8,7 @@ LINKED := pyproject.toml constraints.txt
 WEB := factory/report/site/web
 
 demo: $(VENV)/.ready                ## the main job on the example meshes
-	$(BIN)/factory build --input examples/meshes examples/generated --sim sapien --output out/
+	$(BIN)/factory build --input examples/meshes examples/generated examples/stated --sim sapien --output out/
 
 test: $(VENV)/.ready-dev            ## every test, two files at a time
 	$(BIN)/python -m pytest -n 2 --dist loadfile
@@ -60,7 +60,7 @@ site:                               ## the scripts of the report's pages, from n
 
 site-test: $(VENV)/.ready-dev site  ## the pages in Chromium; the scripts are as npm makes them
 	git diff --exit-code -- $(WEB)/../static
-	$(BIN)/python -m pytest -m browser tests/factory/report/site tests/factory/edit
+	$(BIN)/python -m pytest -m browser tests/factory/report/site tests/factory/edit tests/test_docs.py
 
 # The variable silences an announcement of MkDocs's successor.
 docs: $(VENV)/.ready-dev            ## the docs as a site in build/docs; fails on broken links

@@ -45,7 +45,7 @@ class RobotShape:
         shoulder: what the arm reaches from [m], shape [3].
         lift: how far the shoulder can be lowered [m].
         near, far: comfortable distances between shoulder and gripper [m].
-        body: radius and height of a cylinder around what stands [m].
+        body: radius and height of a cylinder around the base [m].
         arm: points of the arm [m], shape [count, 3]; everything is within ``arm_radius`` of them or
             the body.
         rest: joint values [rad] or [m] of that pose, in ManiSkill's order.

@@ -32,7 +32,7 @@ Assets = dict[str, RegisteredAsset]
 
 @dataclass(frozen=True)
 class Wanted:
-    """Filters; what is ``None`` or empty lets everything pass.
+    """Filters; ``None`` or an empty one lets everything pass.
 
     Attributes:
         asset: id of the only asset.

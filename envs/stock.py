@@ -1,7 +1,7 @@
 """ManiSkill's own cabinet tasks on a registry's assets.
 
 These are ``OpenCabinetDrawer-v1`` and ``OpenCabinetDoor-v1``. Their code runs as it is, so that
-what was written to train on PartNet-Mobility trains on these::
+scripts written to train on PartNet-Mobility train on these::
 
     @register_env("OpenMyDrawers-v1", max_episode_steps=100)
     class OpenMyDrawers(RegistryCabinets, OpenCabinetDrawerEnv):

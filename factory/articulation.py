@@ -128,7 +128,7 @@ class Weights:
     Attributes:
         file: name of the checkpoint (not its path).
         digest: SHA-256 of it.
-        license: under which terms they, and what is made with them, may be used; ``None`` if
+        license: terms of use of them and of assets made with them; ``None`` if
             unknown.
         outputs: the license that they put on whatever they help to make; ``None``: none.
     """
@@ -152,7 +152,7 @@ class Articulation:
         weights: of the trained networks that said so, if any did.
 
     Raises:
-        InvalidArticulation: says which part or joint, what is wrong, and what would be right.
+        InvalidArticulation: names the part or joint, the fault and a remedy.
     """
 
     mesh: Mesh

@@ -48,7 +48,7 @@ def make_asset(
         place: where the input lies for whoever registers it, if that is elsewhere.
 
     Returns:
-        What is to be registered. A bad input is a rejected product, and one that a clock stopped
+        The product to register. A bad input is a rejected product, and one that a clock stopped
         an unjudged one, never an exception.
     """
     stages = Stages(config, Store(cache) if cache else None)

@@ -123,7 +123,7 @@ class DecomposeConfig:
         near_convex: a part of several pieces that fills this share of its hull, with no deeper
             dent, is one hull.
         shell_m: thickness given to surfaces that enclose nothing, towards their inside [m].
-        max_faces: simplify to this many triangles before CoACD; what is too intricate for that goes
+        max_faces: simplify to this many triangles before CoACD; meshes too intricate for that go
             to V-HACD, whose work is bounded by its voxels.
         max_hulls: a part that needs more is tried with two and four times the error, then rejected.
         max_vertices: corners of one hull; simulators on the GPU take at most 64.
@@ -178,12 +178,12 @@ class SolidsConfig:
     Attributes:
         construct: make bodies of parts that are patches of one surface; without it they are
             decomposed as they are.
-        interior: invent what lies behind panels too: hollows and drawers' boxes.
+        interior: invent interiors behind panels: hollows and drawers' boxes.
         cells: along an object's longest side, in which space is divided.
         wall_m: thickness of walls around hollows [m].
         gap_m: between a panel and what surrounds it, each side of the seam [m]; both together must
             be more than the 2 mm that PyBullet needs.
-        behind_m: between a panel's back and what lies behind it [m].
+        behind_m: between a panel's back and the part behind it [m].
         most_pieces: of one part.
     """
 
@@ -209,7 +209,7 @@ class SeparateConfig:
         poses: sampled along each joint that moves the two parts against one another.
         overlap_poses: of those, how many are tested for overlap of the meshes.
         most_cut: largest share of a part's collision volume that may be cut away for one pair.
-        visible_m: what is cut off deeper than this is told, and its area counted [m].
+        visible_m: cuts deeper than this are reported, and their area counted [m].
         bared_m: how much may be cut off two parts together where nothing excuses it [m]; what a
             joint that is hung well runs into on its way is planed instead.
         scraped_m: most of that, clearance included [m].

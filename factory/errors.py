@@ -92,7 +92,7 @@ class Unjudged(AssetFactoryError):
     """A step that hung, or that somebody ended. Ends as unjudged; the next job tries again.
 
     Attributes:
-        finding: what was stopped, and by what limit.
+        finding: the step that was stopped, and the limit.
     """
 
     def __init__(self, finding: Finding) -> None:

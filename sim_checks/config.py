@@ -80,8 +80,8 @@ class MotionConfig:
             its range, and in any case further than this [m] or [rad], creeps. Someone who looks
             away for the two seconds sees no difference below; MuJoCo's default friction creeps by
             20 mm and, at an arm of 0.3 m, 0.05 rad, and its stiffest by 0.02 mm and 5e-5 rad.
-        energy_soft_m, energy_hard_m: energy that nothing gave, as the height to which it would lift
-            what moves [m]: speeds from nowhere of 1 m/s, faster than a hand opens a drawer, and of
+        energy_soft_m, energy_hard_m: energy that nothing gave, as the height to which it would
+            lift moving links [m]: speeds of 1 m/s, faster than a hand opens a drawer, and of
             2 m/s, faster than it ever does. MuJoCo and PyBullet were measured to give them to
             blocks that overlap by 5 cm and by 10 cm.
         energy_floor_j: less than this is never held against anyone [J].
@@ -200,7 +200,7 @@ class LintConfig:
         damping_step: damping that takes more than this share of the speed in one step is reported.
         voxels, voxel_m: the open inside of a link is measured in this many voxels along its longest
             side, none smaller than this [m].
-        cavity_share, pocket_share: what is smaller than this share of the link's convex hull is no
+        cavity_share, pocket_share: space smaller than this share of the link's convex hull is no
             cavity, or no pocket, worth speaking of: gaps behind handles, recessed panels.
         hand_m: a pocket is where a ball of this diameter [m], a hand, gets in and has its centre.
         pocket_kept, interior_kept: share that collision shapes must leave free of a pocket (error)

@@ -265,7 +265,7 @@ def _unread(error: Exception) -> Finding:
 
 
 def _unanswered(message: str, error: Exception | None) -> Finding:
-    """Tell what hung (TimeoutError) and what was ended (ChildProcessError) from what crashed.
+    """Tell a hang (TimeoutError) and an ended process (ChildProcessError) from a crash.
 
     Readers in children of their own raise the first two; see :func:`~.read.native.require_word`.
     """

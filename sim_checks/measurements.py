@@ -153,7 +153,7 @@ class MeasuredPenetration:
 
 
 def penetrations(measurements: Mapping[str, Any]) -> tuple[MeasuredPenetration, ...]:
-    """Return what was measured of each file of an asset.
+    """Return the measurements of each file of an asset.
 
     Args:
         measurements: of a report, by file and check.

@@ -94,7 +94,7 @@ class Disagreement:
     """Simulators that say different things of the same question.
 
     Attributes:
-        question: what was asked, a stable word, e.g. ``opens``, ``returns``, ``loads``, ``rests``.
+        question: a stable word, e.g. ``opens``, ``returns``, ``loads``, ``rests``.
         joint: the joint concerned; ``None`` if it is about the whole file.
         verdicts: simulator -> ``pass`` or the code of its finding.
         values: simulator -> the number behind it; ``None`` where it has none.

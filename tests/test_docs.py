@@ -133,14 +133,21 @@ def test_cheap_commands_do_what_they_say(line, tmp_path, monkeypatch, capsys):
     assert told.out + told.err
 
 
-def test_the_site_is_built_without_a_broken_link_and_asks_no_network(tmp_path):
-    command = [sys.executable, "-m", "mkdocs", "build", "--site-dir", tmp_path / "site"]
+@pytest.fixture(scope="session")
+def site(tmp_path_factory):
+    """The docs as a site, as ``make docs`` builds them."""
+    folder = tmp_path_factory.mktemp("site")
+    command = [sys.executable, "-m", "mkdocs", "build", "--site-dir", folder]
     quiet = {**os.environ, "NO_MKDOCS_2_WARNING": "1"}
     built = subprocess.run(
         command, cwd=ROOT, env=quiet, capture_output=True, text=True, check=False
     )
     assert built.returncode == 0, built.stderr
-    pages = list((tmp_path / "site").rglob("*.html"))
+    return folder
+
+
+def test_the_site_is_built_without_a_broken_link_and_asks_no_network(site):
+    pages = list(site.rglob("*.html"))
     assert len(pages) > 40
     for page in pages:
         text = page.read_text(encoding="utf-8")
@@ -148,3 +155,17 @@ def test_the_site_is_built_without_a_broken_link_and_asks_no_network(tmp_path):
             re.findall(r"<(?:script|link|img|iframe)[^>]*(?:src|href)=\"?(?:https?:)?//", text)
             == []
         )
+
+
+@pytest.mark.browser
+def test_the_site_is_searched_without_a_server(site):
+    from browser import CHROMIUM
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as play:
+        browser = play.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        page = browser.new_page()
+        page.goto((site / "index.html").as_uri())
+        page.fill("[data-md-component=search-query]", "turntable")
+        page.wait_for_selector(".md-search-result__item", timeout=20_000)
+        browser.close()

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 import sysconfig
@@ -88,6 +89,21 @@ def test_the_wheel_holds_real_files_and_nothing_else(distributions):
     } <= names
     assert all(name.startswith("asset_factory/") for name in names)
     assert not any("/tests/" in name or name.endswith(".pyc") for name in names)
+
+
+def test_the_description_holds_away_from_the_repository(distributions):
+    (wheel,) = distributions.glob("*.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        (name,) = (each for each in archive.namelist() if each.endswith("dist-info/METADATA"))
+        told = archive.read(name).decode()
+    source = re.search(r"^Project-URL: Source, (\S+)$", told, re.MULTILINE)[1]
+    targets = re.findall(r"\]\(([^)]+)\)", told)
+    assert all(target.startswith("https://") for target in targets)
+    files = [re.sub(r".*/main/", "", each).split("#")[0] for each in targets if source in each]
+    assert "docs/pictures/made.png" in files
+    assert [each for each in files if not (ROOT / each).exists()] == []
+    for needed in ("Author", "Classifier", "License-Expression", "Requires-Python"):
+        assert f"\n{needed}: " in told
 
 
 def test_the_source_distribution_has_no_links(distributions):

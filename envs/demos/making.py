@@ -1,4 +1,4 @@
-"""Making shards: what is missing, in processes that may die, and nothing twice."""
+"""Making shards: only missing ones, in processes that may die."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether a robot opens what was registered: scripted episodes of the tasks.
+"""Whether a robot opens registered assets: scripted episodes of the tasks.
 
 ``docs/solving.md`` describes how.
 """

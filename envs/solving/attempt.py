@@ -36,7 +36,7 @@ class Attempt:
 
     Attributes:
         asset, digest: which asset, and the SHA-256 of its manifest.
-        joint, robot: what was opened by whom.
+        joint, robot: the joint to open, and the robot that tried.
         seed, options: of the reset.
         solved: the task's own ``success`` was true after the last action.
         reason, message: why not, a code of ``REASONS`` and a sentence with a number; empty when

@@ -1,4 +1,4 @@
-"""Acting: what is planned becomes actions of the environment, and what came of them is watched."""
+"""Acting: a plan becomes actions of the environment, whose effects are watched."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Driver:
     """One episode being acted: the only thing here that changes.
 
     Attributes:
-        env: what is stepped.
+        env: the environment to step.
         world: the episode.
         limit: most control steps.
         actions: those sent so far.

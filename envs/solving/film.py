@@ -16,7 +16,7 @@ def film(registry: str, attempt: Attempt, path: str) -> None:
     """Take an attempt's actions again before the task's camera, and write an MP4.
 
     Raises:
-        ConfigError: nothing here can render; it says what is missing.
+        ConfigError: nothing here can render; it names the missing package.
     """
     import imageio.v2 as imageio
 

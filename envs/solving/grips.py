@@ -52,7 +52,7 @@ class Grip:
         target: number of the asset's target; -1 for a place found on its surface.
         hand: pose of the hand frame in the world, shape [4, 4].
         score: 0 to 1, how much one would like it.
-        label: what was tried, for telling two tries apart.
+        label: of the try, to tell two apart.
         opening: between the fingers when they hold it [m]; 0 for closed ones.
     """
 
@@ -155,7 +155,7 @@ def unobstructed(world: RobotWorld, grips: list[Grip], poses: FloatArray) -> lis
 
 
 def _only_what_moves(world: RobotWorld, grips: list[Grip], poses: FloatArray) -> list[Grip]:
-    """Return those whose fingers, pressed on, are in what moves and not in what stays."""
+    """Return those whose fingers, pressed on, are in moving links and in no others."""
     if not grips:
         return []
     hands = np.array([grip.hand for grip in grips])
@@ -241,7 +241,7 @@ def _outer(
 
 
 def _motion(world: RobotWorld, poses: FloatArray, points: FloatArray) -> FloatArray:
-    """Return where points of what moves go, shape [point, 3], per [rad] or [m] of the joint."""
+    """Return where points of moving links go, shape [point, 3], per [rad] or [m] of the joint."""
     origin, axis = world.axis(poses)
     if world.object_chain.slides[world.mover]:
         return np.broadcast_to(axis, points.shape)

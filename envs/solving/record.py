@@ -1,4 +1,4 @@
-"""What was found of one asset, kept beside the registry: ``solving/<id>.json``."""
+"""The attempts on one asset, kept beside the registry: ``solving/<id>.json``."""
 
 from __future__ import annotations
 

@@ -58,7 +58,7 @@ class RobotWorld:
         free: indices of the joint values that are planned.
         grippers: indices of the fingers' joint values.
         fingers, palm: indices of those links.
-        balls: its surface; what stands on the ground is left out.
+        balls: its surface; links on the ground are left out.
         object_chain, object_root, pieces: the same of the object.
         joint: to be opened.
         degree: index of its value among the object's.
@@ -137,7 +137,7 @@ class RobotWorld:
         Args:
             values: of the robot's joints, shape [count, degree].
             object_poses: shape [count, link, 4, 4], or [1, link, 4, 4] if it keeps still.
-            touching: the fingers may be at what moves, and the rest as near as contacts give way.
+            touching: the fingers may be at moving links, and the rest as near as contacts give way.
         """
         points = self.balls.placed(self.chain.forward(values, self.root))
         hit = points[..., 2].min(axis=1) < FLOOR

@@ -1,4 +1,4 @@
-"""What all tasks share: an episode, its state, what is seen of it and what it is worth."""
+"""Shared by all tasks: an episode, its state, observations and reward."""
 
 from __future__ import annotations
 

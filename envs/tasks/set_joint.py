@@ -33,7 +33,7 @@ class SetJointEnv(JointTask):
         super().__init__(*args, **options)
 
     def start_and_goal(self, draws: dict[str, torch.Tensor]) -> tuple[torch.Tensor, torch.Tensor]:
-        """Start anywhere; the goal uniform over what is at least ``LEAST_WAY`` away from it."""
+        """Start anywhere; the goal uniform at least ``LEAST_WAY`` away."""
         start = draws["start"]
         below = (start - LEAST_WAY).clamp(min=0.0)
         above = (1.0 - LEAST_WAY - start).clamp(min=0.0)

@@ -54,7 +54,7 @@ class Builds:
 
     @property
     def running(self) -> bool:
-        """Tell whether there is no verdict yet of what was begun last."""
+        """Tell whether the last build has no verdict yet."""
         run = self._run
         return run is not None and not (run.asset or run.said)
 
@@ -86,7 +86,7 @@ class Builds:
             self._run.follower.start()
 
     def stop(self) -> None:
-        """Kill what is under way; what was finished is registered."""
+        """Kill the running build; finished assets are registered."""
         with self._lock:
             self._kill()
 

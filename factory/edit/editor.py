@@ -1,4 +1,4 @@
-"""The page's own server: what is at each of its addresses, and nothing else."""
+"""The page's own server: a fixed table of addresses, and nothing else."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ class Editor:
     """What a page is told about one mesh, and what it may change: its sidecar.
 
     Args:
-        subject: what is edited.
+        subject: the mesh to edit.
         config: how it is loaded, and who guesses.
         builds: what its Build does.
     """
@@ -97,7 +97,7 @@ class Editor:
         }
 
     def answer(self, asked: PageRequest) -> PageResponse:
-        """Answer a request; what is not known, or does not bring the token, is not found."""
+        """Answer a request; an unknown address, or one without the token, is not found."""
         _, token, name = (*asked.path.split("/", 2), "", "")[:3]
         if not secrets.compare_digest(token.encode(), self.token.encode()):
             return NOT_FOUND

@@ -1,4 +1,4 @@
-"""What is known of an object's parts, as boxes on its sides: a first statement to correct."""
+"""An object's known parts, as boxes on its sides: a first statement to correct."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is edited: a mesh, where its sidecar goes, and the asset that was made of it."""
+"""The subject of editing: a mesh, the place of its sidecar, and the asset made of it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Subject:
     Attributes:
         mesh: its file.
         output: folder of the registry that builds go into.
-        asset: folder of what was made of it before; ``None`` if that is not asked about.
+        asset: folder of the asset made of it before; ``None`` if that is not asked about.
     """
 
     mesh: Path
@@ -34,7 +34,7 @@ class Subject:
 
     @property
     def sidecar(self) -> Path:
-        """Return where the statement is written: it wins over what is there."""
+        """Return where the statement is written: it wins over sidecars that are there."""
         usual = self.mesh.with_name(f"{self.mesh.stem}.parts.json")
         return (self.existing or usual).with_suffix(".json")
 

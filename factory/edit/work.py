@@ -1,4 +1,4 @@
-"""What is done with an edited mesh, in a child process: a file of anybody's may take any time."""
+"""Work on an edited mesh, in a child process: a file of anybody's may take any time."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class ShownVerdict:
     """What became of a build.
 
     Attributes:
-        model: GLB of what was made; empty without.
+        model: GLB of the asset; empty without.
         told: for the page, JSON data.
     """
 
@@ -64,12 +64,12 @@ class ShownVerdict:
 
 
 def open_mesh(mesh: Path, config: BuildConfig, asset: Path | None) -> OpenedMesh:
-    """Load a mesh, and what was made of it.
+    """Load a mesh, and the asset made of it.
 
     Args:
         mesh: its file.
         config: how it is read.
-        asset: the folder of what was made of it, if that is known.
+        asset: the folder of the asset made of it, if that is known.
 
     Raises:
         InputRejected: it cannot be loaded.
@@ -187,7 +187,7 @@ def _plain(stated: Stated) -> dict[str, Any]:
 
 @lru_cache(maxsize=1)
 def _loaded(mesh: Path, config: BuildConfig) -> Intake:
-    """Return a mesh without what is stated beside it, which is what is being changed."""
+    """Return a mesh without the statement beside it, which is being changed."""
     try:
         return load_mesh(mesh, config.intake, stated=False)
     except (TimeoutError, ChildProcessError) as error:

@@ -17,7 +17,7 @@ from .manifest import Manifest
 
 @dataclass(frozen=True)
 class Bundle:
-    """What was written.
+    """The files written.
 
     Attributes:
         folder: holds everything; nothing in it points outside.

@@ -81,7 +81,7 @@ def manifest_of(layout: Layout, provenance: Provenance) -> Manifest:
 
 
 def tool_versions() -> dict[str, str | None]:
-    """Return the installed versions of what made the asset; ``None`` for what is not installed."""
+    """Return the versions of the libraries that make assets; ``None``: not installed."""
     versions: dict[str, str | None] = {}
     for tool in TOOLS:
         try:

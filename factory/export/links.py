@@ -55,11 +55,11 @@ class Layout:
     """An asset whose meshes lie in its bundle folder, ready to be described.
 
     Attributes:
-        asset: what is described.
+        asset: to describe.
         links: one per part.
         resistances: one per joint.
         excluded_pairs: names of links whose contacts MuJoCo is told to ignore.
-        notes: what was lost or changed on the way, one sentence each.
+        notes: losses and changes on the way, one sentence each.
     """
 
     asset: Asset

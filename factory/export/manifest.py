@@ -128,7 +128,7 @@ class ManifestProposal:
 
 @dataclass(frozen=True)
 class ManifestLink:
-    """A link: its mass [kg], hulls and visual meshes, and what was given up in making them.
+    """A link: its mass [kg], hulls and visual meshes, and their errors.
 
     ``proposal`` is ``None`` for what nobody proposed, as the body.
     """
@@ -158,7 +158,7 @@ class ManifestSurface:
 
 @dataclass(frozen=True)
 class ManifestProvenance:
-    """Where the asset came from, and what was assumed of it; see :class:`~..intake.Provenance`."""
+    """The asset's origin, and assumptions about it; see :class:`~..intake.Provenance`."""
 
     input: str
     digest: str
@@ -179,12 +179,12 @@ class Manifest:
     Attributes:
         name, category, license: of the input; ``None`` if unknown.
         urdf, mjcf: the descriptions' files.
-        articulator: who said what moves.
+        articulator: the source of parts and joints.
         proposers: whose proposals became its moving parts, sorted.
         scale: to be applied by a loader.
         fixed_base: whether the base is held in place.
         mass: of everything [kg].
-        bounds, closed_bounds: box around what is visible, every joint at 0 and at lower [m].
+        bounds, closed_bounds: box around the visible surface, every joint at 0 and at lower [m].
         ground_offset: height of the object frame at which the object stands on the ground [m].
         hulls: how many convex pieces.
         joints: parents first.
@@ -192,8 +192,8 @@ class Manifest:
         targets: ways to open the joints.
         excluded_pairs: links that MuJoCo does not collide.
         provenance: where it came from.
-        tools: installed versions of what made it; ``None`` for what is not installed.
-        notes: what was assumed or changed, a sentence each.
+        tools: versions of the libraries that made it; ``None``: not installed.
+        notes: assumptions and changes, a sentence each.
         invented: surfaces that the input does not have; the file leaves the field out where there
             are none.
     """

@@ -77,7 +77,7 @@ class Resistance:
 
     @property
     def armature(self) -> float:
-        """Return what is added to ``inertia`` in MuJoCo [kg m2] or [kg]."""
+        """Return the addition to ``inertia`` in MuJoCo [kg m2] or [kg]."""
         return ARMATURE_SHARE * self.inertia
 
 
@@ -131,7 +131,7 @@ def _resistance(asset: Asset, joint: Joint, closed: FloatArray) -> Resistance:
 
 
 def _damping(joint: Joint, inertia: float, reach: float) -> float:
-    """Return what was stated or chosen, as far as hands and engines bear it [N m s/rad, N s/m]."""
+    """Return the damping that hands and engines bear, stated or chosen [N m s/rad, N s/m]."""
     damping = inertia / REST_TIME_S if joint.damping is None else joint.damping
     pull = CHOSEN_RIM_FORCE_N if joint.damping is None else MOST_RIM_FORCE_N
     speed = (joint.upper - joint.lower) / OPENING_TIME_S

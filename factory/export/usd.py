@@ -34,7 +34,7 @@ def write_usd(layout: Layout, file: Path) -> None:
     """Write the whole asset as one binary layer; textures stay beside it in the bundle.
 
     Args:
-        layout: what is written.
+        layout: of the asset.
         file: ends in ``.usd``; textures are named relative to it.
     """
     from pxr import Kind, Tf, Usd, UsdGeom, UsdPhysics

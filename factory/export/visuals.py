@@ -1,4 +1,4 @@
-"""What is seen: each part's faces, split into pieces of one material, handles apart."""
+"""Visual geometry: each part's faces, split into pieces of one material, handles apart."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class VisualPiece:
         name: unique in the asset; starts with ``handle_`` for handle geometry, by which ManiSkill
             finds it.
         file: OBJ, relative to the bundle.
-        mesh: what is in it, object frame at rest [m].
+        mesh: its content, object frame at rest [m].
         material: how it looks.
         texture: PNG, relative to the bundle; ``None`` for a plain colour.
     """

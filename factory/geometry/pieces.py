@@ -1,7 +1,7 @@
 """Pieces of a surface: what connected components are to modelled meshes, on skins too.
 
 A component that is most of the object says nothing of its parts: it is cut along creases, where
-the smoothed normals of two neighbours turn, and where the colour jumps. What is too small to be a
+the smoothed normals of two neighbours turn, and where the colour jumps. A piece too small to be a
 part goes on to the neighbour that it is parted from least.
 """
 

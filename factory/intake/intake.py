@@ -14,7 +14,7 @@ from .stated import Stated
 
 @dataclass(frozen=True)
 class Provenance:
-    """Where a mesh came from and what was done to it; ends in the manifest.
+    """A mesh's origin and the changes to it; ends in the manifest.
 
     Attributes:
         input: file name of the input (not its path).
@@ -30,7 +30,7 @@ class Provenance:
         license: from the sidecar or the file, else ``None``.
         dropped_degenerate: faces without area that were dropped.
         dropped_non_finite: faces with a NaN or infinite corner that were dropped.
-        notes: what was assumed, one sentence each.
+        notes: assumptions, one sentence each.
     """
 
     input: str

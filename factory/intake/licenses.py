@@ -30,7 +30,7 @@ def is_allowed(license: str | None, allowed: Sequence[str]) -> bool:
 
 
 def combined(license: str | None, others: Iterable[str]) -> str | None:
-    """Return the terms of what is under several licenses at once, ``;`` between them.
+    """Return the terms of several licenses at once, ``;`` between them.
 
     Args:
         license: of an input; ``None`` where nobody says.
@@ -52,7 +52,7 @@ def _stated(license: str | None) -> str:
 def require_allowed(
     what: str, license: str | None, allowed: Sequence[str], digest: str = ""
 ) -> None:
-    """Reject with ``license_disallowed`` what stands under none of the allowed licenses.
+    """Reject an input under none of the allowed licenses.
 
     Args:
         what: opens the sentence.
@@ -63,7 +63,7 @@ def require_allowed(
         digest: over all files of the input.
 
     Raises:
-        InputRejected: code ``license_disallowed``, naming what it is and what is allowed.
+        InputRejected: code ``license_disallowed``, naming its license and those allowed.
     """
     if is_allowed(license, allowed):
         return

@@ -1,4 +1,4 @@
-"""Refusing what is too large before any memory is taken for it."""
+"""Refusing files that are too large before any memory is taken for them."""
 
 from __future__ import annotations
 

@@ -27,10 +27,10 @@ _UNKNOWN = -1
 
 
 def local_inputs(places: Sequence[Path | str], output: Path) -> tuple[Path, ...]:
-    """Return where inputs lie on this machine; what lies behind a URL is fetched first.
+    """Return inputs as paths on this machine; those behind a URL are fetched first.
 
-    A copy that was cut off goes on with what is missing. Each file is put in place whole; what is
-    gone from the URL goes here too.
+    A copy that was cut off goes on with the missing files. Each file is put in place whole; files
+    gone from the URL go here too.
 
     Args:
         places: files and folders, by path or by a URL that fsspec understands.
@@ -137,7 +137,7 @@ def _copy(system: Any, path: str, target: Path, listed: int) -> None:
 
 
 def _known(folder: Path) -> dict[str, tuple[int, str]]:
-    """Return what was fetched before; the last line of a file counts, one that was cut does not."""
+    """Return the files fetched before; a file's last line counts, a line cut off does not."""
     known = {}
     path = folder / _FETCHED
     for line in path.read_text(encoding="utf-8").splitlines() if path.is_file() else ():

@@ -46,7 +46,7 @@ class ReadLog:
         return digest
 
     def reads_of(self, source: Path) -> Reads:
-        """Return what was noted, by paths relative to the folder of the input ``source``."""
+        """Return the notes, by paths relative to the folder of the input ``source``."""
         folder = source.absolute().parent
         real = source.parent.resolve()
         reads = {}

@@ -23,16 +23,16 @@ _CODES = {
 
 @contextmanager
 def rejecting(name: str, folder: Path, log: ReadLog | None = None) -> Iterator[None]:
-    """Turn what is raised over a file from anybody into a rejection: the file is at fault.
+    """Turn errors over a file from anybody into a rejection: the file is at fault.
 
     Args:
         name: opens the sentence of what no reader says itself.
         folder: of the input; sentences do not tell where it is.
-        log: where it is noted what was looked for, and which links lead out of the folder.
+        log: notes which files were looked for, and which links lead out of the folder.
 
     Raises:
         InputRejected: ``missing_file``, ``external_reference``, ``too_large``, ``unsupported``,
-            ``unreadable``, or what is raised as a rejection already.
+            ``unreadable``, or a rejection that is raised as such.
         TimeoutError, ChildProcessError: nobody can say.
     """
     try:

@@ -86,7 +86,7 @@ def read_beside(path: Path, files: InputFiles, most_bytes: int) -> bytes:
 
 
 def bad_sidecar(path: Path, why: str) -> InputRejected:
-    """Return the rejection of an input for what lies beside it."""
+    """Return the rejection of an input for its sidecar."""
     return InputRejected("bad_sidecar", f"{path.name}: {why}")
 
 

@@ -98,7 +98,7 @@ class Source:
     def id(self) -> str:
         """Return an id: of the same input the same anywhere, of another one another.
 
-        What was not read to its end has one from its name and its own bytes; where it has more
+        An input not read to its end has one from its name and its own bytes; where it has more
         files than one, one that is no asset's, for the same bytes with other files beside them may
         have passed.
         """

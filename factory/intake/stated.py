@@ -239,7 +239,7 @@ def stated_from(values: object) -> Stated:
     """Return the statement that a decoded JSON or TOML document makes.
 
     Raises:
-        ConfigError: with the place, what is wrong there and what would be right.
+        ConfigError: with the place, the fault and a remedy.
     """
     for fault in _wrong_words(values, Stated, "$"):
         raise ConfigError(fault)
@@ -276,7 +276,7 @@ def _parse(path: Path, files: InputFiles) -> Stated:
 
 
 def _wrong_words(values: object, form: type[Struct], place: str) -> Iterator[str]:
-    """Yield what is called by a name that nothing has, and which name may be meant."""
+    """Yield each unknown name, and the name that may be meant."""
     if not isinstance(values, dict):
         return
     for key, value in values.items():

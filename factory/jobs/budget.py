@@ -23,10 +23,10 @@ class Budget:
 
     Attributes:
         limit: inputs begun at most, those known from before not counted; ``None``: all.
-        max_s: after so long none is begun, and what runs is stopped [s]. ``None``: no limit.
-        retry: reason codes; what was rejected or left unjudged for one of them is built again.
+        max_s: after so long none is begun, and running builds are stopped [s]. ``None``: no limit.
+        retry: reason codes; inputs rejected or left unjudged for one of them are built again.
             ``any``: for any.
-        repair: every known input's files are compared with what was published; what is damaged is
+        repair: every known input's files are compared with those published; damaged assets are
             built again.
         damaged: ids of known inputs that are built again before all others, whatever their files
             say.
@@ -45,7 +45,7 @@ class Budget:
             raise ConfigError(f"longest time: is {self.max_s:g} s, want 0 or more")
 
     def wants_again(self, entry: Entry) -> bool:
-        """Return whether a known input is built all the same, for what is said of it."""
+        """Tell whether a known input is built all the same, for its verdict."""
         return entry.status is not Status.PASSED and (
             entry.reason in self.retry or ANY in self.retry
         )

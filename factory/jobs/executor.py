@@ -50,7 +50,7 @@ class Executor(Protocol):
 
         Calls are taken from ``calls`` as workers come free, in the caller's thread and never more
         than :data:`AHEAD` times the workers ahead: a million of them need no more memory than ten.
-        Closing the iterator kills what is under way.
+        Closing the iterator kills running builds.
 
         Args:
             function: importable by name; its results must pickle.

@@ -74,7 +74,7 @@ class _Begun:
 
 
 class Job:
-    """One run over some inputs. The same job again does only what is missing.
+    """One run over some inputs. The same job again builds only missing ones.
 
     Args:
         inputs: files, as :func:`~..mesh.find_inputs` lists them; each once.
@@ -127,8 +127,7 @@ class Job:
     def run(self) -> Iterator[Result]:
         """Run; yield each input's result once, known ones first, the others as they are done.
 
-        Closing the iterator, or an exception, kills what is under way; what was finished is
-        registered.
+        Closing the iterator, or an exception, kills running builds; finished ones are registered.
 
         Raises:
             RegistryError: the registry cannot be written any more.

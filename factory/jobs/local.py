@@ -110,7 +110,7 @@ class _WorkerPool(Generic[T]):
         return self._done.get()
 
     def dismiss(self) -> None:
-        """End all workers at once; what is under way is lost."""
+        """End all workers at once; running tasks are lost."""
         self._dismissed.set()
         for _, child in self._members:
             child.abandon()

@@ -1,4 +1,4 @@
-"""The report of a registry, drawn by a few workers: only what is new or changed."""
+"""The report of a registry, drawn by a few workers: only new or changed assets."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ LIBRARIES = ("embreex", "jinja2", "PIL")
 
 @dataclass(frozen=True)
 class PagesDrawn:
-    """What was done.
+    """The pages drawn.
 
     Attributes:
         index: the first page.

@@ -26,7 +26,7 @@ BATCH = 128
 
 @dataclass(frozen=True)
 class Probe:
-    """One input, and what is known of it.
+    """One input, and its known verdict.
 
     Attributes:
         given: the input, as it was named.

@@ -42,7 +42,7 @@ def is_crooked(axis: FloatArray) -> bool:
 def at_front_edge(articulation: Articulation, joint: Joint) -> Joint | None:
     """Return the same hinge at the outermost edge of its part, on the side where it is.
 
-    About that edge every point of a flat door moves away from what is beside and behind it.
+    About that edge every point of a flat door moves away from the parts beside and behind it.
 
     Args:
         articulation: over the mesh at rest [m].

@@ -39,7 +39,7 @@ class Plan:
         closely: hulls stay as close to the surfaces as they were decomposed, however many.
         fewer: the asset has too many hulls: they are joined, further off the surfaces, until so
             few are left.
-        repairs: what was changed, oldest first.
+        repairs: the changes, oldest first.
     """
 
     separate: frozenset[Pair] = frozenset()
@@ -63,8 +63,8 @@ class Spare:
 
     Attributes:
         joints: that may be frozen.
-        guesses: part -> its joint, where both are guesses and there is a better one; what is worth
-            least first: its probability times the share of the object's diagonal that it moves.
+        guesses: part -> its joint, where both are guesses and there is a better one; the least
+            valuable first, by probability times the share of the object's diagonal it moves.
         fronts: parts that are thin fronts and that could be built anew.
         hinges: guessed ones that could be at the front edges of their doors.
     """

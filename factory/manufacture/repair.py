@@ -18,7 +18,7 @@ class RepairKind(StrEnum):
 
     Attributes:
         label: the kind in a few words, for a filter.
-        sentence: what is told of a repair, over its fields.
+        sentence: a template over the fields of a repair.
     """
 
     label: str
@@ -110,7 +110,7 @@ class Repair:
     """One change that a repair made.
 
     Attributes:
-        kind: what was done.
+        kind: of the change.
         parts: names of the parts that it is about; of overlapping ones, the one given up first.
         pairs: names of two parts each, sorted.
         joints: names of the joints that it is about, sorted.
@@ -137,7 +137,7 @@ class Repair:
 
     @property
     def sentence(self) -> str:
-        """Return what was done and why, for people."""
+        """Return the change and its reason, for people."""
         if self.told:
             return self.told
         blocked = "it runs into something"
@@ -157,7 +157,7 @@ class Repair:
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """Return JSON data, without what is empty."""
+        """Return JSON data, without empty fields."""
         return {
             name: list(value) if isinstance(value, tuple) else value
             for name, value in vars(self).items()

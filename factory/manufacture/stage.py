@@ -67,7 +67,7 @@ def manufacture(
 def _hulls(
     planned: Articulation, known: Sequence[PartHulls | None], plan: Plan, stages: Stages
 ) -> tuple[tuple[PartHulls, ...], list[Finding]]:
-    """Decompose every part, joined where the asset has many hulls; and say what was joined."""
+    """Decompose every part, joined where the asset has many hulls; and say which were joined."""
     config = stages.config
     rooms = Rooms(planned)
     plain = decompose(planned, config.decompose, stages.store, known, plan.hollow, rooms)
@@ -107,7 +107,7 @@ def with_targets(asset: Asset, stages: Stages) -> Asset:
 
 @dataclass(frozen=True)
 class _Finished:
-    """What hulls become: separated and weighed; and what was found on the way."""
+    """The separated and weighed hulls, and the findings on the way."""
 
     bodies: tuple[PartBody, ...]
     findings: tuple[Finding, ...]

@@ -1,10 +1,10 @@
-"""The permanent list: what passed, what was rejected and why.
+"""The permanent list: assets that passed, inputs rejected and why.
 
 A registry is a folder::
 
     assets/<id>/             a bundle that passed, with its report.json
     rejected/<id>/           the report of one that did not
-    notes/<id>.json          what was found out or said about one later
+    notes/<id>.json          later notes on one
     registry.db              one row per input that has been validated
     .staging/                half-made things; never read, removed when done
 

@@ -18,7 +18,7 @@ from .placing import remove
 
 @dataclass(frozen=True)
 class Freed:
-    """What was removed.
+    """The files removed.
 
     Attributes:
         staging: folders of processes that are dead; ``files`` counts them.

@@ -1,4 +1,4 @@
-"""What is told of an input whose process died, and whether it would die again."""
+"""The report of an input whose process died, and whether it would die again."""
 
 from __future__ import annotations
 

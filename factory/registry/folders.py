@@ -31,7 +31,7 @@ def all_ids(root: Path) -> list[str]:
 
 
 def records(root: Path, ids: Sequence[str]) -> Iterator[RegistryRow | RegistryError]:
-    """Yield a record for each id, or what is wrong with its folder."""
+    """Yield a record for each id, or its folder's fault."""
     for asset_id in ids:
         try:
             yield read_record(current_folder(root, asset_id), note_path(root, asset_id))

@@ -1,4 +1,4 @@
-"""What is known of an input by what it was made from: its verdict, or that it has none."""
+"""Verdicts of inputs by content, settings and libraries."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is said of an asset after it was registered: tags, and whether a robot opened it.
+"""Notes on a registered asset: tags, and whether a robot opened it.
 
 It lies beside the assets, one file each, because an asset's own folder never changes.
 """

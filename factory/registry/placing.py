@@ -20,7 +20,7 @@ _NO_EXCHANGE = frozenset({errno.ENOSYS, errno.EINVAL, errno.EOPNOTSUPP})
 
 
 def place(content: Path, folder: Path) -> None:
-    """Put ``content`` at ``folder``; what was there before, if any, ends up at ``content``.
+    """Put ``content`` at ``folder``; a folder that was there ends up at ``content``.
 
     Args:
         content: a folder on the same file system.

@@ -30,7 +30,7 @@ SHOWN = frozenset({MANIFEST, MODEL})
 
 @dataclass(frozen=True)
 class Made:
-    """One round's product and what was thought of it."""
+    """One round's product and its verdict."""
 
     asset: Asset
     bundle: Bundle
@@ -46,8 +46,8 @@ class Product:
         source: the input, as given.
         result: its row, and how long it took.
         told: its report.
-        bundle: the finished bundle's folder, in the staging folder that was given; of what did not
-            pass a folder of what is shown of it, and ``None`` where that is nothing.
+        bundle: the finished bundle's folder, in the staging folder that was given; of a rejected
+            one a folder of its model for pages, and ``None`` without.
         unloaded_ids: under which an earlier attempt may be listed that did not come so far as to
             load it.
         reads: every file that it was made of: path relative to the input's folder -> SHA-256, empty
@@ -94,7 +94,7 @@ def finished(origin: Source, intake: Intake, made: Made, stages: Stages) -> Prod
 
 
 def _keep_shown(bundle: Path) -> None:
-    """Leave what pages show of an asset; nobody shall take what was rejected for one."""
+    """Keep only an asset's model for pages; nobody shall take a rejected one for an asset."""
     for path in bundle.iterdir():
         if path.is_dir():
             shutil.rmtree(path)

@@ -90,7 +90,7 @@ def open_registry(root: Path) -> None:
 
 @dataclass(frozen=True)
 class Rebuilt:
-    """What was found.
+    """The rows found.
 
     Attributes:
         entries: how many rows were written.

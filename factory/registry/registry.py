@@ -65,7 +65,7 @@ class Registry:
 
     @property
     def notes(self) -> Path:
-        """Return what was said of assets after they were registered."""
+        """Return the notes on registered assets."""
         return self.root / NOTES
 
     @property
@@ -124,7 +124,7 @@ class Registry:
     def note(
         self, asset_id: str, *, tags: Sequence[str] | None = None, solved: str | None = None
     ) -> Entry:
-        """Say something of an asset; what is ``None`` stays as it was.
+        """Note something of an asset; ``None`` leaves a field as it was.
 
         Args:
             asset_id: its id.

@@ -23,11 +23,11 @@ _HEX_DIGITS = 64
 
 @dataclass(frozen=True)
 class BuildReport:
-    """What is told of one build.
+    """The report of one build.
 
     Attributes:
-        report: what the validator said, or why it was not asked.
-        repairs: what was changed before the validator said so.
+        report: of the validator, or why it was not asked.
+        repairs: changes before that.
     """
 
     report: Report
@@ -81,7 +81,7 @@ class StoredReport:
 
     @property
     def repairs(self) -> tuple[Repair, ...]:
-        """Return what was repaired. Raises KeyError, TypeError or ValueError where it is none."""
+        """Return the repairs. Raises KeyError, TypeError or ValueError at bad data."""
         if "changes" in self.data:
             return tuple(Repair.from_dict(each) for each in self.data["changes"])
         return tuple(older_repair(str(sentence)) for sentence in self.data.get("repairs", ()))
@@ -119,8 +119,8 @@ def write_report(folder: Path, entry: Entry, told: BuildReport, files: Mapping[s
 
     Args:
         folder: of the asset, its other files in it.
-        entry: what it is registered as.
-        told: what is told of it.
+        entry: its row.
+        told: its report.
         files: :func:`file_digests` of the folder.
     """
     data = {

@@ -1,4 +1,4 @@
-"""A registry's assets at a URL: whole files first, the index last, and only what is missing."""
+"""A registry's assets at a URL: whole files first, the index last, and only missing ones."""
 
 from __future__ import annotations
 
@@ -42,12 +42,12 @@ class Synced:
 
 
 def sync(files: Iterable[tuple[str, bytes]], url: str) -> Synced:
-    """Make a URL hold these files and no others of a registry's; what is there already stays.
+    """Make a URL hold these files and no others of a registry's; files already there stay.
 
     Each file's digest at the URL is compared with the one here: by the MD5 that the store keeps
     where it says one, else by reading it again. The index follows once all others are there whole;
     what it does not name any more goes after that. A synchronisation that was cut off, at whatever
-    moment, leaves the old index or the new one; the next goes on with what is missing.
+    moment, leaves the old index or the new one; the next goes on with missing files.
 
     Args:
         files: paths and contents, as :func:`.export.contents.contents` gives them.
@@ -83,7 +83,7 @@ class _Sync:
 
     Attributes:
         system, root: where files go.
-        there: what was there at first: path below the root -> what the listing says.
+        there: files at first: path below the root -> entry of the listing.
     """
 
     system: Any

@@ -1,4 +1,4 @@
-"""Whether a registry still is what was published, every file and row; what becomes of damage."""
+"""Whether a registry is as published, every file and row; and how damage is settled."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from .report_file import file_digests, read_report
 
 
 class ProblemKind(StrEnum):
-    """What is not as it was published; files are compared by digest."""
+    """A difference from the published asset; files are compared by digest."""
 
     MISSING = "missing"
     ALTERED = "altered"
@@ -54,7 +54,7 @@ class Problem:
 
     Attributes:
         id: of the asset.
-        kind: what is wrong.
+        kind: of the fault.
         path: of the file or folder, within the registry.
         message: a sentence.
     """
@@ -84,7 +84,7 @@ def verify(registry: Registry, ids: Iterable[str] | None = None) -> tuple[Proble
         ids: only these; by default everything that has a row or a folder.
 
     Returns:
-        What is wrong, by id. ``factory registry rebuild`` mends rows; a file that is not as
+        Faults, by id. ``factory registry rebuild`` mends rows; a file that is not as
         published is built again.
     """
     return tuple(
@@ -99,7 +99,7 @@ def _ids(registry: Registry, ids: Iterable[str] | None) -> list[str]:
 
 
 def _confirmed(registry: Registry, asset_id: str) -> list[Problem]:
-    """Return what is wrong with an asset when looked at twice: it may be being published."""
+    """Return an asset's faults that are found twice: it may be being published."""
     if not list(_problems(registry, asset_id)):
         return []
     still: AbstractContextManager[object] = nullcontext()
@@ -176,7 +176,7 @@ def settle(
 ) -> dict[str, Settled]:
     """Return what became of damaged assets, once all that can be made again was.
 
-    What was added to a folder, and assets that still are not what was registered, are moved to
+    Files added to a folder, and assets that still differ from those registered, are moved to
     ``withdrawn``: nobody takes them for assets any more, and nothing is lost.
 
     Args:

@@ -1,4 +1,4 @@
-"""What lies where in an output folder, by name."""
+"""Names of files and folders in an output folder."""
 
 ASSETS = "assets"
 REJECTED = "rejected"

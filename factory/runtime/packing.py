@@ -1,7 +1,7 @@
 """The factory's own types as plain arrays, and back: a cache whose files need no trust.
 
-A value becomes one JSON text, beside the arrays that it holds. What comes back is built by the
-types' own constructors, so that a damaged file ends in an error here and not in an asset.
+A value becomes one JSON text, beside the arrays that it holds. Values are rebuilt by the types'
+own constructors, so that a damaged file ends in an error here and not in an asset.
 """
 
 from __future__ import annotations

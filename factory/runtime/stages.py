@@ -32,7 +32,7 @@ def always(value: object) -> bool:
 
 
 class Stages:
-    """The stages of one build, remembered by what goes into them.
+    """The stages of one build, remembered by their inputs.
 
     Args:
         config: of every stage.
@@ -59,7 +59,7 @@ class Stages:
         make: Callable[[], T],
         worth: Callable[[T], bool] = always,
     ) -> T:
-        """Return what was kept under ``key``, else what ``make`` says, which is then kept.
+        """Return the value kept under ``key``, else that of ``make``, which is then kept.
 
         Args:
             stage: its name.

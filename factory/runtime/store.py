@@ -68,7 +68,7 @@ def _fingerprint(item: object) -> bytes:
 def folder_digests(folder: Path, *, without: tuple[str, ...] = ()) -> dict[str, str]:
     """Return SHA-256 of every file below a folder, by path within it, sorted.
 
-    What is neither a file nor a folder (a link, a pipe) has ``not a file`` in place of a digest, so
+    A link, a pipe and the like has ``not a file`` in place of a digest, so
     that it equals no registered file. Raises OSError if something cannot be read.
 
     Args:
@@ -93,8 +93,8 @@ def write_whole(path: Path, data: bytes, *, lasting: bool = False) -> None:
         lasting: return only when it is on the disk, for what cannot be made again.
 
     Raises:
-        OSError: e.g. the disk is full; what was there before is untouched, and nothing half-written
-            is left.
+        OSError: e.g. the disk is full; the old file is untouched, and nothing half-written is
+            left.
     """
     with writing(path, lasting=lasting) as file:
         file.write(data)
@@ -102,7 +102,7 @@ def write_whole(path: Path, data: bytes, *, lasting: bool = False) -> None:
 
 @contextmanager
 def writing(path: Path, *, lasting: bool = False) -> Iterator[BinaryIO]:
-    """Yield a file that becomes ``path`` when the block ends well; for what is too large for bytes.
+    """Yield a file that becomes ``path`` when the block ends well; for content too large for bytes.
 
     Everything else as in :func:`write_whole`.
     """
@@ -154,7 +154,7 @@ def sync_folder(folder: Path) -> None:
 
 @dataclass(frozen=True)
 class Trimmed:
-    """What was removed: how many files, of how many bytes."""
+    """Removed files: how many, of how many bytes."""
 
     files: int = 0
     bytes: int = 0
@@ -214,9 +214,9 @@ class Store:
         return Trimmed(len(sizes), sum(sizes))
 
     def trim(self, *, older_than_s: float | None = None, keep_bytes: int | None = None) -> Trimmed:
-        """Remove what was long unused, then the least recently used until the rest is small.
+        """Remove files long unused, then the least recently used until the rest is small.
 
-        What was used within the last hour stays: it may belong to a job that is running.
+        Files used within the last hour stay: they may belong to a running job.
 
         Args:
             older_than_s: remove what nobody used for so long [s]; ``None``: however old.

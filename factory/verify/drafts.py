@@ -64,7 +64,7 @@ def work_of(asset: Asset) -> int:
 
 
 def best_of(drafts: Iterable[HypothesisDraft]) -> tuple[HypothesisDraft, tuple[Finding, ...]]:
-    """Return the draft that becomes the asset, and what is said of the others.
+    """Return the draft that becomes the asset, and findings on the others.
 
     The likeliest that passes with all its joints; else the likeliest that passes; else the
     likeliest. Those behind the first that passes whole are not made.

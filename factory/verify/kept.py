@@ -37,11 +37,11 @@ class Kept:
 
 
 def kept_of(hypothesis: Articulation, made: Articulation, measured: Mapping[str, Any]) -> Kept:
-    """Return what is left.
+    """Return the parts and joints left.
 
     Args:
-        hypothesis: what was to be made.
-        made: what was.
+        hypothesis: the articulation to make.
+        made: the one made.
         measured: the validator's measurements of the asset's URDF.
     """
     ranges = {joint.name: joint.range for joint in made.movable_joints}
@@ -56,7 +56,7 @@ def kept_of(hypothesis: Articulation, made: Articulation, measured: Mapping[str,
 
 
 def with_kept(verdict: Verdict, hypothesis: Articulation, made: Articulation) -> Verdict:
-    """Return the same verdict, its report telling what is left."""
+    """Return the same verdict, its report telling the parts and joints left."""
     measurements = verdict.report.measurements
     kept = kept_of(hypothesis, made, measurements.get("asset.urdf", {}))
     told = {**measurements, KEPT: kept.to_dict()}

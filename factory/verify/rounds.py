@@ -31,9 +31,9 @@ class Rounds:
     Attributes:
         articulation: the kinematic tree of the hypothesis.
         intake: the input.
-        staging: a folder for what is made.
+        staging: a folder for products.
         judge: the validator, with the configuration's thresholds.
-        stages: with the settings, and what was done before.
+        stages: with the settings and the cache.
     """
 
     articulation: Articulation
@@ -59,7 +59,7 @@ class Rounds:
 
         Args:
             draft: that passes without simulators, or the best there is.
-            others: what is told of other hypotheses.
+            others: findings on other hypotheses.
         """
         first = draft, self._validated(draft, others)
         verdict = first[1]

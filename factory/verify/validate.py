@@ -43,8 +43,8 @@ class Verdict:
 
     Attributes:
         report: all findings, the validator's and the factory's own.
-        examined: of the bundle's URDF, what needed no simulator.
-        key: of what was validated, where it was remembered.
+        examined: of the bundle's URDF, without simulators.
+        key: of the validated bundle, where it was remembered.
     """
 
     report: Report
@@ -64,7 +64,7 @@ class Verdict:
 
 @dataclass(frozen=True)
 class _Said:
-    """What is kept of an examination: all but the description, which the bundle still says."""
+    """An examination to keep: all but the description, which the bundle holds."""
 
     findings: tuple[Finding, ...]
     measurements: Mapping[str, Any] = field(default_factory=dict)

@@ -49,7 +49,7 @@ def nearest_crossings(mesh: Mesh, raster: Raster) -> Crossings:
 def _crossings(
     mesh: Mesh, raster: Raster, choose: Callable[[IntArray, FloatArray], IntArray]
 ) -> Crossings:
-    """Cross a mesh with rays; what is kept, and its order, is chosen by pixels and depths."""
+    """Cross a mesh with rays; crossings are chosen and ordered by pixels and depths."""
     local = mesh.vertices @ raster.side.frame.T
     corners = local[mesh.faces]
     flat = (corners[:, :, :2] - raster.low) / raster.pixel

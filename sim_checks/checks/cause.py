@@ -62,7 +62,7 @@ class Way:
 
 @dataclass(frozen=True)
 class CauseEvidence:
-    """What is known of a contact that is too deep.
+    """Evidence on a contact that is too deep.
 
     Attributes:
         depth: of the hulls [m].

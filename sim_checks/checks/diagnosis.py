@@ -1,4 +1,4 @@
-"""A second look at what is too deep: the visible surfaces there, and the likely cause.
+"""A second look at contacts that are too deep: the visible surfaces there, and the likely cause.
 
 Only contacts that end in a finding are looked at, and of each sound joint the one place where its
 hulls come nearest.
@@ -39,8 +39,8 @@ class Diagnosis:
 
     Attributes:
         pairs: the solids, and which pairs of them are exempt.
-        rest: what every joint is held against.
-        config: what is allowed.
+        rest: contacts at rest, with which every joint's are compared.
+        config: of the limits.
         visible: what the parts show.
     """
 

@@ -51,7 +51,7 @@ class EngineEvidence:
         return PASS
 
     def sweeps(self, joint: str | None) -> Iterator[Mapping[str, Any]]:
-        """Yield what was measured along one joint's way."""
+        """Yield the measurements along one joint's way."""
         for sweep in self.measurements.get("penetration", {}).get("joints", ()):
             if sweep["joint"] == joint:
                 yield sweep
@@ -59,7 +59,7 @@ class EngineEvidence:
 
 @dataclass(frozen=True)
 class Dispute:
-    """One question and what was answered.
+    """One question and the answers.
 
     Attributes:
         question, joint, verdicts, values, unit: as in

@@ -1,6 +1,6 @@
 """Is a file small enough to be validated at all? Counted in work, not in seconds.
 
-What is beyond is not validated rather than in part: such a file never passes.
+A file beyond is not validated rather than in part: such a file never passes.
 """
 
 from __future__ import annotations

@@ -83,8 +83,8 @@ class JointCourse:
     Attributes:
         joint: which moves; it follows no other.
         pairs: the solids.
-        rest: what is no news, and the range.
-        config: what is allowed, and how finely to look.
+        rest: contacts at rest, and the range.
+        config: limits, and steps of the sweep.
         values: where the other joints stand [rad] or [m]; of those that follow none.
         only: the pairs of parts to look at; ``None`` for all.
         motion: another motion than the joint's own, from the same start; only for one that has no

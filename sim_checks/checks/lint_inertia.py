@@ -223,7 +223,7 @@ def _volume(link: Link) -> float:
 def _visible_volume(link: Link, sheet: float) -> float:
     """Return the volume that visible surfaces enclose [m3], or of sheets so thick, if more.
 
-    A surface counts with both of its sides; what lies in one another counts twice.
+    A surface counts with both of its sides; overlaps count twice.
     """
     enclosed = area = 0.0
     for shape in link.visuals:

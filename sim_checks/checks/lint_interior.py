@@ -60,8 +60,8 @@ def interior_findings(
 ) -> tuple[list[Finding], dict[str, Any]]:
     """Return the findings about one link's open inside, and its numbers.
 
-    The cavity is the space within the convex hull of what is visible that can be reached from
-    outside without crossing a visible surface; what is closer than a voxel or two to a surface is
+    The cavity is the space within the convex hull of the visible geometry that can be reached from
+    outside without crossing a visible surface; space closer than a voxel or two to a surface is
     left out, so bulging hulls of a sound decomposition are not held against it. Of the cavity, a
     pocket is where a ball as wide as a hand comes from outside and finds visible walls on at least
     five of six sides, below among them: the inside of a cabinet, drawer, oven or bowl, not of a
@@ -71,7 +71,7 @@ def interior_findings(
     same figures.
 
     Args:
-        link: with what is visible.
+        link: with its visible geometry.
         hulls: of its collision shapes, in its frame.
         down: which way is down in the link's frame, shape [3].
         config: how finely to look, and what must stay free.

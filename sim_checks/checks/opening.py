@@ -32,8 +32,8 @@ def judge_joints(
     Args:
         joints: those with a range that follow no other, in file order.
         pairs: the solids.
-        rest: what every joint is held against.
-        config: what is allowed.
+        rest: contacts at rest, with which every joint's are compared.
+        config: of the limits.
     """
     order = _OpeningOrder(
         {joint.name: JointCourse(joint, pairs, rest, config, rest.lower) for joint in joints}
@@ -44,7 +44,7 @@ def judge_joints(
 
 @dataclass(frozen=True)
 class _OpeningOrder:
-    """What is known of who opens when.
+    """Which joints must open before which.
 
     Attributes:
         courses: every joint's way with the others at lower, by name.

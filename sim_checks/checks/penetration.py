@@ -43,7 +43,7 @@ def check_penetration(
 
     Args:
         description: as read.
-        config: what is allowed, and how finely to look.
+        config: limits, and steps of the sweep.
         most_looks: exact looks at two hulls, beyond which there is no verdict.
 
     Returns:

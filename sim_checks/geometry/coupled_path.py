@@ -44,7 +44,7 @@ class CoupledPath:
         return reduce(np.matmul, (line.poses(rate * at) for line, rate in self.steps), start)
 
     def inverse(self) -> CoupledPath:
-        """Return what stands still, seen from what moves."""
+        """Return the motion of the fixed links, seen from the moving ones."""
         return CoupledPath(tuple((line, -rate) for line, rate in reversed(self.steps)), self.length)
 
     def unturned(self, vector: FloatArray, at: float) -> FloatArray:

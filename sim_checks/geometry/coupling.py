@@ -34,7 +34,7 @@ def sound_chains(mimics: Mapping[str, Mimic | None]) -> dict[str, Mimic]:
 
 
 def whole_chain(name: str, sound: Mapping[str, Mimic], leader: str | None = None) -> Mimic:
-    """Return a chain of followers as one: the joint at its head, and what is made of its value.
+    """Return a chain of followers as one: the joint at its head, with factor and offset.
 
     Args:
         name: of the last follower.

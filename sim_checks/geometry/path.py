@@ -50,7 +50,7 @@ class Path:
         return np.cross(self.axis, np.eye(3)).T
 
     def inverse(self) -> Path:
-        """Return what stands still, seen from what moves."""
+        """Return the motion of the fixed links, seen from the moving ones."""
         return replace(self, axis=-self.axis)
 
     def unturned(self, vector: FloatArray, at: float) -> FloatArray:

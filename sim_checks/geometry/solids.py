@@ -44,7 +44,7 @@ class SolidGroup:
         solids: their indices, ascending.
         parts: the parts that they are of.
         ways: the joints above them that move, from the root on, and how far each goes when the one
-            that leads goes by one; none for what stands.
+            that leads goes by one; none for fixed links.
     """
 
     solids: tuple[int, ...]
@@ -180,7 +180,7 @@ class Solids:
     ) -> AnyPath:
         """Return how one group moves as seen from another, from the posed values on.
 
-        What is said to stand keeps its place at the start; where it really goes, :meth:`way` says.
+        Links said to be fixed keep their place at the start; :meth:`way` says where they go.
         """
         names = [[joint.name for joint, _ in group.ways] for group in (moving, standing)]
         shared = 0

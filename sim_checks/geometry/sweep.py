@@ -38,7 +38,7 @@ PATIENCE = 10
 
 @dataclass(frozen=True)
 class Candidate:
-    """Two hulls that may meet: their indices, and what is known at the start.
+    """Two hulls that may meet: their indices, and distances at the start.
 
     Attributes:
         moving, standing: indices.
@@ -110,7 +110,7 @@ class Sweep:
     """A path, the hulls that ride on it and the hulls that stand.
 
     Args:
-        path: the motion of what moves, as seen from what stands.
+        path: the motion of moving links, as seen from fixed ones.
         moving: placed where they are at the path's start.
         standing: placed where they are then.
         steps: how many intervals to begin with.

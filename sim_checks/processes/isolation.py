@@ -145,10 +145,10 @@ def run_isolated(function: Callable[..., T], *args: Any, limits: Limits) -> Outc
 class WarmChild:
     """A child process that is asked again and again, so that what it imported is paid for once.
 
-    A verdict must not depend on what was asked before, nor on somebody who kills processes: a call
+    A verdict must not depend on earlier questions, nor on somebody who kills processes: a call
     that fails in a child that has answered others, or whose child was killed, is made once more, in
-    a new child, and only that outcome counts. A ValueError is no failure but an answer: what was
-    asked about is no good. Not for several threads at once, but for :meth:`abandon`.
+    a new child, and only that outcome counts. A ValueError is no failure but an answer: the
+    subject is bad. Not for several threads at once, but for :meth:`abandon`.
     """
 
     def __init__(self, calls: int | None = None, resident_bytes: int | None = None) -> None:
@@ -317,7 +317,7 @@ class _Process:
         return self._log.exists()
 
     def output(self) -> str:
-        """Return the end of what was written during the last question."""
+        """Return the end of the output during the last question."""
         return _tail(self._log)
 
     def end(self, patience_s: float = 0.0) -> tuple[int | None, str]:

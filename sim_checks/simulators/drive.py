@@ -135,7 +135,7 @@ class _Order:
         )
 
     def _all(self, index: int) -> Iterator[Joints]:
-        """Yield what presses hardest need not be what is in the way."""
+        """Yield all needed joints at once: the hardest contact need not be the obstacle."""
         yield self._ready(index)
 
     def _ready(self, index: int) -> Joints:
@@ -240,7 +240,7 @@ def _ramp(
 
 
 class _DriveTrack:
-    """What was seen of one drive so far."""
+    """The observations of one drive so far."""
 
     def __init__(
         self,

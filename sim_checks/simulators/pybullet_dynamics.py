@@ -1,4 +1,4 @@
-"""Bullet's inverse dynamics, and what stands in where it refuses a sound body.
+"""Bullet's inverse dynamics, and a substitute where it refuses a sound body.
 
 Bullet holds inertia tensors of its inverse dynamics symmetric to the last bit; rounding makes
 heavy, turned ones (a fridge's door) differ there, and it answers nothing at all.

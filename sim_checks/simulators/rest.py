@@ -158,8 +158,8 @@ def left_alone(
     Applied are ``forces`` where given, asked before every step, else none.
 
     Forces in these engines depend on where things are and how they move, and nothing is put to
-    sleep. So what stands still for half a second, or for a good part of a shorter wait, goes on
-    standing still, but for two: a constant push too weak to show yet, and a fall from the very top
+    sleep. So a link that stands still for half a second, or most of a shorter wait, goes on doing
+    so, but for two: a constant push too weak to show yet, and a fall from the very top
     of a hill. Below the speed that counts as still, such a push cannot reach a reported drift in
     the time that is left; a fall, like any push, shows as a speed that grows, and then the wait
     goes on.

@@ -224,7 +224,7 @@ class GltfDocument:
 
 
 def _as_json(data: bytes, name: str) -> bytes:
-    """Return what has no GLB header, if it may be JSON. Raises InputRejected ``unreadable``."""
+    """Return bytes without a GLB header, if JSON; else raise InputRejected ``unreadable``."""
     if data.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] != b"{":
         begins = " ".join(f"{byte:02x}" for byte in data[:4])
         raise unreadable(

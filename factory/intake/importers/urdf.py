@@ -1,6 +1,6 @@
 """URDF: links, joints and visuals, posed with every joint at zero.
 
-The format: http://wiki.ros.org/urdf/XML. What is allowed here and not there: several ``<visual>``
+The format: http://wiki.ros.org/urdf/XML. Allowed here and not there: several ``<visual>``
 of one name, several ``<inertial>`` (neither matters to an import), and ``<capsule>``.
 """
 

@@ -53,14 +53,14 @@ class GeometryReader:
 
     @property
     def notes(self) -> list[str]:
-        """Return what was left out, a sentence each; of what mesh files say only the first few."""
+        """Return a sentence for each omission; of mesh files' notes only the first few."""
         more = len(self._said) - FEW_NOTES
         tail = [f"{more} more notes of this kind on other mesh files"] if more > 0 else []
         return [*self._left_out, *self._said[:FEW_NOTES], *tail]
 
     @property
     def visuals(self) -> tuple[Visual, ...]:
-        """Return what was read of each mesh file, in the order of first use."""
+        """Return the content of each mesh file, in the order of first use."""
         return tuple(visual for visual in self._visuals.values() if visual is not None)
 
     def read(self, shape: ET.Element, where: str) -> Mesh | None:

@@ -35,7 +35,7 @@ class NightBudget:
 
 @dataclass(frozen=True)
 class Upkeep:
-    """What is removed after the build; never anything published."""
+    """Files to remove after the build; never anything published."""
 
     enabled: bool = True
     cache_days: float = 0.0
@@ -112,7 +112,7 @@ def _weights(stated: str, base: Path) -> str:
 
 
 def with_licenses(config: NightConfig) -> NightConfig:
-    """Return the same night, whose build refuses what is under another license.
+    """Return the same night, whose build refuses inputs under another license.
 
     Raises:
         ConfigError: the build's own settings name other licenses.

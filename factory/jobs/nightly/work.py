@@ -87,7 +87,7 @@ class Work:
         return jobs.Budget(budget.limit or None, longest or None, budget.retry_rejected)
 
     def verify(self) -> tuple[Problem, ...]:
-        """Return what is wrong with registered assets."""
+        """Return the faults of registered assets."""
         return verify(self._registry)
 
     def mend_rows(self, damage: Sequence[Problem]) -> None:

@@ -40,7 +40,7 @@ class ClusterLost(AssetFactoryError):
 
 @contextmanager
 def connected(address: str, processors: int | None) -> Iterator[Any]:
-    """Yield Ray, connected; close afterwards what was connected here, and end an own cluster.
+    """Yield Ray, connected; disconnect afterwards, and end an own cluster.
 
     Args:
         address: ``local`` for a cluster of one's own; ``auto`` for the one that this machine
@@ -107,7 +107,7 @@ def _private(folder: str) -> dict[str, str]:
 
 @contextmanager
 def _environment(values: Mapping[str, str]) -> Iterator[None]:
-    """Set environment variables of what is started or imported within this."""
+    """Set environment variables of processes and imports within this."""
     before = {name: os.environ.get(name) for name in values}
     os.environ.update(values)
     try:

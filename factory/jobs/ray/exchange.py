@@ -34,7 +34,7 @@ FULL = (errno.ENOSPC, errno.EDQUOT)
 
 
 class ExchangeError(Exception):
-    """What arrived is not what was sent, or it could not be sent."""
+    """Other bytes arrived than were sent, or none could be sent."""
 
 
 @dataclass(frozen=True)
@@ -199,7 +199,7 @@ def _send(packed: IO[bytes], target: str) -> None:
     """Write all of a file to a URL.
 
     Raises:
-        ExchangeError: that failed, which is no fault of what is sent.
+        ExchangeError: that failed, which is no fault of the content.
         OSError: a disk is full.
     """
     try:

@@ -110,7 +110,7 @@ class _Task:
 
 
 class _Tasks(Generic[T]):
-    """What is under way on the cluster."""
+    """Tasks that run on the cluster."""
 
     def __init__(
         self, executor: RayExecutor, ray: Any, function: Callable[..., T], limits: Limits

@@ -48,7 +48,7 @@ class SentInput:
         """Yield the input's path on this machine, where it lies within this.
 
         Raises:
-            ExchangeError: it is not what was sent.
+            ExchangeError: other bytes were sent.
             OSError: there is no room for it.
         """
         if hashlib.sha256(data).hexdigest() != self.digest:

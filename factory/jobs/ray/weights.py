@@ -68,7 +68,7 @@ def arrived(ray: Any, sent: SentWeights) -> dict[str, Path]:
     """Return where checkpoints lie on this node, by their configured names; fetch if need be.
 
     Raises:
-        ExchangeError: what came is not what was sent.
+        ExchangeError: other bytes were sent.
         OSError: there is no room for it, or somebody else's folder is in its place.
         RayError: it could not be fetched.
     """

@@ -49,7 +49,7 @@ class Order:
     Attributes:
         function, arguments, limits: of the call.
         settings: how it is made.
-        input: what is known of the input that was sent along; ``None``: the node sees it.
+        input: the one sent along; ``None``: the node sees it.
         weights: which checkpoints are sent along; ``None``: the node sees them.
         until: when it is ended, if it still runs [s since 1970].
     """
@@ -67,7 +67,7 @@ _children: dict[WorkerSettings, WarmChild] = {}
 
 
 def carry_out(packed: bytes, data: bytes, weights: SentWeights) -> tuple[str, Any]:
-    """Make one call with what was sent along; whatever it does, this returns.
+    """Make one call with the files sent along; whatever it does, this returns.
 
     Args:
         packed: an :class:`Order`.
@@ -75,8 +75,8 @@ def carry_out(packed: bytes, data: bytes, weights: SentWeights) -> tuple[str, An
         weights: checkpoints that it may ask for.
 
     Returns:
-        ``done`` and its outcome; ``full`` if there was no room on this node for what it is made of
-        or what it makes; ``lost`` and why, if what was sent did not arrive, here or from here.
+        ``done`` and its outcome; ``full`` if this node had no room for its inputs
+        or outputs; ``lost`` and why, if files did not arrive, here or from here.
     """
     import ray
 

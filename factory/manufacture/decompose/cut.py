@@ -128,7 +128,7 @@ def _best_cut(piece: Manifold) -> list[Manifold] | None:
 
 
 def _halves(piece: Manifold, normal: FloatArray, offset: float) -> list[Manifold]:
-    """Return what lies on either side of a plane, in connected pieces.
+    """Return a solid's two sides of a plane, in connected pieces.
 
     A plane along a face would leave films of rounding's thickness on the wrong side, so a layer
     about it is taken away, and what ends there is then stretched back to the plane.
@@ -146,7 +146,7 @@ def _halves(piece: Manifold, normal: FloatArray, offset: float) -> list[Manifold
 def _stretch(
     direction: FloatArray, start: float, layer: float
 ) -> Callable[[FloatArray], FloatArray]:
-    """Return what moves points that end at a layer back to its plane."""
+    """Return the vectors that move points at the end of a layer back to its plane."""
 
     def stretched(points: FloatArray) -> FloatArray:
         ends = points @ direction - start < 0.1 * layer

@@ -35,8 +35,8 @@ class PartHulls:
         hulls: convex pieces, object frame at rest; empty for a carrier.
         method: the farthest any of its pieces had to go: ``none`` (carrier), ``exact``, ``cut``
             (along its own faces), ``single`` (one hull that fills only small dents), ``sheets``
-            (slabs over open surfaces), ``coacd``, ``vhacd``, ``hull`` (one hull for what is not
-            convex); ``built`` (made solid from a skin, not found in it).
+            (slabs over open surfaces), ``coacd``, ``vhacd``, ``hull`` (one hull, convex or not
+            ); ``built`` (made from a one-piece mesh).
         degraded: one sentence for each thing given up on the way; empty when all went well.
         exact: the hulls' union is the part's own volume, no more and no less.
     """

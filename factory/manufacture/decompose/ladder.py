@@ -157,7 +157,7 @@ def _by_coacd(
 
 
 def complaint(solid: Manifold, hulls: list[Hull], outside_m: float) -> str | None:
-    """Return what is wrong with ``hulls`` as a cover of ``solid``; ``None`` if nothing is.
+    """Return the fault of ``hulls`` as a cover of ``solid``; ``None`` if they have none.
 
     Args:
         solid: what they should cover.

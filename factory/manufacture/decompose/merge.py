@@ -56,7 +56,7 @@ def merge(
 
 @dataclass
 class _Yardstick:
-    """What is allowed, see :func:`merge`, and how many more pairs may be offered."""
+    """The limits, see :func:`merge`, and how many more pairs may be offered."""
 
     error_m: float
     slot_m: float | None

@@ -120,7 +120,7 @@ def _outermost(solids: list[Manifold]) -> list[Manifold]:
 
 
 def _hollowed(solids: list[Manifold], cavities: list[Manifold]) -> list[Manifold]:
-    """Return the solids with what is hollow in them cut out."""
+    """Return the solids with their hollows cut out."""
     for cavity in cavities:
         solids = [piece for solid in solids for piece in opened(solid, cavity)]
     return solids

@@ -131,8 +131,8 @@ def _offer(
 def _cost(first: _Patch, second: _Patch, error_m: float) -> float:
     """Return how much of the allowed error joining two patches would use; more than 1 is too much.
 
-    Rounded, so that faces of one plane cost the same, whatever the last digits are: what was met
-    first is joined first.
+    Rounded, so that faces of one plane cost the same, whatever the last digits are: the first one
+    met is joined first.
     """
     normal = first.normal + second.normal
     area = math.sqrt(float(normal @ normal))

@@ -17,7 +17,7 @@ def spread_over(mesh: Mesh, count: int, most_corners: int) -> FloatArray:
         most_corners: of more, so many are drawn.
 
     Returns:
-        No points over what has no area.
+        No points where there is no area.
     """
     generator = np.random.default_rng(0)
     areas = face_areas(mesh)

@@ -37,7 +37,7 @@ class Step:
 
 
 def steps_along(poses: Sequence[FloatArray]) -> list[Step]:
-    """Return the poses with what lies between them, where a slide leads through them.
+    """Return the poses and those between them, where a slide leads through them.
 
     Hulls are thinner than a step is long: a board passes a lip between two poses.
     """
@@ -214,7 +214,7 @@ def _from_the_other(step: Step) -> tuple[FloatArray, FloatArray]:
 
 
 def _cost(sides: Sides, before: tuple[Hull, Hull], whole: tuple[float, float]) -> float:
-    """Return the share of what is whole that is lost, more pieces counted in."""
+    """Return the lost share of the uncut volume, more pieces counted in."""
     lost = 0.0
     for pieces, hull, of in zip(sides, before, whole, strict=True):
         lost += (hull.volume - sum(piece.volume for piece in pieces)) / of

@@ -35,7 +35,7 @@ class SeenSurface:
         points: [m], shape [n, 3]; the first ``spread`` by area, then corners.
         spread: how many stand for equal areas each.
         diagonal: of the part [m].
-        known: what was measured before, by the hull's identity: most of them no cut touches.
+        known: earlier measurements, by the hull's identity: most of them no cut touches.
     """
 
     points: FloatArray
@@ -52,7 +52,7 @@ class SeenSurface:
         """Return how far each point lies beyond a face plane of every hull [m], shape [n].
 
         That is how deep a cut went: a plane that takes all of a sheet at a slight angle is never
-        deep, however far from what is left the sheet's other end lies then.
+        deep, however far the sheet's other end then is from the rest.
         """
         nearest = np.full(len(self.points), np.inf)
         for hull in hulls:
@@ -74,7 +74,7 @@ class Excuse:
 
     Attributes:
         other: the other part's hulls before the cut.
-        held: a joint holds one part in the other: what lies in the other is hidden there.
+        held: a joint holds one part in the other: its share inside the other is hidden.
         hinges: joints that turn one against the other.
     """
 
@@ -96,7 +96,7 @@ class Loss:
         open_share: the same without what lay hidden in the part that holds it.
         area: share of its visible surface that is neither hidden nor covered any more.
         bare_area: share of it that is not covered any more, hidden or not.
-        untouched: share of it that lies outside what is left by more than may be, hidden or not,
+        untouched: share of it that lies too far outside the remaining hulls, hidden or not,
             after this cut and all before it; 0 where this one adds nothing to it.
         bared_m: deepest cut below its visible surface where nothing excuses it [m].
         trimmed_m: the same beside a hinge, or in a part that no joint holds it in [m].
@@ -126,11 +126,11 @@ def loss(
     """Return what a part loses.
 
     Args:
-        surface: what is seen of it.
+        surface: its visible one.
         before: its hulls.
-        after: what is left of them.
-        excuse: where that is no matter.
-        config: what is near, and what is told.
+        after: their remains.
+        excuse: where that is allowed.
+        config: limits of distance and of reporting.
     """
     if not after:
         return Loss(1.0, 1.0, 1.0, 1.0, 1.0, np.inf, np.inf)

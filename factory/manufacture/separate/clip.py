@@ -120,7 +120,7 @@ def cut_apart(
 
     Hulls that barely meet give as they are thick: a sheet gives next to nothing. Where one lies
     deep in the other, every direction is tried with the cut all in the first, all in the second and
-    half in each: a stem loses what is hidden in its socket rather than the socket its rim.
+    half in each: a stem loses its end in the socket rather than the socket its rim.
 
     Returns:
         The hulls; ``None`` for one of which nothing is left.
@@ -171,7 +171,7 @@ def volumes_below(hull: Hull, normals: FloatArray, offsets: FloatArray) -> Float
     Args:
         hull: any.
         normals: unit vectors, shape [n, 3].
-        offsets: what is kept has ``normal . x <= offset`` [m], shape [n].
+        offsets: the kept side has ``normal . x <= offset`` [m], shape [n].
     """
     center = hull.vertices.mean(axis=0)
     points = hull.vertices - center
@@ -214,7 +214,7 @@ def carved(
     most: int = MOST_PIECES,
     least_m3: float | None = None,
 ) -> list[Hull]:
-    """Return what is left of a hull outside some room, as convex pieces.
+    """Return the rest of a hull outside some room, as convex pieces.
 
     Piece by piece the largest that one plane of the room leaves outside is kept.
 

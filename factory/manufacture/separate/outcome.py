@@ -28,7 +28,7 @@ class SeparationRefusal:
 
 @dataclass(frozen=True)
 class CutBack:
-    """What was taken off a part that can be seen.
+    """A visible cut.
 
     Attributes:
         part: its name.
@@ -51,9 +51,9 @@ class Separation:
         pieces: one per part, in their order.
         refused: pair of part names -> why its hulls were not cut apart on all of their way.
         hidden: pair of part names -> how deep the parts themselves overlap at rest [m],
-            where that is more than decomposition explains and what is hidden was taken out of the
+            where that is more than decomposition explains and the hidden share was cut out of the
             collision geometry.
-        trimmed: pair of part names -> what was taken off where it can be seen.
+        trimmed: pair of part names -> the visible cut.
     """
 
     pieces: tuple[PartHulls, ...]

@@ -50,7 +50,7 @@ class Workpieces:
 
     @cached_property
     def surfaces(self) -> tuple[SeenSurface | None, ...]:
-        """Return what is seen of each part; ``None`` of a carrier."""
+        """Return each part's visible surface; ``None`` of a carrier."""
         return tuple(
             SeenSurface.of(self.articulation.part_mesh(index)) if len(part.faces) else None
             for index, part in enumerate(self.articulation.parts)
@@ -198,7 +198,7 @@ class PartPair:
     def hopeless(self) -> str | None:
         """Return why two parts may not be cut apart along their joints; ``None`` if they may.
 
-        What is hidden at rest may go, and what a hinge's own edge needs to turn. What else only
+        Geometry hidden at rest may go, and that in the way of a hinge's own edge. What else only
         meets along the way is the joint's fault, and a cut would hide it.
         """
         config = self.bodies.config
@@ -250,5 +250,5 @@ class PartPair:
         return max(config.bared_m, most)
 
     def _moved_by(self, joint: Joint) -> SeenSurface | None:
-        """Return what is seen of the part that a joint moves."""
+        """Return the visible surface of the part that a joint moves."""
         return self.bodies.surfaces[joint.child]

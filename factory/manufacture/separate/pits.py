@@ -1,7 +1,7 @@
 """A pit in what holds a knob, a stem or a button: as large as what turns or slides in it.
 
-Planes cut off whatever lies on one side of them, so what is deep in a solid body would lose all of
-it. Nothing of the body is seen where a knob stands in it; there a hole costs nothing but volume.
+Planes cut off everything on one side, so a part deep in a solid body would vanish. Nothing
+of the body is seen where a knob stands in it; there a hole costs nothing but volume.
 """
 
 from __future__ import annotations
@@ -88,8 +88,8 @@ def swept_share(
 def stands_out_m(holder: Sequence[Hull], mover: Sequence[Hull], joint: Joint) -> float:
     """Return how much further than its own travel a slide stands out of what it goes into [m].
 
-    Infinite where it goes into nothing. Negative for what is no button: it would go in deeper than
-    it stands out, as a drawer that runs the wrong way, or meets something further on.
+    Infinite where it goes into nothing. Negative for other parts: those would go in deeper than
+    they stand out, as a drawer that runs the wrong way does, or meet something further on.
     """
     points = np.concatenate([hull.vertices for hull in mover])
     ways = ((joint.upper, joint.axis), (-joint.lower, -joint.axis))
@@ -149,7 +149,7 @@ def _room(hull: Hull, poses: Sequence[FloatArray]) -> Hull | None:
 
 
 def _around(piece: Hull, room: Hull, clearance_m: float) -> list[Hull]:
-    """Return what is left of a hull around a room; the hull itself where they do not meet."""
+    """Return the rest of a hull around a room; the hull itself where they do not meet."""
     if hull_depth([piece], [room], np.eye(4), clearance_m) <= -clearance_m:
         return [piece]
     corners = room.vertices

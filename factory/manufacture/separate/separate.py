@@ -102,7 +102,7 @@ class _Way:
 
 @dataclass
 class _Bench:
-    """The parts that are worked on, and what was done.
+    """The parts that are worked on, and the cuts.
 
     Attributes:
         bodies: the parts.
@@ -245,7 +245,7 @@ def _socketed(pair: PartPair, poses: Sequence[FloatArray]) -> Sides | None:
 
 
 def _is_a_rim(pair: PartPair, part: int, lost: Loss) -> bool:
-    """Tell whether no more than the rim of a socket was taken of what is seen of a part."""
+    """Tell whether only the rim of a socket was cut off a part's visible surface."""
     surface = pair.bodies.surfaces[part]
     deep = SOCKET_DEEP * surface.diagonal if surface else 0.0
     return (

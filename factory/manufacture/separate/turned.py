@@ -38,7 +38,7 @@ class Turned:
     def __call__(
         self, a: Sequence[Hull], b: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
     ) -> tuple[list[Hull], list[Hull]]:
-        """See :func:`~.along.cut_apart_along`, which cuts what is still too near afterwards."""
+        """See :func:`~.along.cut_apart_along`, which cuts hulls still too near afterwards."""
         ones: list[Hull | None] = list(a)
         others: list[Hull | None] = list(b)
         for (i, j), way in sorted(_ways(a, b, poses, clearance_m).items()):
@@ -76,7 +76,7 @@ class Turned:
     ) -> Hulls:
         """Return one hull on either side of a plane across the axis; ``share`` goes off the first.
 
-        Nothing, where what is left would be less than ``most`` [m3].
+        Nothing, where the rest would be less than ``most`` [m3].
         """
         axis = self.joint.axis
         end = float((below.vertices @ axis).max())
@@ -92,7 +92,7 @@ class Turned:
     ) -> Hulls:
         """Return the first within a cylinder, the other without it; ``share`` goes off the first.
 
-        Nothing, where what is left would be less than ``most`` [m3].
+        Nothing, where the rest would be less than ``most`` [m3].
         """
         arms = self._arms(outer)
         toward = arms.mean(axis=0)
@@ -137,7 +137,7 @@ def _ways(
 
 
 def _volume(hulls: Hulls) -> float:
-    """Return what is left of two hulls [m3]."""
+    """Return the remaining volume of two hulls [m3]."""
     return sum(hull.volume for hull in hulls if hull is not None)
 
 

@@ -1,4 +1,4 @@
-"""What is neither panel nor knob, and the body that holds them all."""
+"""Parts that are neither panel nor knob, and the body that holds them all."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ FEW_CELLS = 5
 
 
 def share_out(work: Workpiece) -> None:
-    """Give what is neither panel nor knob the cells next to its skin."""
+    """Give each part that is neither panel nor knob the cells next to its surface."""
     if not work.rest:
         return
     skin = work.skin.part
@@ -57,7 +57,7 @@ def block_insides(work: Workpiece, part: int, points: FloatArray) -> None:
 
 
 def make_rest(work: Workpiece, most: int) -> None:
-    """Make what is neither panel nor knob; where it passes, its neighbours keep clear."""
+    """Make parts that are neither panel nor knob; their neighbours keep clear of their way."""
     for part in sorted(work.rest, reverse=True):
         points = surface_points(work, part)
         if not len(points):
@@ -110,7 +110,7 @@ def hang_panels(work: Workpiece) -> None:
 
 
 def make_body(work: Workpiece, part: int, most: int) -> None:
-    """Make the body, or another part that nothing moves: walls around what is free."""
+    """Make the body, or another part that nothing moves: walls around free space."""
     points = _standing_points(work, part)
     block_insides(work, part, points)
     blocked = work.blocked(part)

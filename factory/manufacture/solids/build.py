@@ -41,7 +41,7 @@ class SolidParts:
     Attributes:
         articulation: over the mesh with inner faces; hinges may have been moved.
         pieces: one per part; ``None`` for parts that are to be decomposed as they are.
-        surfaces: what was invented.
+        surfaces: those invented.
     """
 
     articulation: Articulation
@@ -80,7 +80,7 @@ def solids(articulation: Articulation, config: SolidsConfig, fronts: bool = Fals
 
 
 def _notes(work: Workpiece, pieces: tuple[PartHulls | None, ...]) -> Iterator[str]:
-    """Yield what was invented and what was not made as panels are, a sentence each."""
+    """Yield a sentence for each invention, and for each part not made as panels are."""
     kinds = Counter(record.kind for record in work.records)
     said = ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
     if said:

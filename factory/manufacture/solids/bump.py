@@ -34,7 +34,7 @@ class Bump:
         hull: of it.
         rule: ``cut_base``: cut flat before what it stands on; ``lathe``: what its skin sweeps about
             its axis.
-        normal: outward direction of the base, shape [3]; ``None`` for what has none.
+        normal: outward direction of the base, shape [3]; ``None`` if it has none.
         base: of the base along ``normal`` [m].
     """
 

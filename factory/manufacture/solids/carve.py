@@ -148,7 +148,7 @@ def make_slab(work: Workpiece, part: int) -> None:
 def _behind_slab(
     work: Workpiece, part: int, hulls: list[Hull], points: FloatArray, whole: int
 ) -> tuple[Hull, ...]:
-    """Return the pieces of what is a panel's own there: shelves in a door, a knife's other side.
+    """Return the pieces of a panel's own parts there: shelves in a door, a knife's other side.
 
     Args:
         work: all parts.
@@ -218,7 +218,7 @@ def _inner(work: Workpiece, owners: tuple[int, ...], wall: float) -> BoolArray:
 
 
 def hollow_behind(work: Workpiece, part: int) -> None:
-    """Hollow out what lies behind a panel, and give a drawer its box."""
+    """Hollow out the space behind a panel, and give a drawer its box."""
     panel = work.panels[part]
     frame = panel.side.frame
     wall = work.config.wall_m

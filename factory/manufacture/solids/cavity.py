@@ -1,4 +1,4 @@
-"""What is hollow behind a panel: boxes between walls, as deep as what lies behind allows."""
+"""Hollows behind a panel: boxes between walls, as deep as the parts behind allow."""
 
 from __future__ import annotations
 

@@ -15,11 +15,11 @@ from .skin import parts_to_build
 
 
 def solid_parts(articulation: Articulation, stages: Stages, fronts: bool = False) -> SolidParts:
-    """Return an articulation with what is to be built made solid; any other comes back as it is.
+    """Return an articulation whose one-piece parts are made solid; any other comes back as it is.
 
     Args:
         articulation: parts and joints.
-        stages: with the settings, and what is remembered.
+        stages: with the settings and the cache.
         fronts: build every thin front, bare or not.
     """
     config = stages.config.solids

@@ -130,7 +130,7 @@ def enclosed(mesh: Mesh, lattice: Lattice) -> BoolArray:
     """Return the cells whose centres a skin encloses, shape [nx, ny, nz].
 
     Along each axis a ray counts how often it entered less how often it left; two of three axes
-    decide, so that a hole of the skin fills or empties no more than what lies behind it.
+    decide, so that a hole of the surface fills or empties only the cells behind it.
     """
     votes = np.zeros(lattice.shape, dtype=np.int8)
     for axis, side in enumerate(_SIDES):

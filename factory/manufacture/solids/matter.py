@@ -1,4 +1,4 @@
-"""What is to be made of convex pieces: cells, and what must stay free of them."""
+"""Cells to be made of convex pieces, and cells that must stay free of them."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Weights = npt.NDArray[np.uint8]
 
 @dataclass(frozen=True)
 class Matter:
-    """What is to be made of pieces.
+    """Cells to be made of convex pieces.
 
     Attributes:
         lattice: of cells.

@@ -140,7 +140,7 @@ def find_panel(
 
 
 def smoothed(view: View, seen: BoolArray) -> FloatArray:
-    """Return the depth of a part without what stands out of it, [rows, columns]; NaN: not seen.
+    """Return the depth of a part without its protrusions, [rows, columns]; NaN: not seen.
 
     A grey closing of depth: a handle is nearer than what surrounds it.
     """
@@ -217,7 +217,7 @@ def _back(
 
 
 def _frames(view: View, part: int, low: FloatArray, high: FloatArray, back: float) -> FloatArray:
-    """Return how deep lies what is beyond each edge, before the panel's back; infinite: nothing."""
+    """Return the depth beyond each edge, before the panel's back; infinite: nothing there."""
     step = max(BESIDE_M, 3.0 * view.raster.pixel)
     inner = 0.05 * (high - low)
     frames = np.full(4, np.inf)

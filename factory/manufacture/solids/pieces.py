@@ -242,7 +242,7 @@ def _waste(matter: Matter, span: Span, hull: Hull) -> float:
 def filled(lattice: Lattice, weights: Weights, span: Span, hull: Hull) -> float:
     """Return the volume of cells within a span that a hull fills, each times its weight [m3].
 
-    What is thinner than cells may pass between their centres: it fills what it crosses.
+    Walls thinner than cells may pass between their centres: they fill the cells they cross.
     """
     if not weights[span].any():
         return 0.0
@@ -320,7 +320,7 @@ def _nearby(matter: Matter, span: Span) -> _Nearby:
 
 
 def _cost(matter: Matter, nearby: _Nearby, span: Span, most: float) -> float:
-    """Estimate what is still wrong in some cells: a hull that must be cut again, and its waste.
+    """Estimate the remaining error in some cells: a hull that must be cut again, and its waste.
 
     A quick estimate: the corners of cells beside the box's own count as its own. From ``most`` on
     it may be less than that: what must stay free is not looked at then.

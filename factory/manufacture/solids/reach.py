@@ -1,4 +1,4 @@
-"""Pieces stretched to what is seen of a part and lies outside all of them."""
+"""Pieces stretched to a part's visible surface outside all of them."""
 
 from __future__ import annotations
 

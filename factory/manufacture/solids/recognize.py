@@ -29,7 +29,7 @@ INSET_M = 0.01
 
 @dataclass(frozen=True)
 class Recognized:
-    """What was seen of an object.
+    """The parts seen on an object.
 
     Attributes:
         views: of its sides.
@@ -118,9 +118,9 @@ def _ended(panel: FlatPanel, axis: int, at: float, above: bool) -> FlatPanel:
 
 
 def _claimed(skin: CutSkin, panel: FlatPanel, claimants: set[int], behind: float) -> CutSkin:
-    """Return the skin cut along a panel's sides and back; what is within is the panel's.
+    """Return the mesh cut along a panel's sides and back; faces within are the panel's.
 
-    What lies there and belongs to something else that moves, a knob or an inner drawer, stays so.
+    Faces there of something else that moves, a knob or an inner drawer, stay with it.
     """
     column = panel.reach(0.0, panel.back)
     frame = panel.side.frame
@@ -143,7 +143,7 @@ def _claimed(skin: CutSkin, panel: FlatPanel, claimants: set[int], behind: float
 
 
 def _behind(panel: FlatPanel, depth: float = OWN_BACK_M) -> Box:
-    """Return what lies right behind a panel, clear of its frame."""
+    """Return the solid right behind a panel, clear of its frame."""
     return Box(
         np.append(panel.low + INSET_M, panel.back),
         np.append(panel.high - INSET_M, panel.back + depth),
@@ -176,7 +176,7 @@ def recognize_bumps(
 
 
 def cut_bases(skin: CutSkin, bumps: dict[int, Bump], hosts: dict[int, int]) -> CutSkin:
-    """Return the skin cut where knobs begin; what is below belongs to what they stand on."""
+    """Return the mesh cut where knobs begin; faces below belong to the part that carries them."""
     for index, bump in bumps.items():
         if bump.normal is None:
             continue

@@ -80,7 +80,7 @@ def _shared_border(mesh: Mesh, part: IntArray, count: int) -> FloatArray:
 def plates(articulation: Articulation) -> dict[int, Side]:
     """Return the thin panels of upright sides, hung on the body, and the side of each.
 
-    Stated parts are none: what was modelled so is meant so.
+    Stated parts are none: they were modelled so on purpose.
     """
     found = {}
     for joint in articulation.joints:
@@ -98,7 +98,7 @@ def plates(articulation: Articulation) -> dict[int, Side]:
 
 
 def bare_fronts(articulation: Articulation) -> tuple[int, ...]:
-    """Return drawers that are front plates alone, and doors of what is solid behind them."""
+    """Return drawers that are front plates alone, and doors whose back is solid."""
     found = plates(articulation)
     slides = {part for part in found if articulation.joints[part - 1].kind is JointKind.PRISMATIC}
     mesh = articulation.mesh

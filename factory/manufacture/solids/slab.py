@@ -1,4 +1,4 @@
-"""A panel's own solid: a slab behind its face, what stands out of it apart, a lid hollowed."""
+"""A panel's own solid: a slab behind its face, its protrusions apart, a lid hollowed."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ MOST_HANDLES = 6
 
 @dataclass(frozen=True)
 class FrontRelief:
-    """A panel's face: depth of its plain part, and what stands out of it.
+    """A panel's face: depth of its plain part, and its protrusions.
 
     Attributes:
         view: that shows it.
-        plain: depth without what stands out [m], [rows, columns]; NaN where the panel is not seen.
-        blobs: numbers of what stands out, 0 elsewhere, [rows, columns].
+        plain: depth without protrusions [m], [rows, columns]; NaN where the panel is not seen.
+        blobs: numbers of the protrusions, 0 elsewhere, [rows, columns].
         count: of them.
     """
 
@@ -50,7 +50,7 @@ class FrontRelief:
 
 
 def relief(view: View, panel: FlatPanel) -> FrontRelief:
-    """Tell a panel's face from what stands out of it."""
+    """Tell a panel's face from its protrusions."""
     seen: BoolArray = view.part == panel.part
     plain = smoothed(view, seen)
     nearest = ndimage.distance_transform_edt(~seen, return_distances=False, return_indices=True)

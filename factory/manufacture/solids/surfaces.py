@@ -1,4 +1,4 @@
-"""What is seen where the skin ends: rims, backs and walls of hollows, as triangles."""
+"""Surfaces where the mesh ends: rims, backs and walls of hollows, as triangles."""
 
 from __future__ import annotations
 

@@ -58,7 +58,7 @@ def hung(
     """Return the joint about that line on which a panel swings free, and which line that is.
 
     ``given`` where the input's own line does; else at the outer edge by the hinge, at the depth of
-    the frame beside it, or behind a slab that has none; whichever enters least of what stands.
+    the frame beside it, or behind a slab that has none; whichever enters the fixed parts least.
     """
     if not joint.turns or panel.slides:
         return joint, "given"

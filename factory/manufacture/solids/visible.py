@@ -203,7 +203,7 @@ def _material(work: Workpiece, part: int, materials: list[Material]) -> int:
 
 
 def _color(work: Workpiece, part: int) -> tuple[float, float, float, float]:
-    """Return the mean colour of what is seen of a part from all sides, linear."""
+    """Return the mean colour of a part as seen from all sides, linear."""
     seen = [view.color[view.part == part] for view in work.views.values()]
     pixels = np.concatenate(seen)
     if not len(pixels):

@@ -43,7 +43,7 @@ class Workpiece:
         hulls: per part, made so far.
         added: per part, triangles [m], shape [n, 3, 3].
         points: per part, of its skin [m], shape [n, 3]; see ``carve.surface_points``.
-        filled: per panel, whether what lies right behind it was filled.
+        filled: per panel, whether the space right behind it was filled.
         records: of every surface that was invented.
         notes: a sentence each.
     """
@@ -79,11 +79,11 @@ class Workpiece:
         return host_of(self.source, part)
 
     def closed_behind(self, part: int) -> bool:
-        """Return whether what lies behind a panel is filled, so that its opening ends in a face."""
+        """Tell whether the space behind a panel is filled, so that its opening ends in a face."""
         return self.filled.get(part, True)
 
     def block(self, part: int, cells: BoolArray, weight: int) -> None:
-        """Say of cells how badly they must stay free of a part's pieces; what was said stays."""
+        """Block cells for a part's pieces, each so badly; earlier blocks stay."""
         known = self.blocked(part)
         self.free[part] = np.where(cells, np.maximum(known, weight), known).astype(np.uint8)
 

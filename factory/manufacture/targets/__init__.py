@@ -1,1 +1,1 @@
-"""Where robots take hold of what moves, and where they stand for it: by geometry alone."""
+"""Where robots hold moving parts, and where they stand for it: by geometry alone."""

@@ -13,7 +13,7 @@ class Gripper:
     Attributes:
         opening: widest gap between the fingers that counts fully: Panda's.
         widest: widest gap of any of the hands: Fetch's.
-        play: left on each side of what is grasped while the hand comes near.
+        play: left on each side of a grasped part while the hand comes near.
         finger_width: of a finger, across the direction in which they close.
         finger_thickness: of a finger, along it.
         depths: how far fingertips reach behind the point that they take hold at, best first.

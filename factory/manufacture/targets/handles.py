@@ -90,7 +90,7 @@ def _protruding_handle(moving: Moving, front: ProtrudingFront, chosen: IntArray)
 
 
 def _far_handle(moving: Moving, source: str) -> Handle:
-    """Return the middle of what is furthest from the axis."""
+    """Return the middle of the faces furthest from the axis."""
     shape = moving.shape
     farthest = 0.98 * moving.rim
     reach = moving.lever(shape.corners)

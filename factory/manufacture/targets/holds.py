@@ -49,7 +49,7 @@ THIN = 0.8
 
 @dataclass(frozen=True)
 class HoldSearch:
-    """A joint with what it moves, and what is around.
+    """A joint, the links that it moves, and their surroundings.
 
     Attributes:
         part: index of the part that is held.
@@ -120,7 +120,7 @@ class HoldSearch:
 
 
 def grasp(task: HoldSearch, pose: Pose) -> Target | None:
-    """Return the best way to close two fingers around what is at a pose; ``None`` if none is."""
+    """Return the best way to close two fingers at a pose; ``None`` if there is none."""
     axes = [np.stack([each, np.cross(pose.normal, each), pose.normal]) for each in pose.fingers]
     view = task.view(pose.point, axes[0])
     return _best(_closed(task, pose, view.turned(each)) for each in axes)
@@ -153,7 +153,7 @@ def _closed(task: HoldSearch, pose: Pose, view: HandView) -> Target | None:
 def _rated_grasp(
     task: HoldSearch, pose: Pose, view: HandView, grip: tuple[float, float, float], worth: float
 ) -> Target | None:
-    """Return a grip (lower and upper end of what is held, and how deep [m]) as a hold."""
+    """Return a grip (lower and upper end between the fingers, and its depth [m]) as a hold."""
     low, high, depth = grip
     middle = (low + high) / 2.0
     width = high - low
@@ -213,7 +213,7 @@ def poke(task: HoldSearch, point: FloatArray, outward: FloatArray) -> Target | N
     """Return how to push a place that faces against the opening: straight, hooked, or ``None``.
 
     Args:
-        task: what is to be opened.
+        task: the joint to open.
         point: on the surface [m], shape [3].
         outward: the surface's normal there, shape [3].
     """
@@ -245,8 +245,8 @@ def _hooked(
     """Return a finger that comes against ``ahead``, its side towards the surface.
 
     Args:
-        task: what is to be opened.
-        near: what is around the point.
+        task: the joint to open.
+        near: the surroundings of the point.
         outward: the surface's normal there.
         ahead: across the normal; from there the hand comes.
         tilt: how far the hand leans out over the edge that it hooks [rad], as it must in a hollow.

@@ -1,4 +1,4 @@
-"""Where a robot's base stands to open a joint: beside what moves, before what it grasps."""
+"""Where a robot's base stands to open a joint: beside the moving part, before its grasp."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The whole object around a hand: what lies in a box, exactly."""
+"""The whole object around a hand: the surface in a box, exactly."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class Surroundings:
     def view(
         self, own: Sequence[int], point: FloatArray, axes: FloatArray, reach: float
     ) -> HandView:
-        """Look at what lies near a point, in the frame of a hand there.
+        """Look at the surface near a point, in the frame of a hand there.
 
         Args:
             own: parts that are taken hold of.
@@ -111,7 +111,7 @@ class HandView:
         point: the frame's origin [m], shape [3].
         axes: the frame's axes as rows, shape [3, 3].
         near: triangles near the point, object frame [m], shape [near_count, 3, 3].
-        own: which of them belong to what is taken hold of, shape [near_count].
+        own: which of them belong to the held part, shape [near_count].
     """
 
     everything: Surroundings
@@ -161,7 +161,7 @@ class HandView:
         """Return what of the own geometry lies in a box, along the first axis.
 
         Returns:
-            Lower and upper ends [m] of what is further apart than ``gap``, in order, shape
+            Lower and upper ends [m] of intervals further apart than ``gap``, in order, shape
             [span_count, 2].
         """
         along = self.within(low, high)[:, :, 0]

@@ -28,7 +28,7 @@ class Detection:
     """One object as the detector sees it.
 
     Attributes:
-        dense: what is said of every cell of 4 pixels.
+        dense: answers for every cell of 4 pixels.
         faces: the nearest triangle at the middle of every cell, -1 for none, shape [5, 64, 64].
         kinds: probability of each kind of object, shape [kind_count].
         opens: probability that anything opens.
@@ -52,7 +52,7 @@ class Detection:
 
 
 def detect(mesh: Mesh, weights: Path = SHIPPED) -> Detection:
-    """Return what is seen of a mesh, z up.
+    """Return the detections on a mesh, z up.
 
     Args:
         mesh: with at least one triangle.

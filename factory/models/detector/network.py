@@ -82,7 +82,7 @@ def heights_of(depth: Tensor, seen: Tensor) -> Tensor:
 
 
 def stacked_cues(color: Tensor, height: Tensor, seen: Tensor) -> Tensor:
-    """Return colours, slopes, height, dents, bumps and what is seen, [n, CUES, rows, columns].
+    """Return colours, slopes, height, dents, bumps and coverage, [n, CUES, rows, columns].
 
     Args:
         color: sRGB in [0, 1], [n, 3, rows, columns].
@@ -144,7 +144,7 @@ class Detector(nn.Module):  # type: ignore[misc]
             self.answer.bias[len(SORTS) : len(SORTS) + 4] = 3.0
 
     def forward(self, cues: Tensor) -> DenseAnswers:
-        """Return what is seen; ``cues`` [n, 5, CUES, 256, 256]."""
+        """Return the detections; ``cues`` [n, 5, CUES, 256, 256]."""
         count, views = cues.shape[:2]
         levels = self.backbone(cues.flatten(0, 1))
         deep = self.tokens(levels.pop())

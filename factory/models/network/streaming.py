@@ -1,6 +1,6 @@
 """The same network on one cloud of any size: no gradients, little memory, least work.
 
-What is saved over the plain form, exactly up to rounding:
+Savings over the plain form, exact up to rounding:
 
 - Points never look at each other, so they pass through in chunks; only what they add up to is kept.
 - There are 16 queries. So values are mixed before they are projected (queries looking at points),

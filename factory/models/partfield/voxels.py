@@ -32,7 +32,7 @@ class PointFeatures(nn.Module):  # type: ignore[misc]
 
 
 class PointVoxelConv(nn.Module):  # type: ignore[misc]
-    """What a point is, plus what is around it in a 32^3 grid."""
+    """A point's own features, plus those around it in a 32^3 grid."""
 
     def __init__(self, channels: int) -> None:
         super().__init__()

@@ -101,7 +101,7 @@ def decode(
 
     Args:
         surface: the whole mesh, object frame [m].
-        proxy: what was sampled in its stead.
+        proxy: the surface sampled in its stead.
         sample: what the network was shown; row ``i`` of the answer is about its point ``i``.
         prediction: the answer, network frame.
         rules: how to read it.

@@ -46,7 +46,7 @@ class PredictedMotion:
         turn: lower and upper limit [rad], holding 0.
         slide_direction: unit, shape [3]; ``None`` unless it slides.
         slide: lower and upper limit, holding 0.
-        notes: what was changed, each the end of a sentence about the part.
+        notes: changes, each the end of a sentence about the part.
         probabilities: of each class, in the order of :class:`MotionClass`; empty where nobody says.
     """
 

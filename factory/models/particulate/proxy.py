@@ -15,7 +15,7 @@ CHUNK = 1 << 18
 
 @dataclass(frozen=True)
 class Proxy:
-    """What is sampled instead of a surface.
+    """A simpler surface, to sample in another's stead.
 
     Attributes:
         surface: same frame, at most as many faces.

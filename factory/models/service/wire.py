@@ -32,7 +32,7 @@ class Message:
     """One question or answer.
 
     Attributes:
-        kind: what is asked or said.
+        kind: of the question or answer.
         texts: short ones, by name.
         arrays: float32 or int64, by name.
     """

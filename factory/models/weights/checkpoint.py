@@ -30,7 +30,7 @@ class WeightsInfo:
         tensors: how many.
         parameters: how many numbers.
         dtypes: in which types, sorted.
-        terms: under which they stand, by their own statement; else what is known of the network's
+        terms: under which they stand, by their own statement; else those of the network's
             published weights.
         outputs: the license that these put on whatever they help to make; empty if none.
     """
@@ -105,7 +105,7 @@ def filled(kind: Any, shape: Any, tensors: dict[str, Tensor], device: str) -> An
 
 @contextmanager
 def naming(file: Path) -> Iterator[None]:
-    """Put the file's name before what is said about its tensors."""
+    """Put the file's name before messages about its tensors."""
     try:
         yield
     except ConfigError as error:

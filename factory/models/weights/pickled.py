@@ -57,7 +57,7 @@ class _Items:
 
 
 class _Value:
-    """Stands for what has a state that is no mapping: takes everything, keeps nothing."""
+    """Stands for an object whose state is no mapping: takes everything, keeps nothing."""
 
     def __init__(self, *_args: object) -> None:
         pass
@@ -228,7 +228,7 @@ def _require_stored(file: Path, tensors: Mapping[str, Tensor], stored: Counter[i
 
 
 def _said(error: Exception) -> str:
-    """Return the reason itself: torch wraps it in advice on how to run what is in the file."""
+    """Return the reason itself: torch wraps it in advice on how to run the file's code."""
     reason = error.__context__ or error
     first = (str(reason).strip().splitlines() or [""])[0]
     return f"{type(reason).__name__}: {first}"[:_LETTERS_SAID]

@@ -1,4 +1,4 @@
-"""What lies in an export, file by file, in a fixed order."""
+"""The files of an export, in a fixed order."""
 
 from __future__ import annotations
 
@@ -47,13 +47,13 @@ def contents(
     """Yield an export's files, path and content; the last, ``SHA256SUMS``, has all digests.
 
     Args:
-        registry: others may use it meanwhile; what is no longer in it, or no longer passes, is left
-            out.
+        registry: others may use it meanwhile; assets no longer in it, or no longer passing, are
+            left out.
         entries: what to export.
         layout: one of :data:`LAYOUTS`.
 
     Raises:
-        RegistryError: a file is not what was published.
+        RegistryError: a file differs from the published one.
     """
     sums: list[tuple[str, str]] = []
     for name, data in _files(registry, entries, layout):

@@ -24,7 +24,7 @@ def described(entry: Entry, folder: str, manifest: bytes | None) -> dict[str, An
     Args:
         entry: of the asset.
         folder: within the export.
-        manifest: the content of asset.json; ``None`` for what has none.
+        manifest: the content of asset.json; ``None`` if there is none.
     """
     data: dict[str, Any] = json.loads(manifest) if manifest is not None else {}
     lower, upper = data.get("closed_bounds") or ([0.0] * 3, [0.0] * 3)

@@ -31,7 +31,7 @@ class Written:
 
 
 def write_export(files: Iterable[tuple[str, bytes]], target: str) -> Written:
-    """Write an export; what is not finished is not there under its name.
+    """Write an export; an unfinished one never has its name.
 
     Args:
         files: paths and contents, as :func:`.contents.contents` gives them.

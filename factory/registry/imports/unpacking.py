@@ -78,7 +78,7 @@ def unpack(source: Path, target: Path, limits: ImportLimits) -> None:
     Args:
         source: a folder, or a .tar or .tar.gz file.
         target: an empty folder.
-        limits: on what comes out.
+        limits: on the content.
 
     Raises:
         RegistryError: it is no export, too large, or has something that no export has: links,

@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from asset_factory.sim_checks import Status
+from asset_factory.sim_checks import Severity, Status
 
 from ..pages import environment, trusted
 from .told import AssetPage

@@ -20,7 +20,7 @@ class RepairEvidence:
     """What a repair knows of the round just validated.
 
     Attributes:
-        verdict: what was found.
+        verdict: of the round.
         config: how far repairs may go.
         spare: what the object is still worth having without.
         asset: that was validated; ``None`` where only its verdict is known.

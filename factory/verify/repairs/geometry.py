@@ -51,7 +51,7 @@ def fit_closely(evidence: RepairEvidence, plan: Plan) -> Plan | None:
 
 
 def build_fronts(evidence: RepairEvidence, plan: Plan) -> Plan | None:
-    """Build front plates that stick in what is around them anew, once, with room for each."""
+    """Rebuild front plates that stick in their surroundings, once, with room for each."""
     if plan.build_fronts or not evidence.spare.fronts:
         return None
     stuck = [finding for finding in evidence.errors if finding.code in STUCK]

@@ -107,7 +107,7 @@ def _straightened(joint: Joint) -> Joint | None:
 
 
 def _rehung(articulation: Articulation, joint: Joint) -> Iterator[tuple[RepairKind, Joint]]:
-    """Yield a hinge at the edges of its part that are near, and what moves it there."""
+    """Yield a hinge at near edges of its part, and the repair that moves it there."""
     if joint.kind is not JointKind.REVOLUTE:
         return
     most = MOVED_SHARE * articulation.part_mesh(joint.child).diagonal
