@@ -10,11 +10,9 @@ import numpy as np
 
 from asset_factory.factory.articulate.auto.articulator import AutoArticulator
 from asset_factory.factory.articulate.auto.parts import shared
-from asset_factory.factory.articulate.auto.sides import sightings
 from asset_factory.factory.articulate.auto.trust import NAME, SIGNS, Trust, signs_of
 from asset_factory.factory.articulate.proposal import Proposal
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
-from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.geometry.posing import closed, turned
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import FloatArray
@@ -24,7 +22,6 @@ from asset_factory.factory.views.view import Views
 
 from ..datasets.objects import described
 from ..evaluate.physical import physical
-from ..evaluate.transfer import on_mesh
 from ..objects.catalog import CATEGORIES, make_object
 from ..objects.mixture import in_character
 from .perceptron import Examples, FitSettings, Weighing, fit_perceptron
@@ -127,16 +124,6 @@ def tried(articulator: AutoArticulator, objects: Iterable[Articulation]) -> Iter
         )
 
 
-def sighted(objects: Iterable[Articulation]) -> Iterator[TrustTrial]:
-    """Yield what the sides of each object show, which the articulator adds to its proposals."""
-    for truth in objects:
-        for seen in sightings(Views(truth.mesh, connected_components(truth.mesh)))[:1]:
-            over = on_mesh(truth, seen.mesh)
-            areas = face_areas(seen.mesh)
-            right = [is_right(each, over, areas) for each in seen.found]
-            yield TrustTrial(over, seen.found, np.array(right, dtype=np.float64))
-
-
 def is_right(proposal: Proposal, truth: Articulation, areas: FloatArray) -> bool:
     """Return whether there is such a part that moves so, whichever way round and however far."""
     best = 0.0
@@ -204,8 +191,7 @@ def fit_trust(articulator: AutoArticulator, data: TrustData, least: float | None
     trials = list(tried(articulator, data.procedural()))
     for folder, names in data.described:
         trials += tried(articulator, described_turned(folder, names))
-    # They share no sign with the others, so that each side is fitted as if alone.
-    network = fit_signs([*trials, *sighted(data.procedural())])
+    network = fit_signs(trials)
     if least is None:
         least = best_threshold(articulator, trials, network)
     return TrustFit(

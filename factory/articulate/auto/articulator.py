@@ -31,7 +31,6 @@ from .one_piece import MeshOrigin, different, least_of, seam_hypotheses
 from .partition import Sharing, share_out, shells
 from .parts import agreed_parts
 from .proposals import propose
-from .sides import SURE_SIGHT, sightings
 from .trust import Trust, load_trust
 from .views import MOST_VIEWS, look_around
 
@@ -39,9 +38,6 @@ from .views import MOST_VIEWS, look_around
 #: static meshes six opened below it: a bookshelf, a table, a box, a picture, tablets; of 110
 #: objects that do open, four fall below it, with one joint right of five.
 ALONE = 0.45
-
-#: Where two proposals cannot both be, the one of the earlier proposer is believed.
-BELIEVED = (Proposer.RULES, Proposer.SIDES, Proposer.NETWORK)
 
 
 @dataclass(frozen=True)
@@ -77,34 +73,15 @@ class AutoArticulator:
         return self.hypotheses(mesh)[0].articulation
 
     def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
-        """Return what :meth:`articulate` does, and what else it may be; the likeliest first.
-
-        Where rules of shape are sure of something, the sides add only what is beside it: who
-        models how a thing works, models all of it. The whole of what they show comes last then.
-        """
+        """Return what :meth:`articulate` does; of a mesh of one piece also what else it may be."""
         least = least_of(self.trust, self.config.least_confidence)
         origin = MeshOrigin.of(mesh)
-        if origin.is_generated:
-            return seam_hypotheses(mesh, least, self.name)
-        proposals = self.proposals(mesh, face_areas(mesh))
-        views = Views(mesh, connected_components(mesh))
-        own = self.decide(views, proposals)
-        sure = [each for each in self._rated(proposals) if each.rated >= least]
-        ruled = [each.faces for each in sure if each.proposer is Proposer.RULES]
-        fuller = []
-        full = []
-        for shown in sightings(views):
-            carried = shown.carried(proposals)
-            panels = shown.beyond(
-                [each for each in self._rated(shown.found) if each.rated >= SURE_SIGHT], ruled
-            )
-            beside = shown.beside(panels, ruled) if ruled else panels
-            if beside:
-                fuller.append(self.decide(shown.views, (*carried, *beside)))
-            if len(panels) > len(beside):
-                full.append(self.decide(shown.views, (*carried, *panels)))
         seams = seam_hypotheses(mesh, least, self.name) if origin.one_piece else ()
-        every = (*fuller, own, *full, *[each.articulation for each in seams])
+        if origin.is_generated:
+            return seams
+        views = Views(mesh, connected_components(mesh))
+        own = self.decide(views, self.proposals(mesh, face_areas(mesh)))
+        every = (own, *[each.articulation for each in seams])
         made = [each for each in every if each.movable_joints] or [own]
         weighed = [replace(each, weights=self.weights) for each in different(made)]
         return tuple(Hypothesis.of(each) for each in weighed)
@@ -135,8 +112,6 @@ class AutoArticulator:
         mesh = views.mesh
         rated = self._rated(proposals)
         rated.sort(key=lambda proposal: -proposal.rated)
-        if any(proposal.proposer is Proposer.SIDES for proposal in rated):
-            rated.sort(key=lambda proposal: BELIEVED.index(proposal.proposer))
         rated = without_hidden(views, rated)
         least = self._least(rated)
         sure = [proposal for proposal in rated if proposal.rated >= least]

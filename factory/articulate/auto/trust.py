@@ -27,9 +27,6 @@ SIGNS = (
     "unguided",  # of the geometry in the motion, nothing given, log-odds
     "area",  # share of the mesh's area, log10
     "rivals",  # moving parts that the network sees, log2
-    "sides",  # 1 if the seams of a side say so
-    "shown",  # of the seams in the panel, log-odds
-    "way",  # of the seams in how it opens, log-odds
 )
 
 
