@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Check:
-    """Validate URDF, MJCF or USD files, anyone's.
+    """Validate URDF, xacro, MJCF or USD files, anyone's.
 
     Exit codes: 0 every file got a verdict; 3 some file could not be validated; 2 wrong usage;
     1 something was rejected and --strict was given.
@@ -41,7 +41,7 @@ class Check:
     """
 
     files: Positional[tuple[Path, ...]]
-    """URDF, MJCF or USD files, or folders of them."""
+    """URDF, xacro, MJCF or USD files, or folders of them."""
     sim: str = DEFAULT_SIMULATORS
     """Simulators that validate, separated by commas; 'all' is sapien,mujoco,pybullet."""
     json: Path | None = None
