@@ -119,7 +119,7 @@ def _checked(
         def check(path: Path, name: str | None) -> Report:
             judge = judges.get()
             try:
-                report = judge.check(path, simulators, options=options)
+                report = judge.check(path, simulators, None, options)
             finally:
                 judges.put(judge)
             return replace(report, description=name or report.description)
