@@ -129,17 +129,26 @@ class Judge:
         if examined is not None:
             return self._reported(path.name, examined, simulators)
         with TemporaryDirectory() as folder:
-            limits = self._config.child.limits
-            child = self._child("static")
-            try:
-                gathered = ask_of(
-                    child, path.name, readable, path, Path(folder), options, limits=limits
-                )
-            except (DescriptionError, TimeoutError, ChildProcessError) as error:
-                finding = _unread(error)
-                return Report(path.name, () if is_usd(path) else tuple(simulators), (finding,), {})
+            gathered = self._gathered(path, Path(folder), options)
+            if isinstance(gathered, Finding):
+                asked = () if is_usd(path) else tuple(simulators)
+                return Report(path.name, asked, (gathered,), {})
             report = self._reported(path.name, self.examine(gathered.path), simulators)
         return replace(report, findings=(*gathered.findings, *report.findings))
+
+    def _gathered(self, path: Path, folder: Path, options: ReadOptions) -> Gathered | Finding:
+        """Return what engines can be asked of a file, see :func:`readable`, or why nothing."""
+        limits = self._config.child.limits
+        child = self._child("static")
+        if is_usd(path):
+            try:
+                return ask_of(child, path.name, readable, path, folder, options, limits=limits)
+            except (DescriptionError, TimeoutError, ChildProcessError) as error:
+                return _unread(error)
+        outcome = child.call(readable, path, folder, options, limits=limits)
+        if isinstance(outcome.error, DescriptionError):
+            return _unread(outcome.error)
+        return _failure(outcome, path) if outcome.value is None else outcome.value
 
     def _reported(self, name: str, examined: Examination, simulators: Sequence[str]) -> Report:
         findings = list(examined.findings)

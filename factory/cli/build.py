@@ -54,8 +54,8 @@ class Build:
     """
 
     input: tuple[str, ...]
-    """Mesh files (GLB, glTF, OBJ, PLY, STL, OFF), URDF or MJCF files, or folders of them; also by
-    a URL that fsspec understands, such as s3://bucket/meshes."""
+    """Mesh files (GLB, glTF, OBJ, PLY, STL, OFF), URDF, xacro, MJCF or USD files, or folders of
+    them; also by a URL that fsspec understands, such as s3://bucket/meshes."""
     output: Path
     """The registry's folder; made if it is not there."""
     sim: str = DEFAULT_SIMULATORS

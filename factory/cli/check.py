@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Check:
-    """Validate URDF, MJCF or USD files, anyone's.
+    """Validate URDF, xacro, MJCF or USD files, anyone's.
 
     Exit codes: 0 every file got a verdict; 3 some file could not be validated; 2 wrong usage;
     1 something was rejected and --strict was given. With --baseline only new findings count.
@@ -43,7 +43,7 @@ class Check:
     """
 
     files: Positional[tuple[Path, ...]]
-    """URDF, MJCF or USD files, or folders of them."""
+    """URDF, xacro, MJCF or USD files, or folders of them."""
     sim: str = DEFAULT_SIMULATORS
     """Simulators that validate, separated by commas; 'all' is sapien,mujoco,pybullet."""
     json: Path | None = None
@@ -177,7 +177,7 @@ def _checked(
             judge = judges.get()
             complain(f"checking {name or path} ({number} of {len(files)})")
             try:
-                report = judge.check(path, simulators, options=options)
+                report = judge.check(path, simulators, None, options)
             finally:
                 judges.put(judge)
             return replace(report, description=name or report.description)

@@ -146,6 +146,7 @@ class CompiledEquality:
         kind: MuJoCo's name, such as ``joint`` or ``weld``.
         joints: of kind ``joint``: indices of the follower and of its leader, -1 for none.
         constant, linear: of its polynomial, about both joints' references.
+        curved: whether the polynomial has more.
         active: whether it holds from the start.
     """
 
@@ -154,6 +155,7 @@ class CompiledEquality:
     constant: float
     linear: float
     active: bool
+    curved: bool = False
 
 
 @dataclass(frozen=True)
@@ -355,6 +357,7 @@ def _equality(model: MjModel, index: int) -> CompiledEquality:
         constant=constant,
         linear=linear,
         active=bool(model.eq_active0[index]),
+        curved=bool(model.eq_data[index, 2:5].any()),
     )
 
 

@@ -49,7 +49,7 @@ def ask_of(
     outcome = child.call(function, *args, limits=limits)
     if outcome.failure is Failure.CRASHED and not outcome.killed:
         outcome = child.call(function, *args, limits=limits)
-    if isinstance(outcome.error, DescriptionError | TimeoutError):
+    if isinstance(outcome.error, DescriptionError):
         raise outcome.error
     require_word(outcome, name)
     if outcome.failure is not None:

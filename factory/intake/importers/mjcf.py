@@ -15,6 +15,7 @@ import numpy as np
 
 from asset_factory.sim_checks.description import DescriptionError, Mimic
 from asset_factory.sim_checks.read.mjcf_model import (
+    CompiledEquality,
     CompiledGeom,
     CompiledJoint,
     CompiledModel,
@@ -108,7 +109,7 @@ def _world_poses(model: CompiledModel) -> list[FloatArray]:
 def _notes(model: CompiledModel) -> Iterator[str]:
     """Yield what the file says and the import ignores."""
     for equality in model.equalities:
-        if equality.kind != "joint" or equality.joints[1] < 0 or not equality.active:
+        if not _is_mimic(equality):
             yield f"a {equality.kind} equality in the file is ignored"
     for name in model.meant:
         yield f"joint {name!r} has a range that the file switches off; it is taken as its limits"
@@ -231,6 +232,12 @@ def _jointed(
     return tuple(names), tuple(replace(j, mimic=mimics.get(j.name)) for j in joints)
 
 
+def _is_mimic(equality: CompiledEquality) -> bool:
+    """Return whether a joint goes by another's value at one ratio."""
+    coupled = equality.kind == "joint" and equality.joints[1] >= 0
+    return coupled and equality.active and not equality.curved
+
+
 def _mimics(model: CompiledModel, labels: Mapping[int, str]) -> dict[str, Mimic]:
     """Return follower -> what it follows, constant and linear part; values count from references.
 
@@ -240,7 +247,7 @@ def _mimics(model: CompiledModel, labels: Mapping[int, str]) -> dict[str, Mimic]
     """
     found: dict[str, Mimic] = {}
     for equality in model.equalities:
-        if equality.kind == "joint" and equality.active and set(equality.joints) <= set(labels):
+        if _is_mimic(equality) and set(equality.joints) <= set(labels):
             follower, leader = (labels[index] for index in equality.joints)
             found.setdefault(follower, Mimic(leader, equality.linear, equality.constant))
     return found

@@ -122,7 +122,8 @@ def test_a_joint_equality_is_kept_about_its_references(tmp_path: Path) -> None:
     made = articulated(
         tmp_path,
         f'<mujoco><compiler autolimits="true"/><worldbody>{bodies}</worldbody><equality>'
-        '<joint joint1="right" joint2="left" polycoef="0 -1 0 0 0"/></equality></mujoco>',
+        '<joint joint1="right" joint2="left" polycoef="0 -1 0 0 0"/>'
+        '<joint joint1="left" joint2="right" polycoef="0 1 1 0 0"/></equality></mujoco>',
     )
     assert made.joint("right").mimic == Mimic("left", 1.0, 0.0)
     np.testing.assert_allclose(made.joint("right").axis, [0, -1, 0])

@@ -84,3 +84,26 @@ def test_roots_are_those_of_flags_of_the_ros_path_and_the_folders_of_inputs(
     assert check(Check((path,), sim="", strict=True)) == Exit.OK
     with pytest.raises(ConfigError, match="--root"):
         check(Check((path,), reading=RootFlags(root=(tmp_path / "nowhere",))))
+
+
+def test_a_xacro_file_is_an_input_by_all_that_it_includes_and_its_arguments(tmp_path: Path) -> None:
+    pytest.importorskip("xacro")
+    path = write_package(tmp_path, "cabinet", "package://cabinet/meshes/", "urdf/cabinet.xacro")
+    namespace = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+    path.with_name("limits.xacro").write_text(
+        f'<robot {namespace}><xacro:arg name="travel" default="0.1"/></robot>'
+    )
+    text = path.read_text().replace('upper="0.3"', 'upper="$(arg travel)"')
+    include = '<xacro:include filename="$(find cabinet)/urdf/limits.xacro"/>'
+    path.write_text(text.replace('name="cabinet">', f'name="cabinet" {namespace}>{include}', 1))
+    read = {given: source(path, arguments=given) for given in ((), ("travel:=0.2",))}
+    travels = []
+    for each in read.values():
+        annotation = each.load().annotation
+        assert annotation is not None
+        travels.append(annotation.joints[0].upper)
+        assert "limits.xacro" in each.reads
+        assert "../meshes/shell.obj" in each.reads
+    assert travels == [0.1, 0.2]
+    first, second = read.values()
+    assert first.id != second.id
