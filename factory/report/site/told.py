@@ -9,6 +9,7 @@ from typing import Any
 
 from asset_factory.sim_checks import Finding, Report, Severity, Status
 from asset_factory.sim_checks.config import PenetrationConfig
+from asset_factory.sim_checks.grouping import group_findings, told_once
 
 from ...display.camera import Viewpoint
 from ...display.described import scene_of_file
@@ -46,7 +47,7 @@ class FindingGroup:
     """Findings of one code and severity, and what the code means."""
 
     code: str
-    error: bool
+    severity: Severity
     meaning: str
     findings: tuple[FindingTold, ...]
 
@@ -89,13 +90,12 @@ class AssetPage:
     @property
     def groups(self) -> tuple[FindingGroup, ...]:
         """Return the findings by severity and code, in the order in which they were found."""
-        found: dict[tuple[bool, str], list[FindingTold]] = {}
+        found: dict[tuple[Severity, str], list[FindingTold]] = {}
         for told in self.findings:
-            error = told.finding.severity is Severity.ERROR
-            found.setdefault((error, told.finding.code), []).append(told)
+            found.setdefault((told.finding.severity, told.finding.code), []).append(told)
         return tuple(
-            FindingGroup(code, error, MEANINGS.get(code, ""), tuple(group))
-            for (error, code), group in found.items()
+            FindingGroup(code, severity, MEANINGS.get(code, ""), tuple(group))
+            for (severity, code), group in found.items()
         )
 
     def row(self) -> dict[str, Any]:
@@ -196,9 +196,9 @@ def _findings(report: Report, places: Places | None) -> tuple[FindingTold, ...]:
     told = []
     number = 0
     # The validator says the same of the URDF and of the MJCF.
-    once = {(each.code, each.message): each for each in reversed(report.findings)}
-    findings = (each for each in report.findings if each is once[each.code, each.message])
-    ordered = sorted(findings, key=lambda finding: finding.severity is not Severity.ERROR)
+    once = {told_once(each): each for each in reversed(report.findings)}
+    findings = (each for each in report.findings if each is once[told_once(each)])
+    ordered = [each for group in group_findings(tuple(findings)) for each in group]
     for finding in ordered[:_MAX_FINDINGS]:
         if finding.code == OTHER_HYPOTHESIS:
             continue
