@@ -61,7 +61,7 @@ ERRORS: Mapping[str, str] = {
     "range_implausible": "a slide over two diagonals [m], or a hinge over two turns [rad]",
     "axis_remote": "a hinge axis two diagonals away from its part [m]; a warning from one on",
     "part_remote": "what a joint moves lies further from all else than either is across [m]",
-    "part_detached": "what a joint moves comes near what carries it in no pose [mm]",
+    "part_detached": "what a joint moves is near its carrier in no pose, or leaves its hinge [mm]",
     "friction_excessive": "friction takes over 100 N at the far edge [N]; over 30 a warning",
     "damping_excessive": "damping takes over 100 N at the far edge [N]; over 30 a warning",
     "collision_scale": "collision geometry ten times smaller or larger than what is visible",

@@ -9,7 +9,7 @@ from typing import Any
 
 from msgspec import structs, to_builtins
 
-from asset_factory.sim_checks import Status
+from asset_factory.sim_checks import Severity, Status
 
 from ..articulate.stage import hypotheses_of
 from ..articulate.stated import StatedArticulator
@@ -136,7 +136,7 @@ def verdict_of(output: Path, asset_id: str) -> ShownVerdict:
     groups = [
         {
             "code": group.code,
-            "error": group.severity == "error",
+            "error": group.severity is Severity.ERROR,
             "meaning": group.meaning,
             "findings": [[each.finding.message, each.place] for each in group.findings],
         }

@@ -36,6 +36,7 @@ class Collider:
         self.local = hull
         self.pose: FloatArray = np.eye(4)
         self._placed: CollisionHull | None = hull
+        self._bounds: FloatArray | None = None
         triangles = np.column_stack([np.full(len(hull.triangles), 3), hull.triangles]).ravel()
         geometry = fcl.Convex(hull.vertices, len(hull.triangles), triangles)
         self._object: Any = fcl.CollisionObject(geometry, fcl.Transform())
@@ -50,10 +51,10 @@ class Collider:
     @property
     def bounds(self) -> FloatArray:
         """Return lowest and highest corner of the box around the placed hull [m], shape [2, 3]."""
-        if self._placed is not None:
-            return self._placed.bounds
-        vertices = self.local.vertices @ self.pose[:3, :3].T + self.pose[:3, 3]
-        return np.array([vertices.min(axis=0), vertices.max(axis=0)])
+        if self._bounds is None:
+            vertices = self.local.vertices @ self.pose[:3, :3].T + self.pose[:3, 3]
+            self._bounds = np.array([vertices.min(axis=0), vertices.max(axis=0)])
+        return self._bounds
 
     def place(self, pose: FloatArray) -> None:
         """Put the hull's own frame at ``pose``, shape [4, 4]."""
@@ -62,6 +63,7 @@ class Collider:
         self.pose = pose
         # Most hulls are placed only to see that they are far from everything.
         self._placed = None
+        self._bounds = None
         self._object.setTransform(self._fcl.Transform(pose[:3, :3], pose[:3, 3]))
 
     def stand(self, other: Collider) -> HullOverlap:

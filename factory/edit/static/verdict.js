@@ -73,7 +73,7 @@ export class Verdict {
     // The first reason is said above already.
     const rest = code === told.reason ? lines.slice(findings[0][1] >= 0 ? 0 : 1) : lines;
     if (!rest.length) return "";
-    return make("div", { class: error ? "found hard" : "found" }, make("code", {}, code), make("p", { class: "dim" }, meaning), ...rest);
+    return make("div", { class: error ? "found error" : "found" }, make("code", {}, code), make("p", { class: "dim" }, meaning), ...rest);
   }
 
   show(...parts) {

@@ -72,6 +72,6 @@ def _templates() -> Environment:
     known = {
         "PASSED": Status.PASSED,
         "STATUSES": tuple(Status),
-        "SEVERITIES": [str(each) for each in Severity],
+        "SEVERITIES": tuple(Severity),
     }
     return environment(__package__, **known)

@@ -9,7 +9,7 @@ from typing import Any
 
 from asset_factory.sim_checks import Finding, Report, Severity, Status
 from asset_factory.sim_checks.config import PenetrationConfig
-from asset_factory.sim_checks.grouping import told_once
+from asset_factory.sim_checks.grouping import group_findings, told_once
 
 from ...display.camera import Viewpoint
 from ...display.described import scene_of_file
@@ -32,8 +32,6 @@ MEANINGS = {code: meaning for table in TABLES.values() for code, meaning in tabl
 #: Findings on other hypotheses of the input have a section of their own.
 OTHER_HYPOTHESIS = "other_reading"
 _MAX_FINDINGS = 300
-#: Severities, the gravest first.
-ORDER = list(Severity)
 _MESSAGE = 240
 
 
@@ -57,7 +55,7 @@ class FindingGroup:
     """
 
     code: str
-    severity: str
+    severity: Severity
     meaning: str
     findings: tuple[FindingTold, ...]
 
@@ -102,10 +100,9 @@ class AssetPage:
     @property
     def groups(self) -> tuple[FindingGroup, ...]:
         """Return the findings by severity and code, in the order in which they were found."""
-        found: dict[tuple[str, str], list[FindingTold]] = {}
+        found: dict[tuple[Severity, str], list[FindingTold]] = {}
         for told in self.findings:
-            severity = str(told.finding.severity)
-            found.setdefault((severity, told.finding.code), []).append(told)
+            found.setdefault((told.finding.severity, told.finding.code), []).append(told)
         return tuple(
             FindingGroup(code, severity, MEANINGS.get(code, ""), tuple(group))
             for (severity, code), group in found.items()
@@ -219,7 +216,7 @@ def _findings(report: Report, places: Places | None) -> tuple[FindingTold, ...]:
     # The validator says the same of the URDF and of the MJCF.
     once = {told_once(each): each for each in reversed(report.findings)}
     findings = (each for each in report.findings if each is once[told_once(each)])
-    ordered = sorted(findings, key=lambda finding: ORDER.index(finding.severity))
+    ordered = [each for group in group_findings(tuple(findings)) for each in group]
     for finding in ordered[:_MAX_FINDINGS]:
         if finding.code == OTHER_HYPOTHESIS:
             continue

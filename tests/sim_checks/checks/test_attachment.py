@@ -61,3 +61,11 @@ def test_links_without_shapes_between_do_not_count() -> None:
     chained = with_joint(far, "slide", parent="between")
     chained = replace(chained, links=(*far.links, bare), joints=(turn, *chained.joints))
     assert len(gaps(chained)) == 2
+
+
+@pytest.mark.parametrize(("behind", "alarms"), [(0.0, 0), (0.02, 0), (0.4, 1)])
+def test_a_hinge_holds_its_door_in_every_pose(behind: float, alarms: int) -> None:
+    hinge = (-0.5, -0.5 + behind, 0.5)
+    door = body("door", [((0.0, -0.52, 0.5), (1.0, T, 1.0))], hinge)
+    turn = joint("hinge", "revolute", "carcass", "door", hinge, (0, 0, -1), (0.0, 1.57))
+    assert len(gaps(described([body("carcass", CARCASS), door], [turn]))) == alarms
