@@ -205,7 +205,7 @@ def _verify(command: Verify) -> int:
 def _gc(command: Gc) -> int:
     for name, value in (("older-than", command.older_than), ("keep-gb", command.keep_gb)):
         if value is not None and not value >= 0.0:
-            raise ConfigError(f"--{name}: is {value:g}, want at least 0")
+            raise ConfigError(f"--{name} must be at least 0, not {value:g}")
     print_freed(
         collect_garbage(
             Registry(command.output).root,
@@ -249,7 +249,7 @@ def _import(command: Import) -> int:
     from ..registry.imports import ImportLimits, import_export
 
     if not command.max_gb > 0.0:
-        raise ConfigError(f"--max-gb: is {command.max_gb:g}, want more than 0")
+        raise ConfigError(f"--max-gb must be more than 0, not {command.max_gb:g}")
     registry = Registry(command.output, create=True)
     limits = ImportLimits(total_bytes=int(command.max_gb * _GB))
     imported = import_export(

@@ -142,4 +142,4 @@ def test_many_files_are_judged_at_once_and_told_in_the_order_given(
 def test_workers_have_to_be_some(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = write(tmp_path / "asset.urdf", 0.004)
     assert run(["check", str(path), "--sim", "", "--workers", "0"]) == 2
-    assert "--workers: is 0, want at least 1" in capsys.readouterr().err
+    assert "--workers must be at least 1, not 0" in capsys.readouterr().err

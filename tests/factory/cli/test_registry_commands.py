@@ -57,7 +57,7 @@ def test_listing(root, run):
     _, out = run(List, "--output", root, "--limit", 2, "--after", "cabinet-1")
     assert "--after" not in out
     with pytest.raises(
-        ConfigError, match=r"--status: is 'good', want one of passed, rejected, unjudged"
+        ConfigError, match=r"--status must be one of passed, rejected, unjudged, not 'good'"
     ):
         run(List, "--output", root, "--status", "good")
 
