@@ -83,7 +83,7 @@ class Workpiece:
         return self.filled.get(part, True)
 
     def block(self, part: int, cells: BoolArray, weight: int) -> None:
-        """Block cells for a part's pieces, each so badly; earlier blocks stay."""
+        """Mark how badly cells must stay free of a part's pieces; earlier marks stay."""
         known = self.blocked(part)
         self.free[part] = np.where(cells, np.maximum(known, weight), known).astype(np.uint8)
 
