@@ -1,4 +1,4 @@
-"""The step: from parts that are patches of one skin to solid parts, convex by construction."""
+"""The step: from parts that are patches of one mesh to solid parts, convex by construction."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ SOLIDS = Stage(
 
 @dataclass(frozen=True)
 class SolidParts:
-    """A skin made solid.
+    """A one-piece mesh made solid.
 
     Attributes:
         articulation: over the mesh with inner faces; hinges may have been moved.
@@ -50,7 +50,7 @@ class SolidParts:
 
 
 def solids(articulation: Articulation, config: SolidsConfig, fronts: bool = False) -> SolidParts:
-    """Make patches of a skin and bare fronts solid, and what holds them hollow.
+    """Make patches of a one-piece mesh and bare fronts solid, and what holds them hollow.
 
     Args:
         articulation: of which at least one moved part is to be built, see ``parts_to_build``.
