@@ -121,7 +121,7 @@ def make_body(work: Workpiece, part: int, most: int) -> None:
 
 
 def _standing_points(work: Workpiece, part: int) -> FloatArray:
-    """Return surface points of the body that holds panels and knobs, away from these [m], [n, 3]."""
+    """Return surface points of the body that holds panels and knobs, off these [m], [n, 3]."""
     points = surface_points(work, part)
     return points[~_in_free(work, points) & clear_of_bumps(work, part, points)]
 
