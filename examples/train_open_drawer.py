@@ -1,6 +1,7 @@
 """Teach a Panda to pull open one drawer, on a CPU in minutes.
 
-pip install 'asset-factory[learn]' factory build --input examples/meshes --sim sapien --output out/
+pip install '.[build,sapien,particulate,learn]'
+factory build --input examples/meshes --sim sapien --output out/
 python examples/train_open_drawer.py --registry out/ --output policy/
 
 PPO by ``stable_baselines3``, nothing tuned away. The success is the task's own: open by nine

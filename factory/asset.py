@@ -157,7 +157,7 @@ class PartBody:
 
 @dataclass(frozen=True)
 class InnerSurface:
-    """A surface that the input does not have, made so that a part of a skin is a body.
+    """A surface that the input does not have, made so that a part of a one-piece mesh is a body.
 
     Attributes:
         part: name of the part that it belongs to.

@@ -64,7 +64,7 @@ class ParticulateConfig:
             does.
         context_points: from which features of the whole shape are computed.
         max_faces: a mesh with more is shown to the network as a lighter one.
-        samples: independent samples to read; the reading that agrees most with the others is taken.
+        samples: answers of the network; the one that agrees most with the others is taken.
         seed: of the samples.
         least_confidence: parts whose points are less sure of them are dissolved; 0 keeps all.
         refinement: ``component``: one part per connected component; ``patch``: one connected patch
@@ -173,7 +173,7 @@ class HullsConfig:
 
 @dataclass(frozen=True)
 class SolidsConfig:
-    """Solid parts made of a one-piece skin.
+    """Solid parts made of a one-piece mesh.
 
     Attributes:
         construct: make bodies of parts that are patches of one surface; without it they are
@@ -265,7 +265,7 @@ class RepairConfig:
         least_range_share: a joint may be shortened to this share of its range, not further.
         small_share: parts up to this share of the object's diagonal are small: a button, a knob,
             not a door.
-        most_work: no further round is begun after so much work on one reading, counted as
+        most_work: no further round is begun after so much work on one hypothesis, counted as
             :func:`~.verify.drafts.work_of` does. Of 27 generated, one-piece and real objects most
             took under 4,000, and a counter of twelve joints 10,000.
     """
@@ -301,10 +301,10 @@ class VlmConfig:
 
 @dataclass(frozen=True)
 class ReadingsConfig:
-    """How an input that can be read in several ways becomes one asset.
+    """How several hypotheses of an input become one asset.
 
     Attributes:
-        most: readings that are made and judged; the likeliest first, until one passes whole.
+        most: hypotheses that are built and validated, until one passes; the likeliest first.
         most_work: no further one is begun after so much work on those before, counted as
             :func:`~.verify.drafts.work_of` does.
     """

@@ -1,6 +1,6 @@
 """Every code that the factory may say, and what it means; ``docs/reasons.md`` is made from this.
 
-What the judge may say is in :mod:`asset_factory.sim_checks.reasons`.
+What the validator may say is in :mod:`asset_factory.sim_checks.reasons`.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ WARNINGS: Mapping[str, str] = {
     "not_separated": "hulls were left overlapping, because no cut keeps both parts",
     "hulls_joined": "hulls of a part were joined, because the asset has many",
     "degraded_decomposition": "what was given up in the decomposition of a part",
-    "other_reading": "how else the input could be read, and what became of that",
+    "other_reading": "other hypotheses of the input, and what became of them",
     "articulation_note": "what was assumed or guessed of parts and joints",
 }
 

@@ -1,4 +1,4 @@
-"""Every code that the judge may say, and what it means; ``docs/reasons.md`` is made from this."""
+"""Every code of the validator, and its meaning; ``docs/reasons.md`` is made from this."""
 
 from __future__ import annotations
 

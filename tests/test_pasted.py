@@ -10,13 +10,11 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from test_docs import ROOT
+from test_docs import PASTED, ROOT
 
 from asset_factory.factory.cli.commands import run
 from asset_factory.factory.intake.stated import stated_from
 
-PAGES = ("README", *(f"docs/{name}" for name in ("index", "installing", "building")))
-PAGES += tuple(f"docs/{name}" for name in ("say-what-opens", "maniskill", "solving", "jobs"))
 #: Those meshes of ``make demo`` that the pages name; all twelve would take a minute.
 DEMO = ("examples/meshes/dishwasher.glb", "examples/stated/sideboard.glb")
 #: Blocks under such a comment are not run: test_docs.py parses their commands and flags.
@@ -48,9 +46,9 @@ def paste(text, folder, *program):
     assert done.returncode == 0, f"{text}\n{done.stdout}\n{done.stderr}"
 
 
-@pytest.mark.parametrize("page", PAGES)
+@pytest.mark.parametrize("page", PASTED)
 def test_every_block_runs_as_it_is_pasted(page, clone):
-    text = (ROOT / f"{page}.md").read_text(encoding="utf-8")
+    text = (ROOT / page).read_text(encoding="utf-8")
     python = ""
     for unrun, language, block in BLOCK.findall(text):
         match language:

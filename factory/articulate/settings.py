@@ -32,9 +32,9 @@ def decode_rules(config: ParticulateConfig) -> DecodeRules:
     for setting, least in LEAST.items():
         value = getattr(config, setting)
         if value < least:
-            raise ConfigError(f"{setting}: is {value}, want at least {least}")
+            raise ConfigError(f"{setting} must be at least {least}, not {value}")
     if config.samples > MOST_SAMPLES:
-        raise ConfigError(f"samples: is {config.samples}, want at most {MOST_SAMPLES}")
+        raise ConfigError(f"samples must be at most {MOST_SAMPLES}, not {config.samples}")
     for setting, known in (
         ("refinement", Refinement),
         ("tree", TreeOver),
@@ -42,11 +42,11 @@ def decode_rules(config: ParticulateConfig) -> DecodeRules:
     ):
         if getattr(config, setting) not in set(known):
             raise ConfigError(
-                f"{setting}: is {getattr(config, setting)!r}, want one of {', '.join(known)}"
+                f"{setting} must be one of {', '.join(known)}, not {getattr(config, setting)!r}"
             )
     for setting in ("least_confidence", "fused_share"):
         if not 0.0 <= getattr(config, setting) <= 1.0:
-            raise ConfigError(f"{setting}: is {getattr(config, setting):g}, want 0 to 1")
+            raise ConfigError(f"{setting} must be 0 to 1, not {getattr(config, setting):g}")
     return DecodeRules(
         least_confidence=config.least_confidence,
         refinement=Refinement(config.refinement),

@@ -47,7 +47,7 @@ def run(command: Edit) -> int:
     from ..jobs.pages import missing_library
 
     if not 0 <= command.port < 2**16:
-        raise ConfigError(f"--port: is {command.port}, want 0 to 65535")
+        raise ConfigError(f"--port must be 0 to 65535, not {command.port}")
     missing = missing_library()
     if missing is not None:
         raise ConfigError(missing)

@@ -162,7 +162,7 @@ def input_config(flags: InputFlags) -> BuildConfig:
             f"there are {', '.join(ARTICULATORS)}"
         )
     if flags.height is not None and not flags.height > 0.0:
-        raise ConfigError(f"--height: is {flags.height:g} m, want more than 0")
+        raise ConfigError(f"--height must be more than 0, not {flags.height:g} m")
     up = flags.up if flags.up == "auto" else parse_up(flags.up)
     intake = replace(
         config.intake,
@@ -237,7 +237,7 @@ def with_repairs(config: BuildConfig, kinds: str | None) -> BuildConfig:
     if kinds is None:
         return config
     if kinds not in REPAIR_KINDS:
-        raise ConfigError(f"--repairs: is {kinds!r}, want one of {', '.join(REPAIR_KINDS)}")
+        raise ConfigError(f"--repairs must be one of {', '.join(REPAIR_KINDS)}, not {kinds!r}")
     return replace(config, repair=replace(config.repair, kinds=kinds))
 
 
@@ -262,7 +262,7 @@ def workers_fitting(asked: int | None, each: int) -> int:
     from ..jobs.memory import workers_for
 
     if asked is not None and asked < 1:
-        raise ConfigError(f"--workers: is {asked}, want at least 1")
+        raise ConfigError(f"--workers must be at least 1, not {asked}")
     workers, sentence = workers_for(asked, each)
     if sentence is not None:
         complain(f"factory: {sentence}")
@@ -315,9 +315,9 @@ def check_effort(command: Effort, counts: Sequence[str]) -> None:
     for name in counts:
         if getattr(command, name) < 1:
             raise ConfigError(
-                f"--{name.replace('_', '-')}: is {getattr(command, name)}, want at least 1"
+                f"--{name.replace('_', '-')} must be at least 1, not {getattr(command, name)}"
             )
     if command.seed < 0:
-        raise ConfigError(f"--seed: is {command.seed}, want 0 or more")
+        raise ConfigError(f"--seed must be 0 or more, not {command.seed}")
     if not command.timeout > 0.0:
-        raise ConfigError(f"--timeout: is {command.timeout:g} s, want more than 0")
+        raise ConfigError(f"--timeout must be more than 0, not {command.timeout:g} s")

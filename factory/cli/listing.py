@@ -39,7 +39,7 @@ def run(command: List) -> int:
     registry = Registry(command.output)
     filters = wanted(registry, command.where)
     if command.limit is not None and command.limit < 0:
-        raise ConfigError(f"--limit: is {command.limit}, want at least 0")
+        raise ConfigError(f"--limit must be at least 0, not {command.limit}")
     limit = command.limit if command.limit is not None else 0 if command.json else TABLE_ROWS
     # One more than asked for says whether there are more.
     more = limit + 1 if limit else None

@@ -217,7 +217,7 @@ def _import(command: Import) -> int:
     from ..registry.imports import ImportLimits, import_export
 
     if not command.max_gb > 0.0:
-        raise ConfigError(f"--max-gb: is {command.max_gb:g}, want more than 0")
+        raise ConfigError(f"--max-gb must be more than 0, not {command.max_gb:g}")
     registry = Registry(command.output, create=True)
     limits = ImportLimits(total_bytes=int(command.max_gb * _GB))
     imported = import_export(

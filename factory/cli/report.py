@@ -29,7 +29,7 @@ def run(command: ReportPages) -> int:
     """Write the pages; returns the exit code."""
     registry = Registry(command.output)
     if command.workers is not None and command.workers < 1:
-        raise ConfigError(f"--workers: is {command.workers}, want at least 1")
+        raise ConfigError(f"--workers must be at least 1, not {command.workers}")
     say(write_report(registry, command.workers))
     return Exit.OK
 

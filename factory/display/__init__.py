@@ -1,1 +1,1 @@
-"""What is shown of an object: coloured surfaces, hulls and joints; as GLB, and as pictures."""
+"""Models of an object: coloured surfaces, hulls and joints; as GLB, and as pictures."""

@@ -77,7 +77,7 @@ class Viewpoint:
     """In front of what opens, to the side from which its inside is seen, and above.
 
     Args:
-        scene: what is seen.
+        scene: to look at.
 
     Attributes:
         axes: right, up and backward directions of every camera there, as rows, shape [3, 3].
@@ -126,8 +126,9 @@ class Viewpoint:
     def _front(self) -> tuple[FloatArray, float]:
         """Return the side that opens, a horizontal unit direction, shape [2], and where to stand.
 
-        What moves is at the front, and comes forward first; a door swings aside later. What rises
-        first is a lid, and goes back. 1: its inside is seen from the right, -1: from the left.
+        Moving parts are in front, and come forward first; a door swings aside later. A part that
+        rises first is a lid, and goes back. 1: its inside is seen from the right, -1: from the
+        left.
         """
         rest = self._scene.opened(0.0)
         opened = self._scene.opened(1.0)

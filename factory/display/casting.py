@@ -99,7 +99,7 @@ class LinkCaster:
     def meet(
         self, eye: FloatArray, directions: FloatArray, pose: FloatArray, rays: Any, into: Hits
     ) -> None:
-        """Cast some of the rays, and keep what is nearer than what they met before.
+        """Cast some of the rays, and keep hits that are nearer than earlier ones.
 
         Args:
             eye: where they start, root frame, shape [3].

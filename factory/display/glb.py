@@ -1,7 +1,7 @@
 """A scene as one GLB file: what everybody's viewer opens, and what ours reads back.
 
-The first glTF scene holds what is seen, the second one the hulls, a third one those that repairs
-replaced, if any; each on the same chain of links.
+The first glTF scene holds the visible surfaces, the second one the hulls, a third one those that
+repairs replaced, if any; each on the same chain of links.
 One animation opens and closes every joint. What glTF has no word for, such as limits, is in
 ``extras``.
 """

@@ -57,7 +57,7 @@ class Buffer:
         return self.array(faces.reshape(-1), _INDICES)
 
     def keys(self, rows: Attribute) -> int:
-        """Append times [s], shape [key_count], or what is then, shape [key_count, 3 or 4]."""
+        """Append times [s], shape [key_count], or values then, shape [key_count, 3 or 4]."""
         return self.array(rows, bounds=rows.ndim == 1)
 
     def array(

@@ -67,7 +67,7 @@ def pictures_of(scene: SceneGraph, fault: Fault | None = None) -> Pictures:
     """Return all pictures of a scene: the same scene gives the same bytes.
 
     Args:
-        scene: what is shown.
+        scene: to draw.
         fault: what the picture of a rejected asset points at.
     """
     look = Coloring(Caster(scene, scene.visuals or scene.hulls))

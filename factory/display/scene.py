@@ -116,7 +116,7 @@ class SceneGraph:
         name: of the object.
         links: names, root first, parents before children.
         joints: parents first; each link but the root is the child of one.
-        visuals: what is seen.
+        visuals: visible surfaces.
         hulls: convex pieces, what engines collide with.
         replaced: those that repairs took away or made otherwise.
     """

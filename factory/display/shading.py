@@ -1,4 +1,4 @@
-"""How what was met looks: plain daylight, darker in corners, with fine lines where shapes end."""
+"""Shading of ray hits: plain daylight, darker in corners, with fine lines where shapes end."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Coloring:
     """How faces are coloured.
 
     Attributes:
-        caster: what is seen.
+        caster: of the rays.
         tints: linear RGB by link and surface, in place of their own; ``None``: their own.
     """
 
@@ -77,7 +77,7 @@ def shaded(
     """Return the picture, sRGB with alpha, shape [height, width, 4].
 
     Args:
-        look: what was cast, and its colours.
+        look: the ray hits, and their colours.
         camera: which picture.
         values: the pose.
         hits: of the middles of all pixels.
@@ -257,7 +257,7 @@ def _smooth(
 
 
 def _corners(hits: Hits, shape: tuple[int, int]) -> FloatArray:
-    """Return factors that darken what is deeper than its surroundings, shape [height, width]."""
+    """Return factors that darken pixels deeper than their surroundings, shape [height, width]."""
     depth = hits.depth.reshape(shape)
     seen = np.isfinite(depth)
     if not seen.any():

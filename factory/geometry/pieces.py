@@ -1,4 +1,4 @@
-"""Pieces of a surface: what connected components are to modelled meshes, on skins too.
+"""Pieces of a surface: what connected components are to modelled meshes, on one-piece meshes too.
 
 A component that is most of the object says nothing of its parts: it is cut along creases, where
 the smoothed normals of two neighbours turn, and where the colour jumps. A piece too small to be a

@@ -40,9 +40,9 @@ class Budget:
 
     def __post_init__(self) -> None:
         if self.limit is not None and self.limit < 0:
-            raise ConfigError(f"limit: is {self.limit}, want 0 or more")
+            raise ConfigError(f"limit must be 0 or more, not {self.limit}")
         if self.max_s is not None and not self.max_s >= 0.0:
-            raise ConfigError(f"longest time: is {self.max_s:g} s, want 0 or more")
+            raise ConfigError(f"longest time must be 0 or more, not {self.max_s:g} s")
 
     def wants_again(self, entry: Entry) -> bool:
         """Tell whether a known input is built all the same, for its verdict."""

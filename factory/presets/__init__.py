@@ -81,12 +81,14 @@ def overlay(config: C, differences: dict[str, Any], where: str) -> C:
 def _converted(default: Any, value: Any, where: str) -> Any:
     if is_dataclass(default) and not isinstance(default, type):
         if not isinstance(value, dict):
-            raise ConfigError(f"{where}: is {value!r}, want a table of settings")
+            raise ConfigError(f"{where} must be a table of settings, not {value!r}")
         return overlay(default, value, where)
     if isinstance(default, tuple) and isinstance(value, list):
         return tuple(value)
     if isinstance(default, float) and isinstance(value, int) and not isinstance(value, bool):
         return float(value)
     if default is not None and type(value) is not type(default):
-        raise ConfigError(f"{where}: is {value!r}, want {type(default).__name__}, e.g. {default!r}")
+        raise ConfigError(
+            f"{where} must be {type(default).__name__}, e.g. {default!r}, not {value!r}"
+        )
     return value

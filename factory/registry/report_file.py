@@ -110,7 +110,7 @@ def read_report(folder: Path) -> StoredReport:
     except (OSError, ValueError, RecursionError) as error:
         raise RegistryError(f"{path}: cannot be read ({error})") from error
     if not isinstance(data, dict):
-        raise RegistryError(f"{path}: is {type(data).__name__}, want an object")
+        raise RegistryError(f"{path} must be an object, not {type(data).__name__}")
     return StoredReport(data, digest_bytes(content))
 
 

@@ -81,7 +81,7 @@ class Library:
 
     Attributes:
         name, serves: see :class:`Ability`.
-        module: what is imported.
+        module: to import.
         trial: runs in a child; says what it found, or raises.
         extra: of ours, that installs it.
         remedy: what helps where it is installed and fails; by default to install it again.

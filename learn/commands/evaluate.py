@@ -137,17 +137,16 @@ def _require_sound(command: Evaluate) -> None:
     )
     for flag, given, choices in known:
         if given not in choices:
-            raise ConfigError(f"{flag}: is {given!r}, want one of {', '.join(choices)}")
+            raise ConfigError(f"{flag} must be one of {', '.join(choices)}, not {given!r}")
     least = (("points", 1), ("seeds", 1), ("repeats", 1), ("workers", 1), ("first_seed", 0))
     for name, lowest in least:
-        if getattr(command, name) < lowest:
-            raise ConfigError(
-                f"--{name.replace('_', '-')}: is {getattr(command, name)}, want at least {lowest}"
-            )
+        if (number := getattr(command, name)) < lowest:
+            flag = name.replace("_", "-")
+            raise ConfigError(f"--{flag} must be at least {lowest}, not {number}")
     if command.limit is not None and command.limit < 1:
-        raise ConfigError(f"--limit: is {command.limit}, want at least 1")
+        raise ConfigError(f"--limit must be at least 1, not {command.limit}")
     if not command.timeout > 0.0:
-        raise ConfigError(f"--timeout: is {command.timeout:g} s, want more than 0")
+        raise ConfigError(f"--timeout must be more than 0, not {command.timeout:g} s")
     if command.kind != "procedural" and command.data is None:
         raise ConfigError(f"--data: not given; --set {command.kind} wants the folder of objects")
     for flag, names in (

@@ -76,7 +76,7 @@ def train(command: Train) -> bool:
     given = {name: getattr(command, name) for name in ("device", "threads", "workers")}
     for name in ("threads", "workers"):
         if given[name] is not None and given[name] < 0:
-            raise ConfigError(f"--{name}: is {given[name]}, want at least 0")
+            raise ConfigError(f"--{name} must be at least 0, not {given[name]}")
     if command.output is None:
         raise ConfigError("--output: missing; name a folder for the weights and checkpoints")
     if command.resume and command.start is not None:

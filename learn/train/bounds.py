@@ -69,7 +69,7 @@ def require_within(config: TrainConfig, where: str) -> None:
         pair = getattr(getattr(config, section), field)
         if len(pair) != 2 or (name == "draw.scale" and pair[0] > pair[1]):
             raise ConfigError(
-                f"{where}: {name}: is {list(pair)}, want two numbers, the lower one first"
+                f"{where}: {name} must be two numbers, the lower one first, not {list(pair)}"
             )
     for list_name in ("data", "held_out"):
         for number, source in enumerate(getattr(config, list_name), start=1):
@@ -82,4 +82,4 @@ def _require(value: Any, bounds: tuple[float, float], what: str) -> None:
     for number in value if isinstance(value, tuple) else (value,):
         if not isinstance(number, int | float) or not least <= number <= most or math.isinf(number):
             said = f"{least:g} or more" if math.isinf(most) else f"{least:g} to {most:g}"
-            raise ConfigError(f"{what}: is {number!r}, want {said}")
+            raise ConfigError(f"{what} must be {said}, not {number!r}")

@@ -84,7 +84,7 @@ def _sources(tables: Any, where: str) -> tuple[DataSource, ...]:
         at = f"{where} {number}"
         for name in free:
             if not isinstance(table.get(name, {}), dict):
-                raise ConfigError(f"{at}: {name}: is {table[name]!r}, want a table of settings")
+                raise ConfigError(f"{at}: {name} must be a table of settings, not {table[name]!r}")
         plain = {name: value for name, value in table.items() if name not in free}
         source = overlay(DataSource(), plain, at)
         if "kind" not in table or source.kind not in KINDS:
@@ -111,7 +111,7 @@ def _check(config: TrainConfig, where: str) -> None:
     for name, (value, values) in allowed.items():
         if value not in values:
             raise ConfigError(
-                f"{where}: {name}: is {value!r}, want {' or '.join(map(repr, values))}"
+                f"{where}: {name} must be {' or '.join(map(repr, values))}, not {value!r}"
             )
     require_within(config, where)
     if network.hidden % network.heads:

@@ -1,4 +1,4 @@
-"""Files in, :class:`Description` out: what is written, not what some simulator made of it."""
+"""Files in, :class:`Description` out: as written, not as some simulator took it."""
 
 from .read import read_description
 

@@ -71,7 +71,7 @@ def require_endpoint(config: VlmConfig, *, needed: bool) -> None:
         return
     parts = urlsplit(config.url)
     if parts.scheme not in ("http", "https") or not parts.hostname:
-        raise ConfigError(f"--vlm-url: is {config.url!r}, want http(s)://host/v1")
+        raise ConfigError(f"--vlm-url must be http(s)://host/v1, not {config.url!r}")
     if parts.username or parts.password:
         raise ConfigError(f"--vlm-url: holds a password; want it in {KEY}")
     if not config.model:

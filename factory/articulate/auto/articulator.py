@@ -202,7 +202,7 @@ def load_auto(
     from ..particulate import load_articulator
 
     if not 1 <= config.views <= MOST_VIEWS:
-        raise ConfigError(f"views: is {config.views}, want 1 to {MOST_VIEWS}")
+        raise ConfigError(f"views must be 1 to {MOST_VIEWS}, not {config.views}")
     settings = replace(particulate, points=config.points, context_points=config.context_points)
     learned = load_articulator(settings)
     return AutoArticulator(

@@ -33,7 +33,7 @@ def read_off(data: bytes, path: Path, files: InputFiles) -> Soup:
     if b"4" in rows[0][0] or b"BINARY" in rows[0]:
         raise InputRejected(
             "unsupported",
-            f"{name}: is {rows[0][0].decode('ascii', 'replace')}, want plain text OFF",
+            f"{name} must be plain text OFF, not {rows[0][0].decode('ascii', 'replace')}",
         )
     header = rows[0][1:] or (rows[1] if len(rows) > 1 else [])
     body = rows[1:] if rows[0][1:] else rows[2:]

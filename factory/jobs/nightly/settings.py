@@ -173,4 +173,4 @@ def require_possible(config: NightConfig) -> None:
 def _require(possible: bool, name: str, stated: object, want: str) -> None:
     if not possible:
         told = f"{stated:g}" if isinstance(stated, float) else repr(stated)
-        raise ConfigError(f"{name}: is {told}, want {want}")
+        raise ConfigError(f"{name} must be {want}, not {told}")

@@ -49,7 +49,7 @@ def _bounds(work: Workpiece, part: int) -> Box:
 
 
 def block_insides(work: Workpiece, part: int, points: FloatArray) -> None:
-    """Keep a part's pieces out of what its own skin shuts in on five sides."""
+    """Keep a part's pieces out of space that its own surface shuts in on five sides."""
     walls = marked(work.lattice, points)
     own = work.owner == part
     empty = closed_up(own | walls) & ~walls & ~work.whole
@@ -121,13 +121,13 @@ def make_body(work: Workpiece, part: int, most: int) -> None:
 
 
 def _standing_points(work: Workpiece, part: int) -> FloatArray:
-    """Return points of the skin of what holds panels and knobs, away from these [m], [n, 3]."""
+    """Return surface points of the body that holds panels and knobs, off these [m], [n, 3]."""
     points = surface_points(work, part)
     return points[~_in_free(work, points) & clear_of_bumps(work, part, points)]
 
 
 def _cells(work: Workpiece, part: int, points: FloatArray) -> BoolArray:
-    """Return a part's cells, and those that its skin passes where it is thinner than cells are."""
+    """Return a part's cells, and those that its surface passes where it is thinner than cells."""
     own: BoolArray = work.owner == part
     thin = marked(work.lattice, points) & ~ndimage.binary_dilation(
         own, np.ones((3, 3, 3), dtype=bool)

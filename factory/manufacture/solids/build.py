@@ -1,4 +1,4 @@
-"""The step: from parts that are patches of one skin to solid parts, convex by construction."""
+"""The step: from parts that are patches of one mesh to solid parts, convex by construction."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ SOLIDS = Stage(
 
 @dataclass(frozen=True)
 class SolidParts:
-    """A skin made solid.
+    """A one-piece mesh made solid.
 
     Attributes:
         articulation: over the mesh with inner faces; hinges may have been moved.
@@ -50,7 +50,7 @@ class SolidParts:
 
 
 def solids(articulation: Articulation, config: SolidsConfig, fronts: bool = False) -> SolidParts:
-    """Make patches of a skin and bare fronts solid, and what holds them hollow.
+    """Make patches of a one-piece mesh and bare fronts solid, and what holds them hollow.
 
     Args:
         articulation: of which at least one moved part is to be built, see ``parts_to_build``.
@@ -61,7 +61,7 @@ def solids(articulation: Articulation, config: SolidsConfig, fronts: bool = Fals
     turn = working_frame(articulation, parts)
     work = _prepared(_rotated(articulation, turn), parts, config)
     if not work.whole.any():
-        note = "the skin encloses nothing that could be made solid: its parts are decomposed as is"
+        note = "the one-piece mesh encloses no volume: its parts are decomposed as they are"
         plain = replace(articulation, notes=(*articulation.notes, note))
         return SolidParts(plain, (None,) * len(articulation.parts), ())
     _made(work)
@@ -82,17 +82,17 @@ def solids(articulation: Articulation, config: SolidsConfig, fronts: bool = Fals
 def _notes(work: Workpiece, pieces: tuple[PartHulls | None, ...]) -> Iterator[str]:
     """Yield a sentence for each invention, and for each part not made as panels are."""
     kinds = Counter(record.kind for record in work.records)
-    said = ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
+    said = ", ".join(f"{count} x {kind}" for kind, count in sorted(kinds.items()))
     if said:
-        yield f"made solid; invented: {said} (asset.json: invented)"
+        yield f"one-piece mesh rebuilt as solids; geometry that the input lacks: {said}"
     rest = [work.name(part) for part in work.rest if pieces[part] is not None]
     if rest:
         names = ", ".join(repr(name) for name in rest)
-        yield f"no panel, lid or knob: {names}; pieces were cut from what lies behind the skin"
+        yield f"no panel, lid or knob: {names}; hulls were cut from the solid behind the surface"
     left = [work.name(part) for part, piece in enumerate(pieces) if piece is None]
     if left:
         names = ", ".join(repr(name) for name in left)
-        yield f"not made by construction, decomposed as is: {names}"
+        yield f"decomposed as they are: {names}"
 
 
 def _prepared(

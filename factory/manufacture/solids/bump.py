@@ -1,4 +1,4 @@
-"""Parts that are no panels: knobs, buttons and wheels, each closed by what its own skin says."""
+"""Parts that are no panels: knobs, buttons and wheels, each closed by what its own surface says."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Bump:
 
     Attributes:
         hull: of it.
-        rule: ``cut_base``: cut flat before what it stands on; ``lathe``: what its skin sweeps about
+        rule: ``cut_base``: cut flat before what it stands on; ``lathe``: its surface swept about
             its axis.
         normal: outward direction of the base, shape [3]; ``None`` if it has none.
         base: of the base along ``normal`` [m].
@@ -48,7 +48,7 @@ def find_bump(points: FloatArray, rim: FloatArray, joint: Joint) -> Bump | None:
     """Return a knob, a button or a wheel.
 
     Args:
-        points: of the part's skin [m], shape [n, 3].
+        points: of the part's surface [m], shape [n, 3].
         rim: those on its border with other parts [m], shape [m, 3].
         joint: that holds it.
 

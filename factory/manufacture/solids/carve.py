@@ -75,7 +75,7 @@ def planes_of_panels(
 
 
 def surface_points(work: Workpiece, part: int) -> FloatArray:
-    """Return the points of a part's skin, close enough for its pieces [m], shape [n, 3]."""
+    """Return the points of a part's surface, close enough for its pieces [m], shape [n, 3]."""
     if part not in work.points:
         work.points[part] = _surface_points(work, part)
     return work.points[part]
@@ -154,8 +154,8 @@ def _behind_slab(
         work: all parts.
         part: the panel.
         hulls: its pieces so far.
-        points: of its skin behind its slab [m], shape [n, 3].
-        whole: points of all its skin.
+        points: of its surface behind its slab [m], shape [n, 3].
+        whole: points of all its surface.
     """
     if not len(points):
         return ()
@@ -266,7 +266,7 @@ def _filled_behind(work: Workpiece, column: Box, frame: FloatArray) -> bool:
 
 
 def _own_inside(work: Workpiece) -> BoolArray:
-    """Return the empty cells that the skin shuts in on five sides."""
+    """Return the empty cells that the mesh shuts in on five sides."""
     walls = marked(work.lattice, surface_points(work, 0))
     return np.asarray(closed_up(work.whole | walls) & ~walls & ~work.whole)
 

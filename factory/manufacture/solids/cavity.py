@@ -27,7 +27,7 @@ def hollow(lattice: Lattice, room: BoolArray, column: Box, frame: FloatArray) ->
 
     Args:
         lattice: of the object.
-        room: cells that may be hollowed, at least a wall's thickness below the skin.
+        room: cells that may be hollowed, at least a wall's thickness below the mesh.
         column: where to look, in a panel's frame.
         frame: rows of the panel's frame.
 

@@ -92,7 +92,7 @@ def _free_above(work: Workpiece, host: int, bump: Bump) -> None:
 
 
 def clear_of_bumps(work: Workpiece, host: int, points: FloatArray) -> BoolArray:
-    """Return which points of a host's skin [m] lie clear of the ways of its knobs, shape [n]."""
+    """Return which points of a host's surface [m] lie clear of the ways of its knobs, shape [n]."""
     clear = np.ones(len(points), dtype=bool)
     for part, bump in work.bumps.items():
         if work.host(part) != host:

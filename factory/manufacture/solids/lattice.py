@@ -1,4 +1,4 @@
-"""Space in cells between planes along the axes, and which of them a skin encloses."""
+"""Space in cells between planes along the axes, and which of them a one-piece mesh encloses."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ class Lattice:
 
 
 def enclosed(mesh: Mesh, lattice: Lattice) -> BoolArray:
-    """Return the cells whose centres a skin encloses, shape [nx, ny, nz].
+    """Return the cells whose centres a one-piece mesh encloses, shape [nx, ny, nz].
 
     Along each axis a ray counts how often it entered less how often it left; two of three axes
     decide, so that a hole of the surface fills or empties only the cells behind it.
@@ -152,7 +152,7 @@ def marked(lattice: Lattice, points: FloatArray) -> BoolArray:
 
 
 def closed_up(whole: BoolArray) -> BoolArray:
-    """Return the cells of a skin or shut in by it: met in at least five of six directions."""
+    """Return the cells of a mesh or shut in by it: met in at least five of six directions."""
     met = np.zeros(whole.shape, dtype=np.int8)
     for axis in range(3):
         met += np.logical_or.accumulate(whole, axis=axis)

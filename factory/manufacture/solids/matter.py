@@ -32,7 +32,7 @@ class Matter:
     Attributes:
         lattice: of cells.
         solid: cells that belong to it.
-        whole: cells that are within the skin, its own and others.
+        whole: cells that are within the mesh, its own and others.
         free: how much worse it is to fill a cell than one that is merely empty; 0: no worse.
         points: of its surface [m], shape [n, 3].
     """
@@ -66,7 +66,7 @@ class Matter:
 
     @cached_property
     def corners(self) -> BoolArray:
-        """Return cells' corners that touch the matter within the skin; one more each way."""
+        """Return cells' corners that touch the matter within the mesh; one more each way."""
         outside = any_around(np.pad(~self.whole, 1, constant_values=True))[1:-1, 1:-1, 1:-1]
         return np.asarray(any_around(self.solid) & ~outside)
 

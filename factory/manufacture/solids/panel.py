@@ -106,7 +106,7 @@ def find_panel(
     """Measure a part that is a panel, on the view that it faces.
 
     Args:
-        mesh: the whole skin.
+        mesh: the whole mesh.
         faces: the part's.
         part: its index in the view.
         joint: that holds it.

@@ -180,7 +180,7 @@ def _box(lattice: Lattice, span: Span) -> Box:
 
 
 def _corners(matter: Matter, span: Span) -> FloatArray:
-    """Return corners of cells that touch the matter and lie within the skin [m]."""
+    """Return corners of cells that touch the matter and lie within the mesh [m]."""
     touching = any_around(matter.solid[span])
     wide = tuple(slice(max(part.start - 1, 0), part.stop + 1) for part in span)
     outside = any_around(np.pad(~matter.whole[wide], 1, constant_values=True))

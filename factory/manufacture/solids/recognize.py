@@ -1,4 +1,4 @@
-"""The panels among some parts, and the skin cut along their outlines."""
+"""The panels among some parts, and the mesh cut along their outlines."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Recognized:
 
 
 def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float) -> Recognized:
-    """Measure the panels among some parts and cut the skin along them.
+    """Measure the panels among some parts and cut the mesh along them.
 
     A part whose faces all lie within what another panel claims is no panel, and keeps them.
 

@@ -1,4 +1,4 @@
-"""A skin cut along planes, so that parts end in straight seams and not along triangles' edges."""
+"""A mesh cut along planes, so that parts end in straight seams, not along triangles' edges."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ class CutSkin:
 
 
 def cut(skin: CutSkin, normal: FloatArray, offset: float, which: BoolArray) -> CutSkin:
-    """Return the skin with some triangles cut where ``normal . x = offset`` [m].
+    """Return the mesh with some triangles cut where ``normal . x = offset`` [m].
 
     Args:
         skin: to be cut.

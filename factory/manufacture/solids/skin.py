@@ -46,7 +46,7 @@ def skin_parts(articulation: Articulation) -> tuple[int, ...]:
 
 
 def parts_to_build(articulation: Articulation, fronts: bool = False) -> tuple[int, ...]:
-    """Return the moved parts that get a body by construction: patches of a skin, and bare fronts.
+    """Return the moved parts to be rebuilt: patches of a one-piece mesh, and bare fronts.
 
     Args:
         articulation: parts and joints.

@@ -73,7 +73,7 @@ def handles(face: FrontRelief, local: FloatArray) -> tuple[Hull, ...]:
 
     Args:
         face: of the panel.
-        local: points of the panel's skin in its side's frame [m], shape [n, 3].
+        local: points of the panel's surface in its side's frame [m], shape [n, 3].
 
     Returns:
         Hulls in the side's frame.

@@ -39,8 +39,8 @@ def rim(edges: FloatArray, column: Box, back: float, sides: BoolArray) -> Triang
     """Return the strips from the edges of a cut to a plane, facing out of the column.
 
     Args:
-        edges: of the part's skin in its panel's frame [m], shape [n, 2, 3].
-        column: along whose sides the skin was cut.
+        edges: of the part's surface in its panel's frame [m], shape [n, 2, 3].
+        column: along whose sides the mesh was cut.
         back: depth of the plane [m].
         sides: left, right, lower and upper: which to take, shape [4].
 

@@ -114,7 +114,7 @@ def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def hull_surfaces(work: Workpiece, part: int, hulls: tuple[Hull, ...]) -> None:
-    """Add all of a part's pieces, where its own skin is only a shred."""
+    """Add all of a part's pieces, where its own surface is only a shred."""
     triangles = [hull.vertices[hull.faces] for hull in hulls]
     own = areas_of(work.skin.corners[work.skin.part == part]).sum()
     if triangles and own < SHRED * sum(areas_of(each).sum() for each in triangles):
@@ -122,7 +122,7 @@ def hull_surfaces(work: Workpiece, part: int, hulls: tuple[Hull, ...]) -> None:
 
 
 def kept_skin(work: Workpiece) -> CutSkin:
-    """Return the skin without what of the body lies in gaps and hollows."""
+    """Return the mesh without what of the body lies in gaps and hollows."""
     skin = work.skin
     gone = np.zeros(len(skin.face), dtype=bool)
     middles = skin.middles
@@ -142,7 +142,7 @@ def kept_skin(work: Workpiece) -> CutSkin:
 
 
 def meshed(work: Workpiece) -> Articulation:
-    """Return the articulation over the cut skin and all inner faces, in the working frame."""
+    """Return the articulation over the cut mesh and all inner faces, in the working frame."""
     skin = kept_skin(work)
     mesh = work.source.mesh
     materials = list(mesh.materials)

@@ -31,18 +31,18 @@ class Workpiece:
         views: of its sides.
         joints: as they are now; hinges may have been moved.
         panels, bumps: by part.
-        rest: skin parts that are neither.
+        rest: parts of the mesh that are neither.
         skin: cut along the panels' sides.
         lattice: whose planes lie where panels and their gaps end.
-        whole: cells within the skin.
-        owner: the part of every cell within the skin; -1 outside.
+        whole: cells within the mesh.
+        owner: the part of every cell within the mesh; -1 outside.
         free: per part, how badly cells must stay free of its pieces, see ``pieces.py``.
         hollows: per panel, boxes behind it in its side's frame.
         lids: per panel, boxes within it.
         boards: per panel, of a drawer's box.
         hulls: per part, made so far.
         added: per part, triangles [m], shape [n, 3, 3].
-        points: per part, of its skin [m], shape [n, 3]; see ``carve.surface_points``.
+        points: per part, of its surface [m], shape [n, 3]; see ``carve.surface_points``.
         filled: per panel, whether the space right behind it was filled.
         records: of every surface that was invented.
         notes: a sentence each.
@@ -83,7 +83,7 @@ class Workpiece:
         return self.filled.get(part, True)
 
     def block(self, part: int, cells: BoolArray, weight: int) -> None:
-        """Block cells for a part's pieces, each so badly; earlier blocks stay."""
+        """Mark how badly cells must stay free of a part's pieces; earlier marks stay."""
         known = self.blocked(part)
         self.free[part] = np.where(cells, np.maximum(known, weight), known).astype(np.uint8)
 

@@ -1,4 +1,4 @@
-"""How far readings of the same mesh from different samples agree, and which one stands for all."""
+"""How far answers for the same mesh from different samples agree, and which one stands for all."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from .motion import PredictedMotion
 
 @dataclass(frozen=True)
 class Consensus:
-    """The reading closest to all others.
+    """The answer closest to all others.
 
     Attributes:
-        chosen: that reading.
-        samples: how many readings there were.
-        part_agreement: for each of its parts, how well the other readings have it too, 0 to 1: area
+        chosen: that answer.
+        samples: how many answers there were.
+        part_agreement: for each of its parts, how well the other answers have it too, 0 to 1: area
             shared over area covered by the part and its match, 0 where the match moves in another
-            way; ``None`` with one reading.
+            way; ``None`` with one answer.
     """
 
     chosen: Decoded
@@ -30,7 +30,7 @@ class Consensus:
 
 
 def consensus(readings: tuple[Decoded, ...], areas: npt.ArrayLike) -> Consensus:
-    """Return the reading that agrees most with the others on average, the first of equals.
+    """Return the answer that agrees most with the others on average, the first of equals.
 
     Args:
         readings: of one mesh, at least one.

@@ -68,7 +68,7 @@ class DecodedPart:
 
 @dataclass(frozen=True)
 class Decoded:
-    """One reading of one mesh.
+    """One decoded answer for one mesh.
 
     Attributes:
         face_part: index into ``parts`` of every face, shape [face_count].

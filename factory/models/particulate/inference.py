@@ -1,4 +1,4 @@
-"""Mesh -> reading: sample, ask the network, decode; several times over, if wanted."""
+"""Mesh -> answer: sample, ask the network, decode; several times over, if wanted."""
 
 from __future__ import annotations
 

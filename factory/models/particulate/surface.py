@@ -142,7 +142,7 @@ class Surface:
 
     @cached_property
     def pieces(self) -> IntArray:
-        """Return the number of each face's piece, [face_count]: components; patches of a skin."""
+        """Return the number of each face's piece, [face_count]: components, or patches."""
         return pieces(Sheet(self.areas, self.normals, self.neighbours, self.borders))
 
     @cached_property

@@ -61,7 +61,7 @@ def source_yields(
         attempts: of this night, one per input.
         roots: files and folders that inputs are taken from.
         earlier: of each earlier night, in their order: source -> how many passed, of how many.
-        rules: over how many nights, and what is a fall.
+        rules: over how many nights, and how large a fall counts.
     """
     groups: dict[str, list[bool]] = defaultdict(list)
     for attempt in attempts:

@@ -126,7 +126,7 @@ def reasons(attempts: Sequence[NightResult]) -> tuple[Reason, ...]:
 
 
 def stage_times(attempts: Sequence[NightResult]) -> tuple[StageTime, ...]:
-    """Return where the time went, the longest stage first; what was known from before took none."""
+    """Return where the time went, the longest stage first; inputs known from before took none."""
     spent: dict[str, list[NightResult]] = defaultdict(list)
     for attempt in slowest(attempts, len(attempts)):
         for stage in attempt.stages:

@@ -1,4 +1,4 @@
-"""The folder of nights: what lies there, and how nights are named."""
+"""The folder of nights: its files, and how nights are named."""
 
 from __future__ import annotations
 

@@ -95,7 +95,7 @@ class Night:
         crashed: of those unjudged, known to crash and waiting for another version of something.
         waiting: not begun.
         left_out: not begun because of their license.
-        verified: entries compared with what was registered; ``None``: not done.
+        verified: entries compared with their files; ``None``: not done.
         damaged: of those, how many were not as registered.
         mended: of those damaged, how many are whole again.
         withdrawn: of those damaged, how many are registered no more.

@@ -38,7 +38,7 @@ class NightlyReport:
         attention: sentences to read first.
         damage: of registered assets, as it was found.
         left_out: inputs that were not built for their license.
-        not_allowed: what is registered under a license that is not allowed now.
+        not_allowed: assets registered under a license that is not allowed now.
         allowed: licenses that are; empty: all of them.
         registry: how many rows this night added, removed and so on.
         settings: how it was run, as told on the page.

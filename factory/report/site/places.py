@@ -76,7 +76,7 @@ class Places:
         return None
 
     def sweeps(self) -> dict[str, SweepTold]:
-        """Return what was measured along each joint."""
+        """Return the measurements along each joint."""
         found = {}
         for measured in self._measured[:1]:
             for joint in measured.joints:

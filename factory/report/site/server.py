@@ -88,7 +88,7 @@ def serve(answer: Answer, port: int = 0, most_bytes: int = 0) -> Iterator[PageSe
     """Yield a server; nothing of the file system is within its reach but by its answers.
 
     Args:
-        answer: knows what is at a path; called from several threads at once.
+        answer: returns the content of a path; called from several threads at once.
         port: 0: any that is free.
         most_bytes: what a request may bring.
 

@@ -1,4 +1,4 @@
-"""The folder of a site: which pages are as they should be, and what is left to write."""
+"""The folder of a site: which pages are as they should be, and which are left to write."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def index_of(root: Path) -> Path:
 
 
 def stale(registry: Registry) -> Iterator[Entry]:
-    """Yield the entries whose page is missing or old; pages of what is gone are removed first."""
+    """Yield entries whose page is missing or old; pages of missing entries are removed first."""
     folder = registry.root / PAGES / _ASSETS
     entries = tuple(registry.walk())
     known = {entry.id for entry in entries}

@@ -47,7 +47,7 @@ def read_triangles(prim: Any, place: FloatArray) -> tuple[FloatArray, IntArray] 
     """Return a mesh, box, ball, cylinder or capsule as triangles; ``None`` for any other thing.
 
     Args:
-        prim: a ``UsdGeom.Gprim``; of what moves by time samples, its first shape is taken.
+        prim: a ``UsdGeom.Gprim``; of a prim that moves by time samples, its first shape is taken.
         place: of it in its body's frame, metres and scale included, shape [4, 4].
 
     Raises:
@@ -65,7 +65,7 @@ def read_triangles(prim: Any, place: FloatArray) -> tuple[FloatArray, IntArray] 
 
 
 def _value(attribute: Any) -> Any:
-    """Return a value as authored; of what moves by time samples, the first."""
+    """Return a value as authored; of time samples, the first."""
     from pxr import Usd
 
     value = attribute.Get()

@@ -1,4 +1,4 @@
-"""A composed stage: rigid bodies with what is seen and touched of them, and joints between them."""
+"""A composed stage: rigid bodies with visible and collision geometry, and joints."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ class _Reader:
         return [prim for prim in self._prims if str(prim.GetPath()) in held - {WORLD}]
 
     def _surfaces(self, bodies: dict[str, PhysicsBody]) -> Iterator[PhysicsSurface]:
-        """Yield what is seen or touched."""
+        """Yield visible or collision geometry."""
         from pxr import UsdGeom, UsdPhysics
 
         triangles = 0

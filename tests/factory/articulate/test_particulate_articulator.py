@@ -247,12 +247,12 @@ def test_the_shipped_network_answers_unless_another_is_named():
 @pytest.mark.parametrize(
     ("setting", "value", "sentence"),
     [
-        ("points", 0, "points: is 0, want at least 1"),
-        ("samples", 65, "want at most 64"),
-        ("max_faces", 3, "want at least 4"),
-        ("refinement", "strict", "want one of auto, component, patch, none"),
-        ("tree", "full", "want one of present, all"),
-        ("least_confidence", 2.0, "want 0 to 1"),
+        ("points", 0, "points must be at least 1, not 0"),
+        ("samples", 65, "must be at most 64"),
+        ("max_faces", 3, "must be at least 4"),
+        ("refinement", "strict", "must be one of auto, component, patch, none"),
+        ("tree", "full", "must be one of present, all"),
+        ("least_confidence", 2.0, "must be 0 to 1"),
         ("checkpoint", "nowhere.pt", "no such file"),
     ],
 )

@@ -132,7 +132,7 @@ def test_many_files_are_judged_at_once_and_told_in_the_order_given(tmp_path, mon
 def test_workers_have_to_be_some(tmp_path, capsys):
     path = write(tmp_path / "asset.urdf", 0.004)
     assert run(["check", str(path), "--sim", "", "--workers", "0"]) == 2
-    assert "--workers: is 0, want at least 1" in capsys.readouterr().err
+    assert "--workers must be at least 1, not 0" in capsys.readouterr().err
 
 
 MJCF = """<mujoco><worldbody><body name="shell">{0}<body name="drawer"><joint name="slide"

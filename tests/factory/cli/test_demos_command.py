@@ -192,8 +192,8 @@ def test_a_task_is_demonstrated_on_its_joints(make, robot, flags, joints):
 @pytest.mark.parametrize(
     ("flags", "words"),
     [
-        ({"per_joint": 0}, "--per-joint: is 0, want at least 1"),
-        ({"timeout": 0.0}, "--timeout: is 0 s, want more than 0"),
+        ({"per_joint": 0}, "--per-joint must be at least 1, not 0"),
+        ({"timeout": 0.0}, "--timeout must be more than 0, not 0 s"),
         ({"control_mode": "pd_wish"}, "--control-mode: no 'pd_wish'; want one of pd_joint_pos"),
         ({"robot": "fetch", "control_mode": "pd_ee_pose"}, "Fetch has no 'pd_ee_pose'"),
     ],

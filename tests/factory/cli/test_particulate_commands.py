@@ -144,7 +144,7 @@ def test_predict_refuses_more_faces_than_the_limit_with_both_numbers(capsys, tmp
             ["--articulator", "guess"],
             "there are auto, stated, annotated, geometric, seams, particulate, vlm, rigid",
         ),
-        (["--samples", "0"], "samples: is 0, want at least 1"),
+        (["--samples", "0"], "samples must be at least 1, not 0"),
     ],
 )
 def test_wrong_usage_is_told_in_one_sentence(capsys, arguments, sentence):

@@ -140,8 +140,8 @@ def test_one_joint_is_no_verdict_on_the_others(output, notes, robots):
     ("flags", "words"),
     [
         ({"robot": "arm"}, "no robot 'arm'; want one of panda, fetch, any"),
-        ({"workers": 0}, "--workers: is 0, want at least 1"),
-        ({"timeout": 0.0}, "--timeout: is 0 s, want more than 0"),
+        ({"workers": 0}, "--workers must be at least 1, not 0"),
+        ({"timeout": 0.0}, "--timeout must be more than 0, not 0 s"),
     ],
 )
 def test_wrong_usage_is_named(output, notes, flags, words):

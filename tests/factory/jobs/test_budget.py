@@ -32,5 +32,5 @@ def test_only_what_was_modified_since_is_wanted(tmp_path):
 
 @pytest.mark.parametrize("wrong", [{"limit": -1}, {"max_s": -1.0}, {"max_s": float("nan")}])
 def test_a_budget_that_cannot_be_is_refused(wrong):
-    with pytest.raises(ConfigError, match="want 0 or more"):
+    with pytest.raises(ConfigError, match="must be 0 or more"):
         Budget(**wrong)

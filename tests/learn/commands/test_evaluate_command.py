@@ -162,7 +162,7 @@ def test_the_published_conventions_and_procedural_objects(tmp_path):
 @pytest.mark.parametrize(
     ("flags", "message"),
     [
-        (("--set", "imagined"), "--set: is 'imagined', want one of real, procedural, folder"),
+        (("--set", "imagined"), "--set must be one of real, procedural, folder"),
         (("--method", "oracle"), "no method 'oracle'"),
         (("--method", "predictions"), "want the folder of <case>.npz files"),
         (
@@ -171,8 +171,8 @@ def test_the_published_conventions_and_procedural_objects(tmp_path):
         ),
         (("--pose", "ajar"), "no pose 'ajar'"),
         (("--category", "spaceship"), "none of these objects is a 'spaceship'"),
-        (("--timeout", "0"), "--timeout: is 0 s"),
-        (("--repeats", "0"), "--repeats: is 0, want at least 1"),
+        (("--timeout", "0"), "--timeout must be"),
+        (("--repeats", "0"), "--repeats must be at least 1, not 0"),
     ],
 )
 def test_wrong_usage_says_what_would_be_right(cabinets, tmp_path, capsys, flags, message):

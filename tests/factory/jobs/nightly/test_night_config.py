@@ -73,19 +73,19 @@ def test_the_build_table_changes_what_it_names(tmp_path):
             "budget: no setting 'max_hour'; there are .*; did you mean 'max_hours'",
         ),
         ("[build.decompose]\nerror = 1\n", "build: decompose: no setting 'error'"),
-        ("[failure]\nyield_drop = 5\n", "failure.yield_drop: is 5, want a share from 0 to 1"),
+        ("[failure]\nyield_drop = 5\n", "failure.yield_drop must be a share from 0 to 1, not 5"),
         ("[failure]\nyield_drop = nan\n", "failure.yield_drop"),
-        ("[failure]\nover = 'some'\n", "failure.over: is 'some', want all or shared"),
-        ("[budget]\nmax_hours = -1.0\n", "budget.max_hours: is -1, want at least 0"),
-        ("workers = -2\n", "workers: is -2"),
+        ("[failure]\nover = 'some'\n", "failure.over must be all or shared, not 'some'"),
+        ("[budget]\nmax_hours = -1.0\n", "budget.max_hours must be at least 0, not -1"),
+        ("workers = -2\n", "workers must be"),
         ("sim = 'sapien,unity'\n", "no simulator 'unity'"),
-        ("inputs = 'meshes'\n", "inputs: is 'meshes', want paths"),
+        ("inputs = 'meshes'\n", "inputs must be"),
         ("inputs = []\n", "inputs: none"),
-        ("budget = 3\n", "want a table"),
-        ("build = 3\n", "want a table"),
+        ("budget = 3\n", "must be a table"),
+        ("build = 3\n", "must be a table"),
         ("preset = 'slow'\n", "no preset 'slow'"),
-        ("executor = 'slurm'\n", "executor: is 'slurm', want local or ray"),
-        ("[build]\narticulator = 'magic'\n", "build.articulator: is 'magic', want"),
+        ("executor = 'slurm'\n", "executor must be local or ray, not 'slurm'"),
+        ("[build]\narticulator = 'magic'\n", "build.articulator must be"),
         ("[licenses]\nallowed = [3]\n", "licenses.allowed"),
         ("a = = 3\n", "night.toml"),
     ],
@@ -167,5 +167,5 @@ def test_inputs_may_lie_behind_urls(tmp_path):
     assert found.is_relative_to(tmp_path / "out" / ".inputs")
     flagged = night_config(Nightly(written(tmp_path, text), input=("memory://x", "here")))
     assert flagged.inputs == ("memory://x", Path.cwd() / "here")
-    with pytest.raises(ConfigError, match="output: is 's3://b/out'"):
+    with pytest.raises(ConfigError, match="output must be"):
         load_night(written(tmp_path, "output = 's3://b/out'\n"))
