@@ -74,17 +74,16 @@ def hypotheses_of(intake: Intake, config: BuildConfig) -> tuple[Hypothesis, ...]
             open, so nothing to decompose, simulate or register.
     """
     name = intake.provenance.input
-    rigid = config.articulator == "rigid"
-    if not rigid and intake.stated is None and annotation_of(intake) is None:
+    guessed = intake.stated is None and annotation_of(intake) is None
+    if guessed and config.articulator != "rigid":
         _refuse_flat(name, intake.mesh)
     found = make_hypotheses(choose(intake, config), intake.mesh)
     likeliest = found[0].articulation
-    if not likeliest.movable_joints and not rigid:
+    if not likeliest.movable_joints and likeliest.articulator != "rigid":
         size = " x ".join(f"{side:.3g}" for side in intake.mesh.extents)
         seen = "; ".join(likeliest.notes) or "nothing in this mesh looks as if it moved"
-        raise _nothing_moves(
-            name, f"in {size} m {likeliest.articulator} saw this: {seen}; {WAY_FORWARD}"
-        )
+        says = f", says {likeliest.articulator} (it is {size} m): {seen}"
+        raise _nothing_moves(name, f"{says}; {WAY_FORWARD}")
     return tuple(replace(each, articulation=located(each.articulation)) for each in found)
 
 
@@ -96,11 +95,11 @@ def _refuse_flat(name: str, mesh: Mesh) -> None:
         count = len(mesh.faces)
         faces = "its one triangle is" if count == 1 else f"all its {count} triangles are"
         wanted = "want a solid object, with parts that open"
-        raise _nothing_moves(name, f"{faces} in one plane; {wanted}")
+        raise _nothing_moves(name, f": {faces} in one plane; {wanted}")
 
 
 def _nothing_moves(name: str, why: str) -> InputRejected:
-    message = f"{name}: nothing moves: {why}"
+    message = f"{name}: nothing moves{why}"
     return InputRejected("no_movable_joint", message, value=0.0, unit="joints", limit=1.0)
 
 

@@ -12,6 +12,7 @@ from rich.table import Table
 
 from asset_factory.sim_checks import Status
 
+from ..jobs.log import logged_build
 from ..registry import Entry
 from ..registry.report_file import BuildReport
 from ..runtime.layout import ASSETS, REJECTED
@@ -37,6 +38,10 @@ def print_entry(entry: Entry, root: Path, told: BuildReport, manifest: Manifest 
     counts = f"{entry.parts} parts, {entry.joints} movable joints, {entry.hulls} hulls"
     terminal.print(f"{entry.id}: {counts}{size}", markup=False, soft_wrap=True)
     terminal.print(f"{folder}: {', '.join(_files(folder))}", markup=False, soft_wrap=True)
+    logged = logged_build(root, entry.id)
+    if logged is not None and logged.stages:
+        stages = ", ".join(f"{name} {seconds:.2g}" for name, seconds in logged.stages.items())
+        terminal.print(f"seconds of its last build: {stages}", markup=False, soft_wrap=True)
     if manifest is not None and manifest.movable:
         terminal.print(_joints(manifest))
     console.print_report(told.report)

@@ -8,7 +8,7 @@ from pathlib import Path
 from ..errors import ConfigError, RegistryError
 from ..intake.formats.catalog import FORMATS, is_mesh
 from ..intake.stated import stated_paths
-from ..jobs.log import input_of
+from ..jobs.log import logged_build
 from ..registry import Registry
 from ..runtime.layout import ASSETS, REJECTED, REPORT
 
@@ -69,11 +69,12 @@ def subject_of(given: Path, output: Path | None, usual: Path) -> Subject:
 
 def _input(root: Path, asset_id: str) -> Path:
     """Return the file that an asset was made of."""
-    said = input_of(root, asset_id)
-    if said is None:
+    logged = logged_build(root, asset_id)
+    if logged is None:
         raise RegistryError(
             f"{root}: its log does not say what {asset_id} was made of; want its mesh instead"
         )
+    said = logged.input
     # Of a job that was given a relative path, from wherever it was run.
     for folder in (Path(), root.parent, root):
         if (folder / said).is_file():

@@ -39,7 +39,7 @@ class SeamsArticulator:
         """
         found = hypotheses_of_views(Views(mesh))
         if not found:
-            note = "nothing on its sides looks like a door, drawer or lid"
+            note = "no seam or handle on its sides speaks for a door, drawer or lid"
             return (Hypothesis.of(rigid_articulation(mesh, self.name, (note,))),)
         cut = cut_along(mesh, found)
         return tuple(Hypothesis.of(_articulation(cut.mesh, movers)) for movers in found)

@@ -31,7 +31,7 @@ def test_something_flat_is_told_that_it_has_no_inside(tmp_path):
 
 def test_a_solid_is_told_its_size_and_every_way_to_say_more(tmp_path):
     message = rejected(tmp_path, TETRAHEDRON)
-    seen = "nothing on its sides looks like a door, drawer or lid"
-    assert f"nothing moves: in 1 x 1 x 1 m seams saw this: {seen}; " in message
+    seen = "no seam or handle on its sides speaks for a door, drawer or lid"
+    assert f"nothing moves, says seams (it is 1 x 1 x 1 m): {seen}; " in message
     for way in ("sidecar", "factory edit", "--config lenient", "--checkpoint paper"):
         assert way in message

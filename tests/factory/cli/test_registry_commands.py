@@ -150,7 +150,12 @@ def test_showing(root, run):
 
 def test_show_tells_size_joints_files_and_how_to_load_it(tmp_path, run):
     root = make_registry(tmp_path / "out").root
+    log = root / "logs" / "builds.jsonl"
+    log.parent.mkdir(exist_ok=True)
+    stages = [{"stage": "load", "seconds": 0.25}, {"stage": "judge", "seconds": 4.0}]
+    log.write_text(json.dumps({"id": "cabinet-1", "input": "x.glb", "stages": stages}))
     _, out = run(Show, "cab", "--output", root)
+    assert "seconds of its last build: load 0.25, judge 4\n" in out
     assert "0.6 x 0.45 x 0.8 m" in out
     assert re.search(r"^ *hinge +revolute +part_1 +0 deg +92 deg ", out, re.MULTILINE)
     assert re.search(r"^ *slide +prismatic +part_2 +0 mm +300 mm ", out, re.MULTILINE)

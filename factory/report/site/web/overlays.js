@@ -51,8 +51,9 @@ export function jointOverlay(joint, { center: childCenter, half }, size, colors)
   } else {
     const spoke = center.clone().sub(middle);
     spoke.addScaledVector(along, -spoke.dot(along));
-    if (spoke.length() < size * 0.02) spoke.set(along.y, along.z, along.x).cross(along);
-    spoke.setLength(Math.min(Math.max(spoke.length(), half, size * 0.03), size * 0.3));
+    const arm = spoke.length();
+    if (arm < size * 0.02) spoke.set(along.y, along.z, along.x).cross(along);
+    spoke.setLength(Math.min(Math.max(arm, half, size * 0.03), size * 0.3));
     const at = (value) => middle.clone().add(spoke.clone().applyAxisAngle(along, value));
     const points = Array.from({ length: 33 }, (_, step) => at(joint.at(step / 32)));
     range.add(new Mesh(new TubeGeometry(new CatmullRomCurve3(points), 48, thin * 1.4, 8), limits));

@@ -167,8 +167,8 @@ export class Viewer {
     for (const mesh of model.visuals) {
       mesh.castShadow = true;
       mesh.receiveShadow = true;
-      // Hulls have faces in the same planes, and are drawn before them.
-      Object.assign(mesh.material, { polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 8 });
+      // Hulls have faces in nearly the same planes: they win by some millimetres, everywhere alike.
+      Object.assign(mesh.material, { polygonOffset: true, polygonOffsetFactor: 4, polygonOffsetUnits: 96 });
     }
     model.hulls.forEach((mesh, number) => {
       const color = new Color().setHSL((number * 0.618034) % 1, 0.42, 0.66);
