@@ -16,7 +16,11 @@ from asset_factory.factory.cli.show import run as run_show
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.registry import Registry
 
-ROOMS = {List: run_list, Show: run_show, commands.RegistryCommand: commands.run}
+ROOMS = {
+    List: run_list,
+    Show: run_show,
+    commands.RegistryCommand: commands.run,
+}
 
 
 @pytest.fixture

@@ -1,5 +1,7 @@
 """An interrupted or killed job leaves no process, loses nothing, and the next does the rest."""
 
+from __future__ import annotations
+
 import os
 import signal
 import subprocess
@@ -18,26 +20,27 @@ SCRIPT = Path(__file__).parents[2] / "samples" / "slow_job.py"
 PATIENCE_S = 60.0
 
 
-def begun(folder, output, *flags):
+def begun(folder: Path, output: Path, *flags: str) -> subprocess.Popen[str]:
     """A job that has finished three inputs and hangs in the fourth."""
     write_inputs(folder, 3)
     (folder / "zz_slow.stl").write_text("solid slow")
     command = [sys.executable, str(SCRIPT), str(folder), str(output), *flags]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
     for _ in range(3):
         assert process.stdout.readline() == "passed\n"
     wait_for(lambda: "zz_slow.stl" in made(folder))
     return process
 
 
-def wait_for(condition):
+def wait_for(condition) -> None:
     end = time.monotonic() + PATIENCE_S
     while not condition():
         assert time.monotonic() < end
         time.sleep(0.02)
 
 
-def is_alive(process):
+def is_alive(process: int) -> bool:
     try:
         status = Path(f"/proc/{process}/stat").read_text()
     except OSError:
@@ -45,7 +48,7 @@ def is_alive(process):
     return status.rsplit(")", 1)[1].split()[0] != "Z"
 
 
-def workers(folder):
+def workers(folder: Path) -> set[int]:
     return {int(line.split()[1]) for line in (folder / MADE).read_text().splitlines()}
 
 
@@ -53,10 +56,11 @@ def workers(folder):
     ("number", "code"),
     [(signal.SIGTERM, 143), pytest.param(signal.SIGINT, 130, marks=pytest.mark.full)],
 )
-def test_an_interrupted_job_has_registered_what_was_finished(number, code, tmp_path):
+def test_an_interrupted_job_has_registered_what_was_finished(number, code, tmp_path) -> None:
     with begun(tmp_path / "in", tmp_path / "out") as process:
         process.send_signal(number)
         assert process.wait(PATIENCE_S) == code
+        assert process.stdout is not None
         assert process.stdout.read() == "interrupted\n"
     assert not any(is_alive(worker) for worker in workers(tmp_path / "in"))
     assert {entry.status for entry in Registry(tmp_path / "out").entries()} == {"passed"}
@@ -65,7 +69,7 @@ def test_an_interrupted_job_has_registered_what_was_finished(number, code, tmp_p
         assert list((tmp_path / "out" / name).iterdir()) == []
 
 
-def test_the_first_ctrl_c_finishes_what_is_begun_and_the_second_stops(tmp_path):
+def test_the_first_ctrl_c_finishes_what_is_begun_and_the_second_stops(tmp_path) -> None:
     with begun(tmp_path / "in", tmp_path / "out", "--wind-up") as process:
         process.send_signal(signal.SIGINT)
         time.sleep(0.5)
@@ -76,7 +80,7 @@ def test_the_first_ctrl_c_finishes_what_is_begun_and_the_second_stops(tmp_path):
     assert len(Registry(tmp_path / "out").entries()) == 3
 
 
-def test_a_job_that_winds_up_begins_nothing_more(tmp_path, monkeypatch):
+def test_a_job_that_winds_up_begins_nothing_more(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr(job_module, "build_here", pretend)
     monkeypatch.setattr(job_module, "modules_for", lambda config: ())
     inputs = write_inputs(tmp_path / "in", 8)
@@ -91,7 +95,9 @@ def test_a_job_that_winds_up_begins_nothing_more(tmp_path, monkeypatch):
     assert len(list(rest.run())) == 8
 
 
-def test_a_killed_job_leaves_no_orphans_and_the_next_one_does_the_rest(tmp_path, monkeypatch):
+def test_a_killed_job_leaves_no_orphans_and_the_next_one_does_the_rest(
+    tmp_path, monkeypatch
+) -> None:
     with begun(tmp_path / "in", tmp_path / "out") as process:
         process.kill()
         assert process.wait(PATIENCE_S) == -signal.SIGKILL
@@ -103,10 +109,10 @@ def test_a_killed_job_leaves_no_orphans_and_the_next_one_does_the_rest(tmp_path,
     assert [result.attempts for result in job(inputs, tmp_path / "out").run()] == [0, 0, 0, 1]
 
 
-def test_a_signal_waits_until_it_does_no_harm():
+def test_a_signal_waits_until_it_does_no_harm() -> None:
     steps = []
 
-    def register():
+    def register() -> None:
         with undisturbed():
             os.kill(os.getpid(), signal.SIGTERM)
             time.sleep(0.01)
