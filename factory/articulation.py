@@ -1,5 +1,7 @@
 """Parts and joints as one kinematic tree, and where its links are for given joint values."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field
 from enum import StrEnum
 

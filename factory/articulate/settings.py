@@ -1,5 +1,7 @@
 """Settings of the network's articulator, checked before any input is touched."""
 
+from __future__ import annotations
+
 from ..config import ParticulateConfig
 from ..errors import ConfigError
 from ..models.network.precision import Precision

@@ -1,5 +1,7 @@
 """Flags that several commands share: how inputs are loaded, and what validates them."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from importlib import import_module

@@ -1,5 +1,7 @@
 """Calls on this machine: a few warm processes that may die."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from queue import SimpleQueue

@@ -1,5 +1,7 @@
 """A URDF or MJCF file as an intake: one mesh in the root frame, and the joints it came with."""
 
+from __future__ import annotations
+
 from pathlib import Path
 
 import numpy as np

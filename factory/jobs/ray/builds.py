@@ -1,5 +1,7 @@
 """Builds on a Ray cluster: what the executor must know of them."""
 
+from __future__ import annotations
+
 from importlib.util import find_spec
 
 from ...articulate.catalog import entry_of

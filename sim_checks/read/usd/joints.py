@@ -1,5 +1,7 @@
 """Physics joints of a USD stage: frames on both bodies, axis and limits, in SI units."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
