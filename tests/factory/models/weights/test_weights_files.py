@@ -71,14 +71,8 @@ def test_the_layout_is_the_formats(stored):
     assert length % 8 == 0
     begin, end = header["one.weight"]["data_offsets"]
     assert header["one.weight"] == {"dtype": "F32", "shape": [2, 3], "data_offsets": [begin, end]}
-    assert np.frombuffer(data[8 + length + begin : 8 + length + end], "<f4").tolist() == [
-        0,
-        1,
-        2,
-        3,
-        4,
-        5,
-    ]
+    wanted = [0, 1, 2, 3, 4, 5]
+    assert np.frombuffer(data[8 + length + begin : 8 + length + end], "<f4").tolist() == wanted
 
 
 def test_files_of_the_formats_own_library_are_read(fixtures):
