@@ -32,8 +32,11 @@ def test_what_a_spread_of_poses_steps_over_is_found_where_it_is():
     result = check(crossing(), combinations=8)
     assert result.measurements["combinations"] == []
     (found,) = result.findings
-    wanted = ("combination_penetration", Severity.SOFT, {"needle", "plate"})
-    assert (found.code, found.severity, set(found.parts)) == wanted
+    assert (found.code, found.severity, set(found.parts)) == (
+        "combination_penetration",
+        Severity.SOFT,
+        {"needle", "plate"},
+    )
     assert "across" in found.message
     assert "along" in found.message
     assert found.value == pytest.approx(4.0, rel=0.02)
