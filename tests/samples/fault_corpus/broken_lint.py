@@ -171,17 +171,13 @@ def broken_shapes() -> Iterator[Exhibit]:
     flat = door * [1.0, 0.0, 1.0] + [0.0, -0.013, 0.0]
     short = box((0.0, -0.013, 0.45), (0.6, 0.018, 0.29))
     sheet = box((0.0, -0.013, 0.5), (0.6, 0.006, 0.396))
+
+    def touched(*pieces: FloatArray, seen: FloatArray = door) -> Thing:
+        return with_body(thing, "door", pieces=pieces, looks=(seen,))
+
     for name, code, build in (
-        (
-            "no_collision.urdf",
-            "no_collision",
-            urdf(with_body(thing, "door", pieces=(), looks=(door,))),
-        ),
-        (
-            "no_collision.mjcf",
-            "no_collision",
-            mjcf(with_body(thing, "door", pieces=(), looks=(door,))),
-        ),
+        ("no_collision.urdf", "no_collision", urdf(touched())),
+        ("no_collision.mjcf", "no_collision", mjcf(touched())),
         (
             "collision_in_millimetres.urdf",
             "collision_scale",
@@ -194,20 +190,12 @@ def broken_shapes() -> Iterator[Exhibit]:
         ),
         ("offset_collision.urdf", "collision_offset", urdf(_imported(0.15))),
         ("offset_collision.mjcf", "collision_offset", mjcf(_imported(0.15))),
-        (
-            "collision_too_short.urdf",
-            "collision_gap",
-            urdf(with_body(thing, "door", pieces=(short,), looks=(door,))),
-        ),
-        (
-            "collision_shrunk.urdf",
-            "collision_gap",
-            urdf(with_body(thing, "door", pieces=(0.3 * door + 0.7 * middle,), looks=(door,))),
-        ),
+        ("collision_too_short.urdf", "collision_gap", urdf(touched(short))),
+        ("collision_shrunk.urdf", "collision_gap", urdf(touched(0.3 * door + 0.7 * middle))),
         (
             "collision_knife_edge.urdf",
             "collision_gap",
-            urdf(with_body(thing, "door", pieces=(_wedge(sheet, 0.5),), looks=(sheet,))),
+            urdf(touched(_wedge(sheet, 0.5), seen=sheet)),
         ),
         ("filled_drawer.urdf", "interior_filled", urdf(_filled_drawer())),
         ("filled_drawer.mjcf", "interior_filled", mjcf(_filled_drawer())),
@@ -224,18 +212,14 @@ def broken_shapes() -> Iterator[Exhibit]:
     )
     for name, code, build in (
         ("sheet_metal.urdf", "oblong_hull", urdf(with_body(thing, "door", pieces=(thin,)))),
-        ("crumbs.urdf", "many_hulls", urdf(with_body(thing, "door", pieces=crumbs, looks=(door,)))),
+        ("crumbs.urdf", "many_hulls", urdf(touched(*crumbs))),
         (
             "round_knob.urdf",
             "many_hull_vertices",
             urdf(with_body(thing, "door", pieces=(door, shifted(ball, 0.2, -0.08, 0.5)))),
         ),
         ("notched_mesh.urdf", "nonconvex_collision", refiled(URDF, HULL, bowl)),
-        (
-            "collision_too_thick.urdf",
-            "collision_gap",
-            urdf(with_body(thing, "door", pieces=(thick,), looks=(door,))),
-        ),
+        ("collision_too_thick.urdf", "collision_gap", urdf(touched(thick))),
     ):
         yield Exhibit(name, build, code, "soft")
 
