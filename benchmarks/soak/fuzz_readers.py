@@ -29,10 +29,11 @@ from fuzz_cases import Case, seeds  # noqa: E402 - the attacks live with the tes
 from fuzz_hostile import MESH_PAGES  # noqa: E402
 from fuzz_hostile_texts import TEXT_PAGES  # noqa: E402
 from fuzz_hostile_usd import USD_PAGES  # noqa: E402
-from fuzz_hostile_weights import WEIGHT_PAGES  # noqa: E402
 from fuzz_mutations import mutated  # noqa: E402
 from fuzz_trial import Trial, try_case  # noqa: E402
+from hostile_descriptions import DESCRIPTION_PAGES  # noqa: E402
 from hostile_mjcf import MJCF_PAGES  # noqa: E402
+from hostile_weights import WEIGHT_PAGES  # noqa: E402
 
 from asset_factory.sim_checks.processes.isolation import Limits, WarmChild  # noqa: E402
 
@@ -44,7 +45,10 @@ SLOW = ("mjcf", "usd")
 BY_HAND = "by hand: "
 PAGES = {
     f"{BY_HAND}{name}": page
-    for pages in (MESH_PAGES, TEXT_PAGES, MJCF_PAGES, USD_PAGES, WEIGHT_PAGES)
+    for pages in (
+        *(MESH_PAGES, TEXT_PAGES, DESCRIPTION_PAGES),
+        *(MJCF_PAGES, USD_PAGES, WEIGHT_PAGES),
+    )
     for name, page in pages.items()
 }
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import io
 import json
+import os
 import struct
 import tempfile
 import zipfile
@@ -12,6 +13,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import usda
@@ -66,6 +68,28 @@ source="#v" offset="0"/><p>0 2 1 0 1 3 1 2 3 0 3 2</p></triangles></mesh></geome
 <node><instance_geometry url="#g"/></node></visual_scene>
 </library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>"""
 SIDECAR = b'category = "fridge"\nup = "y"\nheight = 1.7\ndensity = 600.0\nlicense = "CC-BY-4.0"\n'
+
+
+class Bomb:
+    """What must not be unpickled: it would leave a file in the folder outside."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return os.system, ("touch @OUTSIDE@/executed || touch ../outside/executed",)
+
+
+def locked(data: bytes) -> bytes:
+    """Every member marked as encrypted."""
+    locked = bytearray(data)
+    for mark, offset in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
+        at = locked.find(mark)
+        while at >= 0:
+            locked[at + offset] |= 1
+            at = locked.find(mark, at + 4)
+    return bytes(locked)
+
+
+#: Opcodes that make a pair of what lies on top, twice: remember it, recall it, pair.
+SHARED = b"q\0h\0\x86"
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,6 @@ from fuzz_cases import seeds
 from fuzz_hostile import MESH_PAGES
 from fuzz_hostile_texts import TEXT_PAGES
 from fuzz_hostile_usd import USD_PAGES
-from fuzz_hostile_weights import WEIGHT_PAGES
 from fuzz_mutations import mutated
 from fuzz_trial import try_case
 
@@ -35,7 +34,7 @@ ATTACKS = {
 
 def sample(number):
     """Ten of each kind, and some attacks by hand."""
-    pages = {**MESH_PAGES, **TEXT_PAGES, **USD_PAGES, **WEIGHT_PAGES}
+    pages = {**MESH_PAGES, **TEXT_PAGES, **USD_PAGES}
     damaged = [mutated(seeds()[kind], k) for kind in QUICK for k in range(11)]
     damaged += [mutated(seeds()[kind], k) for kind in USD for k in range(3)]
     attacks = [

@@ -214,6 +214,13 @@ def test_broken_or_dangerous_xml_is_unreadable(tmp_path, text):
     assert caught.value.code == "unreadable"
 
 
+AB = link("a") + link("b")
+
+
+def seen(shape):
+    return link("a", f"<visual><geometry>{shape}</geometry></visual>")
+
+
 @pytest.mark.parametrize(
     ("code", "body", "says"),
     [
@@ -223,69 +230,31 @@ def test_broken_or_dangerous_xml_is_unreadable(tmp_path, text):
         ("not_a_tree", link("a") + joint("j", "fixed", "a", "ghost"), "'ghost'"),
         (
             "not_a_tree",
-            link("a")
-            + link("b")
-            + link("c")
-            + joint("j", "fixed", "b", "c")
-            + joint("k", "fixed", "c", "b"),
+            AB + link("c") + joint("j", "fixed", "b", "c") + joint("k", "fixed", "c", "b"),
             "cycle",
         ),
         (
             "not_a_tree",
-            link("a") + link("b") + joint("j", "fixed", "a", "b") + joint("k", "fixed", "a", "b"),
+            AB + joint("j", "fixed", "a", "b") + joint("k", "fixed", "a", "b"),
             "'j' and 'k'",
         ),
-        ("unsupported_joint", link("a") + link("b") + joint("j", "planar", "a", "b"), "'planar'"),
+        ("unsupported_joint", AB + joint("j", "planar", "a", "b"), "'planar'"),
+        ("unreadable", seen('<box size="1 1"/>'), "'1 1'"),
+        ("unreadable", seen('<box size="1 -1 1"/>'), "positive"),
+        ("unreadable", seen("<cone/>"), "cone"),
         (
             "unreadable",
-            link("a", '<visual><geometry><box size="1 1"/></geometry></visual>'),
-            "'1 1'",
-        ),
-        (
-            "unreadable",
-            link("a", '<visual><geometry><box size="1 -1 1"/></geometry></visual>'),
-            "positive",
-        ),
-        ("unreadable", link("a", "<visual><geometry><cone/></geometry></visual>"), "cone"),
-        (
-            "unreadable",
-            link("a")
-            + link("b")
-            + joint("j", "revolute", "a", "b", '<limit lower="x" upper="1"/>'),
+            AB + joint("j", "revolute", "a", "b", '<limit lower="x" upper="1"/>'),
             "'x'",
         ),
-        (
-            "unreadable",
-            link("a") + link("b") + joint("j", "revolute", "a", "b", '<origin xyz="nan 0 0"/>'),
-            "nan",
-        ),
-        (
-            "missing_file",
-            link("a", '<visual><geometry><mesh filename="no.obj"/></geometry></visual>'),
-            "no.obj",
-        ),
-        (
-            "external_reference",
-            link("a", '<visual><geometry><mesh filename="../x.obj"/></geometry></visual>'),
-            "../x.obj",
-        ),
-        (
-            "external_reference",
-            link("a", '<visual><geometry><mesh filename="/etc/passwd"/></geometry></visual>'),
-            "/etc",
-        ),
-        (
-            "external_reference",
-            link("a", '<visual><geometry><mesh filename="http://h/x.obj"/></geometry></visual>'),
-            "http",
-        ),
+        ("unreadable", AB + joint("j", "revolute", "a", "b", '<origin xyz="nan 0 0"/>'), "nan"),
+        ("missing_file", seen('<mesh filename="no.obj"/>'), "no.obj"),
+        ("external_reference", seen('<mesh filename="../x.obj"/>'), "../x.obj"),
+        ("external_reference", seen('<mesh filename="/etc/passwd"/>'), "/etc"),
+        ("external_reference", seen('<mesh filename="http://h/x.obj"/>'), "http"),
         ("empty", link("a", ""), "no link has any geometry"),
-        ("no_limits", link("a") + link("b") + joint("j", "prismatic", "a", "b", ""), "'j'"),
-        (
-            "bad_axis",
-            link("a") + link("b") + joint("j", "continuous", "a", "b", '<axis xyz="0 0 0"/>'),
-            "'j'",
-        ),
+        ("no_limits", AB + joint("j", "prismatic", "a", "b", ""), "'j'"),
+        ("bad_axis", AB + joint("j", "continuous", "a", "b", '<axis xyz="0 0 0"/>'), "'j'"),
     ],
 )
 def test_what_cannot_be_used_is_refused_with_a_code_and_a_name(tmp_path, code, body, says):

@@ -24,6 +24,7 @@ def begun(folder, output, *flags):
     (folder / "zz_slow.stl").write_text("solid slow")
     command = [sys.executable, str(SCRIPT), str(folder), str(output), *flags]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
     for _ in range(3):
         assert process.stdout.readline() == "passed\n"
     wait_for(lambda: "zz_slow.stl" in made(folder))

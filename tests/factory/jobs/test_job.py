@@ -130,11 +130,8 @@ def test_a_crash_is_listed_and_tried_again_by_the_next_job(tmp_path):
         Path(r.input).stem: r
         for r in job(inputs, tmp_path / "out", executor=LocalExecutor(1)).run()
     }
-    assert [results[name].entry.status for name in ("thing_0", "thing_1", "dies")] == [
-        "passed",
-        "passed",
-        "unjudged",
-    ]
+    wanted = ["passed", "passed", "unjudged"]
+    assert [results[name].entry.status for name in ("thing_0", "thing_1", "dies")] == wanted
     assert results["dies"].entry.reason == "build_crashed"
     assert "SIGSEGV, 2 times" in results["dies"].entry.message
     assert results["dies"].attempts == made(tmp_path / "in").count("dies.stl") == 2

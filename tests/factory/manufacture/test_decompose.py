@@ -58,12 +58,8 @@ def torus_solid():
 
 def test_a_box_is_one_exact_hull():
     result = only(*boxes(((0.4, 0.3, 0.2), (1, 2, 3))))
-    assert (result.method, result.exact, len(result.hulls), result.degraded) == (
-        "exact",
-        True,
-        1,
-        (),
-    )
+    wanted = ("exact", True, 1, ())
+    assert (result.method, result.exact, len(result.hulls), result.degraded) == wanted
     assert result.hulls[0].volume == pytest.approx(0.024)
 
 
@@ -126,11 +122,8 @@ def test_a_curved_part_is_covered_and_a_cache_hit_equals_a_miss(tmp_path):
     assert all(len(hull.vertices) <= config.max_vertices for hull in first.hulls)
     assert uncovered(first.hulls, surface_points(*torus())) < 0.003
     for other in (kept, anew):
-        assert (other.method, other.degraded, other.exact) == (
-            first.method,
-            first.degraded,
-            first.exact,
-        )
+        wanted = (first.method, first.degraded, first.exact)
+        assert (other.method, other.degraded, other.exact) == wanted
         for a, b in zip(first.hulls, other.hulls, strict=True):
             assert a.vertices.tobytes() == b.vertices.tobytes()
             assert a.faces.tobytes() == b.faces.tobytes()
@@ -217,11 +210,8 @@ def test_too_many_hulls_reject_with_the_numbers():
     pegs = [((0.01, 0.01, 0.1), (0.1 * i, 0.0, 0.0)) for i in range(6)]
     with pytest.raises(InputRejected) as caught:
         only(*boxes(*pegs), replace(CONFIG, max_hulls=4))
-    assert (caught.value.code, caught.value.value, caught.value.limit) == (
-        "too_many_hulls",
-        6.0,
-        4.0,
-    )
+    wanted = ("too_many_hulls", 6.0, 4.0)
+    assert (caught.value.code, caught.value.value, caught.value.limit) == wanted
 
 
 def test_a_crashing_engine_costs_a_found_and_leaves_a_sentence(monkeypatch):

@@ -40,13 +40,8 @@ def test_the_same_assets_give_the_same_bytes(registry, tmp_path, name, layout):
     assert targets[0].read_bytes() == targets[1].read_bytes()
     with tarfile.open(targets[0]) as archive:
         for member in archive:
-            assert (member.mtime, member.uid, member.gid, member.uname, member.mode) == (
-                0,
-                0,
-                0,
-                "",
-                0o644,
-            )
+            wanted = (0, 0, 0, "", 0o644)
+            assert (member.mtime, member.uid, member.gid, member.uname, member.mode) == wanted
 
 
 def test_sha256sum_agrees(registry, tmp_path):
@@ -99,11 +94,8 @@ def test_the_hub_finds_a_card_and_tables(registry, tmp_path):
     row = next(row for row in rows if row["id"] == "cabinet-1")
     assert row["urdf"] == "assets/cabinet-1/asset.urdf"
     assert (tmp_path / "x" / row["urdf"]).is_file()
-    assert (row["size_m"], row["mass_kg"], row["joint_types"]) == (
-        [0.5, 0.4, 0.8],
-        12.5,
-        ["revolute", "prismatic"],
-    )
+    wanted = ([0.5, 0.4, 0.8], 12.5, ["revolute", "prismatic"])
+    assert (row["size_m"], row["mass_kg"], row["joint_types"]) == wanted
 
 
 def test_one_license_that_the_hub_knows_is_named(registry, tmp_path):

@@ -43,11 +43,8 @@ def export(registry, target):
 @pytest.mark.parametrize("name", ["x", "x.tar", "x.tar.gz"])
 def test_a_round_trip_changes_nothing(registry, other, tmp_path, name):
     source = export(registry, tmp_path / name)
-    assert import_export(other, source, trusted=True).published == (
-        "cabinet-1",
-        "chest-1",
-        "fridge-1",
-    )
+    wanted = ("cabinet-1", "chest-1", "fridge-1")
+    assert import_export(other, source, trusted=True).published == wanted
     assert dump(other) == dump(registry)
     assert verify(other) == ()
     assert list(other.staging.iterdir()) == []

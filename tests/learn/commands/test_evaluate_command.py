@@ -231,8 +231,6 @@ def test_one_object_of_many_parts_does_not_outvote_the_others():
 
 def test_folders_are_evaluated_without_a_list(cabinets, tmp_path):
     assert len(folder_requests(cabinets)) == 2
-    assert (
-        run(["evaluate", "--set", "folder", "--data", str(cabinets), "--output", str(tmp_path)])
-        == 0
-    )
+    code = run(["evaluate", "--set", "folder", "--data", str(cabinets), "--output", str(tmp_path)])
+    assert code == 0
     assert load(tmp_path)["settings"]["set"] == "folder"

@@ -68,11 +68,8 @@ def test_good_objects_are_read_and_bad_ones_counted(dataset):
     assert prepared.report.counts == {"no_movable_joint": 1, "unreadable": 1}
     assert prepared.report.made == 2
     sampled = read_sampled(prepared.sampled_objects[0])
-    assert (sampled.name, sampled.category, sampled.source) == (
-        "cabinet_1",
-        "cabinet",
-        "description",
-    )
+    wanted = ("cabinet_1", "cabinet", "description")
+    assert (sampled.name, sampled.category, sampled.source) == wanted
     assert sampled.points.shape == (64, 3)
     said = json.loads((prepared.sampled_objects[0].parent / "data.json").read_text())
     assert said["read"] == ["cabinet_1", "cabinet_2"]

@@ -74,12 +74,8 @@ def test_category_from_inventory_prefix_or_metadata(tmp_path):
         tmp_path / "data" / "INVENTORY.csv", "path,category\ndata/a_1,Refrigerator\nb_2,lamp\n,\n"
     )
     category = categories_of(tmp_path / "data")
-    assert [category(name) for name in ("a_1", "b_2", "wall_cabinet_07", "123")] == [
-        "fridge",
-        "lamp",
-        "wall_cabinet",
-        "",
-    ]
+    wanted = ["fridge", "lamp", "wall_cabinet", ""]
+    assert [category(name) for name in ("a_1", "b_2", "wall_cabinet_07", "123")] == wanted
     touch(tmp_path / "data" / "INVENTORY.csv", "\0nonsense")
     assert categories_of(tmp_path / "data")("b_2") == "b"
     assert prefix_of("TrashCan_3") == "trashcan"
@@ -92,11 +88,8 @@ def test_category_from_inventory_prefix_or_metadata(tmp_path):
         ("123", True),
         ("124", False),
     ]
-    assert [words(name) for name in ("StorageFurniture", "USB", "Box")] == [
-        "Storage Furniture",
-        "USB",
-        "Box",
-    ]
+    wanted = ["Storage Furniture", "USB", "Box"]
+    assert [words(name) for name in ("StorageFurniture", "USB", "Box")] == wanted
 
 
 def chest():

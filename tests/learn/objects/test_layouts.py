@@ -43,11 +43,8 @@ def test_shares_are_heights_and_bare_drawers_have_no_boards_between_them():
     assert [(c.kind, round(c.z[0], 6), round(c.z[1], 6)) for c in cells] == [
         ("drawer", 0.0, 0.2), ("door", 0.2, 0.8), ("open", 0.2, 0.8), ("drawer", 0.8, 1.0),
     ]  # fmt: skip
-    assert sorted((d.upright, round(d.at, 6)) for d in dividers) == [
-        (False, 0.2),
-        (False, 0.8),
-        (True, 0.5),
-    ]
+    wanted = [(False, 0.2), (False, 0.8), (True, 0.5)]
+    assert sorted((d.upright, round(d.at, 6)) for d in dividers) == wanted
     pile = drawers(Chance(np.random.default_rng(0)), 4)
     assert divided(pile, (0.0, 1.0), (0.0, 1.0), 0.02, True)[1] == []
     assert len(divided(pile, (0.0, 1.0), (0.0, 1.0), 0.02, False)[1]) == 3

@@ -108,12 +108,8 @@ def test_artist_like_keeps_names_tree_and_kinds_and_is_repeatable(category, seed
     assert [p.name for p in changed.parts] == [p.name for p in original.parts]
     assert all(len(part.faces) for part in changed.parts)
     for joint, was in zip(changed.joints, original.joints, strict=True):
-        assert (joint.name, joint.kind, joint.parent, joint.child) == (
-            was.name,
-            was.kind,
-            was.parent,
-            was.child,
-        )
+        wanted = (was.name, was.kind, was.parent, was.child)
+        assert (joint.name, joint.kind, joint.parent, joint.child) == wanted
         assert joint.lower == 0.0 < joint.upper
     assert changed.mesh.vertices.tobytes() == again.mesh.vertices.tobytes()
     assert changed.mesh.faces.tobytes() == again.mesh.faces.tobytes()

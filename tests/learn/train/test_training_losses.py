@@ -121,14 +121,8 @@ def test_the_match_is_the_best_assignment_and_a_permutation(seed, parts, root_fi
 
 def test_columns_follow_the_match():
     logits = torch.arange(12.0).view(1, 2, 6)
-    assert arranged_columns(logits, torch.tensor([[3, 1, 0, 2, 4, 5]]))[0, 1].tolist() == [
-        9,
-        7,
-        6,
-        8,
-        10,
-        11,
-    ]
+    wanted = [9, 7, 6, 8, 10, 11]
+    assert arranged_columns(logits, torch.tensor([[3, 1, 0, 2, 4, 5]]))[0, 1].tolist() == wanted
 
 
 def test_nothing_that_moves_and_no_edge_teach_nothing_wrong(network):

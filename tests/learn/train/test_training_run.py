@@ -49,12 +49,8 @@ def test_a_run_leaves_weights_that_load_and_figures(written):
     model = load_model(str(output / "model.safetensors"), max_parts=6)
     assert (model.shape.hidden, model.shape.features) == (16, 27)
     about = open_checkpoint(output / "model.safetensors").metadata
-    assert (about["features"], about["max_parts"], about["terms"], about["steps"]) == (
-        "components",
-        "6",
-        "for tests",
-        "12",
-    )
+    wanted = ("components", "6", "for tests", "12")
+    assert (about["features"], about["max_parts"], about["terms"], about["steps"]) == wanted
     card = json.loads((output / "card.json").read_text())
     assert card["samples"] == 72
     assert 0.0 <= card["held_out"]["part_iou"] <= 1.0

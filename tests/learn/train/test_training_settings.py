@@ -18,27 +18,15 @@ def test_every_shipped_recipe_can_be_read():
 def test_the_papers_recipe_is_the_papers():
     config = load_train_config("paper")
     assert (config.schedule.steps, config.batch, config.draw_at(0).points) == (100_000, 128, 2048)
-    assert (config.draw.sharp_share, config.draw.scale, config.draw.shift) == (
-        0.5,
-        (0.95, 1.05),
-        0.02,
-    )
+    wanted = (0.5, (0.95, 1.05), 0.02)
+    assert (config.draw.sharp_share, config.draw.scale, config.draw.shift) == wanted
     size = SIZES["B"]
     shape = config.network.shape
-    assert (shape.hidden, shape.blocks, shape.heads, shape.mlp, shape.max_parts) == (
-        size.hidden,
-        size.blocks,
-        size.heads,
-        size.mlp,
-        size.max_parts,
-    )
+    wanted = (size.hidden, size.blocks, size.heads, size.mlp, size.max_parts)
+    assert (shape.hidden, shape.blocks, shape.heads, shape.mlp, shape.max_parts) == wanted
     loss = config.loss
-    assert (loss.revolute_range, loss.dice, loss.auxiliary, loss.unseen_parts) == (
-        0.1,
-        0.0,
-        0.0,
-        True,
-    )
+    wanted = (0.1, 0.0, 0.0, True)
+    assert (loss.revolute_range, loss.dice, loss.auxiliary, loss.unseen_parts) == wanted
 
 
 def test_components_bring_their_channels():

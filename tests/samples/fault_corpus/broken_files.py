@@ -1,11 +1,6 @@
 """Files that cannot be read, or must not be."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
-from pathlib import Path
-
-from .exhibits import Builder, Exhibit, edited, mjcf, refiled, restated, urdf
+from .exhibits import Exhibit, edited, mjcf, refiled, restated, urdf
 from .good_things import kiosk
 
 URDF = urdf(kiosk())
@@ -32,76 +27,62 @@ MODEL = '<mujoco><worldbody><body name="inner"><geom size="0.1"/></body></worldb
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 
 
-def broken_files() -> Iterator[Exhibit]:
+def _urdf(old, new):
+    """The kiosk as URDF, with one text in the place of another."""
+    return edited(URDF, (old, new))
+
+
+def _mjcf(old, new):
+    return edited(MJCF, (old, new))
+
+
+def broken_files():
     """One file for every code of the readers."""
     hull = "door_hull_0.obj"
+    shape = f'<mesh filename="{hull}"/>'
     for name, code, build in (
         ("mesh_missing.urdf", "missing_file", refiled(URDF, hull, None)),
         ("visual_missing.urdf", "missing_file", refiled(URDF, "door_seen_0.obj", None)),
         ("mesh_missing.mjcf", "unreadable", refiled(MJCF, hull, None)),
-        ("mesh_outside.urdf", "outside_folder", edited(URDF, (hull, f"../{hull}"))),
-        ("mesh_absolute.urdf", "outside_folder", edited(URDF, (hull, "/etc/hostname"))),
-        (
-            "mesh_from_the_net.urdf",
-            "outside_folder",
-            edited(URDF, (hull, f"http://example.org/{hull}")),
-        ),
-        ("mesh_outside.mjcf", "outside_folder", edited(MJCF, (hull, f"../{hull}"))),
+        ("mesh_outside.urdf", "outside_folder", _urdf(hull, f"../{hull}")),
+        ("mesh_absolute.urdf", "outside_folder", _urdf(hull, "/etc/hostname")),
+        ("mesh_from_the_net.urdf", "outside_folder", _urdf(hull, f"http://example.org/{hull}")),
+        ("mesh_outside.mjcf", "outside_folder", _mjcf(hull, f"../{hull}")),
         (
             "include_outside.mjcf",
             "outside_folder",
-            edited(MJCF, ("<asset>", '<include file="../more.xml"/><asset>')),
+            _mjcf("<asset>", '<include file="../more.xml"/><asset>'),
         ),
-        ("entity_bomb.urdf", "forbidden_doctype", edited(URDF, ('<robot name="kiosk">', BOMB))),
-        ("cut_off.urdf", "invalid_xml", edited(URDF, ("</robot>", ""))),
-        ("cut_off.mjcf", "invalid_xml", edited(MJCF, ("</mujoco>", ""))),
+        ("entity_bomb.urdf", "forbidden_doctype", _urdf('<robot name="kiosk">', BOMB)),
+        ("cut_off.urdf", "invalid_xml", _urdf("</robot>", "")),
+        ("cut_off.mjcf", "invalid_xml", _mjcf("</mujoco>", "")),
         (
             "other_format.urdf",
             "unknown_format",
             edited(URDF, ("<robot", "<sdf"), ("</robot>", "</sdf>")),
         ),
         ("empty_robot.urdf", "no_links", lambda folder: _text(folder, '<robot name="nothing"/>')),
-        ("link_without_name.urdf", "missing_name", edited(URDF, ('<link name="door">', "<link>"))),
-        ("joint_without_child.urdf", "missing_element", edited(URDF, ('<child link="door"/>', ""))),
-        ("no_geometry.urdf", "missing_geometry", edited(URDF, (f'<mesh filename="{hull}"/>', ""))),
-        (
-            "cone.urdf",
-            "unknown_geometry",
-            edited(URDF, (f'<mesh filename="{hull}"/>', '<cone radius="1"/>')),
-        ),
-        (
-            "no_radius.urdf",
-            "missing_number",
-            edited(URDF, (f'<mesh filename="{hull}"/>', '<sphere diameter="1"/>')),
-        ),
+        ("link_without_name.urdf", "missing_name", _urdf('<link name="door">', "<link>")),
+        ("joint_without_child.urdf", "missing_element", _urdf('<child link="door"/>', "")),
+        ("no_geometry.urdf", "missing_geometry", _urdf(shape, "")),
+        ("cone.urdf", "unknown_geometry", _urdf(shape, '<cone radius="1"/>')),
+        ("no_radius.urdf", "missing_number", _urdf(shape, '<sphere diameter="1"/>')),
         (
             "origin_nan.urdf",
             "not_finite",
-            edited(URDF, ('<origin xyz="0.0 -0.004', '<origin xyz="nan -0.004')),
+            _urdf('<origin xyz="0.0 -0.004', '<origin xyz="nan -0.004'),
         ),
-        (
-            "sphere_nan.urdf",
-            "not_finite",
-            edited(URDF, (f'<mesh filename="{hull}"/>', '<sphere radius="nan"/>')),
-        ),
-        (
-            "rod_without_end.urdf",
-            "not_finite",
-            edited(URDF, (f'<mesh filename="{hull}"/>', ENDLESS)),
-        ),
+        ("sphere_nan.urdf", "not_finite", _urdf(shape, '<sphere radius="nan"/>')),
+        ("rod_without_end.urdf", "not_finite", _urdf(shape, ENDLESS)),
         ("origin_1e300.urdf", "not_finite", restated(URDF, LID_ORIGIN, xyz="1e300 0 0")),
-        (
-            "scale_1e200.urdf",
-            "not_finite",
-            edited(URDF, (f'"{hull}"/>', f'"{hull}" scale="1e200 1 1"/>')),
-        ),
+        ("scale_1e200.urdf", "not_finite", _urdf(f'"{hull}"/>', f'"{hull}" scale="1e200 1 1"/>')),
         ("lid_at_nan.mjcf", "not_finite", restated(MJCF, ".//body[@name='lid']", pos="nan 0 0")),
         (
             "geom_at_infinity.mjcf",
             "not_finite",
             restated(MJCF, ".//body[@name='lid']/geom", pos="inf 0 0"),
         ),
-        ("limit_in_words.urdf", "invalid_number", edited(URDF, ('upper="0.3"', 'upper="wide"'))),
+        ("limit_in_words.urdf", "invalid_number", _urdf('upper="0.3"', 'upper="wide"')),
         ("step_file.urdf", "unsupported_mesh", _renamed(hull, "door.step")),
         ("garbage_mesh.urdf", "unreadable_mesh", _renamed(hull, "door.glb")),
         ("face_out_of_range.urdf", "unreadable_mesh", refiled(URDF, hull, TRIANGLE + "f 1 2 9\n")),
@@ -116,47 +97,43 @@ def broken_files() -> Iterator[Exhibit]:
             "unreadable",
             restated(MJCF, DOOR, fullinertia="0.9 0.01 0.01 0 0 0"),
         ),
-        ("negative_mass.mjcf", "unreadable", edited(MJCF, ('mass="2.5"', 'mass="-2.5"'))),
-        ("axis_zero.mjcf", "unreadable", edited(MJCF, ('axis="0.0 -1.0 0.0"', 'axis="0 0 0"'))),
-        ("limits_swapped.mjcf", "unreadable", edited(MJCF, ('range="0.0 0.3"', 'range="0.3 0.0"'))),
-        (
-            "names_twice.mjcf",
-            "unreadable",
-            edited(MJCF, ('<joint name="hinge"', '<joint name="slide"')),
-        ),
+        ("negative_mass.mjcf", "unreadable", _mjcf('mass="2.5"', 'mass="-2.5"')),
+        ("axis_zero.mjcf", "unreadable", _mjcf('axis="0.0 -1.0 0.0"', 'axis="0 0 0"')),
+        ("limits_swapped.mjcf", "unreadable", _mjcf('range="0.0 0.3"', 'range="0.3 0.0"')),
+        ("names_twice.mjcf", "unreadable", _mjcf('<joint name="hinge"', '<joint name="slide"')),
         ("huge_document.urdf", "too_large", _padded),
     ):
         yield Exhibit(name, build, code)
 
 
-def _text(folder: Path, text: str) -> Path:
+def _text(folder, text):
     path = folder / "text.urdf"
     path.write_text(text)
     return path
 
 
-def _renamed(hull: str, name: str) -> Builder:
-    def write(folder: Path) -> Path:
-        path = edited(URDF, (hull, name))(folder)
+def _renamed(hull, name):
+    def write(folder):
+        path = _urdf(hull, name)(folder)
         (folder / name).write_bytes(b"neither a mesh nor a text \0\1\2")
         return path
 
     return write
 
 
-def _padded(folder: Path) -> Path:
+def _padded(folder):
     path = URDF(folder)
     with path.open("r+b") as file:
         file.truncate(2**26 + 1)
     return path
 
 
-def reaching_out() -> Iterator[Exhibit]:
+def reaching_out():
     """References that lead to a file just outside the folder, which is there."""
-    include = edited(MJCF, ("<worldbody>", '<include file="inner.xml"/><worldbody>'))
-    texture = edited(MJCF, ("<asset>", '<asset><texture name="t" type="2d" file="../secret.png"/>'))
-    model = edited(MJCF, ("<asset>", '<asset><model name="m" file="../secret.xml"/>'))
-    mesh = edited(URDF, ("door_hull_0.obj", "../secret.obj"))
+    include = _mjcf("<worldbody>", '<include file="inner.xml"/><worldbody>')
+    texture = _mjcf("<asset>", '<asset><texture name="t" type="2d" file="../secret.png"/>')
+    model = _mjcf("<asset>", '<asset><model name="m" file="../secret.xml"/>')
+    mesh = _urdf("door_hull_0.obj", "../secret.obj")
     for name, build in (
         (
             "include_reaches_out.mjcf",
@@ -169,10 +146,10 @@ def reaching_out() -> Iterator[Exhibit]:
         yield Exhibit(name, build, "outside_folder")
 
 
-def _beside(build: Builder, inside: dict[str, bytes], outside: dict[str, bytes | str]) -> Builder:
+def _beside(build, inside, outside):
     """Write in a subfolder, other files beside it and some outside; text names one to copy."""
 
-    def write(folder: Path) -> Path:
+    def write(folder):
         home = folder / "home"
         home.mkdir()
         path = build(home)

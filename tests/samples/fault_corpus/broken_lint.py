@@ -1,17 +1,13 @@
 """Files that can be read and say something no sound asset says: joints, masses, shapes."""
 
-from __future__ import annotations
-
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import trimesh
 
-from .exhibits import Builder, Exhibit, edited, mjcf, refiled, restated, urdf
+from .exhibits import Exhibit, edited, mjcf, refiled, restated, urdf
 from .good_things import cabinet, kiosk
-from .things import FloatArray, Thing, box, shifted, with_body, with_move, words
+from .things import box, shifted, with_body, with_move, words
 
 URDF = urdf(kiosk())
 MJCF = mjcf(kiosk())
@@ -36,7 +32,7 @@ HELD = {
 DOOR_FRAME = np.array([-0.3, -0.004, 0.5])
 
 
-def broken_joints() -> Iterator[Exhibit]:
+def broken_joints():
     """The tree and its joints."""
     second = (
         '<joint name="more" type="fixed"><parent link="drawer"/><child link="door"/>'
@@ -109,7 +105,7 @@ def broken_joints() -> Iterator[Exhibit]:
         yield Exhibit(name, build, code, "warning")
 
 
-def broken_bodies() -> Iterator[Exhibit]:
+def broken_bodies():
     """Masses and inertias."""
     needle = {"ixx": "0.9", "iyy": "0.01", "izz": "0.01", "ixy": "0", "ixz": "0", "iyz": "0"}
     for name, code, build in (
@@ -153,7 +149,7 @@ def broken_bodies() -> Iterator[Exhibit]:
         yield Exhibit(name, build, code, "warning")
 
 
-def sound_neighbours() -> Iterator[Exhibit]:
+def sound_neighbours():
     """What is close to the faults above and none."""
     for name, build in (
         ("steel_door.urdf", urdf(_weighing(33.0))),
@@ -165,7 +161,7 @@ def sound_neighbours() -> Iterator[Exhibit]:
         yield Exhibit(name, build, None, "error", ())
 
 
-def broken_shapes() -> Iterator[Exhibit]:
+def broken_shapes():
     """Collision geometry against what is visible, and against what engines take."""
     thing = kiosk()
     door = thing.bodies[2].pieces[0]
@@ -173,17 +169,13 @@ def broken_shapes() -> Iterator[Exhibit]:
     flat = door * [1.0, 0.0, 1.0] + [0.0, -0.013, 0.0]
     short = box((0.0, -0.013, 0.45), (0.6, 0.018, 0.29))
     sheet = box((0.0, -0.013, 0.5), (0.6, 0.006, 0.396))
+
+    def touched(*pieces, seen=door):
+        return with_body(thing, "door", pieces=pieces, looks=(seen,))
+
     for name, code, build in (
-        (
-            "no_collision.urdf",
-            "no_collision",
-            urdf(with_body(thing, "door", pieces=(), looks=(door,))),
-        ),
-        (
-            "no_collision.mjcf",
-            "no_collision",
-            mjcf(with_body(thing, "door", pieces=(), looks=(door,))),
-        ),
+        ("no_collision.urdf", "no_collision", urdf(touched())),
+        ("no_collision.mjcf", "no_collision", mjcf(touched())),
         (
             "collision_in_millimetres.urdf",
             "collision_scale",
@@ -196,20 +188,12 @@ def broken_shapes() -> Iterator[Exhibit]:
         ),
         ("offset_collision.urdf", "collision_offset", urdf(_imported(0.15))),
         ("offset_collision.mjcf", "collision_offset", mjcf(_imported(0.15))),
-        (
-            "collision_too_short.urdf",
-            "collision_gap",
-            urdf(with_body(thing, "door", pieces=(short,), looks=(door,))),
-        ),
-        (
-            "collision_shrunk.urdf",
-            "collision_gap",
-            urdf(with_body(thing, "door", pieces=(0.3 * door + 0.7 * middle,), looks=(door,))),
-        ),
+        ("collision_too_short.urdf", "collision_gap", urdf(touched(short))),
+        ("collision_shrunk.urdf", "collision_gap", urdf(touched(0.3 * door + 0.7 * middle))),
         (
             "collision_knife_edge.urdf",
             "collision_gap",
-            urdf(with_body(thing, "door", pieces=(_wedge(sheet, 0.5),), looks=(sheet,))),
+            urdf(touched(_wedge(sheet, 0.5), seen=sheet)),
         ),
         ("filled_drawer.urdf", "interior_filled", urdf(_filled_drawer())),
         ("filled_drawer.mjcf", "interior_filled", mjcf(_filled_drawer())),
@@ -226,23 +210,19 @@ def broken_shapes() -> Iterator[Exhibit]:
     )
     for name, code, build in (
         ("sheet_metal.urdf", "oblong_hull", urdf(with_body(thing, "door", pieces=(thin,)))),
-        ("crumbs.urdf", "many_hulls", urdf(with_body(thing, "door", pieces=crumbs, looks=(door,)))),
+        ("crumbs.urdf", "many_hulls", urdf(touched(*crumbs))),
         (
             "round_knob.urdf",
             "many_hull_vertices",
             urdf(with_body(thing, "door", pieces=(door, shifted(ball, 0.2, -0.08, 0.5)))),
         ),
         ("notched_mesh.urdf", "nonconvex_collision", refiled(URDF, HULL, bowl)),
-        (
-            "collision_too_thick.urdf",
-            "collision_gap",
-            urdf(with_body(thing, "door", pieces=(thick,), looks=(door,))),
-        ),
+        ("collision_too_thick.urdf", "collision_gap", urdf(touched(thick))),
     ):
         yield Exhibit(name, build, code, "warning")
 
 
-def _wedge(corners: FloatArray, share: float) -> FloatArray:
+def _wedge(corners, share):
     """A panel that gets thinner along x, to nothing at this share of its width, [8, 3]."""
     low, high = corners.min(axis=0), corners.max(axis=0)
     end = corners[:, 0] > low[0]
@@ -252,22 +232,22 @@ def _wedge(corners: FloatArray, share: float) -> FloatArray:
     return wedge
 
 
-def _without_limits(folder: Path) -> Path:
+def _without_limits(folder):
     path = URDF(folder)
     head, _, rest = path.read_text().partition("<limit ")
     path.write_text(head + rest.partition("/>")[2])
     return path
 
 
-def _weighing(mass: float) -> Thing:
+def _weighing(mass):
     """The kiosk with a door of 4.3 litres that weighs so much [kg]."""
     return with_body(kiosk(), "door", mass=mass)
 
 
-def _bare(link: str) -> Builder:
+def _bare(link):
     """The kiosk with no inertial in that link."""
 
-    def write(folder: Path) -> Path:
+    def write(folder):
         path = URDF(folder)
         document = ET.parse(path)
         element = document.find(f".//link[@name='{link}']")
@@ -278,7 +258,7 @@ def _bare(link: str) -> Builder:
     return write
 
 
-def _computed(folder: Path) -> Path:
+def _computed(folder):
     path = MJCF(folder)
     document = ET.parse(path)
     body = document.find(".//body[@name='door']")
@@ -287,15 +267,15 @@ def _computed(folder: Path) -> Path:
     return path
 
 
-def _dynamics(attributes: str) -> Builder:
+def _dynamics(attributes):
     return edited(URDF, ("<limit ", f"<dynamics {attributes}/><limit "))
 
 
-def _mimic(leader: str, more: str = "") -> Builder:
+def _mimic(leader, more=""):
     return edited(URDF, ("<limit ", f'<mimic joint="{leader}" {more}/><limit '))
 
 
-def _imported(height: float) -> Thing:
+def _imported(height):
     thing = kiosk()
     door = thing.bodies[2].pieces
     return with_body(
@@ -303,18 +283,18 @@ def _imported(height: float) -> Thing:
     )
 
 
-def _filled_drawer() -> Thing:
+def _filled_drawer():
     thing = cabinet()
     tub = thing.bodies[1].pieces
     return with_body(thing, "drawer", pieces=(np.vstack(tub[:-1]), tub[-1]), looks=tub)
 
 
-def _flat(corners: FloatArray) -> str:
+def _flat(corners):
     return "".join(f"v {words(corner)}\n" for corner in corners) + "f 1 2 4\nf 1 4 3\nf 5 6 8\n"
 
 
 #: A door with a deep notch in its upper edge: closed, and not convex.
-def _notched() -> FloatArray:
+def _notched():
     outline = np.array([[0.0, -0.198], [0.6, -0.198], [0.6, 0.198], [0.3, -0.1], [0.0, 0.198]])
     return np.array([[x, y, z] for y in (-0.018, 0.0) for x, z in outline])
 

@@ -86,12 +86,8 @@ def test_an_axis_that_is_told_by_none_or_turned_by_rounding_is_no_lie(descriptio
     observation = faithful(description)
     assert found(description, with_joint(observation, "slide", axis=None)) == []
     assert found(description, with_joint(observation, "slide", axis=(-1.0, 5e-5, 0.0))) == []
-    (finding,) = check_loading(
-        description,
-        "engine",
-        with_joint(observation, "hinge", axis=(0.0, 0.0, -1.0)),
-        CheckConfig(),
-    ).findings
+    turned = with_joint(observation, "hinge", axis=(0.0, 0.0, -1.0))
+    (finding,) = check_loading(description, "engine", turned, CheckConfig()).findings
     assert (finding.code, finding.value, finding.unit) == ("axis_mismatch", 180.0, "deg")
 
 
@@ -117,13 +113,8 @@ def test_single_precision_is_no_lie(description):
 
 
 def test_a_static_link_s_mass_is_nobody_s_business(description):
-    assert (
-        found(
-            description,
-            with_link(faithful(description), "carcass", mass=0.0, moments=None, static=True),
-        )
-        == []
-    )
+    weightless = with_link(faithful(description), "carcass", mass=0.0, moments=None, static=True)
+    assert found(description, weightless) == []
 
 
 @pytest.mark.parametrize(("offset", "expected"), [(9e-6, []), (1.1e-5, ["pose_mismatch"])])
@@ -140,13 +131,8 @@ def test_a_base_put_elsewhere_is_no_disagreement(description):
     shift = np.eye(4)
     shift[:3, 3] = (1.0, 2.0, 3.0)
     poses = {name: shift @ pose for name, pose in observation.poses[0].poses.items()}
-    assert (
-        found(
-            description,
-            replace(observation, poses=(PoseSample(observation.poses[0].values, poses),)),
-        )
-        == []
-    )
+    elsewhere = replace(observation, poses=(PoseSample(observation.poses[0].values, poses),))
+    assert found(description, elsewhere) == []
 
 
 @pytest.mark.parametrize(

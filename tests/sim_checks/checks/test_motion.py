@@ -326,12 +326,8 @@ def test_made_up_energy_is_a_number_in_joules_against_what_is_allowed():
     for rests, joint, value, limit in (((resting,), "j", 2.0, 1.0), ((), None, 4.0, 0.5)):
         observation = Observation(LoadedModel((), (), ()), rest=rests, fall=falling)
         (finding,) = check_motion(nothing(), "engine", observation, CheckConfig()).findings
-        assert (finding.code, finding.joint, finding.value, finding.limit) == (
-            "energy_grows",
-            joint,
-            value,
-            limit,
-        )
+        wanted = ("energy_grows", joint, value, limit)
+        assert (finding.code, finding.joint, finding.value, finding.limit) == wanted
         assert finding.unit == "J"
 
 

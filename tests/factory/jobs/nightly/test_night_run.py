@@ -127,12 +127,8 @@ def summary(config, name):
 
 def test_three_nights_make_a_trend(workshop, config):
     first = run(workshop, config)
-    assert (first.night.name, first.night.passed, first.night.exit_code, first.attention) == (
-        "0001",
-        3,
-        0,
-        (),
-    )
+    wanted = ("0001", 3, 0, ())
+    assert (first.night.name, first.night.passed, first.night.exit_code, first.attention) == wanted
     workshop.add(["d", "e"])
     workshop.rejected = {"d", "e"}
     second = run(workshop, config)
@@ -151,14 +147,8 @@ def test_three_nights_make_a_trend(workshop, config):
     assert [c.now.id for c in third.changes.passing] == ["d-00", "e-00"]
     assert [point.name for point in third.trend] == ["0001", "0002", "0003"]
     nights = config.output / "nights"
-    assert sorted(path.name for path in nights.iterdir()) == [
-        ".lock",
-        "0001",
-        "0002",
-        "0003",
-        "index.html",
-        "message.txt",
-    ]
+    wanted = [".lock", "0001", "0002", "0003", "index.html", "message.txt"]
+    assert sorted(path.name for path in nights.iterdir()) == wanted
     names = {"summary.json", "attempts.parquet", "index.html", "message.txt", "night.log"}
     assert {path.name for path in (nights / "0003").iterdir()} == names
     assert read_table(nights / "0003" / "attempts.parquet") == third.attempts

@@ -146,9 +146,6 @@ def test_paths_move_and_nothing_else_does():
     old = Path("/old/place")
     new = Path("/new")
     value = (ray_calls.Filled(old / "bundle", 2), Path("/elsewhere"), "/old/place/text")
-    assert moved(value, old, new) == (
-        ray_calls.Filled(new / "bundle", 2),
-        Path("/elsewhere"),
-        "/old/place/text",
-    )
+    wanted = (ray_calls.Filled(new / "bundle", 2), Path("/elsewhere"), "/old/place/text")
+    assert moved(value, old, new) == wanted
     assert list(paths_below(value, old)) == [old / "bundle"]

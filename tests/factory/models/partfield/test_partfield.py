@@ -93,11 +93,8 @@ def test_voxels_have_the_axes_x_y_z_and_round_half_to_even():
 def test_rows_of_a_plane_follow_its_second_coordinate():
     # The point is at cells 0, 3, 7 of 8 along x, y, z.
     planes = scatter_to_planes(torch.tensor([[-1.0, -0.1, 1.0]]), torch.tensor([[4.0]]), 8)
-    assert [plane.nonzero()[:, 1:].tolist() for plane in planes[0]] == [
-        [[3, 0]],
-        [[7, 3]],
-        [[7, 0]],
-    ]
+    wanted = [[[3, 0]], [[7, 3]], [[7, 0]]]
+    assert [plane.nonzero()[:, 1:].tolist() for plane in planes[0]] == wanted
 
 
 def test_points_look_their_voxels_up_with_x_and_z_exchanged():

@@ -7,8 +7,7 @@ import time
 import zipfile
 
 import pytest
-from fuzz_cases import pickled_number, pickled_text
-from fuzz_hostile_weights import SHARED
+from fuzz_cases import SHARED, pickled_number, pickled_text
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.weights.checkpoint import open_checkpoint

@@ -1,10 +1,9 @@
-"""Attacks by hand on checkpoints, and what must not be unpickled anywhere."""
+"""Attacks by hand on checkpoints."""
 
 from __future__ import annotations
 
 import io
 import json
-import os
 import pickle
 import struct
 import zipfile
@@ -12,7 +11,10 @@ from collections.abc import Iterator
 from typing import Any
 
 from fuzz_cases import (
+    SHARED,
+    Bomb,
     Case,
+    locked,
     network_shapes,
     pickled_tensor,
     pickled_text,
@@ -20,28 +22,6 @@ from fuzz_cases import (
     torch_file,
     zipped,
 )
-
-
-class Bomb:
-    """What must not be unpickled: it would leave a file in the folder outside."""
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return os.system, ("touch @OUTSIDE@/executed || touch ../outside/executed",)
-
-
-def locked(data: bytes) -> bytes:
-    """Every member marked as encrypted."""
-    locked = bytearray(data)
-    for mark, offset in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
-        at = locked.find(mark)
-        while at >= 0:
-            locked[at + offset] |= 1
-            at = locked.find(mark, at + 4)
-    return bytes(locked)
-
-
-#: Opcodes that make a pair of what lies on top, twice: remember it, recall it, pair.
-SHARED = b"q\0h\0\x86"
 
 
 def _laughs(laugh: bytes) -> dict[str, bytes]:
