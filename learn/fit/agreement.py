@@ -64,12 +64,12 @@ def rate_parts(guess: Articulator, objects: Iterable[RealObject]) -> Rated:
         cells = CellParts.of(articulation, look_at(articulation.mesh).cells)
         for joint in articulation.movable_joints:
             part_ = articulation.parts[joint.child]
-            if part_.kind not in ASKED:
+            support = cells.support(joint.child, detection.dense)
+            if part_.kind not in ASKED or support is None:
                 continue
             boxes = list(_boxes(cells, joint.child))
             right = _right([view for view, _ in boxes], [box for _, box in boxes], truth)
             if right is not None:
-                support = cells.support(joint.child, detection.dense)
                 rated.proposed.append((support, part_.confidence or 0.0, float(right)))
     return rated
 

@@ -38,7 +38,7 @@ STRANGE = frozenset({"gadget", "window", "box", "door"})
 MOST_TOLD = 4
 #: The detector is asked about these kinds of part; others open nothing that it knows.
 ASKED = frozenset({PartKind.PART, PartKind.DOOR, PartKind.DRAWER, PartKind.FLAP, PartKind.LID})
-#: These come and go with what carries them.
+#: These come and go with others that move.
 CARRIED = frozenset({PartKind.KNOB, PartKind.BUTTON, PartKind.RACK, PartKind.TURNTABLE})
 
 
@@ -117,22 +117,28 @@ class DetectedArticulator:
     def _agreed(
         self, guess: Articulation, cells: CellParts, dense: Dense, least: float
     ) -> Articulation:
-        """Return a guess without the parts that the detector does not see."""
+        """Return a guess without the parts that a side shows and the detector does not see.
+
+        Racks, knobs and parts that no side shows move where something else does.
+        """
         kept = []
         chances = {}
+        alone = False
         for joint in guess.joints:
             part = guess.parts[joint.child]
-            if part.kind not in ASKED:
+            support = cells.support(joint.child, dense) if part.kind in ASKED else None
+            if support is None:
                 kept.append(joint.child)
+                alone |= part.kind not in ASKED | CARRIED
                 continue
             confidence = 0.0 if part.confidence is None else part.confidence
-            chance = self.agreement.of_proposed(cells.support(joint.child, dense), confidence)
+            chance = self.agreement.of_proposed(support, confidence)
             if _is_believed(part):
                 chance = max(chance, confidence, least)
             if chance >= least:
                 kept.append(joint.child)
                 chances[joint.child] = chance
-        if all(guess.parts[number].kind in CARRIED for number in kept):
+        if not (chances or alone):
             kept = []
         return keep_parts(guess, kept, chances)
 

@@ -41,10 +41,14 @@ class CellParts:
         """Return the cells that show a part or what it carries, shape [5, 64, 64]."""
         return np.isin(self.owner, self.articulation.carried(part))
 
-    def support(self, part: int, dense: Dense) -> float:
-        """Return the support of a part on the side where it is highest, 0 to 1."""
+    def support(self, part: int, dense: Dense) -> float | None:
+        """Return the support of a part on the side where it is highest, 0 to 1.
+
+        ``None`` of one that no side shows: behind a door the detector sees nothing.
+        """
         shown = self.shown(part)
-        return max(_support_of_cells(shown[view], dense, view) for view in range(len(SIDES)))
+        views = np.flatnonzero(shown.sum(axis=(1, 2)) >= LEAST_CELLS)
+        return max((_support_of_cells(shown[view], dense, view) for view in views), default=None)
 
     def has_moving(self, found: Found) -> bool:
         """Tell whether parts that move are where another is seen."""
@@ -81,8 +85,6 @@ def support_of_box(found: Found, dense: Dense) -> float:
 
 def _support_of_cells(shown: BoolArray, dense: Dense, view: int) -> float:
     rows, columns = np.nonzero(shown)
-    if len(rows) < LEAST_CELLS:
-        return 0.0
     ends = (columns.min(), rows.min(), columns.max() + 1, rows.max() + 1)
     return _support(dense, view, rows, columns, np.array(ends) * float(STRIDE))
 
