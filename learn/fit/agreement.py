@@ -64,13 +64,13 @@ def rate_parts(guess: Articulator, objects: Iterable[RealObject]) -> Rated:
         cells = CellParts.of(articulation, look_at(articulation.mesh).cells)
         for joint in articulation.movable_joints:
             part_ = articulation.parts[joint.child]
-            support = cells.support(joint.child, detection.dense)
-            if part_.kind not in ASKED or support is None:
+            shown = cells.support(joint.child, detection.dense)
+            if part_.kind not in ASKED or shown is None:
                 continue
             boxes = list(_boxes(cells, joint.child))
             right = _right([view for view, _ in boxes], [box for _, box in boxes], truth)
             if right is not None:
-                rated.proposed.append((support, part_.confidence or 0.0, float(right)))
+                rated.proposed.append((shown, part_.confidence or 0.0, float(right)))
     return rated
 
 

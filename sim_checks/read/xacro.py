@@ -15,8 +15,6 @@ from pathlib import Path
 from threading import Timer
 from typing import Any
 
-import asset_factory
-
 from ..description import DescriptionError
 from .document import MAX_DOCUMENT_BYTES, parse_xml
 from .roots import ReadOptions
@@ -83,7 +81,7 @@ def expand_xacro(path: Path, options: ReadOptions) -> tuple[ET.Element, tuple[Pa
 
 def _asked(question: Mapping[str, object], name: str) -> dict[str, Any]:
     """Ask a process that may not be trusted; what it says is text and no more."""
-    source = str(Path(asset_factory.__path__[0]).parent)
+    source = str(Path(sys.modules[str(__package__).partition(".")[0]].__path__[0]).parent)
     code = _RUN.format(f"{__package__}.xacro_child")
     with subprocess.Popen(  # noqa: S603 - this interpreter, with this package's own code
         [sys.executable, "-I", "-c", code, source, json.dumps(question)],

@@ -47,7 +47,7 @@ class CellParts:
         ``None`` of one that no side shows: behind a door the detector sees nothing.
         """
         shown = self.shown(part)
-        views = np.flatnonzero(shown.sum(axis=(1, 2)) >= LEAST_CELLS)
+        views = np.flatnonzero(shown.sum(axis=(1, 2)) >= LEAST_CELLS).tolist()
         return max((_support_of_cells(shown[view], dense, view) for view in views), default=None)
 
     def has_moving(self, found: Found) -> bool:
