@@ -66,7 +66,7 @@ def simcheck(program: Path) -> Callable[[Sequence[Case], Path], Checked]:
         command += ["-j", str(WORKERS), "--no-config", "--json", str(report)]
         seconds = timed(command, folder)
         told = json.loads(report.read_text())
-        rejected = {Path(each["asset"]) for each in told if each["verdict"] == "FAIL"}
+        rejected = {folder / each["asset"] for each in told if each["verdict"] == "FAIL"}
         return Checked(frozenset(rejected), seconds / len(cases))
 
     return ask
