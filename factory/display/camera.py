@@ -127,8 +127,7 @@ class Viewpoint:
         """Return the side that opens, a horizontal unit direction, shape [2], and where to stand.
 
         Moving parts are in front, and come forward first; a door swings aside later. A part that
-        rises first is a lid, and goes back. 1: its inside is seen from the right, -1: from the
-        left.
+        rises first is a lid, and goes back. 1: seen from the right, -1: from the left.
         """
         rest = self._scene.opened(0.0)
         opened = self._scene.opened(1.0)
