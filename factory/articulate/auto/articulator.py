@@ -80,7 +80,7 @@ class AutoArticulator:
     def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
         """Return what :meth:`articulate` does, and what else it may be; the likeliest first.
 
-        Where rules of shape are sure of something, the sides add only what is beside it: who
+        Where rules of shape are sure of something, the sides add only parts beside it: who
         models how a thing works, models all of it. The whole of what they show comes last then.
         """
         least = least_of(self.trust, self.config.least_confidence)

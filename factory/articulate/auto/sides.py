@@ -80,7 +80,7 @@ class Sightings:
         ]
 
     def beside(self, proposals: Sequence[Proposal], known: Sequence[BoolArray]) -> list[Proposal]:
-        """Return proposals of whole pieces that are in a row or column with what is known to move.
+        """Return proposals of whole pieces that are in a row or column with parts known to move.
 
         Who models one front as a piece models each so. Of 16 parts of pieces seen on objects of
         the develop half where rules of shape are sure of something, none was right; of 43 whole
@@ -185,8 +185,8 @@ def _proposal(mover: OpeningPart, faces: BoolArray) -> Proposal:
 def _panel_pieces(outlines: PieceOutlines, panel: Panel) -> tuple[IntArray, bool]:
     """Return the pieces that a panel is made of, and whether it is all of them.
 
-    Where the pieces that lie within its rectangle are not what is seen of it, the panel is a part
-    of those that are seen. Then the mesh must be solid there: who models an inside models doors.
+    Where its visible face is not of the pieces within its rectangle, the panel is a part of the
+    visible ones. Then the mesh must be solid there: who models an inside models doors.
     """
     low = panel.low
     high = panel.high
