@@ -36,7 +36,7 @@ def assembled(
         mesh: metres, z up.
         face_part: of every face: 0 for the body, else 1 + index of the proposal that it belongs
             to, shape [face_count].
-        proposals: what moves.
+        proposals: of moving parts.
         articulator: who says so.
         hosts: for each proposal what it hangs on: 0 for the body, else 1 + index of another one;
             all hang on the body by default.

@@ -58,7 +58,7 @@ def _located(mesh: Mesh, joint: Joint, part: Part) -> Part:
 def _panel(mesh: Mesh, joint: Joint, part: Part, points: FloatArray) -> Panel | None:
     """Return what a part closes, seen from the side that it opens to.
 
-    ``None`` for what is small, or deeper than wide and hinged, as the levers of taps are.
+    ``None`` for small parts, and for hinged ones deeper than wide, as the levers of taps are.
     """
     if joint.kind is JointKind.CONTINUOUS:
         return None
@@ -116,7 +116,7 @@ def _kind_of(joint: Joint, panel: Panel) -> PartKind:
 
 
 def _small(mesh: Mesh, joint: Joint, points: FloatArray) -> PartKind:
-    """Return what is no panel: a button slides, a lever turns, a wheel stands on the ground."""
+    """Return the kind of a small part: a button slides, a lever turns, a wheel is on the ground."""
     if joint.kind is JointKind.PRISMATIC:
         return PartKind.BUTTON
     if joint.kind is JointKind.REVOLUTE:

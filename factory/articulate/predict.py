@@ -18,7 +18,7 @@ from .standing import standing_hypotheses
 
 
 def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
-    """Return what moves in one input, as JSON data: metres, radians, object frame (z up).
+    """Return the moving parts of one input, as JSON data: metres, radians, object frame (z up).
 
     Args:
         source: a mesh, URDF or MJCF file.

@@ -66,8 +66,8 @@ class Proposal:
         kind: what it is; names the part.
         faces: whether each face of the mesh belongs to it, shape [face_count].
         motion: relative to what it hangs on.
-        signs: what speaks for it, by name; see :data:`.auto.trust.SIGNS`.
-        notes: what was assumed, each the end of a sentence that starts with the part's name.
+        signs: evidence for it, by name; see :data:`.auto.trust.SIGNS`.
+        notes: assumptions, each the end of a sentence that starts with the part's name.
         slide: how it slides in what it turns with, if it does both; ``None`` if not.
         proposer: who makes it.
         panel, handle: as in :class:`~asset_factory.factory.part.Part`, as far as they are known.

@@ -158,7 +158,7 @@ def hypotheses(intake: Intake, loaded: str, stages: Stages) -> tuple[Hypothesis,
     Args:
         intake: the loaded input.
         loaded: key of all that it was loaded from.
-        stages: with the settings, and what is remembered.
+        stages: with the settings and the cache.
 
     Raises:
         InputRejected: as the articulator does, or did.

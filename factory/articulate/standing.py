@@ -32,7 +32,7 @@ def standing_hypotheses(
     Args:
         intake: as loaded.
         origin: that it was loaded from.
-        stages: with the settings, and what is remembered.
+        stages: with the settings and the cache.
 
     Raises:
         InputRejected: as :func:`~.stage.hypotheses` does of the input as it was loaded.

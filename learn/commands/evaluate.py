@@ -23,7 +23,7 @@ HALVES = ("develop", "report", "both")
 
 @dataclass(frozen=True)
 class Evaluate:
-    """Compare what articulators say with what is true, on objects that come with their joints.
+    """Compare articulators' answers with the truth, on objects that come with their joints.
 
     A method that gives no answer for a case is counted and scored as if it had said that nothing
     moves; what hangs is counted and not scored. Exit codes: 0 all cases are scored; 3 some case

@@ -57,7 +57,7 @@ def prepare(
     workers: int | None = None,
     on_progress: Callable[[int, int], None] | None = None,
 ) -> Prepared:
-    """Bring a dataset into the cache; what is there already is not made again.
+    """Bring a dataset into the cache; samples in it are not made again.
 
     Every object is read in a process that may crash, hang or run out of memory; that costs the
     object, which is passed over with its reason, and nothing else. Such accidents are tried again

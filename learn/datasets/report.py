@@ -37,7 +37,7 @@ class SourceReport:
         )
 
     def lines(self) -> list[str]:
-        """Return lines for people: what was read, and each reason with its first object."""
+        """Return lines for people: the objects read, and each reason with its first object."""
         total = len(self.read) + sum(self.counts.values())
         said = [f"{self.kind}: {len(self.read)} of {total} objects read, {self.made} of them new"]
         for reason, count in self.counts.items():

@@ -1,4 +1,4 @@
-"""How generated meshes look: what is drawn anew each time that an object is learned from."""
+"""Looks of generated meshes, drawn anew each time that an object is learned from."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class ObjectBatch:
         color: uint8, [n, 5, rows, columns, 3].
         depth: int16, [n, 5, rows, columns].
         part: uint8, [n, 5, rows, columns]; 0 all over for real objects.
-        table: of what moves, [n, most, 10]; view -1 where there is nothing.
+        table: of moving parts, [n, most, 10]; view -1 where there is nothing.
         real: objects whose own colours and shapes stay, [n].
         front: number of the side that is the front, [n].
     """
@@ -208,8 +208,8 @@ def _top_turned(
 ) -> tuple[Tensor, ...]:
     """Return objects whose tops are turned as their sides are.
 
-    After a turn by one quarter the right side is the front, so that what was on the right of the
-    top is at its lower edge.
+    After a turn by one quarter the right side is the front, so that the right of the top is at its
+    lower edge.
     """
     color, depth, part, table = color.clone(), depth.clone(), part.clone(), table.clone()
     for quarters in (1, 2, 3):

@@ -46,7 +46,7 @@ class Packed:
         held_out: not trained on.
         real: an artist's surface, not ours.
         color, depth, part: see :class:`~asset_factory.learn.detector.looks.ObjectBatch`.
-        table: of what moves, [n, 10].
+        table: of moving parts, [n, 10].
     """
 
     name: str

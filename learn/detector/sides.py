@@ -90,7 +90,7 @@ class LabelledSides:
         canvases: how it looks.
         part: number of the part of every pixel plus one, 0 where nothing is seen, uint8, shape
             [5, 256, 256].
-        instances: what moves.
+        instances: moving parts.
     """
 
     canvases: Canvases

@@ -28,7 +28,7 @@ SLOTS = 96
 
 @dataclass(frozen=True)
 class WholeTruth:
-    """What is known of one object as a whole."""
+    """The truth about one object as a whole."""
 
     kind: int
     opens: bool
@@ -70,7 +70,7 @@ class Pool:
         self.made += 1
 
     def draw(self, count: int, generator: Any) -> tuple[ObjectBatch, Any]:
-        """Return so many objects and what is known of each as a whole, [n, 4]."""
+        """Return so many objects and the truth about each as a whole, [n, 4]."""
         filled = min(self.made, self.size)
         chosen = torch.randint(filled, (count,), generator=generator, device=self.device)
         return self.take(chosen)

@@ -34,7 +34,7 @@ class Looks:
         bumps: height of wide and of narrow bumps [pixels].
         grain: noise of the brightness.
         plain: one colour all over, sRGB; ``None``: those of the parts.
-        decorations: what lies on it that is no seam.
+        decorations: lines on it that are no seams.
         sunken: share of the shade that grooves and corners have.
     """
 

@@ -85,7 +85,7 @@ def write_views(path: Path, views: Sequence[SideView]) -> None:
 
 
 def read_views(path: Path) -> tuple[SideView, ...]:
-    """Return what was kept of one object."""
+    """Return the kept views of one object."""
     with np.load(path, allow_pickle=False) as kept:
         return tuple(
             SideView(
@@ -98,7 +98,7 @@ def read_views(path: Path) -> tuple[SideView, ...]:
 
 
 def _lids(articulation: Articulation, top: Picture) -> list[int]:
-    """Return the parts that cover most of what is seen from above."""
+    """Return the parts that cover most of the view from above."""
     whole = int(top.relief.seen.sum())
     return [
         joint.child

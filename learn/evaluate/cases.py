@@ -223,7 +223,7 @@ def make_case(request: Request, store: Store | None = None) -> Case:
 
     Args:
         request: which object, and how.
-        store: keeps what was read; ``None`` reads it every time.
+        store: keeps objects; ``None`` reads them every time.
 
     Raises:
         InputRejected: the description cannot be read, or nothing that moves is seen of the fused

@@ -27,7 +27,7 @@ def write_results(folder: Path, rows: Sequence[Row], settings: dict[str, Any]) -
     Args:
         folder: made if it is not there.
         rows: in any order.
-        settings: what was evaluated, and how, without paths of this machine.
+        settings: of the evaluation, without paths of this machine.
     """
     folder.mkdir(parents=True, exist_ok=True)
     lines = [_line(row) for row in in_order(rows)]

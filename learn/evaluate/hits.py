@@ -23,8 +23,8 @@ def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[f
     """Return 1 or 0 per true moving part, in the bodies' order; 0 unless found and moving.
 
     Args:
-        true: what is.
-        predicted: what was said, over the same mesh.
+        true: the truth.
+        predicted: the answer, over the same mesh.
         pairing: of the two.
 
     Returns:

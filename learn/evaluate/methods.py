@@ -1,4 +1,4 @@
-"""What is evaluated: any articulator, the naive answer, or predictions read from files."""
+"""Methods to evaluate: any articulator, the naive answer, or predictions read from files."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ METHODS = (
 
 @dataclass(frozen=True)
 class Method:
-    """One way to say what moves.
+    """One way to find moving parts.
 
     Attributes:
         name: of ``METHODS``.
@@ -61,7 +61,7 @@ class Method:
         return replace(self, config=replace(self.config, seed=self.config.seed + repeat))
 
     def answer(self, mesh: Mesh, case: str) -> Articulation:
-        """Return what moves in a mesh.
+        """Return the moving parts of a mesh.
 
         Raises:
             InputRejected: it has no answer.

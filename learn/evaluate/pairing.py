@@ -51,8 +51,8 @@ def paired(true: Bodies, predicted: Bodies, areas: FloatArray) -> Pairing:
     """Match two labellings of the same faces.
 
     Args:
-        true: what is.
-        predicted: what was said, over the same mesh.
+        true: the truth.
+        predicted: the answer, over the same mesh.
         areas: of its faces [m2], shape [face_count].
     """
     from scipy.optimize import linear_sum_assignment

@@ -39,8 +39,8 @@ def physical(true: Articulation, predicted: Articulation) -> Score:
     """Compare two articulations of the same mesh.
 
     Args:
-        true: what is.
-        predicted: what was said, faces in the same order and the same pose.
+        true: the truth.
+        predicted: the answer, faces in the same order and the same pose.
 
     Returns:
         Of the object: ``part_miou`` (mean of both directions, a part without match is 0),
@@ -50,7 +50,7 @@ def physical(true: Articulation, predicted: Articulation) -> Score:
         Of its parts: ``recall``, ``precision``, ``type_accuracy``, ``axis_angle_deg``,
         ``axis_offset`` (share of the longest side), ``opens_right_way``, ``range_error_rad``,
         ``range_error_size`` (share of the longest side), ``left_fixed``, ``still_moved``; and of
-        all true moving parts what is right of their joints, see :func:`.hits.hits`.
+        all true moving parts the scores of their joints, see :func:`.hits.hits`.
 
     Raises:
         ValueError: the two are over different meshes.

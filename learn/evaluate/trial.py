@@ -1,4 +1,4 @@
-"""One method on one case: what is asked of a child process, and the row that comes of it."""
+"""One method on one case: a question to a child process, and the row that comes of it."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class Row:
     """What came of it.
 
     Attributes:
-        trial: what was asked.
+        trial: the question.
         score: of the answer, or of the naive one where there was none; ``None`` if the case could
             not be made, or a clock or somebody stopped the method.
         failure: why there was no answer; empty if there was.

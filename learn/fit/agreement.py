@@ -46,7 +46,7 @@ class Rated:
 
 
 def rate_parts(guess: Articulator, objects: Iterable[RealObject]) -> Rated:
-    """Return what is proposed for objects, and what the detector sees of it."""
+    """Return the parts proposed for objects, and what the detector sees of them."""
     rated = Rated([], [])
     for each in objects:
         detection = detect(each.mesh)

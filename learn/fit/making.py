@@ -1,4 +1,4 @@
-"""What is made once and kept in a folder: the views and the rows of generated objects' sides."""
+"""Data made once and kept in a folder: the views and the rows of generated objects' sides."""
 
 from __future__ import annotations
 

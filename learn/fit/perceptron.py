@@ -23,7 +23,7 @@ LEAST_SCALE = 0.02
 
 @dataclass(frozen=True)
 class Weighing:
-    """What is known of some weights before they are fitted.
+    """Prior knowledge of some weights.
 
     Attributes:
         spread: standard deviation of the first ones.

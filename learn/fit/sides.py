@@ -44,7 +44,7 @@ _COLOUR = slice(CUES.index("red"), CUES.index("yellow") + 1)
 
 
 def fit_sides(folder: Path, state: Path, rounds: int, seed: int) -> tuple[Arrays, str]:
-    """Train on kept views; what is stored goes on where it was when it is asked for again.
+    """Train on kept views; a stored training goes on where it stopped.
 
     Args:
         folder: of files that :func:`~asset_factory.learn.elevations.views.write_views` made.

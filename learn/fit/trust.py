@@ -46,8 +46,8 @@ class TrustTrial:
     """One object with everything that was proposed for it.
 
     Attributes:
-        truth: what is.
-        proposals: what was said.
+        truth: of the object.
+        proposals: of all proposers.
         right: whether each is, shape [proposal_count].
     """
 
@@ -75,7 +75,7 @@ class TrustData:
 
 @dataclass(frozen=True)
 class TrustFit:
-    """What was fitted.
+    """The fitted weights.
 
     Attributes:
         stored: the model, and ``least``.

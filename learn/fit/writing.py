@@ -1,4 +1,4 @@
-"""One way to write what was fitted: safetensors, and a card beside it that says how it was made."""
+"""One way to write a fit: safetensors, and a card beside it that says how it was made."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ TERMS = "Apache-2.0"
 
 @dataclass(frozen=True)
 class Fit:
-    """What was fitted, and what its card says of it.
+    """A fit, and the text of its card.
 
     Attributes:
         arrays: by name.
@@ -62,7 +62,7 @@ def write_fit(path: Path, fit: Fit, arguments: Sequence[str], seed: int) -> None
 
     Args:
         path: of the weights.
-        fit: what was fitted.
+        fit: to write.
         arguments: of :data:`COMMAND` that made them.
         seed: of all chance.
     """

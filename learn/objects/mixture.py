@@ -104,7 +104,7 @@ def in_character(articulation: Articulation, character: str, seed: int) -> tuple
 
     Args:
         articulation: as ``make_object`` gives it.
-        character: one of :data:`CHARACTERS`. What has a part that nobody sees from outside cannot
+        character: one of :data:`CHARACTERS`. One with a part hidden from outside cannot
             come from an image, and becomes ``artist``.
         seed: of the change.
 

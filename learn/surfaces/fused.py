@@ -33,7 +33,7 @@ AROUND = np.ones((3, 3, 3), dtype=bool)
 def fused_like(
     articulation: Articulation, seed: int, resolution: int | None = None
 ) -> Articulation:
-    """Return one closed skin around the whole object, labelled by what lies nearest underneath.
+    """Return one closed surface around the whole object, labelled by the nearest part.
 
     The mesh may be closed or not. Seams run along triangles of the skin, and vertices may be
     shared by more than two sheets where surfaces touch.
@@ -148,7 +148,7 @@ def _filled(occupied: BoolArray) -> BoolArray:
 
 
 def _engraved(solid: BoolArray, place: FloatArray, owner: IntArray, depth: int) -> BoolArray:
-    """Return the solid without what lies at most ``depth`` cells deep where two parts are near."""
+    """Return the solid without its outer ``depth`` cells where two parts are near."""
     index = np.rint(place).astype(np.int64)
     part = np.full(solid.shape, -1, dtype=np.int64)
     part[tuple(index.T)] = owner
@@ -186,7 +186,7 @@ def _without_contacts(solid: BoolArray) -> BoolArray:
 def _nets(solid: BoolArray) -> tuple[FloatArray, IntArray]:
     """Return surface nets: a vertex per mixed cell, a quad across each edge that changes.
 
-    Vertices in grid steps, shape [vertex_count, 3]; triangles that look away from what is solid.
+    Vertices in grid steps, shape [vertex_count, 3]; triangles that look away from the solid.
     S. F. Gibson, Constrained elastic surface nets, MICCAI 1998.
     """
     inner = [n - 1 for n in solid.shape]

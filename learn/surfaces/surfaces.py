@@ -173,7 +173,7 @@ def flattened(
 ) -> Labelled:
     """Return a share of the thin pieces as a single sheet, one side of the two; edges are dropped.
 
-    Thin is what is at most ``thickest`` [m], and less on a small object.
+    Thin means at most ``thickest`` [m], and less on a small object.
     """
     low, high = mesh.boxes()
     thin, wide, _ = np.sort(high - low, axis=1).T

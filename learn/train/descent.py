@@ -17,7 +17,7 @@ _MOST_MISSED = 20
 
 
 class Descent:
-    """A network's optimiser, and the running mean of its weights, which is what is shipped.
+    """A network's optimiser, and the running mean of its weights, which is shipped.
 
     Args:
         network: whose weights are moved.

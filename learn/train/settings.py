@@ -100,13 +100,13 @@ class NetworkSettings:
 
 @dataclass(frozen=True)
 class OptimiserSettings:
-    """AdamW and what is around it.
+    """AdamW and its schedule.
 
     Attributes:
         betas: decay of its two means.
         weight_decay: of matrices; norms and biases are left alone.
         clip: largest norm of the gradient; 0: any.
-        ema: decay of the running mean of the weights, which is what is shipped; less in the first
+        ema: decay of the running mean of the weights, which are shipped; less in the first
             steps.
     """
 

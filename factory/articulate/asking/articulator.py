@@ -35,7 +35,7 @@ _FENCED = re.compile(r"\s*```(?:json)?\s*(.*?)\s*```\s*", re.DOTALL)
 
 
 class VlmArticulator:
-    """Asks a model once, once more with what was wrong, and never again about the same pictures.
+    """Asks a model once, once more with the fault, and never again about the same pictures.
 
     Args:
         input_name: of the input's file, which is told.
@@ -142,7 +142,7 @@ def _first_message(question: Question) -> dict[str, Any]:
 
 
 def _corrections(reply: Reply, fault: InputRejected) -> list[dict[str, Any]]:
-    """Return an answer that cannot be used and what is wrong with it, as messages."""
+    """Return an answer that cannot be used and its fault, as messages."""
     wrong = f"That cannot be used: {fault.message}. Answer with the corrected JSON object alone."
     said = reply.text[:LONGEST] or "(nothing)"
     return [{"role": "assistant", "content": said}, {"role": "user", "content": wrong}]

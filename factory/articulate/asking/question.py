@@ -15,7 +15,7 @@ from .sheet import sheet_of
 
 @dataclass(frozen=True)
 class Question:
-    """What is asked about one input.
+    """The question about one input.
 
     Attributes:
         sheet: a PNG of its sides.

@@ -75,7 +75,7 @@ def _motions(articulation: Articulation) -> str:
 
 
 def _sure(articulation: Articulation, least: float) -> Articulation:
-    """Return the same with what is not sure one with the rest."""
+    """Return the same with doubtful parts joined to the rest."""
     parts = articulation.parts
     return keep_parts(
         articulation, [k for k in range(1, len(parts)) if (parts[k].confidence or 0.0) >= least]

@@ -26,8 +26,8 @@ class SeenPart:
     Attributes:
         confidence: in its points, 0 to 1.
         moves: probability that it moves at all.
-        turns: of what moves, probability that it turns.
-        both: of what moves, probability that it turns and slides.
+        turns: if it moves, probability that it turns.
+        both: if it moves, probability that it turns and slides.
         hangs: probability that it hangs on the part it does.
         direction: of its axis or slide, object frame, shape [3]; ``None`` if it has none.
         point: on its axis [m], shape [3]; ``None`` unless it turns.
@@ -53,7 +53,7 @@ class NetworkView:
 
     Attributes:
         face_part: index into ``parts`` of every face, shape [face_count].
-        parts: what was seen.
+        parts: those seen.
         parents: part that each part hangs on, -1 for the root, shape [part_count].
     """
 

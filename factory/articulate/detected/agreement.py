@@ -43,7 +43,7 @@ class Agreement:
 
 @cache
 def load_agreement() -> Agreement:
-    """Return what comes with the package.
+    """Return the network that comes with the package.
 
     Raises:
         ConfigError: the file is for other signs.

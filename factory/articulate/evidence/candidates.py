@@ -192,7 +192,7 @@ def _guessed_lines(
 
 
 def _without_twins(lines: list[Line], tolerance: float) -> list[Line]:
-    """Keep one line of several within the tolerance [m]; what was found round stays round."""
+    """Keep one line of several within the tolerance [m]; round ones stay round."""
     order = sorted(range(len(lines)), key=lambda i: (lines[i][2] != ROUND, i))
     axis = np.array([lines[i][0] for i in order]).reshape(-1, 3)
     origin = np.array([lines[i][1] for i in order]).reshape(-1, 3)

@@ -37,7 +37,7 @@ class Extent:
     Attributes:
         kind: of the joint.
         lower, upper: limits [rad] or [m].
-        share: of what was hoped for that the part got before it met what holds it, 0 to 1.
+        share: of the hoped range that the part moved before a fixed part stopped it, 0 to 1.
     """
 
     kind: JointKind
@@ -53,7 +53,7 @@ def extent_of(body: Body, chosen: Candidates, evidence: FloatArray, guess: Guess
         body: the part.
         chosen: exactly one candidate.
         evidence: its numbers, shape [len(NAMES)].
-        guess: whose ``upper`` is weighed against what is usual, if it speaks of the same kind.
+        guess: whose ``upper`` is weighed against the usual one, if it speaks of the same kind.
     """
     setting = setting_of(body, chosen, evidence)
     said = guess.upper if guess.turns is None or (guess.turns < 0.5) == setting.slides else None
@@ -71,7 +71,7 @@ def extent_of(body: Body, chosen: Candidates, evidence: FloatArray, guess: Guess
 
 
 def _half_open(body: Body, setting: Setting, out: float) -> Extent:
-    """Return limits of a slide that stands open: a guess sees only what is left of its range."""
+    """Return limits of a slide that stands open: a guess sees only the rest of its range."""
     whole = load_usual(True).range(setting, None) * setting.unit
     left = max(whole - out, 0.0)
     free = min(setting.stop * setting.unit, left)

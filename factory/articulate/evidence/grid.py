@@ -1,4 +1,4 @@
-"""What stands around a part, in cells: whether a moved point has gone through it is one look-up."""
+"""A part's surroundings, in cells: one look-up tells whether a moved point went through them."""
 
 from __future__ import annotations
 
@@ -42,8 +42,8 @@ class Grid:
         Args:
             points: where they are now [m], shape [..., 3].
             headings: unit direction in which they go, shape [..., 3].
-            travelled: how far they have come [m], shape [...]. What is within a cell and a half of
-                the start does not count: parts touch at rest.
+            travelled: how far they have come [m], shape [...]. Cells within one and a half of the
+                start do not count: parts touch at rest.
         """
         cells = ((points - self.low) / self.cell).astype(np.int64)
         size = np.array(self.shape)

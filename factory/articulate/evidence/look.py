@@ -29,7 +29,7 @@ class Look:
         extents: of the part along the level frame's axes [m], shape [3].
         thickness: along ``front``, handle apart [m].
         middle: of the slab, along ``front`` [m].
-        handle: middle of what stands out of the front [m]; ``None`` if nothing does.
+        handle: middle of the protrusions of the front [m]; ``None`` without.
         sides: the directions looked from, both ways along the frames' axes, shape [side_count, 3].
         free: how free each of them is, 0 to 1, shape [side_count].
     """

@@ -71,7 +71,7 @@ def best_motion(
         part: whose motion.
         guess: what somebody believes; with nothing in it the geometry decides alone.
         rating: how evidence weighs; the shipped one by default.
-        least_confidence: below this there is no motion in the answer, only what was found out.
+        least_confidence: below this the answer holds no motion, only evidence.
     """
     body = body_of(partition, part)
     if body is None:
@@ -114,7 +114,7 @@ def _right_way(
 ) -> tuple[int, Extent]:
     """Return the chosen candidate, or its reverse where what holds the part stops it at once.
 
-    Not so for what is pressed: buttons lie on what holds them.
+    Not so for buttons: they lie on the part that holds them.
     """
     extent = extent_of(body, single(candidates, chosen), numbers[chosen], guess)
     pressed = bool(candidates.slides[chosen]) and is_small(numbers[chosen])

@@ -74,7 +74,7 @@ def _clip(values: FloatArray) -> FloatArray:
 
 
 def _shared(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str, FloatArray]:
-    """Return what is asked of both kinds."""
+    """Return the numbers that both kinds have."""
     worst = np.maximum.accumulate(gone.hits, axis=1)
     handle = look.center if look.handle is None else look.handle
     values = {f"hit_{k + 1}": np.minimum(worst[:, k] * 5.0, 1.0) for k in range(worst.shape[1])}
@@ -252,7 +252,7 @@ def _breadth(body: Body, axis: FloatArray, chosen: BoolArray) -> float:
 
 
 def _agreement(body: Body, some: Candidates, guess: Guess) -> dict[str, FloatArray]:
-    """Return how far the candidates are what was guessed; nothing guessed, nothing said."""
+    """Return how far the candidates agree with the guess; 0 without one."""
     values: dict[str, FloatArray] = {"guess_made": (some.source == GUESSED).astype(np.float64)}
     slides = bool(len(some)) and bool(some.slides[0])
     if guess.turns is not None:

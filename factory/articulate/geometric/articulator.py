@@ -59,7 +59,7 @@ def articulator_for(intake: Intake, config: BuildConfig) -> GeometricArticulator
 
 
 def _found(mesh: Mesh) -> tuple[tuple[Proposal, ...], str]:
-    """Return what moves; or nothing, and a sentence that says why."""
+    """Return the moving parts; or none, and a sentence that says why."""
     labels = connected_components(mesh)
     pieces = int(labels.max()) + 1 if len(labels) else 0
     if pieces <= 1:
@@ -93,7 +93,7 @@ def _level_scene(mesh: Mesh, labels: IntArray) -> Scene:
 
 
 def _best_view(scene: Scene) -> tuple[Mover, ...]:
-    """Return what moves, seen from the side where most of it is; object frame."""
+    """Return the moving parts, seen from the side that has most of them; object frame."""
     best: tuple[Mover, ...] = ()
     best_weight = 0.0
     for turns in range(4):

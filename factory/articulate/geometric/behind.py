@@ -1,4 +1,4 @@
-"""What lies behind a front panel: a drawer's box, a cavity, or nothing to open."""
+"""The space behind a front panel: a drawer's box, a cavity, or nothing to open."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ DEEP = 0.25
 
 @dataclass(frozen=True)
 class Behind:
-    """What lies behind a panel.
+    """The space behind a panel.
 
     Attributes:
         box_pieces: pieces of a drawer's box; empty if there is none.

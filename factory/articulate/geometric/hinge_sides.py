@@ -27,7 +27,7 @@ def handle_side(panel: FrontSlab) -> int:
 def hinge_side(
     scene: Scene, front: FrontFace, fronts: list[FrontFace]
 ) -> tuple[OpensBy, tuple[str, ...]]:
-    """Return how a front opens, and what was assumed."""
+    """Return how a front opens, and the assumptions."""
     panel = front.panel
     if len(front.behind.box_pieces):
         return OpensBy.OUT, ()

@@ -111,7 +111,7 @@ def _has_company(scene: Scene, knob: int, plates: dict[int, int], small: IntArra
 
 
 def _stack(scene: Scene, knob: int, free: npt.NDArray[np.bool_]) -> IntArray:
-    """Return the knob and what is mounted on it, within its outline."""
+    """Return the knob and the pieces mounted on it, within its outline."""
     slack = 0.02 * scene.extents[knob]
     inside = (scene.low >= scene.low[knob] - slack)[:, RECT].all(axis=1)
     inside &= (scene.high <= scene.high[knob] + slack)[:, RECT].all(axis=1)

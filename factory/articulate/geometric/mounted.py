@@ -1,4 +1,4 @@
-"""What is mounted on a panel: handles, knobs, trim; and whether its surroundings are crowded."""
+"""Pieces mounted on a panel: handles, knobs, trim; and whether its surroundings are crowded."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ class Mover:
         kind: what it is; names the part.
         motion: how it moves.
         pieces: the pieces that move, shape [piece_count].
-        guesses: what was assumed, each the end of a sentence that starts with the part's name.
+        guesses: assumptions, each the end of a sentence that starts with the part's name.
         weight: how much it speaks for the view it was found in.
         panel, handle: as in :class:`~asset_factory.factory.part.Part`, where they were seen.
     """

@@ -1,4 +1,4 @@
-"""Front panels: pieces that look like the front of a door or a drawer, and what is on them."""
+"""Front panels: pieces that look like the front of a door or a drawer, and pieces on them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is round about an upright or a level axis and moves: caps, pot lids, turntables, wheels."""
+"""Round parts that move about an upright or a level axis: caps, pot lids, turntables, wheels."""
 
 from __future__ import annotations
 

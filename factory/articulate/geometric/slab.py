@@ -1,4 +1,4 @@
-"""A panel: a flat piece in the front plane, and what is mounted on it."""
+"""A panel: a flat piece in the front plane, and pieces mounted on it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ STANDS_OFF = 0.08
 
 @dataclass(frozen=True)
 class FrontSlab:
-    """A slab in the front and what is mounted on it, view frame [m].
+    """A slab in the front and pieces mounted on it, view frame [m].
 
     Attributes:
         slabs: pieces that form the slab itself.
@@ -75,7 +75,7 @@ class FrontSlab:
 
     @property
     def pieces(self) -> IntArray:
-        """Return the slabs and what is mounted on them, sorted."""
+        """Return the slabs and the pieces mounted on them, sorted."""
         return np.array(sorted({*self.slabs, *self.mounted}), dtype=np.int64)
 
     def outline(self, opens: OpensBy) -> Panel:

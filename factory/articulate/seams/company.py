@@ -27,7 +27,7 @@ LIKELIER = 1.5
 
 
 def without_control_panels(panels: Sequence[FrontPanel]) -> list[FrontPanel]:
-    """Drop what is beside a microwave's door: no two doors differ so in handles."""
+    """Drop panels beside a microwave's door: no two doors differ so in handles."""
     doors = [each for each in panels if _grip(each) is GripShape.UPRIGHT]
     return [
         panel

@@ -15,7 +15,7 @@ ON_PLANE = 1e-5
 
 @dataclass(frozen=True, eq=False)
 class Region:
-    """What lies inside of several planes.
+    """The space inside of several planes.
 
     Attributes:
         normals: outward unit normals, shape [n, 3].
@@ -30,7 +30,7 @@ class Region:
         return Region(self.normals @ rotation.T, self.offsets)
 
     def within(self, other: Region) -> Region:
-        """Return what lies inside of the planes of both."""
+        """Return the space inside of the planes of both."""
         return Region(
             np.concatenate([self.normals, other.normals]),
             np.concatenate([self.offsets, other.offsets]),

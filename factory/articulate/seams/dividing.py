@@ -25,7 +25,7 @@ def divided(
     """Return a rectangle cut so that every piece has one handle; nothing if that cannot be.
 
     Args:
-        rectangle: what is to be cut.
+        rectangle: to cut.
         handles: the pulls in it.
         level: candidate lines, of which weak ones are good enough here.
         upright: likewise, vertical ones.

@@ -136,7 +136,7 @@ def _dip(values: FloatArray) -> FloatArray:
 
 
 def _ramp(value: FloatArray, seen: BoolArray, nothing: float, certain: float) -> FloatArray:
-    """Return 0 for what says nothing, 1 for what is certain; a seam stands out of the rest.
+    """Return 0 for no evidence, 1 for certainty; a seam stands out of the rest.
 
     Seams are few, so that what most pixels show is the texture or the noise of the surface.
     """

@@ -1,4 +1,4 @@
-"""What is known of a rectangle that may be a panel, in figures that do not depend on size."""
+"""Features of a rectangle that may be a panel, in figures that do not depend on size."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def features(around: Context, rectangle: Rectangle, *, cut: bool) -> FloatArray:
 
 
 def _place(relief: Relief, rectangle: Rectangle) -> list[float]:
-    """Return the size, shape and place on the side, in shares of what is seen."""
+    """Return the size, shape and place on the side, in shares of the visible side."""
     first_row, last_row, first_column, last_column = relief.box
     low = np.array([first_row, first_column])
     size = np.maximum(np.array([last_row, last_column]) - low, 1)

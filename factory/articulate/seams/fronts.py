@@ -30,7 +30,7 @@ OPPOSITE = {
 
 @dataclass(frozen=True)
 class Front:
-    """One side and what is behind it.
+    """One side and the space behind it.
 
     Attributes:
         relief: the side.
@@ -89,6 +89,6 @@ def fronts_of(reliefs: Mapping[Side, Relief]) -> dict[Side, Front]:
 
 
 def thickness(relief: Relief, behind: Relief) -> FloatArray:
-    """Return how much lies between what is seen from a side and from its opposite [pixels]."""
+    """Return the thickness between a side's surface and its opposite's [pixels]."""
     depth = float(relief.depth) / relief.raster.pixel
     return np.asarray(depth + relief.height + behind.height[:, ::-1])

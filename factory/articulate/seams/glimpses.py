@@ -50,7 +50,7 @@ def glimpsed(front: Front) -> tuple[FrontPanel, ...]:
 
 
 def _blocks(block: Block, level: FloatArray, upright: FloatArray) -> list[Block]:
-    """Return what is left of a block when it is cut along its surest end, and so on."""
+    """Return the rest of a block when it is cut along its surest end, and so on."""
     bottom, top, left, right = block
     rows = level[bottom + LEAST : top - LEAST + 1, left:right].mean(axis=1)
     columns = upright[bottom:top, left + LEAST : right - LEAST + 1].mean(axis=0)

@@ -93,7 +93,7 @@ class Protrusion:
         return np.asarray(self.high - self.low + 1.0)
 
     def split(self, column: int) -> tuple[Protrusion, Protrusion]:
-        """Return what is left and right of a column."""
+        """Return both sides of a column."""
         left = replace(self, high=np.array([self.high[0], column - 1]))
         return left, replace(self, low=np.array([self.low[0], column + 1]))
 
@@ -112,12 +112,12 @@ class Protrusion:
 
 @dataclass(frozen=True, eq=False)
 class Face:
-    """A relief without what stands in front of it.
+    """A relief without its protrusions.
 
     Attributes:
         height: of the face alone [pixels], shape [rows, columns].
         covered: where a handle was taken off, shape [rows, columns].
-        handles: what was taken off.
+        handles: those taken off.
     """
 
     height: FloatArray

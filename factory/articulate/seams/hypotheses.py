@@ -93,7 +93,7 @@ def hypotheses_of_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[Movers, ...]:
 
 
 def _appliance_hypotheses(seen: _Sides, side: Side) -> tuple[Movers, ...]:
-    """Return what has knobs on one side and nothing else that opens: its door, if any."""
+    """Return hypotheses of an object with knobs on one side: its door, if any."""
     door = appliance_door(seen.fronts[side], seen.found[side]) if side in AROUND else None
     if door is not None and not _is_seen(seen.fronts[side], door.panel):
         door = None
@@ -117,7 +117,7 @@ def _probability(movers: Movers) -> float:
 
 
 def _openings(seen: _Sides, *, has_knobs: bool) -> tuple[Movers, ...]:
-    """Return what opens, without knobs; what has some is an appliance, whose top is no lid."""
+    """Return the openings, without knobs; with some it is an appliance, whose top is no lid."""
     odds = value_of(seen.front.scene, seen.panels, seen.found[seen.side])
     if not has_knobs and seen.has_lid(odds < 0.0 and not seen.is_clear):
         return _lid_hypotheses(seen.fronts, seen.lids)

@@ -1,4 +1,4 @@
-"""Which rectangles of a front are panels, by what was learned from generated objects."""
+"""Which rectangles of a front are panels, learned from generated objects."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def value_of(scene: FrontScene, panels: Sequence[FrontPanel], found: Sequence[Re
 
 
 def rated(scene: FrontScene, candidates: Sequence[PanelCandidate]) -> list[Group]:
-    """Return the candidates with what is thought of them, the likeliest first."""
+    """Return the candidates with their probabilities, the likeliest first."""
     if not candidates:
         return []
     pieces, rows = described(scene, candidates)

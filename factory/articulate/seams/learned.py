@@ -1,4 +1,4 @@
-"""What was learned about panels and how they open: networks of a rectangle's features."""
+"""Panels and how they open, learned: networks of a rectangle's features."""
 
 from __future__ import annotations
 

@@ -134,7 +134,7 @@ def _told(covers: FloatArray) -> BoolArray:
 
 
 def _seen_above(front: Front, row: int) -> float:
-    """Return the share of what is above a row that the picture network takes for a lid, 0 to 1."""
+    """Return the share above a row that the picture network takes for a lid, 0 to 1."""
     lid = front.sight.lid[row // SQUARE + 1 :]
     seen = front.relief.seen[::SQUARE, ::SQUARE][row // SQUARE + 1 :]
     return float(lid[seen].mean()) if seen.any() else 0.0
@@ -294,7 +294,7 @@ def _reach(fronts: Mapping[Side, Front], side: Side, first: int, height: int) ->
 
 
 def _has_pedal(front: Front, first: int, height: int) -> bool:
-    """Return whether what is nearest at the foot of a side is in its middle."""
+    """Tell whether the nearest point at the foot of a side is in its middle."""
     relief = front.relief
     foot = np.where(relief.seen, relief.height, -np.inf)[first : first + max(height // 8, 1)]
     nearest = np.flatnonzero((foot > foot.max() - NEAREST).any(axis=0))

@@ -24,7 +24,7 @@ DEEPEST = {True: 0.97, False: 0.5}
 
 @dataclass(frozen=True, eq=False)
 class PieceOutlines:
-    """Boxes of a mesh's pieces and what is seen of them, in one side's frame.
+    """Boxes of a mesh's pieces and their visible pixels, in one side's frame.
 
     Attributes:
         view: of the side; its parts are the pieces.

@@ -47,8 +47,8 @@ class OpeningPart:
         motion: how it opens.
         existence: probability that there is such a part, 0 to 1.
         sure: that it moves so, if there is one, 0 to 1.
-        panel, handle: as in :class:`~asset_factory.factory.part.Part`; ``None`` of what is no
-            panel of a side, or has no handle.
+        panel, handle: as in :class:`~asset_factory.factory.part.Part`; ``None`` for parts that are
+            no panel of a side, or have no handle.
     """
 
     kind: PartKind

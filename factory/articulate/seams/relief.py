@@ -53,7 +53,7 @@ class Relief:
 
     @cached_property
     def box(self) -> tuple[int, int, int, int]:
-        """Return first and last row, first and last column of what is seen.
+        """Return first and last row, first and last column with a surface.
 
         Without slivers that stick out: the ground that an object stands on, a handle, an antenna.
         """

@@ -119,7 +119,7 @@ def _squares_in(rectangle: Rectangle) -> tuple[slice, slice]:
 
 
 def sight_of(relief: Relief) -> Sight:
-    """Return what is seen on one side."""
+    """Return the picture network's answer for one side."""
     answer = picture_network.picture_scores(shipped_weights(), cues_of(relief))
     squares = tuple(-(-length // SQUARE) for length in relief.shape)
     answer = answer[:, : squares[0], : squares[1]]

@@ -22,7 +22,7 @@ _QUARTER = 90
 def straightening(mesh: Mesh) -> FloatArray | None:
     """Return the rotation about z that makes an object's sides look along the axes, shape [3, 3].
 
-    By at most an eighth of a turn; ``None`` for what stands straight already or is round.
+    By at most an eighth of a turn; ``None`` for objects that are straight or round.
     """
     corners = mesh.vertices[mesh.faces]
     normals = doubled_normals(corners)

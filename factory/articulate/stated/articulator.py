@@ -73,7 +73,7 @@ class StatedArticulator:
         return self.hypotheses(mesh)[0].articulation
 
     def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
-        """Return the articulations that fit what is stated, the likeliest first.
+        """Return the articulations that fit the statement, the likeliest first.
 
         All share one mesh: the given one, cut along the outlines of all their parts.
 
@@ -105,7 +105,7 @@ class StatedArticulator:
         return self._beside(Expected(guess, placed, guess.joints))
 
     def _beside(self, each: Expected) -> tuple[Hypothesis, ...]:
-        """Return what is placed beside what is wanted of a guess, cut from the guess's mesh."""
+        """Return the placed parts beside those wanted of a guess, cut from the guess's mesh."""
         made = []
         for ways in islice(_with_cut(_choices(each.placed)), MOST_HYPOTHESES):
             cut = cut_along(each.guess.mesh, [_to_cut(ways)])
@@ -114,7 +114,7 @@ class StatedArticulator:
         return tuple(made)
 
     def _filled(self, mesh: Mesh, wanted: Counter[PartKind]) -> tuple[Hypothesis, ...]:
-        """Return what is placed, beside what the guess has of what is stated without a place."""
+        """Return the placed parts, and those that the guess has of expected ones."""
         if self.guess is None:
             bare = [part.view is None for part in self.stated.parts].index(True)
             raise InputRejected(
@@ -142,7 +142,7 @@ class StatedArticulator:
         guessed: Sequence[Proposal] = (),
         guessed_hosts: Sequence[int] = (),
     ) -> Articulation:
-        """Return what is placed, and beside it what was guessed, on a mesh cut for both."""
+        """Return the placed parts beside the guessed ones, on a mesh cut for both."""
         hosts = _hosts(placed, ways)
         owner = _owners(cut, placed, ways, hosts)
         movers = [way.mover for way in ways]
@@ -301,7 +301,7 @@ def _hosts(placed: Sequence[Placed], ways: Sequence[StatedWay]) -> list[int]:
 def _owners(
     cut: CutMesh, placed: Sequence[Placed], ways: Sequence[StatedWay], hosts: Sequence[int]
 ) -> IntArray:
-    """Return the part of each face, 0 for the body; what is carried claims its faces first.
+    """Return the part of each face, 0 for the body; carried parts claim their faces first.
 
     Raises:
         InputRejected: ``stated_part_not_found``: a part gets nothing, or hardly any of its own.

@@ -34,7 +34,7 @@ _ENDS = {
 
 
 def control_openings(part: StatedBox) -> list[OpeningPart]:
-    """Return what is turned or pressed, as :func:`_control` finds it; a lever one way or the other.
+    """Return parts to turn or press, as :func:`_control` finds them; a lever one way or the other.
 
     Raises:
         InputRejected: ``stated_part_not_found``: no lever is hinged so.
@@ -49,7 +49,7 @@ def control_openings(part: StatedBox) -> list[OpeningPart]:
 def _control(part: StatedBox) -> OpeningPart:
     """Return the knob that is seen in a box, or all that stands off.
 
-    A wheel turns about the middle of what stands off, a lever about the edge where it is hinged, a
+    A wheel turns about the middle of its protrusion, a lever about the edge where it is hinged, a
     cap that is seen from beside about the upright.
     """
     kind = part.kind

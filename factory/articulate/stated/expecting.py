@@ -44,7 +44,7 @@ class Expected:
 
     @property
     def is_whole(self) -> bool:
-        """Tell whether nothing is placed, and the guess has nothing but what is wanted."""
+        """Tell whether nothing is placed, and the guess has only wanted parts."""
         return not self.placed and len(self.joints) == len(self.guess.movable_joints)
 
     @property

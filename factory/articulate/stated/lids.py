@@ -28,9 +28,9 @@ HINGE_SIDES = {
 
 
 def lid_openings(fronts: Mapping[Side, Front], part: StatedBox) -> list[OpeningPart]:
-    """Return what is above the lower edge of a lid's box, hinged as stated or across from there.
+    """Return the mesh above the lower edge of a lid's box, hinged as stated or across from there.
 
-    What is beside its box, or above it, by more than a drawn edge may be off is left out: there may
+    Faces beside its box, or above it, by more than a drawn edge may be off are left out: there may
     be a second lid.
 
     Raises:

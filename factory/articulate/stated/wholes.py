@@ -32,7 +32,7 @@ class StatedWay:
 
     Attributes:
         mover: the part.
-        pieces: that it is made of, ascending; none where it is cut out of what is in its region.
+        pieces: that it is made of, ascending; none where it is cut out of the mesh in its region.
         cut: the part as it would be cut out, where it is made of pieces.
     """
 

@@ -1,4 +1,4 @@
-"""Parts matched by their centroids, and what is made of the parts without a partner."""
+"""Parts matched by their centroids, and penalties for parts without a partner."""
 
 from __future__ import annotations
 

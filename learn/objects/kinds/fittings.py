@@ -1,4 +1,4 @@
-"""What is fitted to walls and pipes: faucets, valves, panels of switches."""
+"""Fittings of walls and pipes: faucets, valves, panels of switches."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rows of kitchen units under one worktop, with what is built into them."""
+"""Rows of kitchen units under one worktop, with built-in appliances."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Notebook computers and monitors; and what stands beside them: mice and printers."""
+"""Notebook computers and monitors; and their company: mice and printers."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PLAY = 0.0008
 
 
 def laptop(a: Assembly) -> None:
-    """Build a notebook of the demo, closed, with gaps that leave no doubt what is its lid."""
+    """Build a notebook of the demo, closed, with gaps that leave no doubt about its lid."""
     width, depth, thick = a.draws((0.3, 0.38), (0.21, 0.26), (0.013, 0.018))
     body = a.body(a.pick(STEEL, BLACK, BLUE))
     radius = 0.005

@@ -57,7 +57,7 @@ class CaseworkPlan:
         sizes: width, depth and height of the case [m].
         stands: what it stands on and how often.
         base: height of that [m].
-        tops: what lies on it: ``flush`` (nothing), ``board``, ``cornice``, ``sink`` or ``vessel``.
+        tops: of the piece: ``flush`` (nothing), ``board``, ``cornice``, ``sink`` or ``vessel``.
         inset: share whose fronts lie in their openings.
         panels: styles of doors; the usual ones if empty.
         pulls: heights of the pulls of doors, as shares.

@@ -42,7 +42,7 @@ def facing_front(y: float) -> Place:
 
 
 def facing_up(z: float) -> Place:
-    """Return the face at ``z`` that looks up; what is up on it is the object's +Y."""
+    """Return the face at ``z`` that looks up; its own up is the object's +Y."""
     return _placed(RIGHT, DOWN, BACK, (0.0, 0.0, z))
 
 
@@ -59,7 +59,7 @@ class PartDraft:
 
     Attributes:
         name: of the part; its joint is called ``<name>_joint``.
-        look: of what is added without one.
+        look: of forms added without one.
         parent: the part that it hangs on; ``None`` for the body.
         kind: of its joint.
         axis: unit vector at rest; positive values open.
@@ -103,12 +103,12 @@ class Hanging(TypedDict, total=False):
 
 
 class Assembly(Chance):
-    """A body and what moves on it; every kind of object is described by adding to one.
+    """A body and its moving parts; every kind of object is described by adding to one.
 
     Attributes:
         root: the part that does not move, ``body``.
         parts: the others, parents before children.
-        hairline: every form ends this far short of what was said [m], so that forms that meet share
+        hairline: every form ends this far short of its size [m], so that forms that meet share
             no corner.
     """
 

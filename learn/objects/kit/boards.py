@@ -1,4 +1,4 @@
-"""What is nailed together of boards: frames, carcasses, trays, racks; and what they stand on."""
+"""Furniture of boards: frames, carcasses, trays, racks; and their feet."""
 
 from __future__ import annotations
 

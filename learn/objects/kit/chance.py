@@ -1,4 +1,4 @@
-"""What is drawn at random: sizes, shares, looks."""
+"""Random draws: sizes, shares, looks."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ class Swing:
 
     Attributes:
         setback: of the axis behind the face [m]; negative for one in front of it.
-        trim: taken off the free edge, so that its back corner passes what is beside it [m].
+        trim: taken off the free edge, so that its back corner passes its neighbours [m].
         upper: fully open [rad].
     """
 

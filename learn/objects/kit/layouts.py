@@ -25,11 +25,11 @@ BARE = 0.001
 
 @dataclass(frozen=True)
 class Cell:
-    """A rectangle of the front; what is given per edge comes left, right, bottom, top.
+    """A rectangle of the front; values per edge come left, right, bottom, top.
 
     Attributes:
-        kind: what fills it.
-        name: of what moves in it; made up if empty.
+        kind: of the part in it.
+        name: of the moving part; made up if empty.
         x, z: up to the middle of the boards around it, or to the outside of the case [m].
         walls: how much of each edge is board [m].
         outer: whether each edge is the case's own.
@@ -49,7 +49,7 @@ class Cell:
         return (self.x[0] + left, self.x[1] - right), (self.z[0] + bottom, self.z[1] - top)
 
     def halves(self, seam: float, apart: float) -> tuple[Cell, Cell]:
-        """Return what lies left and right of x = ``seam``, each ``apart`` from it [m]."""
+        """Return the halves left and right of x = ``seam``, each ``apart`` from it [m]."""
         left, right, *ends = self.walls
         first, last, *others = self.outer
         near = replace(

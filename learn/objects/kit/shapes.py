@@ -244,7 +244,7 @@ def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
 def ribbon(
     left: npt.ArrayLike, right: npt.ArrayLike, along: Span, axis: int = Z, looped: bool = False
 ) -> Form:
-    """Return a plate of any outline: what lies between two lines, swept along an axis.
+    """Return a plate of any outline: the area between two lines, swept along an axis.
 
     Args:
         left: one edge, shape [point_count, 2].

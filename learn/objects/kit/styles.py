@@ -153,7 +153,7 @@ def any_style(
 
 
 def convex_style(chance: Chance, skin: Material, **changes: Any) -> Style:
-    """Return the demo's style: convex forms only, gaps that leave no doubt what is a part."""
+    """Return the demo's style: convex forms only, gaps that leave no doubt about parts."""
     style = any_style(chance, {"slab": 0.5, "shaker": 0.5}, 0.0, 1.0, (0.75, 0.85))
     kind = chance.pick("bar", "rail", "knob")
     reach = 0.03 if kind == "knob" else 0.041
