@@ -11,7 +11,6 @@ from ..errors import Exit
 from ..registry import Registry
 from ..runtime.layout import MANIFEST
 from ..runtime.terminal import say
-from . import showing
 from .flags import OfRegistry, Printed
 
 
@@ -28,6 +27,8 @@ class Show(Printed, OfRegistry):
 
 def run(command: Show) -> int:
     """Print one row and its report; returns the exit code."""
+    from . import showing
+
     registry = Registry(command.output)
     entry = registry.named(command.id)
     told = registry.told(entry)

@@ -22,13 +22,13 @@ ENOUGH_DISK = 5 * 1024**3
 #: A drawer in a rail: the least that an engine must be able to move.
 SLIDER = """<robot name="slider">
   <link name="rail"><inertial><mass value="1"/>
-    <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
+    <inertia ixx="0.0034" ixy="0" ixz="0" iyy="0.0034" iyz="0" izz="0.0067"/></inertial>
     <collision><geometry><box size="0.2 0.2 0.02"/></geometry></collision></link>
   <link name="drawer"><inertial><mass value="1"/>
-    <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
+    <inertia ixx="0.0017" ixy="0" ixz="0" iyy="0.0017" iyz="0" izz="0.0017"/></inertial>
     <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
   <joint name="slide" type="prismatic"><parent link="rail"/><child link="drawer"/>
-    <origin xyz="0 0 0.1"/><axis xyz="0 -1 0"/>
+    <origin xyz="0 0 0.07"/><axis xyz="0 -1 0"/>
     <limit lower="0" upper="0.2" effort="100" velocity="1"/>
     <dynamics damping="2" friction="1"/></joint>
 </robot>

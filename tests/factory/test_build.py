@@ -136,6 +136,7 @@ def test_wrong_usage_exits_with_2_and_says_what_would_work(
     arguments, sentence, tmp_path, monkeypatch, capsys
 ):
     monkeypatch.chdir(tmp_path)
+    trimesh.creation.box().export(tmp_path / "brick.stl")
     assert run(["build", "--output", str(tmp_path / "out"), *arguments]) == 2
     assert sentence in capsys.readouterr().err
 
@@ -188,7 +189,7 @@ def test_a_process_that_is_killed_is_listed_as_unjudged(tmp_path):
 def test_overlapping_neighbours_are_rejected_with_the_millimetres(tmp_path):
     # Two drawers of one chest, modelled with 8 mm of overlap: no repair may hide that.
     parts = {
-        "base": [(1, 0.02, 1), (0, 0.3, 0.5)],
+        "base": [(1, 0.02, 1), (0, 0.265, 0.5)],
         "one": [(0.5, 0.5, 0.4), (-0.246, 0, 0.5)],
         "two": [(0.5, 0.5, 0.4), (0.246, 0, 0.5)],
     }

@@ -98,7 +98,7 @@ def test_a_check_that_takes_too_long_is_a_finding(tmp_path):
 
 
 BOX_MJCF = """<mujoco><worldbody><body name="shell"><geom type="box" size=".1 .1 .1"/>
-<body name="drawer" pos="0 .3 0"><joint name="slide" type="slide" axis="0 1 0" range="0 .2"/>
+<body name="drawer" pos="0 .21 0"><joint name="slide" type="slide" axis="0 1 0" range="0 .2"/>
 <geom type="box" size=".1 .1 .1"/></body></body></worldbody></mujoco>"""
 
 

@@ -31,7 +31,7 @@ def checked(path: Path, *roots: Path, outside: bool = False) -> Report:
 
 
 def codes(report: Report) -> list[str]:
-    return [finding.code for finding in report.hard]
+    return [finding.code for finding in report.errors]
 
 
 def told(report: Report) -> list[str]:
@@ -91,7 +91,7 @@ def test_a_package_is_looked_for_a_few_levels_up_and_no_further(tmp_path: Path) 
     )
     report = checked(path)
     assert codes(report) == ["missing_file"]
-    assert "--root" in report.hard[0].message
+    assert "--root" in report.errors[0].message
     assert is_sound(checked(path, tmp_path / "far"))
 
 
@@ -100,8 +100,8 @@ def test_what_no_root_holds_is_refused_with_the_flag_that_helps(tmp_path: Path, 
     path = write_package(tmp_path, "", away.format(root=tmp_path))
     report = checked(path)
     assert codes(report) == ["outside_folder"]
-    assert "--root" in report.hard[0].message
-    assert "--allow-outside" in report.hard[0].message
+    assert "--root" in report.errors[0].message
+    assert "--allow-outside" in report.errors[0].message
     assert is_sound(checked(path, tmp_path))
     trusted = checked(path, outside=True)
     assert is_sound(trusted)
@@ -204,7 +204,7 @@ def test_an_mjcf_is_read_from_its_package_as_mujoco_reads_it(
     (tmp_path / "package.xml").unlink()
     report = checked(path)
     assert codes(report) == ["outside_folder"]
-    assert "--root" in report.hard[0].message
+    assert "--root" in report.errors[0].message
     assert is_sound(checked(path, tmp_path))
 
 

@@ -26,18 +26,18 @@ def overlapping(folder: Path) -> Path:
 
 def test_exempt_pairs_are_told_and_reject_nothing(tmp_path: Path) -> None:
     path = overlapping(tmp_path)
-    assert [finding.code for finding in run_checks(path, ()).hard] == ["rest_penetration"]
+    assert [finding.code for finding in run_checks(path, ()).errors] == ["rest_penetration"]
     path.with_suffix(".srdf").write_text(SRDF.format("drawer", "shell"))
     report = run_checks(path, ())
-    assert not report.hard
+    assert not report.errors
     found = {finding.code: finding for finding in report.findings}
     assert found["pairs_exempt"].value == 1.0
     assert "drawer and shell" in found["pairs_exempt"].message
     assert "excluded_penetration" in found
     path.with_suffix(".srdf").write_text(SRDF.format("drawer", "no link"))
-    assert [finding.code for finding in run_checks(path, ()).hard] == ["rest_penetration"]
+    assert [finding.code for finding in run_checks(path, ()).errors] == ["rest_penetration"]
     path.with_suffix(".srdf").write_text("<robot")
-    assert [finding.code for finding in run_checks(path, ()).hard] == ["invalid_xml"]
+    assert [finding.code for finding in run_checks(path, ()).errors] == ["invalid_xml"]
 
 
 def test_an_srdf_of_another_package_is_named(tmp_path: Path) -> None:
@@ -45,7 +45,7 @@ def test_an_srdf_of_another_package_is_named(tmp_path: Path) -> None:
     srdf = tmp_path / "moveit" / "config" / "arm.srdf"
     srdf.parent.mkdir(parents=True)
     srdf.write_text(SRDF.format("drawer", "shell"))
-    assert not run_checks(path, (), options=ReadOptions(srdf=srdf)).hard
+    assert not run_checks(path, (), options=ReadOptions(srdf=srdf)).errors
     assert run(Check((path,), sim="", strict=True, srdf=srdf)) == 0
     for wrong in (Check((path, path), srdf=srdf), Check((path,), srdf=tmp_path / "no.srdf")):
         with pytest.raises(ConfigError, match="--srdf"):

@@ -33,7 +33,7 @@ def write_xacro(folder: Path, body: str, name: str = "cabinet.urdf.xacro") -> Pa
 
 
 def codes(report: Report) -> list[str]:
-    return [finding.code for finding in report.hard]
+    return [finding.code for finding in report.errors]
 
 
 def test_macros_includes_arguments_and_packages_are_expanded(tmp_path: Path) -> None:

@@ -240,7 +240,7 @@ def test_a_file_becomes_one_page_that_needs_nothing_else(tmp_path):
     own = [folder / name for name in ("asset.urdf", "asset.xml", "view.glb", ".")]
     # Our own program wrote these, but they have no joints of ours.
     meshes = [path for path in EXAMPLES.glob("*/*") if path.suffix in (".glb", ".obj")]
-    assert len(meshes) == 11
+    assert len(meshes) == 12
     for file in (*own, tmp_path / "more/asset.glb", *meshes):
         text = page_of_file(file)
         parsed = Page(text)
