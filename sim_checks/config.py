@@ -191,10 +191,10 @@ class LintConfig:
             to something; linkages that are written as one joint have their axis within a diagonal.
         apart: what a joint moves may lie this many times the larger of its own and the rest's
             diagonal away from the rest; further off, the two are no one object.
-        finger_m: what a joint moves comes this near to what carries it in some pose [m], a finger's
-            width, or it is fastened to nothing; hinges and slides that nobody modelled fit in.
-        hinge_share: a hinge holds its part in every pose: further away than a finger and this share
-            of the part's diagonal rejects. Thick doors that turn about an edge leave 5 % of theirs.
+        finger_m: a slide comes this near to what carries it in some pose, and a hinge in each, a
+            finger's width, or it is fastened to nothing [m].
+        near_share: of the part's diagonal that is near enough as well, beside that width: racks
+            ride on rails that no mesh has, and thick doors that turn about an edge leave 5 %.
         pull_soft_n, pull_hard_n: a joint whose friction, or damping when opened in ``opening_s``
             [s], takes more force at the far edge than this is reported, or rejects [N]. Arms of
             robots pull some 30 N; a stiff fridge takes 60; with more than 100 N not even a person
@@ -238,7 +238,7 @@ class LintConfig:
     axis_hard: float = 2.0
     apart: float = 1.0
     finger_m: float = 0.02
-    hinge_share: float = 0.1
+    near_share: float = 0.1
     pull_soft_n: float = 30.0
     pull_hard_n: float = 100.0
     opening_s: float = 3.0
