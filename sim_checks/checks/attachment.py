@@ -29,9 +29,8 @@ def check_attachment(description: Description, config: LintConfig) -> CheckResul
     surfaces = _Surfaces(description)
     findings = []
     for joint in surfaces.tree.moving:
-        finger = config.finger_m
-        gaps, size = surfaces.gaps(joint, finger, every=joint.kind != "prismatic")
-        away = finger + config.near_share * size
+        gaps, size = surfaces.gaps(joint, config.finger_m, every=joint.kind != "prismatic")
+        away = config.finger_m + config.near_share * size
         never = bool(gaps.min() > away)
         if not never and (joint.kind == "prismatic" or gaps.max() <= away):
             continue
