@@ -150,7 +150,7 @@ def closed_at_lower(draft: Draft, moved: frozenset[str] = frozenset()) -> Draft:
 
     Args:
         draft: anything.
-        moved: joints that are not as they were drawn, whose pose at one end so says nothing.
+        moved: joints not as drawn; of hinges that pose says nothing, slides sink at the other.
     """
     joints = []
     notes = []
@@ -158,11 +158,11 @@ def closed_at_lower(draft: Draft, moved: frozenset[str] = frozenset()) -> Draft:
     turned = set()
     for joint in draft.joints:
         # A follower is closed where its leader is.
-        kinds = (JointKind.REVOLUTE, JointKind.PRISMATIC)
-        if joint.kind not in kinds or joint.mimic is not None:
+        if joint.kind not in (JointKind.REVOLUTE, JointKind.PRISMATIC) or joint.mimic is not None:
             joints.append(joint)
             continue
-        flip, note = _opens_downwards(draft, joint, drawn=joint.name not in moved)
+        drawn = joint.kind is JointKind.PRISMATIC or joint.name not in moved
+        flip, note = _opens_downwards(draft, joint, drawn=drawn)
         if flip is None:
             undecided.append(joint.name)
         notes += [note] if note else []
