@@ -15,7 +15,7 @@ MAY_GO = frozenset({"sweep_penetration", "collision_gap", "interior_filled"})
 #: What a wrong guess brings about.
 BY_A_GUESS = MAY_GO | {
     "rest_penetration", "jammed", "not_returned", "limit_overshoot", "others_moved",
-    "pushed_at_rest", "energy_grows",
+    "pushed_at_rest", "energy_grows", "part_detached",
 }  # fmt: skip
 
 
