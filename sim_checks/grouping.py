@@ -39,9 +39,9 @@ def told_once(finding: Finding) -> Hashable:
 
     Shapes have other names in an MJCF, and a pair may come the other way round.
     """
-    places = finding.parts or finding.joints or (finding.joint,)
+    places = finding.parts or finding.named_joints
     value = None if finding.value is None else f"{finding.value:.{DIGITS}g}"
-    said = finding.message if places == (None,) and value is None else ""
+    said = finding.message if not places and value is None else ""
     return finding.code, finding.severity, finding.simulator, frozenset(places), value, said
 
 

@@ -84,6 +84,11 @@ class Finding:
         object.__setattr__(self, "joints", tuple(self.joints))
 
     @property
+    def named_joints(self) -> tuple[str, ...]:
+        """Return the names of the joints concerned, of one or of several."""
+        return self.joints or ((self.joint,) if self.joint else ())
+
+    @property
     def stopped(self) -> bool:
         """Return whether another try may say something else: a clock or somebody ended this one."""
         return self.cause in (KILLED, OUT_OF_TIME)

@@ -150,7 +150,7 @@ def closed_at_lower(draft: Draft, moved: frozenset[str] = frozenset()) -> Draft:
 
     Args:
         draft: anything.
-        moved: joints not as drawn; of hinges that pose says nothing, slides sink at the other.
+        moved: joints not as drawn: the pose of a hinge then says nothing; a slide would sink in.
     """
     joints = []
     notes = []

@@ -66,11 +66,10 @@ def _plain(file: str, finding: Finding) -> dict[str, Any]:
 
 def _place(file: str, finding: Finding) -> tuple[Any, ...]:
     """Return what a finding is known by: its file, code and simulator, and its links and joints."""
-    joints = finding.joints or ((finding.joint,) if finding.joint else ())
     return (
         file,
         finding.code,
         finding.simulator,
         tuple(sorted(finding.parts)),
-        tuple(sorted(joints)),
+        tuple(sorted(finding.named_joints)),
     )

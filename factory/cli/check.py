@@ -56,7 +56,7 @@ class Check:
     """Exit with 1 when anything was rejected."""
     srdf: Path | None = None
     """An SRDF whose exempt pairs hold for the one file checked; by default the one beside it."""
-    reading: tyro.conf.OmitArgPrefixes[RootFlags] = field(default_factory=RootFlags)
+    roots: tyro.conf.OmitArgPrefixes[RootFlags] = field(default_factory=RootFlags)
     """Where descriptions may read."""
     format: str = "text"
     """How to print it: text, as files are done, or json, sarif, junit, markdown or github, at the
@@ -78,7 +78,7 @@ def run(command: Check) -> int:
     workers = workers_fitting(command.workers, CHECK_BYTES)
     known = read_baseline(command.baseline) if command.baseline else frozenset()
     files = _described(command.files)
-    options = replace(command.reading.options(command.files), srdf=command.srdf)
+    options = replace(command.roots.options(command.files), srdf=command.srdf)
     if command.srdf is not None and not (command.srdf.is_file() and len(files) == 1):
         raise ConfigError(f"--srdf: want a file, for one description; got {len(files)} of them")
     form, written = _forms("json" if str(command.json) == "-" else command.format)

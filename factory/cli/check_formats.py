@@ -160,8 +160,7 @@ def _told(finding: Finding) -> str:
 
 def _names(finding: Finding) -> tuple[str, ...]:
     """Return the joints and links that a finding is about."""
-    joints = finding.joints or ((finding.joint,) if finding.joint else ())
-    return (*joints, *finding.parts)
+    return (*finding.named_joints, *finding.parts)
 
 
 def _lines(file: str) -> tuple[str, ...]:

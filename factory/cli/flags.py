@@ -98,7 +98,7 @@ class InputFlags:
     """Real height to scale every input to [m]."""
     config: str = "default"
     """A preset (default, fast, lenient, strict) or a TOML file of differences from the defaults."""
-    reading: tyro.conf.OmitArgPrefixes[RootFlags] = field(default_factory=RootFlags)
+    roots: tyro.conf.OmitArgPrefixes[RootFlags] = field(default_factory=RootFlags)
     """Where descriptions may read."""
 
 
@@ -168,10 +168,10 @@ def input_config(flags: InputFlags) -> BuildConfig:
         config.intake,
         up=up,
         height=flags.height,
-        roots=(*config.intake.roots, *map(str, flags.reading.folders())),
+        roots=(*config.intake.roots, *map(str, flags.roots.folders())),
         given=tuple(map(str, ros_package_path())),
-        allow_outside=config.intake.allow_outside or flags.reading.allow_outside,
-        arguments=(*config.intake.arguments, *flags.reading.arguments()),
+        allow_outside=config.intake.allow_outside or flags.roots.allow_outside,
+        arguments=(*config.intake.arguments, *flags.roots.arguments()),
     )
     asked = ("checkpoint", "features", "points", "samples", "device")
     given: dict[str, Any] = {

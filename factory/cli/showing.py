@@ -62,12 +62,12 @@ def _joints(manifest: Manifest) -> Table:
     table = Table("joint", "kind", "moves", "from", "to", "held by", box=None)
     for joint in manifest.movable.values():
         held = joint.handle.source.replace("_", " ") if joint.handle else "-"
-        ends = (_reading(joint, value) for value in (joint.lower, joint.upper))
+        ends = (_shown(joint, value) for value in (joint.lower, joint.upper))
         table.add_row(escape(joint.name), joint.kind, escape(joint.child), *ends, escape(held))
     return table
 
 
-def _reading(joint: ManifestJoint, value: float) -> str:
+def _shown(joint: ManifestJoint, value: float) -> str:
     """Return a joint's value as people read it."""
     if joint.kind == "continuous":
         return "endless"

@@ -25,7 +25,7 @@ from .orientation import rotation_to_z_up
 from .placing import check_config, given_scale, given_up
 from .reads import ReadLog
 from .sidecar import Sidecar, read_sidecar
-from .sizes import guess_category, normalised, scale_by_size
+from .sizes import category_of, scale_by_size
 from .stated import read_stated
 
 _MOST_NOTES = 32
@@ -214,10 +214,8 @@ def _said(error: Exception) -> str:
 
 
 def _choose_category(path: Path, sidecar: Sidecar, notes: list[str]) -> str | None:
-    if sidecar.category is not None:
-        return normalised(sidecar.category)
-    category = guess_category(path.stem, path.parent.name)
-    if category is not None:
+    category = category_of(path, sidecar.category)
+    if category is not None and not sidecar.category:
         notes.append(
             f"The category {category} was guessed from the name {path.parent.name}/{path.name}."
         )

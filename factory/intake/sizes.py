@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files as resource_files
+from pathlib import Path
 from types import MappingProxyType
 
 from ..errors import ConfigError
@@ -102,6 +103,11 @@ def normalised(category: str) -> str:
     name = "_".join(re.findall(r"[a-z0-9]+", category.lower())) or category
     size = size_table().get(name)
     return size.category if size else name
+
+
+def category_of(path: Path, stated: str | None) -> str | None:
+    """Return the category that is stated of an input, else one that its path names."""
+    return normalised(stated) if stated else guess_category(path.stem, path.parent.name)
 
 
 def guess_category(stem: str, folder: str = "") -> str | None:

@@ -199,11 +199,11 @@ class Job:
                 self.state = JobState.INTERRUPTED
                 raise
             finally:
-                if self._config.cache_gb > 0.0:
-                    Store(self._output / CACHE).trim(keep_bytes=round(1e9 * self._config.cache_gb))
                 # On a full disk there is a better error under way.
                 with suppress(OSError):
                     log.ended(self.state, len(self._built), self.left)
+                if self._config.cache_gb > 0.0:
+                    Store(self._output / CACHE).trim(keep_bytes=round(1e9 * self._config.cache_gb))
 
     def _network(self, waiting: Sequence[Probe], stack: ExitStack) -> Address | None:
         """Return one network for all workers, if one of the inputs may ask it."""

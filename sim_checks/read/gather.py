@@ -77,10 +77,10 @@ def _stem(path: Path) -> str:
 
 
 def _told(path: Path, roots: Roots) -> Finding:
-    if roots.package is None:
-        words = f"{path.name} refers to files in other folders that may be read"
-    else:
-        above = f"{roots.levels} folder{'' if roots.levels == 1 else 's'} above"
+    words = f"{path.name} refers to files in other folders that may be read"
+    if roots.package is not None:
+        levels = len(roots.looked) - 1
+        above = f"{levels} folder{'' if levels == 1 else 's'} above"
         words = f"{path.name} refers to files of its package, whose package.xml lies {above} it"
     return Finding("read_from_root", Severity.NOTE, words)
 

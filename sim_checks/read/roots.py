@@ -84,11 +84,6 @@ class Roots:
         self._folders = list(dict.fromkeys([*above, self.own, *self._given]))
         self._names: dict[Path, str] = {}
 
-    @property
-    def levels(self) -> int:
-        """Return how many folders above the description its package lies."""
-        return len(self.looked) - 1
-
     def find(self, reference: str) -> Path:
         """Return the file that a URDF means by ``reference``, links followed.
 

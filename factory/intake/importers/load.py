@@ -29,7 +29,7 @@ from ..placing import check_config, given_scale, given_up
 from ..reads import ReadLog, content_digest
 from ..rejecting import rejecting
 from ..sidecar import Sidecar, read_sidecar
-from ..sizes import Scale, guess_category, normalised, scale_by_size
+from ..sizes import Scale, category_of, scale_by_size
 from .imported import Imported
 from .mjcf import import_mjcf
 from .urdf import import_urdf
@@ -73,11 +73,7 @@ def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = Non
     require_sensible_size(
         path.name, np.stack([whole.vertices.min(axis=0), whole.vertices.max(axis=0)]) * scale.factor
     )
-    category = (
-        normalised(sidecar.category)
-        if sidecar.category
-        else guess_category(path.stem, path.parent.name)
-    )
+    category = category_of(path, sidecar.category)
     transform = np.eye(4)
     transform[:3, :3] = scale.factor * rotation
     return Intake(
