@@ -72,7 +72,7 @@ def test_roots_are_those_of_flags_of_the_ros_path_and_the_folders_of_inputs(
     for folder in folders:
         folder.mkdir()
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(folders[2]))
-    flags = InputFlags(reading=RootFlags(root=(folders[1],)))
+    flags = InputFlags(roots=RootFlags(root=(folders[1],)))
     config = build_config(Build((str(folders[0]),), tmp_path / "out", loading=flags))
     assert config.intake.roots == (str(folders[1]),)
     assert config.intake.given == (str(folders[0]), str(folders[2]))
@@ -83,7 +83,7 @@ def test_roots_are_those_of_flags_of_the_ros_path_and_the_folders_of_inputs(
     (folders[0] / "description").rename(folders[2] / "description")
     assert check(Check((path,), sim="", strict=True)) == Exit.OK
     with pytest.raises(ConfigError, match="--root"):
-        check(Check((path,), reading=RootFlags(root=(tmp_path / "nowhere",))))
+        check(Check((path,), roots=RootFlags(root=(tmp_path / "nowhere",))))
 
 
 def test_a_xacro_file_is_an_input_by_all_that_it_includes_and_its_arguments(tmp_path: Path) -> None:
