@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from asset_factory.sim_checks import Finding
 from asset_factory.sim_checks.judge import Judge
 
 from .articulate.proposal import Hypothesis
@@ -24,7 +25,7 @@ from .registry.result import Result
 from .runtime.layout import CACHE
 from .runtime.stages import Stages
 from .runtime.store import Store
-from .verify.drafts import HypothesisDraft, best_of
+from .verify.drafts import HypothesisDraft, best_of, refused_hypothesis
 from .verify.kept import with_kept
 from .verify.rounds import Rounds
 
@@ -59,10 +60,11 @@ def make_asset(
             intake = origin.load()
         intake, likeliest_first = standing_hypotheses(intake, origin, stages)
         intake = with_terms(intake, likeliest_first, config.intake.allowed_licenses)
-        drafts = _drafts(likeliest_first, intake, staging, judge, stages)
+        refused_too: list[Finding] = []
+        drafts = _drafts(likeliest_first, intake, staging, judge, stages, refused_too)
         draft, others = best_of(drafts)
         rounds = Rounds(draft.articulation, intake, staging, judge, stages)
-        draft, verdict = rounds.simulated(draft, others)
+        draft, verdict = rounds.simulated(draft, (*others, *refused_too))
         verdict = with_kept(verdict, draft.articulation, draft.asset.articulation)
         # No check asks for them: they are looked for once, on the draft that is kept.
         asset = with_targets(draft.asset, stages)
@@ -84,8 +86,12 @@ def _drafts(
     staging: Path,
     judge: Judge,
     stages: Stages,
+    refused_too: list[Finding],
 ) -> Iterator[HypothesisDraft]:
-    """Yield each hypothesis as an asset, repaired and validated, up to so much work."""
+    """Yield each hypothesis as an asset, repaired and validated, up to so much work.
+
+    Those of which no bodies can be made are added to ``refused_too``.
+    """
     limits = stages.config.readings
     refused_first: InputRejected | None = None
     done = 0
@@ -97,6 +103,7 @@ def _drafts(
             draft = rounds.drafted()
         except InputRejected as rejection:
             refused_first = refused_first or rejection
+            refused_too.append(refused_hypothesis(hypothesis.articulation, rejection))
             continue
         done += draft.work
         yield draft

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 
 from asset_factory.sim_checks import Finding, Severity
 
-from ..articulation import Articulation, Joint
+from ..articulate.proposal import Hypothesis
+from ..articulation import Articulation
 from ..asset import Asset
+from ..errors import InputRejected
 from ..export.bundle import Bundle
 from ..manufacture.plan import Plan
 from .validate import Verdict
@@ -81,6 +83,11 @@ def best_of(drafts: Iterable[HypothesisDraft]) -> tuple[HypothesisDraft, tuple[F
     return best, tuple(_lost(draft) for draft in made if draft is not best)
 
 
+def refused_hypothesis(articulation: Articulation, rejection: InputRejected) -> Finding:
+    """Return the finding on a hypothesis of which no bodies could be made."""
+    return _told_of(articulation, f"cannot be made, {rejection.code}: {rejection}")
+
+
 def _lost(draft: HypothesisDraft) -> Finding:
     reason = draft.inspected.reason
     dropped = sorted(draft.plan.frozen | draft.plan.given_up)
@@ -90,11 +97,14 @@ def _lost(draft: HypothesisDraft) -> Finding:
         why = f"passes only without {', '.join(dropped)}"
     else:
         why = "passes too, and is less likely"
-    told = ", ".join(
-        _told(draft.articulation, joint) for joint in draft.articulation.movable_joints
-    )
-    return Finding("other_reading", Severity.WARNING, f"read otherwise ({told}), it {why}")
+    return _told_of(draft.articulation, why)
 
 
-def _told(articulation: Articulation, joint: Joint) -> str:
-    return f"{articulation.parts[joint.child].name} {_VERBS[joint.kind]}"
+def _told_of(articulation: Articulation, why: str) -> Finding:
+    """Return the finding on a hypothesis that did not become the asset."""
+    joints = articulation.movable_joints
+    told = [f"{articulation.parts[joint.child].name} {_VERBS[joint.kind]}" for joint in joints]
+    if any(joint.confidence is not None for joint in joints):
+        told.append(f"probability {Hypothesis.of(articulation).probability:.2f}")
+    said = f"read otherwise ({', '.join(told)}), it {why}"
+    return Finding("other_reading", Severity.WARNING, said)

@@ -93,6 +93,28 @@ def test_a_reading_that_is_blocked_loses_to_one_that_opens(tmp_path, monkeypatch
     assert "is rejected" in told
 
 
+def test_a_reading_of_which_nothing_can_be_made_is_told_with_its_probability(tmp_path, monkeypatch):
+    def rated(right):
+        return replace(right, joints=tuple(replace(j, confidence=0.31) for j in right.joints))
+
+    _reading_as(monkeypatch, rated, lambda right: right)
+    honest = rounds.manufacture
+    rejection = InputRejected("no_bodies", "nothing is left of it")
+
+    def manufacture(articulation, *more):
+        if not asked:
+            asked.append(articulation)
+            raise rejection
+        return honest(articulation, *more)
+
+    asked = []
+    monkeypatch.setattr(rounds, "manufacture", manufacture)
+    result = build_asset(EXAMPLES / "laptop.glb", tmp_path, CONFIG)
+    report = read_report(Registry(tmp_path).assets / result.entry.id).report
+    (told,) = [f.message for f in report.findings if f.code == "other_reading"]
+    assert "turns, probability 0.31), it cannot be made, no_bodies: nothing is left of it" in told
+
+
 def test_beyond_the_most_work_only_the_likeliest_is_made(tmp_path, monkeypatch):
     _reading_as(monkeypatch, _blocked, lambda right: right)
     hurried = replace(CONFIG, readings=ReadingsConfig(most_work=0))
