@@ -1,9 +1,15 @@
 """The same examples every time: a failure that depends on a seed or on load proves nothing."""
 
+import os
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
+
+# As in the children of a job, and before anything loads numpy: threads of two workers that wait
+# for one another take three times as long.
+for library in ("OPENBLAS", "OMP", "MKL"):
+    os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
 settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.load_profile("repeatable")

@@ -119,7 +119,8 @@ class DetectedArticulator:
     ) -> Articulation:
         """Return a guess without the parts that a side shows and the detector does not see.
 
-        Racks, knobs and parts that no side shows move where something else does.
+        Racks, knobs and parts that no side shows move where something else does; those that rules of
+        shape find move alone as well, such as a cooktop's knobs.
         """
         kept = []
         chances = {}
@@ -129,7 +130,7 @@ class DetectedArticulator:
             support = cells.support(joint.child, dense) if part.kind in ASKED else None
             if support is None:
                 kept.append(joint.child)
-                alone |= part.kind not in ASKED | CARRIED
+                alone |= part.kind not in ASKED | CARRIED or _is_believed(part)
                 continue
             confidence = 0.0 if part.confidence is None else part.confidence
             chance = self.agreement.of_proposed(support, confidence)

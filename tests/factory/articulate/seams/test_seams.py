@@ -91,8 +91,16 @@ def require(found, name, linear):
         wanted.pop(match)
 
 
-@pytest.mark.parametrize("name", OPENS)
-@pytest.mark.parametrize("placed", PLACES)
+@pytest.mark.parametrize(
+    ("name", "placed"),
+    # Each stands in two places and each place holds four.
+    [
+        (name, placed)
+        for number, name in enumerate(OPENS)
+        for turn, placed in enumerate(PLACES)
+        if (turn - number) % len(PLACES) in (0, 3)
+    ],
+)
 def test_what_opens_is_found_wherever_it_stands(name, placed):
     degrees, sizes = PLACES[placed]
     linear = rotation_about(UP, np.radians(degrees)) @ np.diag(sizes)
