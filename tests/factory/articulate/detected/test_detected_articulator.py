@@ -21,7 +21,7 @@ from asset_factory.factory.articulation import (
     Part,
     Weights,
 )
-from asset_factory.factory.part import PartKind, Proposer
+from asset_factory.factory.part import PartKind, PartSource, Proposer
 from asset_factory.learn.detector.still import make_still
 from asset_factory.learn.objects import make_object
 
@@ -84,6 +84,15 @@ def test_what_it_does_not_see_stays_fixed_and_what_it_sees_moves():
     made = detected(with_part(proposed, rear))[0].articulation
     assert [part.name for part in made.parts] == [part.name for part in proposed.parts]
     assert len(made.mesh.faces) == len(truth.mesh.faces)
+
+
+@pytest.mark.parametrize(("proposer", "moves"), [(Proposer.RULES, True), (Proposer.NETWORK, False)])
+def test_knobs_that_rules_find_move_alone_and_guessed_ones_do_not(proposer, moves):
+    table = make_still("still_table", np.random.default_rng(4)).mesh
+    said = with_part(rigid_articulation(table, "auto", ()), np.arange(2))
+    knob = replace(said.parts[1], kind=PartKind.KNOB, source=PartSource("knob", proposer, 0.5, {}))
+    made = detected(replace(said, parts=(said.parts[0], knob)))[0].articulation
+    assert bool(made.movable_joints) is moves
 
 
 def test_a_table_stays_shut_and_says_why():
