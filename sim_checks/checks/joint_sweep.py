@@ -13,6 +13,7 @@ from ..config import PenetrationConfig
 from ..description import FloatArray, JointLine
 from ..geometry.coupled_path import AnyPath, CoupledPath
 from ..geometry.depth import HullOverlap, contact_region
+from ..geometry.looks import LookBudget
 from ..geometry.path import Path
 from ..geometry.solids import SolidGroup, SolidPair
 from ..geometry.sweep import Candidate, Sweep, Tolerance, Worst
@@ -90,6 +91,7 @@ class JointCourse:
         motion: another motion than the joint's own, from the same start; only for one that has no
             followers.
         located: say where in space the pairs meet, too.
+        looks: that are counted; ``None`` for those of the file.
     """
 
     joint: JointLine
@@ -100,6 +102,7 @@ class JointCourse:
     only: frozenset[PartPair] | None = None
     motion: Path | None = None
     located: bool = True
+    looks: LookBudget | None = None
 
     def run(self) -> JointSweep:
         """Return the worst of every pair of parts along the way."""
@@ -160,7 +163,7 @@ class JointCourse:
         step = self.config.step_fraction * self.rest.diagonal
         steps = int(np.clip(np.ceil(reach / step) if step > 0.0 else 1, MIN_STEPS, MAX_STEPS))
         still = [solids.items[index].collider for index in standing.solids]
-        sweep = Sweep(path, colliders, still, steps, solids.looks)
+        sweep = Sweep(path, colliders, still, steps, self.looks or solids.looks)
         frame = solids.way(standing, poses, self._length) if standing.ways else None
         return _Encounter(self, sweep, moving.solids, standing.solids, frame)
 
