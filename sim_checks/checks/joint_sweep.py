@@ -61,7 +61,7 @@ def clear_until(course: JointCourse, failing: PairSweep) -> float:
         failing: fails where it is worst.
     """
     name = course.joint.name
-    course = replace(course, located=False)
+    course = replace(course, located=False, decides=True)
     clear = course.rest.lower[name]
     fails = failing.at
     for _ in range(CLEAR_HALVINGS):
@@ -92,6 +92,7 @@ class JointCourse:
             followers.
         located: say where in space the pairs meet, too.
         looks: that are counted; ``None`` for those of the file.
+        decides: tell only whether pairs penetrate too deeply, not how deep.
     """
 
     joint: JointLine
@@ -103,6 +104,7 @@ class JointCourse:
     motion: Path | None = None
     located: bool = True
     looks: LookBudget | None = None
+    decides: bool = False
 
     def run(self) -> JointSweep:
         """Return the worst of every pair of parts along the way."""
@@ -193,13 +195,16 @@ class _Encounter:
             # Knuckles are few and each has to be one by itself.
             batches = [[item] for item in candidates] if kind is PairKind.HINGE else [candidates]
             for batch in batches:
-                worst = self.sweep.worst(batch, self._tolerance())
+                worst = self.sweep.worst(batch, self._tolerance(kind))
                 if worst is not None:
                     pair = self._pair(parts, kind, worst)
                     yield (parts, pair.contact.kind), pair
 
-    def _tolerance(self) -> Tolerance:
-        return Tolerance(floor=self.course.config.clearance_m, limit=self.course.config.excess_m)
+    def _tolerance(self, kind: PairKind) -> Tolerance:
+        config = self.course.config
+        # Whether a knuckle stays one is seen where it is worst.
+        decides = self.course.decides and kind is PairKind.PLAIN
+        return Tolerance(floor=config.clearance_m, limit=config.excess_m, decides=decides)
 
     def _candidates(self) -> Candidates:
         pairs = self.course.pairs
