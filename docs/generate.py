@@ -69,9 +69,9 @@ def reasons() -> str:
     """Every code, by what became of the input."""
     text = ""
     found: set[str] = set()
-    for heading, codes in TABLES.items():
-        rows = [(anchored(code, found), meaning) for code, meaning in codes.items()]
-        text += f"## {heading}\n\n{table(('code', 'meaning'), rows)}\n"
+    for each in TABLES:
+        rows = [(anchored(code, found), meaning) for code, meaning in each.meanings.items()]
+        text += f"## {each.heading}\n\n{table(('code', 'meaning'), rows)}\n"
     return text
 
 

@@ -59,7 +59,9 @@ class Wanted:
             ("verdict", self.verdict, VERDICTS),
         ):
             if value not in known:
-                raise ConfigError(f"{name} is {value!r}, want one of {', '.join(map(repr, known))}")
+                raise ConfigError(
+                    f"{name} must be one of {', '.join(map(repr, known))}, not {value!r}"
+                )
 
     def admits(self, joint: OpenableJoint) -> bool:
         """Return whether the joint passes, its name aside."""

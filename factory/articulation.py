@@ -341,7 +341,7 @@ def _check_joint(joint: Joint) -> None:
     for what, vector in (("axis", joint.axis), ("origin", joint.origin)):
         if vector.shape != (3,) or not np.isfinite(vector).all():
             raise InvalidArticulation(
-                f"{where}: {what} is {vector.tolist()}, want three finite numbers"
+                f"{where}: {what} must be three finite numbers, not {vector.tolist()}"
             )
     length = float(np.linalg.norm(joint.axis))
     if abs(length - 1.0) > UNIT_TOLERANCE:
@@ -368,5 +368,5 @@ def _check_joint(joint: Joint) -> None:
     for what, value in (("damping", joint.damping), ("friction", joint.friction)):
         if value is not None and not (np.isfinite(value) and value >= 0.0):
             raise InvalidArticulation(
-                f"{where}: {what} is {value}, want a finite number of at least 0"
+                f"{where}: {what} must be a finite number of at least 0, not {value}"
             )

@@ -78,7 +78,7 @@ class Inertial:
         object.__setattr__(self, "center", read_only(self.center))
         object.__setattr__(self, "tensor", read_only(self.tensor))
         if not (np.isfinite(self.mass) and self.mass > 0.0):
-            raise InvalidAsset(f"inertial: mass is {self.mass} kg, want more than 0")
+            raise InvalidAsset(f"inertial: mass must be more than 0, not {self.mass} kg")
         if not (np.isfinite(self.center).all() and np.isfinite(self.tensor).all()):
             raise InvalidAsset("inertial: centre or tensor is not finite")
         if not np.allclose(self.tensor, self.tensor.T, rtol=1e-9, atol=1e-15):

@@ -6,20 +6,18 @@ What the validator may say is in :mod:`asset_factory.sim_checks.reasons`.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
+from asset_factory.sim_checks import Severity
 from asset_factory.sim_checks import reasons as judge
 
 #: The input could not become an asset.
 INPUT: Mapping[str, str] = {
-    "unreadable": "the file, or one it needs, cannot be read",
     "unsupported": "a format, or a feature of one, that is not read",
     "empty": "no triangles",
-    "missing_file": "a file that it needs is not there",
-    "too_large": "more bytes, faces, pixels, bodies, memory or numbers than the limit named",
     "absurd_size": "it would measure under a micrometre, or reach over 1000 km [m]",
     "license_disallowed": "it stands under none of the licenses in `intake.allowed_licenses`",
     "input_changed": "somebody was writing its files each time they were read [readings]",
-    "not_finite": "no usable coordinates",
     "zero_size": "flat in two directions",
     "external_reference": "it refers to a file outside its folder, or to a network address",
     "bad_sidecar": "the sidecar beside it cannot be used",
@@ -27,7 +25,6 @@ INPUT: Mapping[str, str] = {
     "stated_part_not_found": "a part that its sidecar states is not where it says [of its area]",
     "bad_answer": "the model that was asked what opens did not answer in the form, twice",
     "no_annotation": "`annotated` was asked for, and no joints came with it",
-    "not_a_tree": "its joints form no kinematic tree",
     "no_limits": "a slide without limits",
     "bad_axis": "a joint's axis has no direction",
     "unsupported_joint": "a joint of a kind that is not made",
@@ -62,16 +59,51 @@ UNJUDGED: Mapping[str, str] = {
     "model_unavailable": "the model that was to be asked what opens gave no answer",
 }
 
-#: Tables of the page, in order: heading, codes.
-TABLES: Mapping[str, Mapping[str, str]] = {
-    "The input could not become an asset": INPUT,
-    "The object cannot be trained on, or evaluated": DATASET,
-    "The asset was made and did not pass": judge.ERRORS,
-    "The description could not be read": judge.UNREADABLE,
-    "Nobody could say (status `unjudged`, exit code 3)": {**judge.UNJUDGED, **UNJUDGED},
-    "Worth knowing, no reason to reject": {**judge.WARNINGS, **WARNINGS},
-    "How it was validated, nothing to mend": judge.NOTES,
+
+@dataclass(frozen=True)
+class CodeTable:
+    """Codes that stand together on the page.
+
+    Attributes:
+        heading: of the page's section.
+        severity: of findings with these codes.
+        meanings: of each code.
+    """
+
+    heading: str
+    severity: Severity
+    meanings: Mapping[str, str]
+
+
+#: Tables of the page, in order. A code means one thing for each severity that it is said with.
+TABLES: tuple[CodeTable, ...] = (
+    CodeTable("The input could not become an asset", Severity.ERROR, INPUT),
+    CodeTable("The input, or a description, could not be read", Severity.ERROR, judge.UNREADABLE),
+    CodeTable("The object cannot be trained on, or evaluated", Severity.ERROR, DATASET),
+    CodeTable("The asset was made and did not pass", Severity.ERROR, judge.ERRORS),
+    CodeTable(
+        "Nobody could say (status `unjudged`, exit code 3)",
+        Severity.ERROR,
+        {**judge.UNJUDGED, **UNJUDGED},
+    ),
+    CodeTable(
+        "Worth knowing, no reason to reject", Severity.WARNING, {**judge.WARNINGS, **WARNINGS}
+    ),
+    CodeTable("How it was validated, nothing to mend", Severity.NOTE, judge.NOTES),
+)
+
+#: What each code means where a finding of some severity says it.
+MEANINGS: Mapping[tuple[Severity, str], str] = {
+    (table.severity, code): meaning for table in TABLES for code, meaning in table.meanings.items()
 }
 
 #: Every code there is.
-CODES: frozenset[str] = frozenset(code for table in TABLES.values() for code in table)
+CODES: frozenset[str] = frozenset(code for _, code in MEANINGS)
+
+
+def meaning_of(severity: Severity, code: str) -> str:
+    """Return what a code means where a finding of some severity says it; empty for an unknown one.
+
+    One that means the same at every severity is declared for the gravest only.
+    """
+    return next((MEANINGS[s, code] for s in (severity, *Severity) if (s, code) in MEANINGS), "")

@@ -30,6 +30,11 @@ class PenetrationConfig:
             as a share of the object's diagonal; the search refines it wherever it is not certain.
         clearance_m: gaps wider than this are not measured, of hulls or of visible surfaces [m].
         combinations: joint combinations tried besides "all at upper".
+        little_open: share of its range at which a joint is a little open. Where another cannot
+            reach its range with it there, and wherever further open it is tried, the asset is
+            rejected: 10 % of a drawer is 4 cm, which whoever opens the other does not see.
+        pair_looks: exact looks that pairs of joints swept together may take of one file; what is
+            left out then is told.
     """
 
     rest_m: float = 0.002
@@ -39,6 +44,8 @@ class PenetrationConfig:
     step_fraction: float = 0.005
     clearance_m: float = 0.005
     combinations: int = 8
+    little_open: float = 0.1
+    pair_looks: int = 20_000
 
 
 @dataclass(frozen=True)

@@ -83,11 +83,17 @@ class MeasuredJoint:
 
 @dataclass(frozen=True)
 class MeasuredNeighbour(MeasuredPair):
-    """The worst of one pair while one joint makes its way and another stands at upper."""
+    """The worst of one pair while one joint makes its way and another stands open.
+
+    Attributes:
+        joint, unit: the one that moves, and the unit of its values.
+        open, open_at: the one that stands open, and its value; ``None`` for upper.
+    """
 
     joint: str
     open: str
     unit: str
+    open_at: float | None = None
 
 
 @dataclass(frozen=True)

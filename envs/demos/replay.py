@@ -40,8 +40,8 @@ def replay(arguments: Sequence[str]) -> None:
         wanted.render_mode = None
     if wanted.num_envs > 1 and "ee" in (wanted.target_control_mode or ""):
         _refuse(
-            f"--num-envs: is {wanted.num_envs}, "
-            f"want 1 with --target-control-mode {wanted.target_control_mode}"
+            f"--num-envs must be 1 with --target-control-mode {wanted.target_control_mode}, "
+            f"not {wanted.num_envs}"
         )
     with _told(registry):
         tool.main(wanted)

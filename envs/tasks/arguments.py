@@ -23,7 +23,7 @@ def check_robot(task: str, robot: object, supported: Sequence[str]) -> None:
     """Raise ConfigError unless ``robot`` is one that the task can place."""
     if robot not in supported:
         raise ConfigError(
-            f"{task}: robot_uids is {robot!r}, want one of {', '.join(map(repr, supported))}"
+            f"{task}: robot_uids must be one of {', '.join(map(repr, supported))}, not {robot!r}"
         )
 
 
@@ -38,7 +38,7 @@ def check_number(task: str, num_envs: int, sim_backend: str) -> bool:
     )
     if num_envs > 1 and not on_gpu:
         raise ConfigError(
-            f"{task}: num_envs is {num_envs}, want 1 with sim_backend {sim_backend!r}; {advice}"
+            f"{task}: num_envs must be 1 with sim_backend {sim_backend!r}, not {num_envs}; {advice}"
         )
     if on_gpu:
         import torch
@@ -67,8 +67,8 @@ def common_types(task: str, asked: Sequence[str], known: Sequence[str]) -> tuple
     types = tuple(kind for kind in asked if kind in known)
     if not types:
         raise ConfigError(
-            f"{task}: joint_type is {', '.join(map(repr, asked))}, "
-            f"want {', '.join(map(repr, known))}"
+            f"{task}: joint_type must be {', '.join(map(repr, known))}, "
+            f"not {', '.join(map(repr, asked))}"
         )
     return types
 
@@ -78,7 +78,7 @@ def check_range(task: str, name: str, bounds: tuple[float, float]) -> tuple[floa
     lower, upper = (float(value) for value in bounds)
     if not 0.0 <= lower <= upper < float("inf"):
         raise ConfigError(
-            f"{task}: {name} is {tuple(bounds)}, want two finite numbers, 0 <= lower <= upper"
+            f"{task}: {name} must be two finite numbers, 0 <= lower <= upper, not {tuple(bounds)}"
         )
     return lower, upper
 
@@ -86,7 +86,9 @@ def check_range(task: str, name: str, bounds: tuple[float, float]) -> tuple[floa
 def check_share(task: str, name: str, value: float) -> float:
     """Return a share of a joint's range. Raises ConfigError unless it lies between 0 and 1."""
     if not 0.0 <= value <= 1.0:
-        raise ConfigError(f"{task}: {name} is {value}, want a share of the joint's range, 0 to 1")
+        raise ConfigError(
+            f"{task}: {name} must be a share of the joint's range, 0 to 1, not {value}"
+        )
     return float(value)
 
 

@@ -125,7 +125,7 @@ def _forms(said: str) -> tuple[str, dict[str, Path]]:
     wrong = {*printed, *written} - set(names) or ({"text"} & set(written))
     if wrong or len(printed) > 1:
         raise ConfigError(
-            f"--format: is {said!r}, want one of {', '.join(names)}, and FORMAT=FILE for others"
+            f"--format must be one of {', '.join(names)}, or FORMAT=FILE, not {said!r}"
         )
     return next(iter(printed), "text"), {form: Path(file) for form, file in written.items()}
 

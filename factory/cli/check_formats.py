@@ -13,7 +13,7 @@ import asset_factory
 from asset_factory.sim_checks import Finding, Report, Severity, Status
 from asset_factory.sim_checks.grouping import group_findings
 
-from ..reasons import TABLES
+from ..reasons import meaning_of
 from ..runtime.terminal import one_line, printable
 
 #: Where each code is explained, in the project's documentation.
@@ -27,21 +27,23 @@ def page_of(code: str) -> str:
     return f"{PAGE}#{code}"
 
 
-def meaning_of(code: str) -> str:
-    """Return what a code means; empty for one that is not known."""
-    return next((codes[code] for codes in TABLES.values() if code in codes), "")
-
-
 def as_sarif(checked: Checked) -> str:
     """Return SARIF 2.1.0, which code hosts show beside the lines: one result for each finding."""
-    codes = sorted({each.code for _, report in checked for each in report.findings})
+    # A code may warn at one place and reject at another: its rule has the graver meaning.
+    said = {
+        each.code: meaning_of(severity, each.code) or each.code
+        for severity in reversed(Severity)
+        for _, report in checked
+        for each in report.findings
+        if each.severity is severity
+    }
     rules = [
         {
             "id": code,
-            "shortDescription": {"text": meaning_of(code) or code},
+            "shortDescription": {"text": meaning},
             "help": {"text": page_of(code), "markdown": f"[{code}]({page_of(code)})"},
         }
-        for code in codes
+        for code, meaning in sorted(said.items())
     ]
     results = []
     for file, report in checked:

@@ -192,7 +192,7 @@ def on_device(config: ParticulateConfig) -> ParticulateConfig:
     from ..models.particulate.device import device_for
 
     if not re.fullmatch(r"auto|cpu|cuda(:\d+)?|mps", config.device):
-        raise ConfigError(f"--device: is {config.device!r}, want auto, cpu, cuda, cuda:N or mps")
+        raise ConfigError(f"--device must be auto, cpu, cuda, cuda:N or mps, not {config.device!r}")
     return replace(config, device=device_for(config.device))
 
 

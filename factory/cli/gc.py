@@ -35,7 +35,7 @@ def run(command: Gc) -> int:
     """Remove it; returns the exit code."""
     for name, value in (("older-than", command.older_than), ("keep-gb", command.keep_gb)):
         if value is not None and not value >= 0.0:
-            raise ConfigError(f"--{name}: is {value:g}, want at least 0")
+            raise ConfigError(f"--{name} must be at least 0, not {value:g}")
     freed = collect_garbage(
         Registry(command.output).root,
         older_than_s=None if command.older_than is None else command.older_than * _DAY_S,

@@ -105,7 +105,7 @@ def _parse(path: Path, files: InputFiles) -> Sidecar:
         raise bad_sidecar(path, "has both height and scale, want at most one")
     for key in _TEXTS:
         if key in values and not (isinstance(values[key], str) and values[key].strip()):
-            raise bad_sidecar(path, f"{key} is {repr(values[key])[:80]}, want a text")
+            raise bad_sidecar(path, f"{key} must be a text, not {repr(values[key])[:80]}")
     _require_known_category(path, values)
     return Sidecar(
         category=values.get("category"),
@@ -149,7 +149,8 @@ def _positive(path: Path, key: str, value: object) -> float | None:
         or not _LEAST <= value <= _MOST
     ):
         raise bad_sidecar(
-            path, f"{key} is {repr(value)[:80]}, want a positive number, {_LEAST:g} to {_MOST:g}"
+            path,
+            f"{key} must be a positive number, {_LEAST:g} to {_MOST:g}, not {repr(value)[:80]}",
         )
     return float(value)
 

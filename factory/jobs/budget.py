@@ -76,8 +76,8 @@ def parse_since(text: str, now: float | None = None) -> float:
         return Path(text).stat().st_mtime
     except OSError as error:
         raise ConfigError(
-            f"--since: is {text!r}, want seconds ago, a date such as 2026-11-21, "
-            "or a file that is there"
+            "--since must be seconds ago, a date such as 2026-11-21, or a file that is there, "
+            f"not {text!r}"
         ) from error
 
 

@@ -82,24 +82,24 @@ def entry_from(data: object, *, tags: tuple[str, ...] = (), solved: str = "") ->
         ValueError: it is not one, or its id could not be a folder's name.
     """
     if not isinstance(data, Mapping):
-        raise ValueError(f"an entry is {type(data).__name__}, want an object")
+        raise ValueError(f"an entry must be an object, not {type(data).__name__}")
     texts, counts = (
         {name: data.get(name, empty) for name in names}
         for names, empty in ((_TEXTS, ""), (_COUNTS, 0))
     )
     for name, value in texts.items():
         if not isinstance(value, str) or len(value) > _MAX_TEXT:
-            raise ValueError(f"an entry's {name} is {str(value)[:50]!r}, want a text")
+            raise ValueError(f"an entry's {name} must be a text, not {str(value)[:50]!r}")
     for name, value in counts.items():
         if type(value) is not int or not 0 <= value <= _MAX_COUNT:
-            raise ValueError(f"an entry's {name} is {str(value)[:50]!r}, want a count")
+            raise ValueError(f"an entry's {name} must be a count, not {str(value)[:50]!r}")
     if not is_id(texts["id"]):
         raise ValueError(
-            f"an entry's id is {texts['id'][:50]!r}, want letters, digits, '_', '-' and '.'"
+            f"an entry's id must be of letters, digits, '_', '-' and '.', not {texts['id'][:50]!r}"
         )
     if texts["status"] not in set(Status):
         raise ValueError(
-            f"an entry's status is {texts['status'][:50]!r}, want one of {', '.join(Status)}"
+            f"an entry's status must be one of {', '.join(Status)}, not {texts['status'][:50]!r}"
         )
     return Entry(**texts, **counts, tags=tags, solved=solved)
 

@@ -138,7 +138,9 @@ class Registry:
         """
         require_tags(tuple(tags or ()))
         if solved is not None and solved not in SOLVED:
-            raise RegistryError(f"solved is {solved!r}, want one of {', '.join(map(repr, SOLVED))}")
+            raise RegistryError(
+                f"solved must be one of {', '.join(map(repr, SOLVED))}, not {solved!r}"
+            )
         with writing(self.root) as connection:
             folder = self.folder(self._entry(connection, asset_id))
             old = read_note(note_path(self.root, asset_id))

@@ -64,7 +64,7 @@ def _checked(column: str, operator: str, value: str) -> Condition:
         raise ConfigError(f"--where: no column {column!r}; {_meant(column, COLUMNS)}")
     if column in COUNTS:
         if not value.isdecimal():
-            raise ConfigError(f"--where: {column} is {value!r}, want a whole number")
+            raise ConfigError(f"--where: {column} must be a whole number, not {value!r}")
         return Condition(column, operator, int(value))
     if operator not in ("=", "!=") or (column == "tag" and operator != "="):
         raise ConfigError(f"--where: {column} {operator} {value}: is no number; {EXAMPLE}")

@@ -96,7 +96,7 @@ def _rows(lines: list[str], name: str) -> Iterator[Listed]:
             front = float(values["front_yaw"]) if values["front_yaw"] else None
         except ValueError:
             raise ConfigError(
-                f"{name}, line {number}: front_yaw is {values['front_yaw']!r}, want degrees"
+                f"{name}, line {number}: front_yaw must be degrees, not {values['front_yaw']!r}"
             ) from None
         yield Listed(
             **{key: value for key, value in values.items() if key != "front_yaw"}, front_yaw=front

@@ -42,9 +42,9 @@ def main() -> None:
     add("--open", type=float, default=0.0, metavar="SHARE", help="0 closed to 1 open")
     given = parser.parse_args()
     if not 0.0 <= given.open <= 1.0:
-        parser.error(f"--open is {given.open}, want 0 to 1")
+        parser.error(f"--open must be 0 to 1, not {given.open}")
     if given.seed < 0:
-        parser.error(f"--seed is {given.seed}, want at least 0")
+        parser.error(f"--seed must be at least 0, not {given.seed}")
     made = make_object(given.category, given.seed)
     articulation, _ = in_character(made, given.character, given.seed)
     write_sample(articulation, given.folder, opening(articulation, given.open))

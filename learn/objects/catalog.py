@@ -86,7 +86,7 @@ def make_object(category: str, seed: int) -> Articulation:
         names = ", ".join(CATEGORIES)
         raise ValueError(f"category {category!r}: there is none of that name, want one of {names}")
     if seed < 0:
-        raise ValueError(f"seed is {seed}, want at least 0")
+        raise ValueError(f"seed must be at least 0, not {seed}")
     # By name, so that a new category changes no other.
     rng = np.random.default_rng([zlib.crc32(category.encode()), seed])
     assembly = Assembly(rng, HAIRLINE_M if category in DEMO_CATEGORIES else 0.0)

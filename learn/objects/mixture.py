@@ -55,9 +55,9 @@ class MixtureSettings:
             weights = f"artist {artist}, generated {generated}, skin {skin}"
             raise ConfigError(f"{weights}: want at least 0, one of them above")
         if not 0.0 <= self.plain <= 1.0:
-            raise ConfigError(f"plain is {self.plain}, want 0 to 1")
+            raise ConfigError(f"plain must be 0 to 1, not {self.plain}")
         if self.most_parts < 2:
-            raise ConfigError(f"most_parts is {self.most_parts}, want at least 2")
+            raise ConfigError(f"most_parts must be at least 2, not {self.most_parts}")
 
     @property
     def weights(self) -> tuple[float, float, float]:

@@ -59,7 +59,9 @@ class Diagnosis:
             if study.zero is None
             else tuple(self._at_rest(contact) for contact in study.zero),
             sweeps=tuple(self._along(sweep, joints[sweep.joint]) for sweep in study.sweeps),
-            neighbours=tuple(self._both_open(item) for item in study.neighbours),
+            neighbours=replace(
+                study.neighbours, met=tuple(map(self._both_open, study.neighbours.met))
+            ),
             combinations=tuple(self._combined(item) for item in study.combinations),
         )
 

@@ -13,6 +13,7 @@ from ..config import PenetrationConfig
 from ..description import FloatArray, JointLine
 from ..geometry.coupled_path import AnyPath, CoupledPath
 from ..geometry.depth import HullOverlap, contact_region
+from ..geometry.looks import LookBudget
 from ..geometry.path import Path
 from ..geometry.solids import SolidGroup, SolidPair
 from ..geometry.sweep import Candidate, Sweep, Tolerance, Worst
@@ -60,7 +61,7 @@ def clear_until(course: JointCourse, failing: PairSweep) -> float:
         failing: fails where it is worst.
     """
     name = course.joint.name
-    course = replace(course, located=False)
+    course = replace(course, located=False, decides=True)
     clear = course.rest.lower[name]
     fails = failing.at
     for _ in range(CLEAR_HALVINGS):
@@ -90,6 +91,8 @@ class JointCourse:
         motion: another motion than the joint's own, from the same start; only for one that has no
             followers.
         located: say where in space the pairs meet, too.
+        looks: that are counted; ``None`` for those of the file.
+        decides: tell only whether pairs penetrate too deeply, not how deep.
     """
 
     joint: JointLine
@@ -100,6 +103,8 @@ class JointCourse:
     only: frozenset[PartPair] | None = None
     motion: Path | None = None
     located: bool = True
+    looks: LookBudget | None = None
+    decides: bool = False
 
     def run(self) -> JointSweep:
         """Return the worst of every pair of parts along the way."""
@@ -160,7 +165,7 @@ class JointCourse:
         step = self.config.step_fraction * self.rest.diagonal
         steps = int(np.clip(np.ceil(reach / step) if step > 0.0 else 1, MIN_STEPS, MAX_STEPS))
         still = [solids.items[index].collider for index in standing.solids]
-        sweep = Sweep(path, colliders, still, steps, solids.looks)
+        sweep = Sweep(path, colliders, still, steps, self.looks or solids.looks)
         frame = solids.way(standing, poses, self._length) if standing.ways else None
         return _Encounter(self, sweep, moving.solids, standing.solids, frame)
 
@@ -190,13 +195,16 @@ class _Encounter:
             # Knuckles are few and each has to be one by itself.
             batches = [[item] for item in candidates] if kind is PairKind.HINGE else [candidates]
             for batch in batches:
-                worst = self.sweep.worst(batch, self._tolerance())
+                worst = self.sweep.worst(batch, self._tolerance(kind))
                 if worst is not None:
                     pair = self._pair(parts, kind, worst)
                     yield (parts, pair.contact.kind), pair
 
-    def _tolerance(self) -> Tolerance:
-        return Tolerance(floor=self.course.config.clearance_m, limit=self.course.config.excess_m)
+    def _tolerance(self, kind: PairKind) -> Tolerance:
+        config = self.course.config
+        # Whether a knuckle stays one is seen where it is worst.
+        decides = self.course.decides and kind is PairKind.PLAIN
+        return Tolerance(floor=config.clearance_m, limit=config.excess_m, decides=decides)
 
     def _candidates(self) -> Candidates:
         pairs = self.course.pairs

@@ -1,60 +1,149 @@
-"""Two joints open at once: one at its upper end while the other makes its whole way.
+"""Two joints open at once: one makes its whole way at each of several values of the other.
 
 What two neighbours do to one another when only one of them is open is the single joints' business.
-What they do when both are, a spread of poses may step over: here one stands open and the other is
-followed continuously.
+What they do when both are, a spread of poses may step over: here one is followed continuously, the
+other stands at values from a little open to upper, and at finer ones around the deepest contact.
+Both take either role.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 
 from ..config import PenetrationConfig
 from ..description import FloatArray, JointLine
+from ..geometry.looks import LookBudget, TooManyLooks
 from ..geometry.solids import Solids
-from .joint_sweep import JointCourse, Rest
+from .joint_sweep import JointCourse, Rest, clear_until
 from .pairs import Pairs
-from .penetration_study import BothOpen, PairKind, PartPair
+from .penetration_study import BothOpen, Neighbours, PairKind, PairSweep, PartPair
 
 #: Intervals in which the room that a joint sweeps is boxed in before anything finer is asked.
 BOXED_STEPS = 32
+#: Values of a joint, from a little open to upper, at each of which the other is swept.
+GRID = 4
+#: How often the grid's step is halved around the deepest contact.
+REFINED = 3
+#: What a sweep counts besides its exact looks: it places every hull and compares their boxes.
+SWEEP_LOOKS = 10
 
 
-def open_neighbours(pairs: Pairs, rest: Rest, config: PenetrationConfig) -> tuple[BothOpen, ...]:
-    """Return the worst depth by pair of joints and parts, one joint moving with the other at upper.
+def open_neighbours(
+    pairs: Pairs, rest: Rest, config: PenetrationConfig, told: frozenset[PartPair]
+) -> Neighbours:
+    """Sweep joints together whose ways meet; return the worst depth by pair of joints and parts.
 
     Only joints that do not move the same part are asked, and only what the one moves against what
-    the other does; what follows a joint moves with it. Pairs that stay apart are left out.
+    the other does; what follows a joint moves with it.
+
+    Args:
+        pairs: the solids.
+        rest: contacts at rest, with which every depth is compared.
+        config: limits, and how much may be looked at.
+        told: pairs of parts that meet while all joints but one are closed: no news here.
     """
-    worst: dict[tuple[str, str, PartPair], BothOpen] = {}
-    for joint, other in _near(pairs.solids, rest):
+    looks = LookBudget(config.pair_looks)
+    met: list[BothOpen] = []
+    unswept = []
+    asked = 0
+    for first, second in _near(pairs.solids, rest):
         only = frozenset(
             (min(a, b), max(a, b))
-            for a in _parts(pairs.solids, joint)
-            for b in _parts(pairs.solids, other)
+            for a in _parts(pairs.solids, first)
+            for b in _parts(pairs.solids, second)
         )
-        values = {**rest.lower, other.name: rest.upper[other.name]}
-        # A gap is nothing new here: it was measured where only one of the two is open, or does not
-        # matter.
-        found = JointCourse(
-            joint, pairs, rest, replace(config, clearance_m=0.0), values, only
-        ).run()
-        for pair in found.pairs:
-            first, second = sorted((joint.name, other.name))
-            key = first, second, pair.parts
-            if pair.contact.kind is PairKind.PLAIN and (
-                key not in worst or pair.excess > worst[key].pair.excess
-            ):
-                worst[key] = BothOpen(joint.name, joint.kind, other.name, pair)
-    return tuple(worst[key] for key in sorted(worst))
+        asked += 1
+        try:
+            met += _Together(pairs, rest, config, looks).met(first, second, only - told)
+        except TooManyLooks:
+            unswept.append((first.name, second.name))
+    return Neighbours(tuple(met), asked, tuple(unswept))
+
+
+@dataclass(frozen=True)
+class _Together:
+    """What two joints are swept by; see :func:`open_neighbours`."""
+
+    pairs: Pairs
+    rest: Rest
+    config: PenetrationConfig
+    looks: LookBudget
+
+    def met(
+        self, first: JointLine, second: JointLine, only: frozenset[PartPair]
+    ) -> Iterator[BothOpen]:
+        """Yield the worst of every pair of parts that meet, whichever of the joints moves.
+
+        Raises:
+            TooManyLooks: the file has taken more than it may.
+        """
+        found = (*self._moving(first, second, only), *self._moving(second, first, only))
+        for parts in sorted({item.pair.parts for item in found}):
+            worst = max(
+                (item for item in found if item.pair.parts == parts),
+                key=lambda item: (item.obstructed, item.pair.excess),
+            )
+            if worst.pair.excess > self.config.excess_m:
+                course = self._course(worst.joint, worst.other, worst.other_at, frozenset({parts}))
+                worst = replace(worst, free_until=clear_until(course, worst.pair))
+            yield worst
+
+    def _moving(
+        self, joint: JointLine, other: JointLine, only: frozenset[PartPair]
+    ) -> Iterator[BothOpen]:
+        """Yield the worst of every pair of parts as one joint makes its way past another."""
+        limits = self.rest.lower[other.name], self.rest.upper[other.name]
+        grid = np.interp(np.linspace(self.config.little_open, 1.0, GRID), (0.0, 1.0), limits)
+        swept = {at: self._swept(joint, other, at, only) for at in grid.tolist()}
+        for parts in sorted(only):
+            tried = {at: found[parts] for at, found in swept.items() if parts in found}
+            failing = [at for at, pair in tried.items() if pair.excess > self.config.excess_m]
+            obstructed = len(failing) == GRID
+            at = failing[0] if obstructed else self._deepest(joint, other, parts, tried)
+            if at is not None and tried[at].excess > 0.0:
+                yield BothOpen(joint, other, at, tried[at], obstructed)
+
+    def _deepest(
+        self, joint: JointLine, other: JointLine, parts: PartPair, tried: dict[float, PairSweep]
+    ) -> float | None:
+        """Add finer values of a joint around the deepest of those tried; return the deepest."""
+        if not tried:
+            return None
+        low = self.rest.lower[other.name]
+        high = self.rest.upper[other.name]
+        only = frozenset({parts})
+        step = (1.0 - self.config.little_open) / (GRID - 1) * (high - low)
+        for _ in range(REFINED):
+            step /= 2.0
+            middle = max(tried, key=lambda at: tried[at].excess)
+            for at in (middle - step, middle + step):
+                found = self._swept(joint, other, at, only) if low < at < high else {}
+                tried.update((at, pair) for pair in found.values())
+        return max(tried, key=lambda at: tried[at].excess)
+
+    def _swept(
+        self, joint: JointLine, other: JointLine, at: float, only: frozenset[PartPair]
+    ) -> Mapping[PartPair, PairSweep]:
+        """Return the worst of the pairs of parts that count, by pair, with a joint at one value."""
+        self.looks.take(SWEEP_LOOKS)
+        found = self._course(joint, other, at, only).run().pairs
+        return {pair.parts: pair for pair in found if pair.contact.kind is PairKind.PLAIN}
+
+    def _course(
+        self, joint: JointLine, other: JointLine, at: float, only: frozenset[PartPair]
+    ) -> JointCourse:
+        values = {**self.rest.lower, other.name: at}
+        return JointCourse(
+            joint, self.pairs, self.rest, self.config, values, only, looks=self.looks
+        )
 
 
 def _near(solids: Solids, rest: Rest) -> Iterator[tuple[JointLine, JointLine]]:
-    """Yield ordered pairs of joints: the first's sweep comes near the second where that is open."""
+    """Yield the pairs of joints whose ways come near each other; file order."""
     joints = [joint for joint in solids.tree.free if joint.name in rest.lower]
     independent = _independent(solids, joints)
     swept = _swept(solids, rest, [joints[i] for i in np.flatnonzero(independent.any(axis=1))])
@@ -62,18 +151,13 @@ def _near(solids: Solids, rest: Rest) -> Iterator[tuple[JointLine, JointLine]]:
     for index, joint in enumerate(joints):
         if joint.name in swept:
             around[index] = _around(swept[joint.name])
-    for index, other in enumerate(joints):
-        below = _below(solids, other)
-        if not below or not independent[:, index].any():
-            continue
-        solids.place({**rest.lower, other.name: rest.upper[other.name]})
-        boxes = np.array([solids.items[solid].collider.bounds for solid in below])
+    for index, first in enumerate(joints):
         # What is around all of it is compared first: most pairs of joints are far apart.
-        low, high = _around(boxes)
+        low, high = around[index]
         close = ((around[:, 0] < high) & (low < around[:, 1])).all(axis=1) & independent[:, index]
-        for joint in (joints[i] for i in np.flatnonzero(close)):
-            if _meet(swept[joint.name], boxes):
-                yield joint, other
+        for second in (joints[i] for i in np.flatnonzero(close) if i > index):
+            if _meet(swept[first.name], swept[second.name]):
+                yield first, second
 
 
 def _independent(solids: Solids, joints: list[JointLine]) -> npt.NDArray[np.bool_]:
@@ -115,10 +199,6 @@ def _meet(swept: FloatArray, boxes: FloatArray) -> bool:
     low = swept[:, None, 0]
     high = swept[:, None, 1]
     return bool(((low < boxes[None, :, 1]) & (boxes[None, :, 0] < high)).all(axis=2).any())
-
-
-def _below(solids: Solids, joint: JointLine) -> list[int]:
-    return [index for group in solids.moved(joint) for index in group.solids]
 
 
 def _parts(solids: Solids, joint: JointLine) -> frozenset[int]:

@@ -79,6 +79,8 @@ class _OpeningOrder:
                 first, needs_open=ordered, alternative=self._swept(name, self.needs[name])
             )
         worst = max(self._failing(first), key=lambda pair: pair.excess)
+        # What is clear on the whole way is clear on a part of it.
+        course = replace(course, only=frozenset(pair.parts for pair in self._failing(first)))
         waits = self._between(self._failing(first)) - {name, *self.needs}
         return replace(
             first, clear_until=clear_until(course, worst), waits_for=tuple(sorted(waits))

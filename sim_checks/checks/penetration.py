@@ -25,7 +25,7 @@ from .joint_sweep import Rest
 from .neighbours import open_neighbours
 from .opening import judge_joints
 from .pairs import Pairs
-from .penetration_report import report
+from .penetration_report import report, told_parts
 from .penetration_study import Combination, Contact, PairKind, PartPair, PenetrationStudy
 from .result import CheckResult
 from .visible import Visible
@@ -47,9 +47,10 @@ def check_penetration(
         most_looks: exact looks at two hulls, beyond which there is no verdict.
 
     Returns:
-        ``rest_penetration``, ``sweep_penetration`` (errors); ``hinge_overlap``,
-        ``excluded_penetration``, ``joint_dependency``, ``combination_penetration`` (warnings); and
-        every number taken. Or ``too_large_to_judge`` alone.
+        ``rest_penetration``, ``sweep_penetration``, ``joint_obstructed`` (errors);
+        ``hinge_overlap``, ``excluded_penetration``, ``joint_dependency``, ``joints_collide``,
+        ``combination_penetration`` (warnings); ``joints_not_swept`` (note); and every
+        number taken. Or ``too_large_to_judge`` alone.
 
     Raises:
         NotATree: for a file whose links do not form a tree.
@@ -73,16 +74,17 @@ def _measured(
     rest = Rest(lower, upper, tuple(solids.standings(config.clearance_m)), solids.diagonal())
     pairs = Pairs(solids, description.excluded)
     pairs = replace(pairs, knuckles=_knuckles(pairs, rest, poses, config))
+    sweeps = judge_joints(
+        [joint for joint in tree.free if joint.name in ranges], pairs, rest, config
+    )
     study = PenetrationStudy(
         diagonal=rest.diagonal,
         parts=tree.parts,
         hulls=len(solids.items),
         rest=pairs.worst(rest.standings, lower),
         zero=_at_zero(pairs, ranges, config),
-        sweeps=judge_joints(
-            [joint for joint in tree.free if joint.name in ranges], pairs, rest, config
-        ),
-        neighbours=open_neighbours(pairs, rest, config),
+        sweeps=sweeps,
+        neighbours=open_neighbours(pairs, rest, config, told_parts(sweeps, config)),
         combinations=_combinations(pairs, ranges, rest.standings, config),
     )
     visible = Visible(description, pairs, rest, config)

@@ -90,11 +90,12 @@ def measured(study: PenetrationStudy) -> MeasuredPenetration:
         neighbours=tuple(
             MeasuredNeighbour(
                 **_pair(item.pair),
-                joint=item.joint,
-                open=item.other,
-                unit=unit_of(item.kind),
+                joint=item.joint.name,
+                open=item.other.name,
+                unit=unit_of(item.joint.kind),
+                open_at=round(item.other_at, 6),
             )
-            for item in study.neighbours
+            for item in study.neighbours.met
         ),
         combinations=tuple(
             MeasuredCombination(

@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Set
+from collections.abc import Iterator, Sequence, Set
+from dataclasses import replace
 
 from ..config import PenetrationConfig
 from ..report import Finding, Severity
 from .cause import CLAUSES
 from .penetration_figures import measured, mm, unit_of
-from .penetration_study import Contact, JointSweep, PairKind, PartPair, PenetrationStudy
-from .result import CheckResult
+from .penetration_study import (
+    BothOpen,
+    Contact,
+    JointSweep,
+    Neighbours,
+    PairKind,
+    PartPair,
+    PenetrationStudy,
+)
+from .result import CheckResult, note
 
 
 def report(study: PenetrationStudy, config: PenetrationConfig) -> CheckResult:
@@ -21,21 +30,24 @@ def report(study: PenetrationStudy, config: PenetrationConfig) -> CheckResult:
     ``visual_clearance_mm`` of a joint is the same where its hulls come nearest. ``needs_open`` of a
     joint names those that must be open before it, in the order in which they open, and
     ``waits_for`` those that would have to be and never are. ``neighbours`` holds what joints do
-    while another stands at ``upper``.
+    while another stands open, at ``open_at``.
     """
     findings = [*_rest_findings(study, config)]
     for sweep in study.sweeps:
         findings.extend(_sweep_findings(sweep, config))
-    told = {
-        pair.parts
-        for sweep in study.sweeps
-        for pair in sweep.pairs
-        if pair.excess > config.excess_m
-    }
-    findings.extend(_neighbour_findings(study, config, told))
-    told |= {item.pair.parts for item in study.neighbours if item.pair.excess > config.excess_m}
+    colliding = [item for item in study.neighbours.met if item.pair.excess > config.excess_m]
+    findings.extend(_both_open(item, config) for item in colliding)
+    findings.extend(_left_out(study.neighbours, config))
+    told = told_parts(study.sweeps, config) | {item.pair.parts for item in colliding}
     findings.extend(_combination_findings(study, config, told))
     return CheckResult(tuple(findings), measured(study).to_dict())
+
+
+def told_parts(sweeps: Sequence[JointSweep], config: PenetrationConfig) -> frozenset[PartPair]:
+    """Return the pairs of parts that meet too deeply while all joints but one are closed."""
+    return frozenset(
+        pair.parts for sweep in sweeps for pair in sweep.pairs if pair.excess > config.excess_m
+    )
 
 
 def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> list[Finding]:
@@ -132,35 +144,48 @@ def _finding(
     )
 
 
-def _neighbour_findings(
-    study: PenetrationStudy, config: PenetrationConfig, told: Set[PartPair]
-) -> list[Finding]:
-    findings = []
-    for item in study.neighbours:
-        pair = item.pair
-        limit = mm(config.excess_m)
-        if pair.excess <= config.excess_m or pair.parts in told:
-            continue
-        a, b = pair.contact.links
-        unit = unit_of(item.kind)
+def _both_open(item: BothOpen, config: PenetrationConfig) -> Finding:
+    """Return what two joints do that run parts into each other when both are open."""
+    pair = item.pair
+    joint = item.joint.name
+    other = item.other.name
+    unit = unit_of(item.joint.kind)
+    stands = f"{other} at {item.other_at:.4g} {unit_of(item.other.kind)}"
+    a, b = pair.contact.links
+    depth = f"{a} and {b} penetrate {mm(pair.excess):.2f} mm deeper than at rest"
+    if item.obstructed:
         message = (
-            f"with {item.other} open, as {item.joint} moves, {a} and {b} penetrate "
-            f"{mm(pair.excess):.2f} mm deeper than at rest, "
-            f"worst at {pair.at:.4g} {unit}{_near(pair.contact)}"
+            f"{joint} cannot reach its range once {other} is a little open: with {stands} it is "
+            f"free until {item.free_until:.4g} {unit}, and {depth} at {pair.at:.4g} {unit}"
+            f"{_near(pair.contact)}; end its range there, or make room between the parts"
         )
-        value = mm(pair.excess)
-        findings.append(
-            _finding(
-                "combination_penetration",
-                Severity.WARNING,
-                message,
-                pair.contact,
-                value,
-                limit,
-                item.joint,
-            )
+    else:
+        message = (
+            f"with {joint} at {pair.at:.4g} {unit} and {stands}, {depth}{_near(pair.contact)}; "
+            f"open one at a time, or end the range of either earlier: {joint} is free until "
+            f"{item.free_until:.4g} {unit} there"
         )
-    return findings
+    code, severity = (
+        ("joint_obstructed", Severity.ERROR)
+        if item.obstructed
+        else ("joints_collide", Severity.WARNING)
+    )
+    value = mm(pair.excess)
+    limit = mm(config.excess_m)
+    found = _finding(code, severity, message, pair.contact, value, limit, joint)
+    return replace(found, joints=(joint, other))
+
+
+def _left_out(neighbours: Neighbours, config: PenetrationConfig) -> Iterator[Finding]:
+    """Yield a note on the pairs of joints that were not swept together."""
+    if neighbours.unswept:
+        first, second = neighbours.unswept[0]
+        message = (
+            f"{len(neighbours.unswept)} of {neighbours.asked} pairs of joints whose ways come near "
+            f"each other were not swept together, first {first} with {second}: "
+            f"{config.pair_looks} exact looks, as many as one file may take, were used up"
+        )
+        yield note("joints_not_swept", message, value=float(len(neighbours.unswept)))
 
 
 def _combination_findings(

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
+from ..description import JointLine
 from .cause import Cause
 
 PartPair = tuple[int, int]
@@ -117,18 +118,40 @@ class Combination:
 
 @dataclass(frozen=True)
 class BothOpen:
-    """The worst of one pair of parts while one joint makes its whole way, another at upper.
+    """The worst of one pair of parts while one joint makes its whole way and another stands open.
 
     Attributes:
-        joint, kind: the one that moves.
+        joint: the one that moves.
         other: the one that stands open.
+        other_at: its value [rad] or [m].
         pair: where and how deep.
+        obstructed: ``joint`` cannot reach its range once ``other`` is a little open: they meet at
+            ``other_at``, where it is just that, and wherever further open it was tried.
+        free_until: how far ``joint`` goes from lower before they meet [rad] or [m]; ``None`` where
+            they do not meet too deeply.
     """
 
-    joint: str
-    kind: str
-    other: str
+    joint: JointLine
+    other: JointLine
+    other_at: float
     pair: PairSweep
+    obstructed: bool
+    free_until: float | None = None
+
+
+@dataclass(frozen=True)
+class Neighbours:
+    """What joints do to one another when two of them are open.
+
+    Attributes:
+        met: the worst of every pair of joints and parts that meet.
+        asked: how many pairs of joints have ways that come near each other.
+        unswept: those of them that were left out, for the work that they take.
+    """
+
+    met: tuple[BothOpen, ...]
+    asked: int
+    unswept: tuple[tuple[str, str], ...]
 
 
 @dataclass(frozen=True)
@@ -141,5 +164,5 @@ class PenetrationStudy:
     rest: tuple[Contact, ...]
     zero: tuple[Contact, ...] | None
     sweeps: tuple[JointSweep, ...]
-    neighbours: tuple[BothOpen, ...]
+    neighbours: Neighbours
     combinations: tuple[Combination, ...]

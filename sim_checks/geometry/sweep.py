@@ -97,6 +97,8 @@ class Tolerance:
         limit: deeper than this is a failure [m]: no search ends before it is certain, to
             :data:`LIMIT_CERTAINTY`, on which side it falls.
         looks: exact looks before a search that is past doubt about ``limit`` gives up precision.
+        decides: on which side of ``limit`` the worst falls is all that is asked: a search ends at
+            the first place beyond it.
     """
 
     absolute: float = 2e-5
@@ -104,6 +106,7 @@ class Tolerance:
     floor: float = 0.005
     limit: float = 0.001
     looks: int = 2000
+    decides: bool = False
 
 
 class Sweep:
@@ -206,6 +209,9 @@ class Sweep:
 
     def _goal(self, best: Worst | None, tolerance: Tolerance, spent: int) -> float:
         """Return the bound at or below which an interval needs no look."""
+        if tolerance.decides and spent < PATIENCE * tolerance.looks:
+            failed = best is not None and best.excess > tolerance.limit
+            return np.inf if failed else tolerance.limit + LIMIT_CERTAINTY
         if best is None:
             return -tolerance.floor
         slack = max(tolerance.absolute, tolerance.relative * abs(best.excess))

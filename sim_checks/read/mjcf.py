@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import xml.etree.ElementTree as ET
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -19,15 +20,16 @@ from ..description import (
     Mimic,
 )
 from ..geometry.kinematics import rotation_about
-from .document import parse_document
 from .mjcf_model import MESH, CompiledGeom, CompiledJoint, CompiledModel, compile_model
 from .multiplied import refuse_multiplied
 from .primitives import box, capsule, cylinder, ellipsoid
 from .references import named_files
 
 
-def read_mjcf(path: Path) -> Description:
+def read_mjcf(path: Path, document: ET.Element) -> Description:
     """Compile an MJCF file with MuJoCo and describe its bodies, joints and geoms.
+
+    Its own root element is given, what it includes is read.
 
     A geom collides when ``contype`` or ``conaffinity`` is set, else it is visual; planes and height
     fields are left out. A joint that does not pass through its body's origin, and all but the last
@@ -37,7 +39,6 @@ def read_mjcf(path: Path) -> Description:
     Raises:
         DescriptionError: with MuJoCo's own words.
     """
-    document = parse_document(path)
     named_files(path, document)
     refuse_multiplied(path, document)
     model = compile_model(path)

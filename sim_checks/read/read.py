@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import numpy as np
@@ -24,16 +25,22 @@ def read_description(path: Path) -> Description:
         DescriptionError: with a stable code, whatever is wrong with the file.
         TimeoutError, ChildProcessError: nobody can say; see :func:`.native.require_word`.
     """
-    if format_of(path) == "urdf":
-        return read_here(path)
+    document = parse_document(path)
+    if _format(document, path) == "urdf":
+        return _read(path, document)
     return read_apart(read_here, path)
 
 
 def read_here(path: Path) -> Description:
     """Read as :func:`read_description` does, in this process, which must be a killable child."""
+    return _read(path, parse_document(path))
+
+
+def _read(path: Path, document: ET.Element) -> Description:
+    read = read_urdf if _format(document, path) == "urdf" else read_mjcf
     # What is made of numbers that are none is refused, not warned of.
     with np.errstate(all="ignore"):
-        description = read_urdf(path) if format_of(path) == "urdf" else read_mjcf(path)
+        description = read(path, document)
     _refuse_senseless(description)
     return description
 
@@ -60,11 +67,12 @@ def format_of(path: Path) -> str:
     Raises:
         DescriptionError: if it is no XML document, or of another kind.
     """
-    root = parse_document(path).tag
-    if root == "robot":
-        return "urdf"
-    if root == "mujoco":
-        return "mjcf"
-    raise DescriptionError(
-        "unknown_format", f"{path.name}: root element is <{root}>, want <robot> or <mujoco>"
-    )
+    return _format(parse_document(path), path)
+
+
+def _format(document: ET.Element, path: Path) -> str:
+    found = {"robot": "urdf", "mujoco": "mjcf"}.get(document.tag)
+    if found is None:
+        message = f"{path.name}: root element is <{document.tag}>, want <robot> or <mujoco>"
+        raise DescriptionError("unknown_format", message)
+    return found

@@ -61,13 +61,12 @@ class _Shapes:
             raise DescriptionError("too_large", message)
 
 
-def read_urdf(path: Path) -> Description:
-    """Read a URDF and every mesh it names.
+def read_urdf(path: Path, robot: ET.Element) -> Description:
+    """Read a URDF, given with its root element, and every mesh it names.
 
     Raises:
         DescriptionError: with a stable code, whatever is wrong with the file.
     """
-    robot = parse_document(path)
     refuse_outside_urdf(path, robot)
     shapes = _Shapes(path.parent.resolve())
     links = tuple(_link(element, shapes) for element in robot.findall("link"))

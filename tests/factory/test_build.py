@@ -128,7 +128,7 @@ def test_bad_inputs_are_rejected_with_a_reason_and_the_job_goes_on(tmp_path):
         (["--input", ".", "--up", "w"], "up"),
         (["--input", ".", "--limit", "-1"], "limit must be 0 or more, not -1"),
         (["--input", ".", "--max-hours", "-1"], "longest time must be 0 or more, not -3600 s"),
-        (["--input", ".", "--since", "lately"], "--since: is 'lately', want seconds ago, a date"),
+        (["--input", ".", "--since", "lately"], "--since must be seconds ago, a date"),
         (["--input", ".", "--executor", "slurm"], "no executor 'slurm'; there are local, ray"),
     ],
 )

@@ -4,6 +4,7 @@ import ast
 from pathlib import Path
 
 from asset_factory.factory import reasons
+from asset_factory.sim_checks import Severity
 from asset_factory.sim_checks import reasons as judge
 
 ROOT = Path(__file__).parents[2]
@@ -50,6 +51,14 @@ def test_the_judge_says_and_asks_only_what_is_declared():
 def test_the_factory_says_and_asks_only_what_is_declared():
     for path, tree in sources("factory", "envs"):
         assert {*said(tree), *asked(tree)} <= reasons.CODES, path
+
+
+def test_a_code_means_one_thing_at_each_severity():
+    assert sum(len(table.meanings) for table in reasons.TABLES) == len(reasons.MEANINGS)
+    for severity, table in ((Severity.ERROR, judge.ERRORS), (Severity.WARNING, judge.WARNINGS)):
+        assert reasons.meaning_of(severity, "collision_gap") == table["collision_gap"]
+    assert reasons.meaning_of(Severity.WARNING, "energy_grows") == judge.ERRORS["energy_grows"]
+    assert reasons.meaning_of(Severity.ERROR, "unheard_of") == ""
 
 
 def test_what_is_declared_is_said_somewhere():

@@ -83,7 +83,7 @@ class GeometryReader:
         scale = geometry.scale
         if not scale.all():
             raise InputRejected(
-                "unreadable", f"{where}: <mesh scale> is {scale.tolist()}, want no zero"
+                "unreadable", f"{where}: <mesh scale> must have no zero, not {scale.tolist()}"
             )
         if path not in self._visuals:
             self._visuals[path] = self._load(path, where)

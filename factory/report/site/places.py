@@ -104,7 +104,8 @@ class Places:
                     yield from self._along(each)
             for near in measured.neighbours:
                 if joint in (None, near.joint):
-                    yield {near.joint: near.at, **self._opened((near.open,))}, near
+                    stands = {} if near.open_at is None else {near.open: near.open_at}
+                    yield {near.joint: near.at, **self._opened((near.open,)), **stands}, near
             for tried in measured.combinations:
                 yield tried.values, tried
             yield from (({}, contact) for contact in measured.rest)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
+from itertools import groupby
 from pathlib import Path, PurePath
 from typing import Any
 
@@ -20,7 +21,7 @@ from ...display.stored import read_model, scene_from
 from ...errors import InputRejected, RegistryError
 from ...export.manifest import Manifest
 from ...manufacture.repair import Repair
-from ...reasons import TABLES
+from ...reasons import meaning_of
 from ...registry import Entry
 from ...registry.registry import read_manifest
 from ...registry.report_file import BuildReport, StoredReport, read_report
@@ -28,7 +29,6 @@ from ...runtime.layout import ASSETS, MODEL, REJECTED, URDF
 from ..loading import Snippet, loading_snippets
 from .places import Places
 
-MEANINGS = {code: meaning for table in TABLES.values() for code, meaning in table.items()}
 #: Findings on other hypotheses of the input have a section of their own.
 OTHER_HYPOTHESIS = "other_reading"
 _MAX_FINDINGS = 300
@@ -99,13 +99,12 @@ class AssetPage:
 
     @property
     def groups(self) -> tuple[FindingGroup, ...]:
-        """Return the findings by severity and code, in the order in which they were found."""
-        found: dict[tuple[Severity, str], list[FindingTold]] = {}
-        for told in self.findings:
-            found.setdefault((told.finding.severity, told.finding.code), []).append(told)
+        """Return the findings by severity and code; in order, they follow one another already."""
         return tuple(
-            FindingGroup(code, severity, MEANINGS.get(code, ""), tuple(group))
-            for (severity, code), group in found.items()
+            FindingGroup(code, severity, meaning_of(severity, code), tuple(group))
+            for (severity, code), group in groupby(
+                self.findings, key=lambda told: (told.finding.severity, told.finding.code)
+            )
         )
 
     @property

@@ -8,7 +8,7 @@ from asset_factory.factory.errors import ConfigError
 
 def test_an_unknown_robot_is_refused_with_those_there_are():
     with pytest.raises(
-        ConfigError, match="robot_uids is 'googlebot', want one of 'panda', 'fetch', 'none'"
+        ConfigError, match="robot_uids must be one of 'panda', 'fetch', 'none', not 'googlebot'"
     ):
         arguments.check_robot("OpenJointEnv", "googlebot", ("panda", "fetch", "none"))
 
@@ -16,7 +16,7 @@ def test_an_unknown_robot_is_refused_with_those_there_are():
 @pytest.mark.parametrize("backend", ["physx_cpu", "cpu"])
 def test_several_environments_on_a_cpu_are_sent_to_processes(backend):
     with pytest.raises(
-        ConfigError, match=r"num_envs is 2, want 1 .*make_processes.*AsyncVectorEnv"
+        ConfigError, match=r"num_envs must be 1 .*not 2.*make_processes.*AsyncVectorEnv"
     ):
         arguments.check_number("OpenJointEnv", 2, backend)
     assert arguments.check_number("OpenJointEnv", 1, backend) is False
@@ -38,7 +38,7 @@ def test_a_range_that_is_none_is_refused(bounds):
 
 
 def test_a_share_beyond_the_range_is_refused():
-    with pytest.raises(ConfigError, match=r"goal is 1\.5, want a share"):
+    with pytest.raises(ConfigError, match=r"goal must be a share"):
         arguments.check_share("SetJointEnv", "goal", 1.5)
 
 
@@ -68,5 +68,5 @@ def test_joint_types_of_user_and_task_are_intersected():
     assert arguments.common_types("t", (), ("prismatic",)) == ("prismatic",)
     assert arguments.common_types("t", ("prismatic", "revolute"), ("prismatic",)) == ("prismatic",)
     assert arguments.common_types("t", ("revolute",), ()) == ("revolute",)
-    with pytest.raises(ConfigError, match="joint_type is 'revolute', want 'prismatic'"):
+    with pytest.raises(ConfigError, match="joint_type must be 'prismatic', not 'revolute'"):
         arguments.common_types("OpenDrawerEnv", ("revolute",), ("prismatic",))

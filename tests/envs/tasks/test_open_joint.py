@@ -238,7 +238,7 @@ def test_an_asset_altered_after_the_task_was_made_is_refused(tmp_path):
     ("options", "error", "message"),
     [
         ({"robot_uids": "googlebot"}, ConfigError, "want one of 'panda', 'fetch', 'none'"),
-        ({"num_envs": 2}, ConfigError, "num_envs is 2, want 1"),
+        ({"num_envs": 2}, ConfigError, "num_envs must be 1"),
         ({"obs_mode": "rgbd", "render_backend": "none"}, ConfigError, "needs a renderer"),
         ({"category": "car"}, RegistryError, "none with category 'car'"),
         ({"friction_range": (2, 1)}, ConfigError, "friction_range"),
@@ -254,7 +254,7 @@ def test_a_drawer_task_refuses_an_asset_with_doors_alone(registry):
         RegistryError, match="asset 'oven': no prismatic joint to move; there are 'revolute' joints"
     ):
         make(registry, "OpenDrawer-v1", asset="oven")
-    with pytest.raises(ConfigError, match="joint_type is 'revolute', want 'prismatic'"):
+    with pytest.raises(ConfigError, match="joint_type must be 'prismatic', not 'revolute'"):
         make(registry, "OpenDrawer-v1", joint_type="revolute")
 
 

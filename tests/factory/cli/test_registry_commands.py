@@ -88,7 +88,7 @@ def test_conditions_choose(where, ids, root, run):
         ("catgory = fridge", "no column 'catgory'; did you mean 'category'?"),
         ("category = fridge or joints > 1", "cannot read 'category = fridge or joints > 1'"),
         ("category = fridge and", "cannot read 'and'"),
-        ("joints > many", "joints is 'many', want a whole number"),
+        ("joints > many", "joints must be a whole number, not 'many'"),
         ("category > fridge", "is no number"),
         ("category = a and category = b", "is there twice"),
         ("status = passed; drop table assets", "cannot read"),

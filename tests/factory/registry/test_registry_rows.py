@@ -123,7 +123,7 @@ def test_other_files_have_not_been_solved(registry):
     [
         ({"tags": ("two words",)}, "tag 'two words'"),
         ({"tags": ("../up",)}, "tag '../up'"),
-        ({"solved": "perhaps"}, "solved is 'perhaps', want one of '', 'yes', 'no'"),
+        ({"solved": "perhaps"}, "solved must be one of '', 'yes', 'no', not 'perhaps'"),
     ],
 )
 def test_a_note_that_cannot_be_is_refused(registry, arguments, message):

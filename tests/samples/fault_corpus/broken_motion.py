@@ -63,6 +63,7 @@ def colliding() -> Iterator[Exhibit]:
     yield from both("door_turns_too_far", with_move(thing, "hinge", upper=5.5), "sweep_penetration")
     yield from both("screw_in_the_way", screw_in_the_way(), "sweep_penetration")
     yield from both("wall_in_front", wall_in_front(), "sweep_penetration")
+    yield from both("flap_on_an_open_drawer", flap_over_drawer(), "joint_obstructed")
     for exhibit in both("each_bars_the_other", deadlock(), "sweep_penetration"):
         heard = ("mujoco",) if exhibit.name.endswith("mjcf") else ENGINES
         yield replace(exhibit, engines=dict.fromkeys(heard, "jammed"))
@@ -88,7 +89,7 @@ def astray() -> Iterator[Exhibit]:
 def meeting() -> Iterator[Exhibit]:
     """What is reported and does not reject."""
     yield from both("rack_behind_a_door", oven(), "joint_dependency", "warning")
-    yield from both("both_open", crossing(), "combination_penetration", "warning")
+    yield from both("both_open", crossing(), "joints_collide", "warning")
     # Nothing in the file tells the engines that this overlap is a knuckle.
     for exhibit in both("knuckle", knuckle(0.05), "hinge_overlap", "warning"):
         yield replace(exhibit, engines={"mujoco": "jammed"})
@@ -168,6 +169,20 @@ def crossing() -> Thing:
         Move("right_slide", "prismatic", "base", "right", (0.0, 1.0, 0.0), 0.0, 0.45),
     )
     return Thing("crossing", bodies, moves)
+
+
+def flap_over_drawer() -> Thing:
+    """A flap that drops to 126 degrees before a chest; any drawer under it that is out stops it."""
+    bodies = (
+        Body("chest", (box((0.0, 0.3, 0.2), (0.5, 0.6 - 2 * GAP, 0.4)),), at(0, 0, 0), 30.0),
+        Body("flap", (box((0.0, -0.01, 0.2), (0.5, 0.02, 0.4)),), at(0, -0.02, 0.0), 3.0),
+        Body("drawer", (box((0.0, 0.2, -0.1 - GAP), (0.5, 0.44, 0.2)),), at(0, 0, -0.1), 3.0),
+    )
+    moves = (
+        Move("drop", "revolute", "chest", "flap", (1.0, 0.0, 0.0), 0.0, 2.2),
+        Move("slide", "prismatic", "chest", "drawer", (0.0, -1.0, 0.0), 0.0, 0.4),
+    )
+    return Thing("flap_over_drawer", bodies, moves)
 
 
 def knuckle(length: float) -> Thing:

@@ -14,8 +14,7 @@ from asset_factory.sim_checks.checks.lint import check_lint
 from asset_factory.sim_checks.config import LintConfig
 from asset_factory.sim_checks.description import DescriptionError, Mimic
 from asset_factory.sim_checks.geometry.kinematics import build_tree, coupled_range
-from asset_factory.sim_checks.read.mjcf import read_mjcf
-from asset_factory.sim_checks.read.read import read_description
+from asset_factory.sim_checks.read.read import read_description, read_here
 from asset_factory.sim_checks.report import Severity
 
 NAMES = ("a", "b", "c")
@@ -172,7 +171,7 @@ def test_mjcf_s_equality_holds_where_mujoco_settles(tmp_path):
     mujoco = pytest.importorskip("mujoco")
     path = tmp_path / "pair.xml"
     path.write_text(MJCF)
-    description = read_mjcf(path)
+    description = read_here(path)
     (led,) = [item for item in description.joints if item.mimic is not None]
     model = mujoco.MjModel.from_xml_path(str(path))
     data = mujoco.MjData(model)
@@ -189,7 +188,7 @@ def test_an_equality_that_is_off_or_locks_one_joint_is_no_leader(tmp_path):
     path = tmp_path / "pair.xml"
     for old, new in (('joint2="lead"', 'joint2="lead" active="false"'), ('joint2="lead"', "")):
         path.write_text(MJCF.replace(old, new))
-        assert [item.mimic for item in read_mjcf(path).joints] == [None, None]
+        assert [item.mimic for item in read_here(path).joints] == [None, None]
 
 
 def test_pose_samples_put_followers_where_their_leaders_take_them():

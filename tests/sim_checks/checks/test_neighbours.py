@@ -1,13 +1,17 @@
 """Two joints open at once are followed continuously, and only where they can meet."""
 
+import re
 from dataclasses import replace
 
+import numpy as np
 import pytest
-from box_world import body, cabinet, described, joint, with_joint
+from box_world import body, box_hull, cabinet, described, joint, with_joint
 
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
 from asset_factory.sim_checks.description import Mimic
+from asset_factory.sim_checks.geometry.depth import overlap
+from asset_factory.sim_checks.geometry.kinematics import rotation_about
 from asset_factory.sim_checks.report import Severity
 
 BASE = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1))])
@@ -33,12 +37,14 @@ def test_what_a_spread_of_poses_steps_over_is_found_where_it_is():
     assert result.measurements["combinations"] == []
     (found,) = result.findings
     assert (found.code, found.severity, set(found.parts)) == (
-        "combination_penetration",
+        "joints_collide",
         Severity.WARNING,
         {"needle", "plate"},
     )
-    assert "across" in found.message
-    assert "along" in found.message
+    assert found.joints == ("across", "along")
+    assert "across at 0.52" in found.message
+    assert "along at 0.3 m" in found.message
+    assert "open one at a time" in found.message
     assert found.value == pytest.approx(4.0, rel=0.02)
     (measured,) = result.measurements["neighbours"]
     assert (measured["joint"], measured["open"]) == ("across", "along")
@@ -50,6 +56,79 @@ def test_a_plate_that_stops_short_is_not_in_the_way():
     result = check(crossing(reach=0.2))
     assert result.findings == ()
     assert result.measurements["neighbours"] == []
+
+
+def over_drawer(upper, gap=0.004):
+    """A flap hinged ``gap`` above a drawer that comes out 0.4 m below it, shut face to face."""
+    flap = body("flap", [((0.0, 0.01, 0.2), (0.5, 0.02, 0.4))])
+    drawer = body("drawer", [((0.0, 0.2, -0.1 - gap), (0.5, 0.4, 0.2))])
+    joints = [
+        joint("drop", "revolute", "base", "flap", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, upper)),
+        joint("slide", "prismatic", "base", "drawer", (0, 0, 0), (0.0, -1.0, 0.0), (0.0, 0.4)),
+    ]
+    return described([BASE, flap, drawer], joints)
+
+
+def test_a_flap_that_opens_over_a_drawer_leaves_it_its_way():
+    assert check(over_drawer(np.pi / 2)).findings == ()
+
+
+def test_a_flap_that_drops_a_little_below_its_hinge_ends_the_way_of_the_drawer():
+    """The drawer's edge, 4 mm below the hinge, meets the flap where that is as low."""
+    (found,) = check(over_drawer(1.6)).findings
+    assert (found.code, found.joints) == ("joints_collide", ("slide", "drop"))
+    tilt = 1.6 - np.pi / 2
+    touch, deep = 0.004 / np.tan(tilt), (0.004 * np.cos(tilt) + 0.001) / np.sin(tilt)
+    assert touch - 0.4 / 100 < _free_until(found) <= deep
+
+
+def test_a_flap_that_a_drawer_stops_once_a_tenth_out_is_an_error():
+    (found,) = check(over_drawer(2.2)).findings
+    assert (found.code, found.severity) == ("joint_obstructed", "error")
+    assert found.joints == ("drop", "slide")
+    assert "with slide at 0.04 m" in found.message
+    touch = np.pi / 2 + np.arctan2(0.004, 0.04)
+    deep = touch + np.arcsin(0.001 / np.hypot(0.004, 0.04))
+    assert touch - 2.2 / 100 < _free_until(found) <= deep
+
+
+def _free_until(finding):
+    return float(re.findall(r"free until ([\d.]+) ", finding.message)[0])
+
+
+def test_doors_that_pass_the_plane_between_their_hinges_are_found_where_they_are_deepest():
+    """Both are hinged 3 cm beside the middle and turn by 2 rad; every pose of both is tried."""
+    links = [BASE]
+    joints = []
+    for name, side in (("left", -1.0), ("right", 1.0)):
+        hinge = (0.03 * side, 0.0, 0.0)
+        links.append(body(name, [((0.23 * side, 0.0, 0.0), (0.4, 0.02, 0.4))], hinge))
+        axis = (0.0, 0.0, -side)
+        joints.append(joint(f"{name}_hinge", "revolute", "base", name, hinge, axis, (0.0, 2.0)))
+
+    def hull(side, angle):
+        turned = rotation_about(np.array([0.0, 0.0, -side]), angle)
+        center = turned @ [0.2 * side, 0.0, 0.0] + [0.03 * side, 0.0, 0.0]
+        return box_hull(center, (0.4, 0.02, 0.4), turned)
+
+    poses = np.linspace(0.0, 2.0, 41)
+    lefts, rights = ([hull(side, angle) for angle in poses] for side in (-1.0, 1.0))
+    deepest = max(overlap(left, right).depth for left in lefts for right in rights)
+    result = check(described(links, joints))
+    (found,) = result.findings
+    assert (found.code, found.joints) == ("joints_collide", ("left_hinge", "right_hinge"))
+    assert found.value == pytest.approx(1000 * deepest, rel=0.05)
+    (measured,) = result.measurements["neighbours"]
+    there = overlap(hull(-1.0, measured["at"]), hull(1.0, measured["open_at"])).depth
+    assert found.value == pytest.approx(1000 * there, rel=1e-3)
+
+
+def test_work_on_joints_together_is_bounded_and_told():
+    bounded = check_penetration(crossing(), PenetrationConfig(combinations=0, pair_looks=5))
+    (found,) = bounded.findings
+    assert (found.code, found.severity) == ("joints_not_swept", "note")
+    assert "1 of 1 pairs" in found.message
+    assert "across with along" in found.message
 
 
 def test_joints_that_lead_one_another_are_never_open_apart():

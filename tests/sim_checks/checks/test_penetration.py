@@ -103,7 +103,7 @@ def test_two_parts_that_only_meet_when_both_are_open_are_reported_softly():
         joint("b", "prismatic", "base", "right", (0, 0, 0), (-1.0, 0.0, 0.0), (0.0, 0.55)),
     ]
     result = check(described([base, left, right], joints))
-    assert codes(result) == ["combination_penetration"]
+    assert codes(result) == ["joints_collide"]
     assert hard(result) == []
 
 
@@ -116,7 +116,7 @@ def test_two_parts_that_only_meet_when_both_are_half_open_are_reported_too():
         joint("b", "prismatic", "base", "front", (0, 0, 0), (0.0, 1.0, 0.0), (0.0, 2.0)),
     ]
     (finding,) = check(described([base, left, front], joints)).findings
-    assert finding.code == "combination_penetration"
+    assert finding.code == "joints_collide"
     assert set(finding.parts) == {"left", "front"}
 
 

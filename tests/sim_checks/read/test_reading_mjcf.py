@@ -5,8 +5,7 @@ import trimesh
 
 from asset_factory.sim_checks.description import DescriptionError
 from asset_factory.sim_checks.geometry.kinematics import build_tree
-from asset_factory.sim_checks.read.mjcf import read_mjcf
-from asset_factory.sim_checks.read.read import read_description
+from asset_factory.sim_checks.read.read import read_description, read_here
 
 mujoco = pytest.importorskip("mujoco")
 
@@ -51,7 +50,7 @@ def test_bodies_joints_and_geoms_arrive(model_path):
 @pytest.mark.parametrize("values", [(0.0, 0.0, 0.0), (1.2, 0.1, -2.0), (-0.7, 0.2, 0.5)])
 def test_link_poses_are_mujocos_own(model_path, values):
     names = ("hinge", "slide", "twist")
-    poses = build_tree(read_mjcf(model_path)).link_poses(dict(zip(names, values, strict=True)))
+    poses = build_tree(read_here(model_path)).link_poses(dict(zip(names, values, strict=True)))
     model = mujoco.MjModel.from_xml_path(str(model_path))
     data = mujoco.MjData(model)
     for name, value in zip(names, values, strict=True):
@@ -71,7 +70,7 @@ def test_meshes_lie_where_they_were_drawn(tmp_path):
         '<mujoco><asset><mesh name="part" file="part.stl"/></asset><worldbody><body name="b">'
         '<geom type="mesh" mesh="part"/></body></worldbody></mujoco>'
     )
-    shape = read_mjcf(path).links[1].collisions[0]
+    shape = read_here(path).links[1].collisions[0]
     assert shape.vertices.min(axis=0) == pytest.approx([0.95, 1.9, 2.85], abs=1e-6)
     assert shape.vertices.max(axis=0) == pytest.approx([1.05, 2.1, 3.15], abs=1e-6)
 
@@ -82,7 +81,7 @@ def test_bodies_whose_contact_bits_never_meet_are_excluded(tmp_path):
         '<mujoco><worldbody><body name="a"><geom size="0.1" contype="1" conaffinity="2"/></body>'
         '<body name="b"><geom size="0.1" contype="1" conaffinity="4"/></body></worldbody></mujoco>'
     )
-    assert read_mjcf(path).excluded == {frozenset({"a", "b"})}
+    assert read_here(path).excluded == {frozenset({"a", "b"})}
 
 
 @pytest.mark.parametrize(
