@@ -307,7 +307,7 @@ def _pulled(rows: list[dict[str, Any]], config: StandingConfig) -> Iterator[Find
         message = (
             f"pulling joint {worst['joint']!r} open tips the whole object at "
             f"{worst['tipping_force_n']:.1f} N, "
-            f"want it to stand {config.hand_force_n:g} N or be fastened{others}"
+            f"want it to withstand {config.hand_force_n:g} N or be fastened{others}"
         )
         yield warning(
             "topples_when_pulled",
