@@ -20,12 +20,12 @@ import sys
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from checkers import OURS, Answer, Ask, Checker, checkers, kept, run_to_end
+from checkers import OURS, Answer, Ask, Checker, Unasked, checkers, kept, run_to_end, unasked
 from published import Published, inventory, listed
 from real_yield import DATA
 from results_file import renew
@@ -78,15 +78,15 @@ def main() -> int:
     parser.add_argument("--simcheck", type=Path, help="its program")
     parser.add_argument("--simready", type=Path, help="the program simready-validate")
     parser.add_argument("--page", type=Path, default=ROOT / "docs" / "board.html")
+    parser.add_argument("--no-build", action="store_true", help="rebuild no more files")
     parser.add_argument("--no-ask", action="store_true", help="draw the answers that are there")
     asked = parser.parse_args()
     work = asked.work.absolute()
     (work / "answers").mkdir(parents=True, exist_ok=True)
     files = listed(asked.list) if asked.list else islice(inventory(asked.data), asked.count)
     rows = []
-    with checkers(asked.simcheck, asked.simready) as there:
-        found = [replace(each, ask=unasked) for each in there] if asked.no_ask else there
-        build = unasked if asked.no_ask else building(work / "built")
+    with checkers(asked.simcheck, asked.simready, ask=not asked.no_ask) as found:
+        build = unasked if asked.no_ask or asked.no_build else building(work / "built")
         for number, file in enumerate(files, 1):
             print(f"{number}: {file.path}", file=sys.stderr, flush=True)
             with suppress(Unasked):
@@ -104,7 +104,10 @@ def row_of(file: Published, found: Sequence[Checker], work: Path, build: Ask) ->
     """Ask every checker of a file and of what is made of it."""
     answers = work / "answers"
     before = asked_of(found, file.path, answers)
-    built = kept("factory build", file.path, answers, build)["report"]
+    try:
+        built = kept("factory build", file.path, answers, build)["report"]
+    except Unasked:
+        return Row(file, before, "not built", {})
     if not built:
         return Row(file, before, "no answer in time", {})
     folder = work / "built" / built["place"]
@@ -119,15 +122,6 @@ def asked_of(found: Sequence[Checker], file: Path, answers: Path) -> dict[str, A
     """Return the answers of those who read a file, by their names."""
     said = {each.name: each.answer(file, answers) for each in found}
     return {name: answer for name, answer in said.items() if answer is not None}
-
-
-class Unasked(LookupError):
-    """An answer is not there yet, and nobody shall be asked for it."""
-
-
-def unasked(file: Path, folder: Path) -> Mapping[str, Any]:
-    """Raise Unasked instead of asking."""
-    raise Unasked(file)
 
 
 def building(output: Path) -> Ask:

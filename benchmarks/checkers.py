@@ -16,7 +16,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -92,9 +92,20 @@ def kept(name: str, file: Path, folder: Path, ask: Ask) -> dict[str, Any]:
     return found
 
 
+class Unasked(LookupError):
+    """An answer is not there yet, and nobody shall be asked for it."""
+
+
+def unasked(file: Path, folder: Path) -> Mapping[str, Any]:
+    """Raise Unasked instead of asking."""
+    raise Unasked(file)
+
+
 @contextmanager
-def checkers(simcheck: Path | None, simready: Path | None) -> Iterator[Sequence[Checker]]:
-    """Yield ours, and the others whose programs are given."""
+def checkers(
+    simcheck: Path | None, simready: Path | None, *, ask: bool = True
+) -> Iterator[Sequence[Checker]]:
+    """Yield ours, and the others whose programs are given; none is asked anew without ``ask``."""
     # Who ends this ends its children too.
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
     with Judge(load_config("default").checks) as judge:
@@ -109,7 +120,7 @@ def checkers(simcheck: Path | None, simready: Path | None) -> Iterator[Sequence[
         if simready is not None:
             asked = asked_with(simready, "--profile", PROFILE, "--output", "{out}", "{file}")
             found.append(Checker("simready-validate", (".usd", ".usda"), asked, said_by_simready))
-        yield found
+        yield found if ask else [replace(each, ask=unasked) for each in found]
 
 
 def asked_with(program: Path, *arguments: str) -> Ask:

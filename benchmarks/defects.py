@@ -10,7 +10,8 @@ does not state of the same file without it. Prints what each missed, and writes
         --output OUT
     python benchmarks/defects.py OUT WORK --simcheck PROGRAM --simready PROGRAM
 
-A run that was ended goes on where it was, with the same WORK folder.
+A run that was ended goes on where it was, with the same WORK folder; ``--no-ask`` counts what is
+there.
 """
 
 from __future__ import annotations
@@ -22,13 +23,14 @@ import statistics
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from itertools import chain, islice
 from pathlib import Path
 
 import usd_defects
-from checkers import Answer, Checker, checkers
+from checkers import Answer, Checker, Unasked, checkers
 from confusion_table import exhibits
 from published import inventory
 from real_yield import DATA
@@ -59,10 +61,11 @@ def main() -> int:
     parser.add_argument("--real", type=int, default=20, help="published objects")
     parser.add_argument("--kinds", type=int, default=2, help="defects planted in each of those")
     parser.add_argument("--only", help="ask this checker alone, and write no table")
+    parser.add_argument("--no-ask", action="store_true", help="count the answers that are there")
     asked = parser.parse_args()
     work = asked.work.absolute()
     rows = []
-    with checkers(asked.simcheck, asked.simready) as found:
+    with checkers(asked.simcheck, asked.simready, ask=not asked.no_ask) as found:
         for title, cases in groups(asked, work):
             for checker in found:
                 if asked.only in (None, checker.name):
@@ -170,9 +173,10 @@ def table_row(
     seen: dict[Path, Answer] = {}
     for number, case in enumerate(cases, 1):
         print(f"{checker.name}: {number} of {len(cases)}, {title}", file=sys.stderr, flush=True)
-        answer = checker.answer(case.path, folder)
-        if answer is not None:
-            seen[case.path] = answer
+        with suppress(Unasked):
+            answer = checker.answer(case.path, folder)
+            if answer is not None:
+                seen[case.path] = answer
     asked = [case for case in cases if case.path in seen]
     broken = [case for case in asked if case.defect]
     sound = [case for case in asked if not case.defect]
