@@ -47,6 +47,8 @@ COLUMNS = (
     "mm, rebuilt",
     "simcheck passes them",
 )
+#: What becomes of a file that nobody rebuilds.
+NOT_BUILT = "not built"
 #: What is in one another by less than this is not told [mm].
 FINEST_MM = 0.05
 
@@ -107,7 +109,7 @@ def row_of(file: Published, found: Sequence[Checker], work: Path, build: Ask) ->
     try:
         built = kept("factory build", file.path, answers, build)["report"]
     except Unasked:
-        return Row(file, before, "not built", {})
+        return Row(file, before, NOT_BUILT, {})
     if not built:
         return Row(file, before, "no answer in time", {})
     folder = work / "built" / built["place"]
@@ -170,7 +172,7 @@ def table_row(source: str, rows: Sequence[Row]) -> tuple[str, ...]:
         str(sum(bool(answer.report.get("disagreements")) for answer in ours)),
         ", ".join(f"`{code}` {count}" for code, count in codes.most_common(3)),
         passing([row.before for row in rows], "simcheck"),
-        f"{len(built)} of {len(rows)}",
+        f"{len(built)} of {sum(row.status != NOT_BUILT for row in rows)}",
         middle_mm([row.after[OURS] for row in built]),
         passing([row.after for row in built], "simcheck"),
     )
@@ -232,6 +234,7 @@ def page(rows: Sequence[Row], table: Sequence[Sequence[str]]) -> str:
             table=table,
             date=datetime.datetime.now(datetime.UTC).date().isoformat(),
             ours=OURS,
+            NOT_BUILT=NOT_BUILT,
             missed={
                 (OURS, "simcheck"): overlooked(rows, OURS, "simcheck").most_common(),
                 ("simcheck", OURS): overlooked(rows, "simcheck", OURS).most_common(),

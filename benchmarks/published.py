@@ -30,14 +30,19 @@ def inventory(data: Path) -> Iterator[Published]:
             folder, source, *_ = row["path"].split("/")
             if folder == "articulated":
                 path = data / row["path"] / row["main_file"]
-                license_ = re.split(r" \(|;|:", row["license"])[0]
-                by_source[source].append(Published(path, source, license_))
+                by_source[source].append(Published(path, source, in_short(row["license"])))
     chooser = np.random.default_rng(0)
     drawn = [
         [files[index] for index in chooser.permutation(len(files))]
         for _, files in sorted(by_source.items())
     ]
     yield from (each for turn in zip_longest(*drawn) for each in turn if each is not None)
+
+
+def in_short(license_: str) -> str:
+    """Return what binds whoever uses the object: its own terms, not its repository's."""
+    bound = "NON-COMMERCIAL" in license_
+    return "non-commercial research only" if bound else re.split(r" \(|;", license_)[0]
 
 
 def listed(file: Path) -> Iterator[Published]:

@@ -248,7 +248,7 @@ def _blocker(motion: JointMotion) -> str:
         words += f"; {one!r} presses on {two!r}"
     else:
         words += "; nothing presses on the parts that it moves"
-    words += "".join(f"; it leans on joint {name!r}" for name in _leant_on(motion))
+    words += "".join(f"; it pushes joint {name!r}" for name in _leant_on(motion))
     return words
 
 
