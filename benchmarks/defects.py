@@ -1,160 +1,218 @@
-"""Defects side by side: what ``factory check`` and the PyPI package ``simcheck`` catch of them.
+"""Defects side by side: what ``factory check``, simcheck and simready-validate catch of them.
 
-Ours, planted by the fault corpus in URDFs of its own objects, and simcheck's, planted by its
-command ``mutate`` in copies of assets; beside them the same things without a defect. A checker
-catches what it rejects: a warning is no catch. Prints a table, one JSON line, and what each missed.
+Ours, planted by the fault corpus in objects of its own; simcheck's 17 kinds, planted by its command
+``mutate`` in assets of a build and in published objects; and those of its kinds that USD can state,
+planted in the assets' USD files. Caught is a defect for which a checker states an error that it
+does not state of the same file without it. Prints what each missed, and writes
+``results/defects.toml``.
 
-python benchmarks/defects.py OUT --simcheck VENV/bin/simcheck
+    factory build --input examples/meshes examples/generated examples/stated --formats usd \
+        --output OUT
+    python benchmarks/defects.py OUT WORK --simcheck PROGRAM --simready PROGRAM
+
+A run that was ended goes on where it was, with the same WORK folder; ``--no-ask`` counts what is
+there.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import shutil
+import statistics
 import subprocess
 import sys
-import tempfile
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import cache
+from itertools import chain, islice
 from pathlib import Path
 
+import usd_defects
+from checkers import Answer, Checker, Unasked, checkers
 from confusion_table import exhibits
+from published import inventory
+from real_yield import DATA
+from results_file import renew
 
-#: Assets that simcheck's defects are planted in, those of the fewest hulls, and where those lie.
-ASSETS = 6
 HULLS = Path("meshes", "collision")
-WORKERS = os.cpu_count() or 1
+COLUMNS = ("defects", "checker", "caught", "caught or warned of", "false alarms", "core-s a file")
 
 
 @dataclass(frozen=True)
 class Case:
-    """One file, and what is wrong with it: empty where nothing is."""
+    """One file, what is wrong with it (empty where nothing is), and the same without it."""
 
     path: Path
-    origin: str
     defect: str
+    sound: Path | None = None
 
 
-@dataclass(frozen=True)
-class Checked:
-    """Which files a checker rejected, and its wall-clock seconds a file."""
-
-    rejected: frozenset[Path]
-    seconds: float
-
-
-def ours(cases: Sequence[Case], folder: Path) -> Checked:
-    """Ask ``factory check`` with three simulators, in one call."""
-    report = folder / "ours.json"
-    command = [sys.executable, "-m", "asset_factory.factory.cli", "check"]
-    command += [*(str(each.path) for each in cases), "--sim", "all", "--json", str(report)]
-    seconds = timed([*command, "--workers", str(WORKERS)], folder)
-    passed = [each["passed"] for each in json.loads(report.read_text())]
-    rejected = {each.path for each, well in zip(cases, passed, strict=True) if not well}
-    return Checked(frozenset(rejected), seconds / len(cases))
-
-
-def simcheck(program: Path) -> Callable[[Sequence[Case], Path], Checked]:
-    """Return how to ask simcheck, with the engines it finds, in one call."""
-
-    def ask(cases: Sequence[Case], folder: Path) -> Checked:
-        report = folder / "simcheck.json"
-        command = [str(program), "check", *(str(each.path) for each in cases)]
-        command += ["-j", str(WORKERS), "--no-config", "--json", str(report)]
-        seconds = timed(command, folder)
-        told = json.loads(report.read_text())
-        rejected = {folder / each["asset"] for each in told if each["verdict"] == "FAIL"}
-        return Checked(frozenset(rejected), seconds / len(cases))
-
-    return ask
+def main() -> int:
+    """Plant, ask, print and write; returns the exit code."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("output", type=Path, help="output folder of factory build --formats usd")
+    parser.add_argument("work", type=Path, help="folder of planted files and of answers")
+    parser.add_argument("--simcheck", type=Path, help="its program")
+    parser.add_argument("--simready", type=Path, help="the program simready-validate")
+    parser.add_argument("--data", type=Path, default=DATA, help="folder of published objects")
+    parser.add_argument("--assets", type=int, default=6, help="assets, those of the fewest hulls")
+    parser.add_argument("--real", type=int, default=20, help="published objects")
+    parser.add_argument("--kinds", type=int, default=2, help="defects planted in each of those")
+    parser.add_argument("--only", help="ask this checker alone, and write no table")
+    parser.add_argument("--no-ask", action="store_true", help="count the answers that are there")
+    asked = parser.parse_args()
+    work = asked.work.absolute()
+    rows = []
+    with checkers(asked.simcheck, asked.simready, ask=not asked.no_ask) as found:
+        for title, cases in groups(asked, work):
+            for checker in found:
+                if asked.only in (None, checker.name):
+                    rows += table_row(title, cases, checker, work / "answers")
+    if asked.only is None:
+        renew("defects", COLUMNS, rows)
+    return 0
 
 
-def timed(command: Sequence[str], folder: Path) -> float:
-    """Run a checker, whatever its exit code; return its wall-clock seconds."""
-    started = time.perf_counter()
-    subprocess.run(command, cwd=folder, check=False, stdout=subprocess.DEVNULL)
-    return time.perf_counter() - started
+def groups(asked: argparse.Namespace, work: Path) -> Iterator[tuple[str, list[Case]]]:
+    """Yield every group of cases with its title, planted when it is asked for."""
+    (work / "answers").mkdir(parents=True, exist_ok=True)
+    sources = [each for each in (asked.output / "assets").iterdir() if each.is_dir()]
+    sources.sort(key=lambda each: (len(os.listdir(each / HULLS)), each.name))
+    assets = [copied(each / "asset.urdf", work / "assets") for each in sources[: asked.assets]]
+    usd = [each.with_suffix(".usd") for each in assets if each.with_suffix(".usd").is_file()]
+    if asked.simcheck is not None:
+        every = chain(*(in_urdf(each, asked.simcheck, None) for each in assets))
+        yield f"simcheck's 17 kinds, in {len(assets)} assets", list(every)
+    if usd:
+        planted = [Case(made, defect, file) for file in usd for defect, made in in_usd(file)]
+        yield f"kinds that USD can state, in {len(usd)} assets as USD", planted
+    yield f"our own kinds, {len(corpus(work))} objects of boxes and demo kinds", corpus(work)
+    if asked.simcheck is not None:
+        urdfs = (each.path for each in inventory(asked.data) if each.path.suffix == ".urdf")
+        real = [copied(each, work / "real") for each in islice(urdfs, asked.real)]
+        some = (
+            in_urdf(file, asked.simcheck, range(number * asked.kinds, (number + 1) * asked.kinds))
+            for number, file in enumerate(real)
+        )
+        title = f"{asked.kinds} of simcheck's kinds in turn, in {len(real)} published objects"
+        yield title, list(chain(*some))
 
 
-def corpus(folder: Path) -> list[Case]:
-    """Write every URDF of the fault corpus that must be rejected, or must pass."""
+def copied(file: Path, to: Path) -> Path:
+    """Return a description's copy, with the folder that it lies in."""
+    place = to / file.parent.name
+    if not place.is_dir():
+        part = place.with_suffix(".part")
+        shutil.rmtree(part, ignore_errors=True)
+        shutil.copytree(file.parent, part)
+        part.rename(place)
+    return place / file.name
+
+
+def corpus(work: Path) -> list[Case]:
+    """Write all of the fault corpus that must be rejected, or must pass."""
     found = []
     for number, exhibit in enumerate(exhibits()):
-        if exhibit.name.endswith(".urdf") and (exhibit.rejected or exhibit.code is None):
-            place = folder / f"{number:03}"
-            place.mkdir()
-            path = exhibit.build(place)
-            found.append(Case(path, "corpus", exhibit.name if exhibit.code else ""))
+        if exhibit.rejected or exhibit.code is None:
+            place = work / "corpus" / f"{number:03}"
+            name = place / "name"
+            if not name.is_file():
+                shutil.rmtree(place, ignore_errors=True)
+                place.mkdir(parents=True)
+                name.write_text(exhibit.build(place).name)
+            defect = exhibit.name if exhibit.rejected else ""
+            found.append(Case(place / name.read_text(), defect))
     return found
 
 
-def planted(output: Path, program: Path, folder: Path) -> list[Case]:
-    """Copy assets of an output folder and let simcheck plant each of its defects in a copy."""
+def in_usd(file: Path) -> Iterator[tuple[str, Path]]:
+    """Yield a USD file, and copies with a defect each."""
+    yield "", file
+    for defect in usd_defects.DEFECTS:
+        made = file.with_name(f"asset__{defect}.usd")
+        if not made.is_file():
+            usd_defects.plant(file, defect, made)
+        yield defect, made
+
+
+def in_urdf(file: Path, program: Path, numbers: range | None) -> Iterator[Case]:
+    """Yield a URDF, and copies in its folder with one of simcheck's defects each.
+
+    Args:
+        file: the URDF.
+        program: simcheck's.
+        numbers: of the defects, counted round; ``None`` for all.
+    """
+    defects = kinds_of(program)
+    yield Case(file, "")
+    for number in range(len(defects)) if numbers is None else numbers:
+        defect = defects[number % len(defects)]
+        made = file.with_name(f"{file.stem}__{defect}.urdf")
+        if not made.is_file():
+            command = [program, "mutate", file, "--defect", defect, "-o", file.parent]
+            subprocess.run(command, check=False, capture_output=True)
+        if made.is_file():
+            yield Case(made, defect, file)
+
+
+@cache
+def kinds_of(program: Path) -> tuple[str, ...]:
+    """Return the defects that simcheck plants."""
     listed = subprocess.run(
         [program, "mutate", "--list"], check=True, capture_output=True, text=True
     )
-    defects = [line.split()[0] for line in listed.stdout.splitlines() if line.strip()]
-    found = []
-    sources = sorted((output / "assets").iterdir(), key=lambda each: len(os.listdir(each / HULLS)))
-    for source in sources[:ASSETS]:
-        for defect in ("", *defects):
-            place = folder / f"{source.name}_{defect or 'sound'}"
-            shutil.copytree(source, place)
-            path = place / "asset.urdf"
-            if defect:
-                command = [program, "mutate", path, "--defect", defect, "-o", place]
-                subprocess.run(command, check=False, capture_output=True)
-                path = place / f"asset__{defect}.urdf"
-            if path.is_file():
-                found.append(Case(path, source.name, defect))
-    return found
+    return tuple(line.split()[0] for line in listed.stdout.splitlines() if line.strip())
 
 
-def told(cases: Sequence[Case], checked: Checked) -> tuple[str, str, str, list[str]]:
-    """Return what a checker caught, its false alarms, its seconds, and what it got wrong."""
-    broken = [each for each in cases if each.defect]
-    sound = [each for each in cases if not each.defect]
-    missed = [each for each in broken if each.path not in checked.rejected]
-    alarms = [each for each in sound if each.path in checked.rejected]
-    wrong = [f"missed {each.origin} {each.defect}" for each in missed]
-    wrong += [f"false alarm {each.origin} {each.path.name}" for each in alarms]
-    return (
+def table_row(
+    title: str, cases: Sequence[Case], checker: Checker, folder: Path
+) -> Iterator[tuple[str, ...]]:
+    """Ask a checker of all cases; print what it missed; yield its row, or none if it reads none."""
+    seen: dict[Path, Answer] = {}
+    for number, case in enumerate(cases, 1):
+        print(f"{checker.name}: {number} of {len(cases)}, {title}", file=sys.stderr, flush=True)
+        with suppress(Unasked):
+            answer = checker.answer(case.path, folder)
+            if answer is not None:
+                seen[case.path] = answer
+    asked = [case for case in cases if {case.path, case.sound} - {None} <= set(seen)]
+    broken = [case for case in asked if case.defect]
+    sound = [case for case in asked if not case.defect]
+    if not asked:
+        return
+    missed = [case for case in broken if not news(case, seen, warnings=False)]
+    silent = [case for case in missed if not news(case, seen, warnings=True)]
+    alarms = [case for case in sound if seen[case.path].errors]
+    print(f"\n{title}: {checker.name}")
+    for case in missed:
+        told = "silent on" if case in silent else "warns of"
+        print(f"  {told} {case.defect} {case.path}: {sorted(news(case, seen, warnings=True))}")
+    for case in alarms:
+        print(f"  rejects {case.path}: {sorted(seen[case.path].errors)[:3]}")
+    for case in asked:
+        if not seen[case.path].report:
+            print(f"  no answer of {case.path}")
+    yield (
+        title,
+        f"`{checker.name}`",
         f"{len(broken) - len(missed)} of {len(broken)}",
+        f"{len(broken) - len(silent)} of {len(broken)}",
         f"{len(alarms)} of {len(sound)}",
-        f"{checked.seconds:.1f}",
-        wrong,
+        f"{statistics.median(each.core_s for each in seen.values()):.1f}",
     )
 
 
-def main() -> None:
-    """Plant, ask both, print."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("output", type=Path, help="output folder of factory build")
-    parser.add_argument("--simcheck", type=Path, required=True, help="its program")
-    asked = parser.parse_args()
-    program = asked.simcheck.absolute()
-    rows = []
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        for kinds, place in (("simcheck's", "planted"), ("ours", "corpus")):
-            (folder / place).mkdir()
-            cases = (
-                planted(asked.output, program, folder / place)
-                if place == "planted"
-                else corpus(folder / place)
-            )
-            for checker, ask in (("factory check", ours), ("simcheck", simcheck(program))):
-                *figures, wrong = told(cases, ask(cases, folder))
-                rows.append((kinds, checker, *figures))
-                print(f"| {' | '.join(rows[-1])} |", *wrong, sep="\n  ", flush=True)
-    head = ("defects", "checker", "caught", "false alarms", "seconds a file")
-    print("", f"| {' | '.join(head)} |", f"|{'---|' * len(head)}", sep="\n")
-    print(*(f"| {' | '.join(row)} |" for row in rows), sep="\n")
-    print(json.dumps({"benchmark": "defects", "columns": head, "rows": rows}))
+def news(case: Case, seen: dict[Path, Answer], *, warnings: bool) -> frozenset[str]:
+    """Return the errors, and warnings if asked, that the same file without the defect has not."""
+    before = seen.get(case.sound) if case.sound is not None else None
+    errors = seen[case.path].errors - (before.errors if before else frozenset())
+    if not warnings:
+        return errors
+    known = before.errors | before.warnings if before else frozenset()
+    return (seen[case.path].errors | seen[case.path].warnings) - known
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -39,7 +39,7 @@ def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
 
 
 def _link(link: re.Match[str], here: str, source: str) -> str:
-    """A link to a page, to a page from elsewhere, or the words alone of what is no page."""
+    """Return a link to a page, one from elsewhere too, or the words alone of what is no page."""
     words, target = link.groups()
     path, mark, anchor = target.partition("#")
     if not path or "://" in target or target.startswith("mailto:"):
@@ -47,7 +47,7 @@ def _link(link: re.Match[str], here: str, source: str) -> str:
     meant = normpath(str(PurePosixPath(source).parent / path))
     pages = {file: page for page, file in ELSEWHERE.items()}
     page = pages.get(meant, meant.removeprefix("docs/") if meant.startswith("docs/") else None)
-    if page is not None and page.endswith(".md"):
+    if page is not None and page.endswith((".md", ".html", ".json")):
         return f"[{words}]({relpath(page, str(PurePosixPath(here).parent))}{mark}{anchor})"
     if not (ROOT / meant).exists():
         LOG.warning("%s: links to %s, which is not there", source, target)

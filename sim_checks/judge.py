@@ -203,7 +203,7 @@ def readable(path: Path, folder: Path, options: ReadOptions) -> Gathered:
     """
     if not is_usd(path):
         return gather(path, folder, options)
-    words = f"{path.name} was judged as the URDF that says the same: no engine here reads USD"
+    words = f"{path.name} was validated as the URDF that says the same: no engine here reads USD"
     told = Finding("read_as_urdf", Severity.NOTE, words)
     return Gathered(write_as_urdf(path, folder), findings=(told,))
 

@@ -109,7 +109,7 @@ def _finding(
     name: str, distance: float, angle: float, simulator: str, config: LoadingConfig
 ) -> Finding:
     if math.isinf(distance):
-        message = f"{simulator} puts link {name!r} nowhere: its pose is no number"
+        message = f"{simulator} has NaN or infinity for the place of link {name!r}"
         return error(
             "pose_mismatch",
             message,
@@ -120,7 +120,8 @@ def _finding(
         )
     message = (
         f"{simulator} puts link {name!r} up to {1000 * distance:.4g} mm and "
-        f"{math.degrees(angle):.4g} deg from where the file's own kinematics put it"
+        f"{math.degrees(angle):.4g} deg from where the file puts it; at most "
+        f"{1000 * config.position_m:g} mm and {math.degrees(config.angle_rad):.3g} deg are allowed"
     )
     return error(
         "pose_mismatch",

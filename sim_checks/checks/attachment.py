@@ -35,10 +35,10 @@ def check_attachment(description: Description, config: LintConfig) -> CheckResul
         if not never and (joint.kind == "prismatic" or gaps.max() <= away):
             continue
         gap = float(gaps.min() if never else gaps.max())
-        where = "in every pose" if never else "in some pose, and a hinge holds in each"
+        where = "in every pose" if never else "in some pose, though a hinge holds in every pose"
         message = (
-            f"what joint {joint.name!r} moves is {1000 * gap:.1f} mm away from what carries it, "
-            f"{joint.parent!r}, {where}; want at most {1000 * away:.3g} mm"
+            f"the part that joint {joint.name!r} moves is {1000 * gap:.1f} mm away from its "
+            f"parent {joint.parent!r} {where}; want at most {1000 * away:.3g} mm"
         )
         findings.append(
             error(

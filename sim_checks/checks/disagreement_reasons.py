@@ -8,7 +8,7 @@ from typing import Any
 
 from ..report import Finding
 
-UNKNOWN = "unknown"
+UNKNOWN = "no known difference between these engines explains it"
 PASS = "pass"  # noqa: S105 - a verdict
 TITLES = {"sapien": "SAPIEN", "mujoco": "MuJoCo", "pybullet": "PyBullet"}
 #: Depths and growths below this are touch, not overlap [mm].
@@ -127,7 +127,7 @@ class Dispute:
 
 
 def likely_reason(case: Dispute) -> str:
-    """Return a sentence with the number in it; ``unknown`` where no known trait explains it."""
+    """Return a sentence with the number in it; or that no known trait explains it."""
     if case.question == "loads":
         return _loading(case) or UNKNOWN
     if case.question not in TOUCHING_QUESTIONS:

@@ -61,7 +61,7 @@ def beyond(words: str, count: int, most: int, simulator: str | None = None) -> F
     """Return the finding that something was too much to look at."""
     return error(
         CODE,
-        f"too large to judge: {words} ({count}, at most {most})",
+        f"too large to validate: {words} ({count}, at most {most})",
         simulator=simulator,
         value=count,
         limit=most,

@@ -104,7 +104,7 @@ def _joint_findings(
         return
     length = float(np.linalg.norm(joint.axis))
     if length < UNIT or not np.isfinite(length):
-        message = f"joint {joint.name!r} has axis {joint.axis.tolist()}, which is no direction"
+        message = f"joint {joint.name!r} has axis {joint.axis.tolist()}, want one of length 1"
         yield error("zero_axis", message, joint=joint.name, parts=parts)
     elif abs(length - 1.0) > UNIT:
         far = abs(length - 1.0) > config.axis_slack

@@ -191,7 +191,7 @@ def _gyration(
     if spread[axis] > most[axis]:
         message = (
             f"link {link.name!r}: its inertia spreads its mass by {spread[axis]:.3g} m along "
-            f"{'xyz'[axis]}, where it is {extent[axis]:.3g} m long: no mass within it does"
+            f"{'xyz'[axis]}, where the link is {extent[axis]:.3g} m long: mass inside it cannot"
         )
         value = float(f"{spread[axis]:.6g}") if math.isfinite(spread[axis]) else None
         limit = round(float(most[axis]), 6)

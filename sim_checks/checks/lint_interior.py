@@ -111,15 +111,15 @@ def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Iterat
     if pocket is not None and pocket < config.pocket_kept:
         message = (
             f"link {link.name!r}: collision shapes leave {100 * pocket:.0f} % of its open inside "
-            f"free, want at least {100 * config.pocket_kept:.0f} %: no hand can reach into it"
+            f"empty, want at least {100 * config.pocket_kept:.0f} %: no hand can reach into it"
         )
         yield error(
             "interior_filled", message, parts=(link.name,), value=pocket, limit=config.pocket_kept
         )
     elif cavity < config.interior_kept:
         message = (
-            f"link {link.name!r}: collision shapes leave {100 * cavity:.0f} % of the free space "
-            f"within its outline free, want at least {100 * config.interior_kept:.0f} %"
+            f"link {link.name!r}: collision shapes leave {100 * cavity:.0f} % of the open space "
+            f"within its outline empty, want at least {100 * config.interior_kept:.0f} %"
         )
         yield warning(
             "interior_filled", message, parts=(link.name,), value=cavity, limit=config.interior_kept

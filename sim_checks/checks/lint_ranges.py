@@ -134,8 +134,8 @@ def _place_findings(
     most = config.apart * max(size, _diagonal(rest))
     if gap > most:
         message = (
-            f"what joint {joint.name!r} moves is {gap:.3g} m away from everything else, "
-            f"further than either is across: want at most {most:.3g} m, or they are no one object"
+            f"the part that joint {joint.name!r} moves is {gap:.3g} m away from the rest of the "
+            f"object, further than the size of either; want at most {most:.3g} m"
         )
         parts = (joint.parent, joint.child)
         yield error(
@@ -165,8 +165,8 @@ def _axis_findings(
     if distance > config.axis_soft * size:
         hard = distance > config.axis_hard * size
         message = (
-            f"the axis of joint {joint.name!r} passes {distance:.3g} m beside everything, "
-            f"further than what it moves is across, {size:.3g} m: a hinge is fastened to something"
+            f"the axis of joint {joint.name!r} passes {distance:.3g} m beside every part, "
+            f"further than the size of the part that it moves, {size:.3g} m; a hinge is on a part"
         )
         limit = round((config.axis_hard if hard else config.axis_soft) * size, 6)
         severity = Severity.ERROR if hard else Severity.WARNING

@@ -91,9 +91,9 @@ def _step_finding(joint: JointLine, lever: _Lever, config: LintConfig) -> Iterat
     share = joint.damping * TIME_STEP_S / lever.inertia
     if share > config.damping_step:
         message = (
-            f"joint {joint.name!r}: damping takes {share:.3g} times the speed in one step of 1/240 "
-            "s: engines that integrate it explicitly, as Bullet does, "
-            f"overshoot from {config.damping_step:g} and explode from 2 on"
+            f"joint {joint.name!r}: damping takes away {share:.3g} times its speed in one step of "
+            "1/240 s: Bullet and others that integrate it explicitly overshoot "
+            f"above {config.damping_step:g} and become unstable above 2"
         )
         parts = (joint.parent, joint.child)
         value = float(f"{share:.6g}")

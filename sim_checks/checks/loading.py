@@ -60,7 +60,7 @@ def _link_findings(
         )
 
     if held is None:
-        yield found("link_missing", f"link {link.name!r} of the file did not arrive")
+        yield found("link_missing", f"link {link.name!r} of the file is not in the loaded model")
         return
     written = len(link.collisions)
     if held.shapes < written:

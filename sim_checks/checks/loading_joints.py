@@ -95,7 +95,7 @@ def _joint(
         return error(code, sentence, simulator=simulator, joint=line.name, parts=where, **numbers)
 
     if held is None:
-        yield found("joint_missing", f"joint {line.name!r} of the file did not arrive")
+        yield found("joint_missing", f"joint {line.name!r} of the file is not in the loaded model")
         return
     lower = -math.inf if line.lower is None else line.lower
     upper = math.inf if line.upper is None else line.upper

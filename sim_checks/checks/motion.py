@@ -32,6 +32,7 @@ def check_motion(
         config: thresholds in ``config.motion``.
     """
     parts = {line.name: (line.parent, line.child) for line in description.joints}
+    units = {line.name: "m" if line.kind == "prismatic" else "rad" for line in description.joints}
     findings: list[Finding] = []
     for rest in observation.rest:
         findings.extend(_rest_findings(rest, parts.get(rest.joint, ()), simulator, config.motion))
@@ -41,11 +42,11 @@ def check_motion(
     findings.extend(_fall_findings(observation.fall, simulator, config.motion, known=known))
     for fallen in observation.fall.joints:
         if fallen.joint not in pushed:
-            findings.extend(_opened(fallen, parts.get(fallen.joint, ()), simulator, config.motion))
+            own = parts.get(fallen.joint, ()), units.get(fallen.joint, "")
+            findings.extend(_opened(fallen, *own, simulator, config.motion))
     for motion in observation.motions:
-        findings.extend(
-            _motion_findings(motion, parts.get(motion.joint, ()), simulator, config.motion)
-        )
+        own = parts.get(motion.joint, ()), units.get(motion.joint, "")
+        findings.extend(_motion_findings(motion, *own, simulator, config.motion))
     if observation.warnings:
         message = f"{simulator} complained while moving: {', '.join(observation.warnings)}"
         findings.append(warning("engine_warning", message, simulator=simulator))
@@ -80,9 +81,8 @@ def check_motion(
 
 
 def _motion_findings(
-    motion: JointMotion, parts: tuple[str, ...], simulator: str, config: MotionConfig
+    motion: JointMotion, parts: tuple[str, ...], unit: str, simulator: str, config: MotionConfig
 ) -> Iterator[Finding]:
-    unit = "of range"
     others = _leant_on(motion)
     parts += tuple(link for link in motion.blocked_by or () if link not in parts)
 
@@ -96,7 +96,7 @@ def _motion_findings(
             motion.joint,
             parts,
             round(value, DECIMALS),
-            unit,
+            "of range",
             limit,
             joints=others,
         )
@@ -107,13 +107,13 @@ def _motion_findings(
         return
     if motion.reached < config.reach_fraction:
         message = (
-            f"reached {motion.reached:.1%} of its range{_stuck(motion)}, "
+            f"reached {motion.reached:.1%} of its range{_stuck(motion, unit)}, "
             f"{config.reach_fraction:.0%} is wanted{_blocker(motion)}"
         )
         yield found("jammed", Severity.ERROR, message, motion.reached, config.reach_fraction)
     elif motion.returned > config.return_fraction:
         message = (
-            f"stayed {motion.returned:.1%} open{_stuck(motion)} after driving back, "
+            f"stayed {motion.returned:.1%} open{_stuck(motion, unit)} after driving back, "
             f"at most {config.return_fraction:.0%} may remain{_blocker(motion)}"
         )
         yield found(
@@ -122,7 +122,7 @@ def _motion_findings(
     beyond = motion.overshoot / motion.range if motion.range > 0.0 else 0.0
     if beyond > config.overshoot_soft:
         severity = Severity.ERROR if beyond > config.overshoot_hard else Severity.WARNING
-        message = f"passed its limit by {motion.overshoot:.4g} ({beyond:.1%} of its range)"
+        message = f"passed its limit by {motion.overshoot:.4g} {unit} ({beyond:.1%} of its range)"
         yield found("limit_overshoot", severity, message, beyond, config.overshoot_soft)
     if motion.others_moved > config.others_soft:
         severity = Severity.ERROR if motion.others_moved > config.others_hard else Severity.WARNING
@@ -190,13 +190,13 @@ def _fall_findings(
 
 
 def _opened(
-    fallen: FallMotion, parts: tuple[str, ...], simulator: str, config: MotionConfig
+    fallen: FallMotion, parts: tuple[str, ...], unit: str, simulator: str, config: MotionConfig
 ) -> Iterator[Finding]:
     if fallen.share > config.fall_soft:
         message = (
             f"{simulator}: joint {fallen.joint!r} opens by its own weight, "
-            f"by {fallen.moved:.4g} or {fallen.share:.1%} of its range in {config.rest_s:g} s: "
-            "nothing holds it closed"
+            f"by {fallen.moved:.4g} {unit} or {fallen.share:.1%} of its range in "
+            f"{config.rest_s:g} s: nothing holds it closed"
         )
         share = round(fallen.share, DECIMALS)
         yield warning(
@@ -228,7 +228,7 @@ def _energy(
     allowed = max(config.energy_floor_j, config.energy_soft_m * energy / height)
     message = (
         f"{simulator}: {energy:.4g} J came from nowhere while {where}, "
-        f"enough to lift what moves by {height:.3g} m; at most {allowed:.4g} J "
+        f"enough to lift the moving parts by {height:.3g} m; at most {allowed:.4g} J "
         f"({config.energy_soft_m:g} m) may: contacts push parts apart like springs"
     )
     number = round(energy, DECIMALS)
@@ -236,10 +236,9 @@ def _energy(
     return Finding("energy_grows", severity, message, simulator, joint, parts, number, "J", limit)
 
 
-def _stuck(motion: JointMotion) -> str:
-    return (
-        f" (at {round(motion.stuck_at, DECIMALS) + 0.0:.4g})" if motion.stuck_at is not None else ""
-    )
+def _stuck(motion: JointMotion, unit: str) -> str:
+    at = motion.stuck_at
+    return "" if at is None else f" (at {round(at, DECIMALS) + 0.0:.4g} {unit}".rstrip() + ")"
 
 
 def _blocker(motion: JointMotion) -> str:
@@ -248,8 +247,8 @@ def _blocker(motion: JointMotion) -> str:
         one, two = motion.blocked_by
         words += f"; {one!r} presses on {two!r}"
     else:
-        words += "; nothing presses on what it moves"
-    words += "".join(f"; it leans on joint {name!r}" for name in _leant_on(motion))
+        words += "; nothing presses on the parts that it moves"
+    words += "".join(f"; it pushes joint {name!r}" for name in _leant_on(motion))
     return words
 
 

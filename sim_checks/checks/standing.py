@@ -303,11 +303,11 @@ def _pulled(rows: list[dict[str, Any]], config: StandingConfig) -> Iterator[Find
     ]
     if weak:
         worst = min(weak, key=lambda row: row["tipping_force_n"])
-        others = f"; the same of {len(weak) - 1} more joints" if len(weak) > 1 else ""
+        others = f"; the same of {len(weak) - 1} more" if len(weak) > 1 else ""
         message = (
             f"pulling joint {worst['joint']!r} open tips the whole object at "
             f"{worst['tipping_force_n']:.1f} N, "
-            f"want it to stand {config.hand_force_n:g} N or be fastened{others}"
+            f"want it to withstand {config.hand_force_n:g} N or be fastened{others}"
         )
         yield warning(
             "topples_when_pulled",

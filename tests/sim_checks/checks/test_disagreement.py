@@ -8,6 +8,7 @@ import trimesh
 
 from asset_factory.sim_checks import Finding, Report, Severity, run_checks
 from asset_factory.sim_checks.checks.disagreement import disagreements
+from asset_factory.sim_checks.checks.disagreement_reasons import UNKNOWN
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS, installed
 
 ALL = ("sapien", "mujoco", "pybullet")
@@ -79,7 +80,7 @@ def test_who_said_what_with_its_number():
     assert (found.question, found.joint, found.unit) == ("opens", "slide", "of range")
     assert found.verdicts == {"sapien": "pass", "mujoco": "jammed", "pybullet": "pass"}
     assert found.values == {"sapien": 1.0, "mujoco": 0.2, "pybullet": 1.0}
-    assert found.reason == "unknown"
+    assert found.reason == UNKNOWN
 
 
 def test_an_engine_that_did_not_open_a_joint_has_no_say_on_its_return():
@@ -114,16 +115,16 @@ SOFT = "soft contacts give way"
         (("mujoco",), contact(3.0), "m", SLIDE),
         (("mujoco",), contact(3.0), "rad", PARENT_CHILD),
         (("sapien", "mujoco"), contact(3.0, links=("one", "two")), "m", SLIDE),
-        (("sapien", "mujoco"), contact(3.0, links=("one", "two"), excess=1.0), "m", "unknown"),
-        (("mujoco", "pybullet"), contact(3.0, links=("one", "two"), excess=3.0), "m", "unknown"),
-        (("mujoco", "pybullet"), contact(-3.0), "m", "unknown"),
+        (("sapien", "mujoco"), contact(3.0, links=("one", "two"), excess=1.0), "m", UNKNOWN),
+        (("mujoco", "pybullet"), contact(3.0, links=("one", "two"), excess=3.0), "m", UNKNOWN),
+        (("mujoco", "pybullet"), contact(-3.0), "m", UNKNOWN),
         (("pybullet",), contact(-1.9), "rad", MARGIN),
-        (("pybullet",), contact(-2.1), "rad", "unknown"),
-        (("pybullet",), contact(-1.5, shapes=["a", "box"]), "rad", "unknown"),
+        (("pybullet",), contact(-2.1), "rad", UNKNOWN),
+        (("pybullet",), contact(-1.5, shapes=["a", "box"]), "rad", UNKNOWN),
         (("pybullet",), contact(-0.5, shapes=["a", "box"]), "rad", MARGIN),
-        (("mujoco", "pybullet"), contact(-1.0), "rad", "unknown"),
+        (("mujoco", "pybullet"), contact(-1.0), "rad", UNKNOWN),
         (("sapien", "pybullet"), contact(0.3, links=("one", "two"), excess=0.3), "m", SOFT),
-        (("sapien", "pybullet"), contact(0.7, links=("one", "two"), excess=0.7), "m", "unknown"),
+        (("sapien", "pybullet"), contact(0.7, links=("one", "two"), excess=0.7), "m", UNKNOWN),
         (("pybullet",), contact(3.0, kind="excluded"), "rad", "only MuJoCo reads"),
     ],
 )
@@ -139,13 +140,13 @@ def test_a_known_trait_is_the_reason_only_where_depths_and_gaps_bear_it_out(
 def test_the_parts_that_block_the_joint_count_and_not_the_deepest_of_all():
     pairs = (contact(9.0, links=("one", "two")), contact(-1.5))
     measurements = measured(*pairs, unit="rad", **engines("jammed", "pybullet"))
-    assert only(no("jammed", "pybullet"), measurements).reason == "unknown"
+    assert only(no("jammed", "pybullet"), measurements).reason == UNKNOWN
     measurements["pybullet"]["motion"]["joints"][0]["blocked_by"] = ["shell", "drawer"]
     assert MARGIN in only(no("jammed", "pybullet"), measurements).reason
 
 
 def test_a_soft_limit_is_mujoco_s_only_while_it_is_a_spring():
-    for overshoot, reason in ((0.009, "gave way by 3.0% of the range"), (0.3, "unknown")):
+    for overshoot, reason in ((0.009, "gave way by 3.0% of the range"), (0.3, UNKNOWN)):
         measurements = engines("jammed") | {"mujoco": said(motion(overshoot=overshoot))}
         found = only(no("limit_overshoot", "mujoco"), measurements)
         assert (found.question, found.values["mujoco"]) == (
@@ -158,7 +159,7 @@ def test_a_soft_limit_is_mujoco_s_only_while_it_is_a_spring():
 def test_dropped_friction_is_the_reason_where_nothing_is_in_the_way():
     measurements = engines("not_returned", "mujoco", "pybullet")
     findings = no("not_returned", "mujoco", "pybullet")
-    assert only(findings, measurements).reason == "unknown"
+    assert only(findings, measurements).reason == UNKNOWN
     findings += no("friction_ignored", "sapien", joint=None, joints=("slide",))
     assert "drops the file's joint friction" in only(findings, measurements).reason
 
@@ -205,8 +206,7 @@ def test_damping_that_explodes_in_bullet_alone():
     found = only([stiff, *no("jammed", "pybullet")], measured(**engines("jammed", "pybullet")))
     assert "13.5 times the speed" in found.reason
     assert (
-        only(no("jammed", "pybullet"), measured(**engines("jammed", "pybullet"))).reason
-        == "unknown"
+        only(no("jammed", "pybullet"), measured(**engines("jammed", "pybullet"))).reason == UNKNOWN
     )
 
 
@@ -220,7 +220,7 @@ def test_loading_and_link_poses_are_questions_of_the_whole_file():
     measurements = engines("jammed")
     measurements["sapien"]["loading"]["worst_position_m"] = 0.02
     poses = only(no("pose_mismatch", "sapien", joint=None), measurements)
-    assert (poses.question, poses.values["sapien"], poses.reason) == ("link_poses", 0.02, "unknown")
+    assert (poses.question, poses.values["sapien"], poses.reason) == ("link_poses", 0.02, UNKNOWN)
 
 
 def test_who_cannot_read_the_format_gave_no_verdict_to_disagree_with():
