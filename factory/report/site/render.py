@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from asset_factory.sim_checks import Severity, Status
 
+from ...runtime.layout import SOLVING
 from ..pages import environment, trusted
 from .told import AssetPage
 
@@ -23,9 +24,15 @@ STATIC = Path(__file__).parent / "static"
 STATIC_FILES = ("base.css", "site.css", "grid.js", "asset.js", "licenses.txt")
 
 
-def asset_html(page: AssetPage) -> str:
-    """Return the page of an asset in a site: pictures, model and scripts lie beside it."""
-    return _templates().get_template("asset.html.j2").render(page=page, alone=None)
+def asset_html(page: AssetPage, films: Sequence[str] = ()) -> str:
+    """Return the page of an asset in a site: pictures, model and scripts lie beside it.
+
+    Args:
+        page: of the asset.
+        films: names of files in the registry's folder of them, ``<id>-<joint>-<robot>.mp4``.
+    """
+    template = _templates().get_template("asset.html.j2")
+    return template.render(page=page, alone=None, films=films, folder=f"../../../{SOLVING}/")
 
 
 def alone_html(page: AssetPage) -> str:
@@ -40,7 +47,7 @@ def alone_html(page: AssetPage) -> str:
         "digest": trusted(f"'sha256-{digest}'"),
         "licenses": trusted(texts["licenses.txt"]),
     }
-    return _templates().get_template("asset.html.j2").render(page=page, alone=alone)
+    return _templates().get_template("asset.html.j2").render(page=page, alone=alone, films=())
 
 
 def grid_html(rows: Sequence[Mapping[str, Any]], lists: int, title: str) -> str:
