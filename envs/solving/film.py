@@ -15,9 +15,9 @@ from asset_factory.factory.display.camera import Camera, Viewpoint
 from asset_factory.factory.display.casting import Caster, Hits
 from asset_factory.factory.display.described import scene_of_file
 from asset_factory.factory.display.made import plain_surface
-from asset_factory.factory.display.pictures import Pixels
+from asset_factory.factory.display.pictures import Pixels, paint_still
 from asset_factory.factory.display.scene import SceneGraph, SceneSurface, put_together
-from asset_factory.factory.display.shading import Coloring, light_direction, paint, shaded
+from asset_factory.factory.display.shading import Coloring, light_direction, shaded
 
 from ..assets import FloatArray
 from .attempt import Attempt
@@ -27,6 +27,8 @@ from .solve import make_episodes, replay
 #: Control steps per second, and of how many one is drawn.
 RATE = 20
 EVERY = 2
+#: Longest that a film may take [s]: far more than any took.
+LONGEST_S = 1800.0
 #: Of the pictures [pixels].
 WIDTH = 640
 HEIGHT = 480
@@ -65,7 +67,7 @@ class FilmScene:
 
 
 def film(registry: str, attempt: Attempt, path: Path) -> None:
-    """Take an attempt's actions again, draw them, and write an MP4, whole or not at all.
+    """Take an attempt's actions again, draw them, and write an MP4.
 
     Raises:
         InputRejected: the robot or the asset cannot be drawn, with a reason code.
@@ -74,12 +76,10 @@ def film(registry: str, attempt: Attempt, path: Path) -> None:
 
     made = read_film(registry, attempt)
     path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f".{path.name}")
-    writer: Any = imageio.get_writer(part, fps=RATE // EVERY, macro_block_size=8)
+    writer: Any = imageio.get_writer(path, fps=RATE // EVERY, macro_block_size=8)
     with writer:
         for picture in draw_film(made, WIDTH, HEIGHT, EVERY):
             writer.append_data(picture)
-    part.replace(path)
 
 
 def read_film(registry: str, attempt: Attempt) -> FilmScene:
@@ -120,10 +120,9 @@ def draw_film(made: FilmScene, width: int, height: int, every: int = 1) -> Itera
     points = _floor_points(camera)
     poses = np.array([made.scene.poses(values) for values in made.values])
     moving = frozenset(np.flatnonzero((np.ptp(poses, axis=0) > STILL).any(axis=(1, 2))).tolist())
-    rest = caster.see(camera, made.values[0], None, frozenset(caster.links) - moving)
-    under = paint(look, camera, made.values[0], rest)
+    under = paint_still(look, camera, made.values[0], moving)
     for values in made.values[::every]:
-        hits = caster.see(camera, values, rest, moving)
+        hits = caster.see(camera, values, under.hits, moving)
         seen = shaded(look, camera, values, hits, under)
         covered = seen[..., 3:] / 255.0
         floor = FLOOR * _floor_light(caster, camera, values, points)[..., None]

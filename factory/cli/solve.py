@@ -165,15 +165,18 @@ def _attempts(command: Solve, missing: list[tuple[str, str]], robot: str) -> Ite
 
 def _film(command: Solve, attempt: Attempt) -> None:
     """Write a video, or say why there is none."""
-    from asset_factory.envs.solving.film import film
+    from asset_factory.envs.solving.film import LONGEST_S, film
     from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 
     path = _film_path(command, attempt.asset, attempt.joint, attempt.robot)
-    outcome = run_isolated(
-        film, str(command.output), attempt, path, limits=Limits(wall_s=command.timeout)
-    )
-    if outcome.failure is not None:
-        complain(f"no video of {attempt.asset} {attempt.joint}: {outcome.detail}")
+    part = path.with_name(f".{path.name}")
+    arguments = str(command.output), attempt, part
+    outcome = run_isolated(film, *arguments, limits=Limits(wall_s=LONGEST_S))
+    if outcome.failure is None:
+        part.replace(path)
+        return
+    part.unlink(missing_ok=True)
+    complain(f"no video of {attempt.asset} {attempt.joint}: {outcome.detail}")
 
 
 def _film_path(command: Solve, asset: str, joint: str, robot: str) -> Path:

@@ -236,9 +236,6 @@ class _Tasks(Generic[T]):
             return self._answered(under_way, task)
         except ClusterLost:
             raise
-        except errors.TaskCancelledError:
-            self._dropped(task)
-            return Outcome(None, None, "", "", self._age(task))
         except errors.RayTaskError as error:
             # Our own function returns whatever happens, so its arguments did not arrive as they
             # were sent.
@@ -266,7 +263,11 @@ class _Tasks(Generic[T]):
 
     def _answered(self, under_way: Any, task: _Task) -> Outcome[T] | None:
         """Return what a node says; ``None`` if the call is made again. Raises what loses a try."""
-        word, node, answer = self._ray.get(under_way, timeout=FETCH_S)
+        try:
+            word, node, answer = self._ray.get(under_way, timeout=FETCH_S)
+        except self._ray.exceptions.TaskCancelledError:
+            self._dropped(task)
+            return Outcome(None, None, "", "", self._age(task))
         if word == "lost":
             raise OSError(answer)
         if word != "done":

@@ -16,6 +16,7 @@ from ...display.sheet import MOST, SheetCell, contact_sheet
 from ...errors import RegistryError
 from ...registry import Entry, Registry
 from ...registry.entry import is_id
+from ...registry.logged import logged_build
 from ...runtime.keys import installed_version
 from ...runtime.layout import ASSETS, PAGES, REJECTED, REPORT, SOLVING
 from ...runtime.store import digest_bytes, digest_file, stage_key, write_json, write_whole
@@ -91,7 +92,9 @@ def write_asset(root: Path, entry: Entry) -> None:
             if data:
                 (folder / f"{name}.webp").write_bytes(data)
         (folder / "model.js").write_bytes(f'factoryModel="{packed(page.model)}";\n'.encode())
-    write_whole(folder / INDEX, asset_html(page, _films(root, entry)).encode())
+    logged = logged_build(root, entry.id)
+    html = asset_html(page, _films(root, entry), logged.stages if logged else None)
+    write_whole(folder / INDEX, html.encode())
     write_json(folder / _ROW, {"key": key, "row": page.row()})
 
 
