@@ -1,7 +1,8 @@
-"""The first picture of README: generated meshes, then closed, open, and as convex hulls.
+"""README's pictures: generated meshes, closed, open and as convex hulls; a robot opens a cabinet.
 
 make demo
-python docs/picture.py out/            writes docs/pictures/made.png
+factory solve cabinet --joint door_1_hinge --robot panda --video
+python docs/picture.py out/            writes docs/pictures/made.png and robot.webp
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+import imageio.v2 as imageio
 from PIL import Image, ImageDraw, ImageFont
 
 from asset_factory.factory.display.camera import Viewpoint
@@ -25,6 +27,11 @@ CAPTIONS = ("as generated: one piece", "parts and joints, closed", "open", "conv
 CELL = (250, 210)
 CAPTION = 34
 CLAY = (0.5, 0.5, 0.48)
+FILM = "cabinet-*-door_1_hinge-panda.mp4"
+#: Of its pictures, one is kept; size and time of each [pixels], [ms].
+KEPT = 2
+FILM_SIZE = (480, 360)
+FILM_MS = 200
 GROUND = (255, 255, 255)
 INK = (60, 62, 66)
 
@@ -48,7 +55,24 @@ def main() -> int:
     sheet.quantize(192, dither=Image.Dither.NONE).save(
         DOCS / "pictures" / "made.png", optimize=True
     )
+    (film,) = Path(registry, "solving").glob(FILM)
+    pictures = [Image.fromarray(each).resize(FILM_SIZE) for each in imageio.get_reader(film)]
+    write_film(pictures[::KEPT])
     return 0
+
+
+def write_film(pictures: list[Image.Image]) -> None:
+    """Write an animated picture that rests at its end."""
+    times = [FILM_MS] * (len(pictures) - 1) + [1500]
+    pictures[0].save(
+        DOCS / "pictures" / "robot.webp",
+        save_all=True,
+        append_images=pictures[1:],
+        duration=times,
+        loop=0,
+        quality=60,
+        method=6,
+    )
 
 
 def stages(mesh: SceneGraph, made: SceneGraph) -> list[Pixels]:

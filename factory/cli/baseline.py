@@ -47,8 +47,9 @@ def read_baseline(path: Path) -> frozenset[Hashable]:
             for each in data["findings"]
         )
     except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
+        why = error.strerror if isinstance(error, OSError) else repr(error)
         raise ConfigError(
-            f"{path}: no baseline ({error!r}); --write-baseline {path} writes one"
+            f"{path}: no baseline ({why}); --write-baseline {path} writes one"
         ) from error
 
 

@@ -217,6 +217,8 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
         raise ConfigError(
             f"--executor: no executor {command.executor!r}; there are {', '.join(EXECUTORS)}"
         )
+    if command.executor != "ray" and (command.ray_address != "local" or command.ray_exchange):
+        raise ConfigError("--ray-address and --ray-exchange want --executor ray")
     workers = command.workers
     if command.executor != "ray" or command.ray_address == "local":
         workers = workers_fitting(workers, BUILD_BYTES)

@@ -80,7 +80,9 @@ def run(command: Check) -> int:
     files = _described(command.files)
     options = replace(command.roots.options(command.files), srdf=command.srdf)
     if command.srdf is not None and not (command.srdf.is_file() and len(files) == 1):
-        raise ConfigError(f"--srdf: want a file, for one description; got {len(files)} of them")
+        there = "a file" if command.srdf.is_file() else "no file"
+        said = f"--srdf: {command.srdf} is {there}, for {len(files)} descriptions"
+        raise ConfigError(f"{said}; want a file, for one description")
     form, written = _forms("json" if str(command.json) == "-" else command.format)
     reports: list[Report] = []
     new: list[tuple[str, Report]] = []
@@ -100,17 +102,19 @@ def run(command: Check) -> int:
         say(f"{total(new, told)}{more}; {PAGE} says what a code means")
     else:
         say(json.dumps(data, indent=2) if form == "json" else FORMATS[form](new))
-    for other, target in written.items():
-        text = json.dumps(data, indent=2) if other == "json" else FORMATS[other](new)
-        write_whole(target, f"{printable(text)}\n".encode())
-    if command.json is not None and str(command.json) != "-":
-        write_json(command.json, data)
-    if command.write_baseline is not None:
-        write_baseline(
-            command.write_baseline,
-            [(_name_of(path), r) for (path, _), r in zip(files, reports, strict=True)],
-        )
-        return Exit.OK
+    try:
+        for other, target in written.items():
+            text = json.dumps(data, indent=2) if other == "json" else FORMATS[other](new)
+            write_whole(target, f"{printable(text)}\n".encode())
+        if command.json is not None and str(command.json) != "-":
+            write_json(command.json, data)
+        if command.write_baseline is not None:
+            named = [(_name_of(path), r) for (path, _), r in zip(files, reports, strict=True)]
+            write_baseline(command.write_baseline, named)
+            return Exit.OK
+    except OSError as error:
+        where = error.filename2 or error.filename
+        raise ConfigError(f"{where}: cannot be written: {error.strerror}") from error
     statuses = {report.status for _, report in new}
     if Status.UNJUDGED in statuses:
         return Exit.UNJUDGED

@@ -12,8 +12,8 @@ from rich.table import Table
 
 from asset_factory.sim_checks import Status
 
-from ..jobs.log import logged_build
 from ..registry import Entry
+from ..registry.logged import logged_build
 from ..registry.report_file import BuildReport
 from ..runtime.layout import ASSETS, REJECTED
 from . import console

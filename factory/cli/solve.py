@@ -51,7 +51,8 @@ class Solve:
     timeout: float = 300.0
     """Longest that one joint may take a robot [s]."""
     video: bool = False
-    """Write <output>/solving/<id>-<joint>-<robot>.mp4 of what is solved; wants Vulkan."""
+    """Film what is solved, on any machine: <output>/solving/<id>-<joint>-<robot>.mp4, also on the
+    asset's page."""
     strict: bool = False
     """Exit with 1 when some asset has no joint that was opened."""
 
@@ -63,6 +64,7 @@ def run(command: Solve) -> int:
     from asset_factory.envs.solving.record import UNJUDGED, SolveRecord, read_record, write_record
 
     from ..registry import Registry
+    from .report import report_after
 
     _require_sound(command)
     registry = Registry(command.output)
@@ -96,6 +98,8 @@ def run(command: Solve) -> int:
     shown = {}
     for asset in assets.values():
         shown[asset.id] = records[asset.id].of([joint.name for joint in _joints(asset, command)])
+    if command.video:
+        report_after(command.output, command.workers)
     print_table(shown)
     solved = sum(any(row["solved"] for row in rows) for rows in shown.values())
     say(f"{solved} of {len(shown)} assets have at least one solved joint")
@@ -105,12 +109,16 @@ def run(command: Solve) -> int:
 
 
 def _require_sound(command: Solve) -> None:
+    from ..jobs.pages import missing_library
+
     if command.robot not in (*ROBOTS, "any"):
         raise ConfigError(
             f"--robot: no robot {command.robot!r}; want one of {', '.join((*ROBOTS, 'any'))}"
         )
     check_effort(command, ("workers", "tries"))
     require_maniskill("solving wants")
+    if command.video and (missing := missing_library()) is not None:
+        raise ConfigError(f"--video: {missing}")
 
 
 def _wanted(assets: dict[str, RegisteredAsset], command: Solve) -> dict[str, RegisteredAsset]:
@@ -148,27 +156,27 @@ def _attempts(command: Solve, missing: list[tuple[str, str]], robot: str) -> Ite
     ]
     calls = [Call(f"{task.asset_id} {task.joint}", {"task": task}) for task in tasks]
     limits = Limits(wall_s=command.timeout)
-    filming = command.video
     for call, outcome in LocalExecutor(command.workers, retries=0).run(attempted, calls, limits):
         attempt = answered(outcome, call.arguments["task"])
-        if filming and attempt.solved:
-            filming = _film(command, attempt)
+        if command.video and attempt.solved:
+            _film(command, attempt)
         yield attempt
 
 
-def _film(command: Solve, attempt: Attempt) -> bool:
-    """Write a video; whether the next one is worth trying."""
-    from asset_factory.envs.solving.film import film
+def _film(command: Solve, attempt: Attempt) -> None:
+    """Write a video, or say why there is none."""
+    from asset_factory.envs.solving.film import LONGEST_S, film
     from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 
     path = _film_path(command, attempt.asset, attempt.joint, attempt.robot)
-    outcome = run_isolated(
-        film, str(command.output), attempt, str(path), limits=Limits(wall_s=command.timeout)
-    )
+    part = path.with_name(f".{path.name}")
+    arguments = str(command.output), attempt, part
+    outcome = run_isolated(film, *arguments, limits=Limits(wall_s=LONGEST_S))
     if outcome.failure is None:
-        return True
+        part.replace(path)
+        return
+    part.unlink(missing_ok=True)
     complain(f"no video of {attempt.asset} {attempt.joint}: {outcome.detail}")
-    return not isinstance(outcome.error, ConfigError)
 
 
 def _film_path(command: Solve, asset: str, joint: str, robot: str) -> Path:

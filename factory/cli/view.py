@@ -19,8 +19,9 @@ from .flags import in_own_process
 class ViewFile:
     """Look at an asset, a URDF, an MJCF or a mesh, and move its joints.
 
-    The page is served on this machine only, until Ctrl-C. With --save it becomes one file that
-    needs nothing else: it can be mailed, and opened without a network.
+    The page is served on this machine only, until Ctrl-C; other files, or a folder, can be dropped
+    on it. With --save it becomes one file that needs nothing else: it can be mailed, and opened
+    without a network.
     """
 
     file: Positional[Path]
@@ -36,8 +37,8 @@ class ViewFile:
 def run(command: ViewFile) -> int:
     """Serve or save the page; returns the exit code."""
     from ..jobs.pages import missing_library
-    from ..report.site.alone import page_of_file
-    from ..report.site.server import one_page, serve
+    from ..report.site.dropped import MOST_BYTES, DroppedFiles
+    from ..report.site.server import serve
 
     if not 0 <= command.port < 2**16:
         raise ConfigError(f"--port must be 0 to 65535, not {command.port}")
@@ -48,22 +49,29 @@ def run(command: ViewFile) -> int:
     if command.output is not None and not file.exists():
         registry = Registry(command.output)
         file = registry.folder(registry.named(str(file)))
-    # A file of anybody's may take any time and memory to read.
-    try:
-        html = in_own_process(page_of_file, file, limits=BuildConfig())
-    except InputRejected as rejection:
-        raise ConfigError(f"{file}: {rejection.code}: {rejection.message}") from rejection
+    html = _drawn(file, live=command.save is None)
     if html is None:
         return Exit.UNJUDGED
-    page = html.encode()
     if command.save is None:
-        with serve(one_page(page), command.port) as server:
+        answer = DroppedFiles(html, lambda dropped: _drawn(dropped, live=True))
+        with serve(answer, command.port, MOST_BYTES) as server:
             say(f"{file.name} is shown at {server.url} until Ctrl-C")
             server.run()
         return Exit.OK
     try:
-        write_whole(command.save, page)
+        write_whole(command.save, html.encode())
     except OSError as error:
         raise ConfigError(f"--save: {command.save}: {error.strerror}") from error
     say(command.save)
     return Exit.OK
+
+
+def _drawn(file: Path, live: bool) -> str | None:
+    """Return the page of a file; ``None`` where no answer came, which is said."""
+    from ..report.site.alone import page_of_file
+
+    # A file of anybody's may take any time and memory to read.
+    try:
+        return in_own_process(page_of_file, file, live, limits=BuildConfig())
+    except InputRejected as rejection:
+        raise ConfigError(f"{file}: {rejection.code}: {rejection.message}") from rejection

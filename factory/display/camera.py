@@ -91,14 +91,11 @@ class Viewpoint:
             link: box_corners([each for each in shown if each.link == link]) for link in links
         }
         front, side = self._front()
-        turn = side * ASIDE
-        flat = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]) @ front
-        backward = np.array([*(flat * np.cos(ABOVE)), np.sin(ABOVE)])
-        right = np.cross([0.0, 0.0, 1.0], backward)
-        right /= np.linalg.norm(right)
-        self.axes = np.stack([right, np.cross(backward, right), backward])
+        self.axes = _axes_turned(side * ASIDE, front)
 
-    def camera(self, width: int, height: int, *poses: Mapping[str, float]) -> Camera:
+    def camera(
+        self, width: int, height: int, *poses: Mapping[str, float], turn: float | None = None
+    ) -> Camera:
         """Return the nearest camera that has all of the object in its picture.
 
         Args:
@@ -106,11 +103,12 @@ class Viewpoint:
             height: of the picture [pixels].
             poses: joint values [rad] or [m] of every pose to be seen; none: all from closed to
                 open.
+            turn: stand elsewhere: so far around from +X, counterclockwise from above [rad].
         """
         wanted = poses or tuple(self._scene.opened(amount) for amount in (0.0, 0.5, 1.0))
-        return _fitted(
-            np.concatenate([self._corners(values) for values in wanted]), self.axes, width, height
-        )
+        corners = np.concatenate([self._corners(values) for values in wanted])
+        axes = self.axes if turn is None else _axes_turned(turn, np.array([1.0, 0.0]))
+        return _fitted(corners, axes, width, height)
 
     def _corners(self, values: Mapping[str, float]) -> FloatArray:
         """Return the corners of all links' boxes in a pose, root frame [m], shape [count, 3]."""
@@ -149,6 +147,15 @@ class Viewpoint:
         front = _FRONTS[int(np.argmax(agree))] if agree.max() > 0.0 else _FRONTS[0]
         aside = (end - start)[:2] @ [-front[1], front[0]]
         return front, -1.0 if aside > 1e-3 else 1.0
+
+
+def _axes_turned(turn: float, front: FloatArray) -> FloatArray:
+    """Return a camera's axes, turned from a horizontal direction by an angle [rad], and above."""
+    flat = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]) @ front
+    backward = np.array([*(flat * np.cos(ABOVE)), np.sin(ABOVE)])
+    right = np.cross([0.0, 0.0, 1.0], backward)
+    right /= np.linalg.norm(right)
+    return np.stack([right, np.cross(backward, right), backward])
 
 
 def _fitted(points: FloatArray, axes: FloatArray, width: int, height: int) -> Camera:

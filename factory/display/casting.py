@@ -76,7 +76,8 @@ class LinkCaster:
         self.starts = np.cumsum([0, *counts])
         #: Of each face, which surface it is of.
         self.owner = np.repeat(np.arange(len(counts)), counts)
-        self._corners = box_corners(surfaces)
+        #: Of the box around it, link frame [m], shape [8, 3].
+        self.corners = box_corners(surfaces)
 
     @cached_property
     def _scene(self) -> Any:
@@ -92,7 +93,7 @@ class LinkCaster:
         self, camera: Camera, pose: FloatArray
     ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
         """Return the columns and rows that the link may cover, ends excluded."""
-        places = camera.places(self._corners @ pose[:3, :3].T + pose[:3, 3])[:, :2]
+        places = camera.places(self.corners @ pose[:3, :3].T + pose[:3, 3])[:, :2]
         low = np.floor(places.min(axis=0)).astype(np.int64) - 1
         return low, np.ceil(places.max(axis=0)).astype(np.int64) + 1
 
@@ -102,7 +103,7 @@ class LinkCaster:
         """Cast some of the rays, and keep hits that are nearer than earlier ones.
 
         Args:
-            eye: where they start, root frame, shape [3].
+            eye: where they start, root frame, shape [3], or one each, shape [count, 3].
             directions: of those rays, root frame, shape [count, 3].
             pose: of the link.
             rays: which of ``into`` they are.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import colorsys
 import io
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,7 @@ from ..geometry.colors import linear_of
 from .camera import Camera, Viewpoint
 from .casting import Caster
 from .scene import SceneGraph
-from .shading import PASSING, RAYS, Coloring, paint, shaded
+from .shading import PASSING, RAYS, Coloring, Painted, paint, shaded
 
 #: Of the pictures of a grid [pixels].
 WIDTH = 256
@@ -119,15 +119,25 @@ def frames(look: Coloring, camera: Camera, count: int) -> list[Pixels]:
     scene = look.caster.scene
     moving = _moving(scene)
     closed = scene.opened(0.0)
-    rest = look.caster.see(camera, closed, None, frozenset(look.caster.links) - moving)
-    under = paint(look, camera, closed, rest)
+    under = paint_still(look, camera, closed, moving)
     made = []
     for amount in np.linspace(0.0, 1.0, count):
         values = scene.opened(float(amount))
-        hits = look.caster.see(camera, values, rest, moving)
+        hits = look.caster.see(camera, values, under.hits, moving)
         rays = PASSING if 0.0 < amount < 1.0 else RAYS
         made.append(shaded(look, camera, values, hits, under, rays))
     return made
+
+
+def paint_still(
+    look: Coloring, camera: Camera, values: Mapping[str, float], moving: frozenset[int]
+) -> Painted:
+    """Return the picture of a pose as if the links that move were not there."""
+    scene = look.caster.scene
+    shown = [each for link in look.caster.links.values() for each in link.surfaces]
+    # At the border of a shape more rays are cast, which must not meet what moves either.
+    still = Caster(scene, [each for each in shown if each.link not in moving])
+    return paint(replace(look, caster=still), camera, values, still.see(camera, values))
 
 
 def tints_of(caster: Caster) -> dict[tuple[int, int], tuple[float, float, float]]:

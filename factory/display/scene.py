@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -183,3 +183,33 @@ class SceneGraph:
             eased = own * own * (3.0 - 2.0 * own)
             found[joint.name] = joint.lower + eased * (joint.upper - joint.lower)
         return found
+
+
+def put_together(name: str, scenes: Mapping[str, tuple[SceneGraph, FloatArray]]) -> SceneGraph:
+    """Return several objects as one, on a root link ``ground``; hulls are left out.
+
+    Args:
+        name: of the whole.
+        scenes: each with the pose of its root, shape [4, 4], by a name that becomes the beginning
+            of its links' and joints' names: ``robot/elbow``.
+    """
+    links = ["ground"]
+    joints = []
+    visuals: list[SceneSurface] = []
+    for whose, (scene, pose) in scenes.items():
+        first = len(links)
+        axis = np.array([1.0, 0.0, 0.0])
+        joints.append(SceneJoint(f"{whose}/", "fixed", 0, first, pose, axis))
+        joints += [
+            replace(
+                joint,
+                name=f"{whose}/{joint.name}",
+                parent=joint.parent + first,
+                child=joint.child + first,
+                leader=joint.leader and f"{whose}/{joint.leader}",
+            )
+            for joint in scene.joints
+        ]
+        visuals += [replace(each, link=each.link + first) for each in scene.visuals or scene.hulls]
+        links += [f"{whose}/{link}" for link in scene.links]
+    return SceneGraph(name, tuple(links), tuple(joints), tuple(visuals))

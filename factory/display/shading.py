@@ -157,11 +157,15 @@ def _lit(
     return color * _light(camera, normal)[:, None]
 
 
+def light_direction(camera: Camera) -> FloatArray:
+    """Return the direction towards the strongest light, unit, root frame, shape [3]."""
+    return np.asarray((KEY / np.linalg.norm(KEY)) @ camera.axes)
+
+
 def _light(camera: Camera, normal: FloatRows) -> FloatRows:
     """Return how much light surfaces of those normals throw back; both sides alike."""
-    axes = camera.axes.astype(np.float32)
-    key = ((KEY / np.linalg.norm(KEY)) @ axes).astype(np.float32)
-    backward, direct, height = np.stack([axes[2], key, _UP]) @ normal.T
+    key = light_direction(camera).astype(np.float32)
+    backward, direct, height = np.stack([camera.axes[2].astype(np.float32), key, _UP]) @ normal.T
     scale = np.where(backward < 0.0, -1.0, 1.0) / lengths(normal)
     backward *= scale
     direct = np.maximum(direct * scale, 0.0)

@@ -8,8 +8,8 @@ from pathlib import Path
 from ..errors import ConfigError, RegistryError
 from ..intake.formats.catalog import FORMATS, is_mesh
 from ..intake.stated import stated_paths
-from ..jobs.log import logged_build
 from ..registry import Registry
+from ..registry.logged import logged_build
 from ..runtime.layout import ASSETS, REJECTED, REPORT
 
 

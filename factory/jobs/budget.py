@@ -42,7 +42,7 @@ class Budget:
         if self.limit is not None and self.limit < 0:
             raise ConfigError(f"limit must be 0 or more, not {self.limit}")
         if self.max_s is not None and not self.max_s >= 0.0:
-            raise ConfigError(f"longest time must be 0 or more, not {self.max_s:g} s")
+            raise ConfigError(f"longest time must be 0 or more, not {self.max_s / 3600.0:g} h")
 
     def wants_again(self, entry: Entry) -> bool:
         """Tell whether a known input is built all the same, for its verdict."""

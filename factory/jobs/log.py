@@ -4,51 +4,15 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
-from contextlib import suppress
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from asset_factory.sim_checks.processes.isolation import Outcome
 
+from ..registry.logged import LOG_NAME
 from ..registry.product import Product
 from ..registry.result import Result
-
-LOG_NAME = Path("logs") / "builds.jsonl"
-
-
-@dataclass(frozen=True)
-class LoggedBuild:
-    """What the log says of an asset's last build.
-
-    Attributes:
-        input: path of what it was made of, as it was given.
-        stages: time of each stage [s], by its name.
-    """
-
-    input: str
-    stages: Mapping[str, float]
-
-
-def logged_build(output: Path, asset_id: str) -> LoggedBuild | None:
-    """Return what the log says of an asset's last build; ``None`` where it says nothing.
-
-    Args:
-        output: the registry's folder.
-        asset_id: of the asset.
-    """
-    found = None
-    with suppress(OSError), (output / LOG_NAME).open(encoding="utf-8", errors="replace") as lines:
-        for line in lines:
-            # Few of the lines of a large registry are about one asset.
-            with suppress(ValueError, LookupError, AttributeError, TypeError):
-                said = json.loads(line) if asset_id in line else {}
-                if said.get("id") == asset_id:
-                    stages = {str(e["stage"]): float(e["seconds"]) for e in said.get("stages", ())}
-                    found = LoggedBuild(str(said["input"]), stages)
-    return found
 
 
 class Log:

@@ -44,19 +44,16 @@ def load_config(preset: str) -> BuildConfig:
 
 
 def _read(preset: str) -> dict[str, Any]:
+    shipped = preset in preset_names()
+    if not shipped and not preset.endswith(".toml"):
+        there = ", ".join(preset_names())
+        raise ConfigError(f"no preset {preset!r}; there are {there}, or a path to a .toml file")
+    file = _shipped() / f"{preset}.toml" if shipped else Path(preset)
     try:
-        if preset in preset_names():
-            text = (_shipped() / f"{preset}.toml").read_text(encoding="utf-8")
-        elif preset.endswith(".toml"):
-            text = Path(preset).read_text(encoding="utf-8")
-        else:
-            raise ConfigError(
-                f"no preset {preset!r}; there are {', '.join(preset_names())}, "
-                "or a path to a .toml file"
-            )
-        return tomllib.loads(text)
-    except (OSError, tomllib.TOMLDecodeError) as error:
-        raise ConfigError(f"preset {preset!r}: {error}") from error
+        return tomllib.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) else error
+        raise ConfigError(f"preset {preset!r}: {why}") from error
 
 
 def overlay(config: C, differences: dict[str, Any], where: str) -> C:

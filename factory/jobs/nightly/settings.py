@@ -71,8 +71,9 @@ def load_night(path: Path) -> NightConfig:
     """
     try:
         stated = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise ConfigError(f"{path}: {error}") from error
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) else error
+        raise ConfigError(f"{path}: {why}") from error
     base = path.resolve().parent
     where = path.name
     inputs = _places(stated.pop("inputs", []), base, f"{where}: inputs")

@@ -61,8 +61,12 @@ def looking_first() -> Callable[..., tuple[str, str, Any]]:
     def look_and_work(
         packed: bytes, wanted: Any, least_free: int, data: bytes, weights: Any
     ) -> tuple[str, str, Any]:
+        import signal
+
         import ray
 
+        # What is cancelled while it runs ends all the same; what still waits never begins.
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
         node = str(ray.get_runtime_context().get_node_id())
         try:
             from asset_factory.factory.jobs.ray.alike import room, versions

@@ -91,6 +91,7 @@ class RayExecutor:
                             tasks.start(_Task(call))
                     if not len(tasks):
                         return
+                    tasks.drop_unwanted()
                     yield from tasks.finished()
             finally:
                 tasks.end()
@@ -107,6 +108,7 @@ class _Task:
     node: str = ""
     input: PackedInput | None = None
     more: frozenset[str] = frozenset()
+    dropped: bool = False
 
 
 class _Tasks(Generic[T]):
@@ -196,6 +198,14 @@ class _Tasks(Generic[T]):
         placed = self._work.options(**self._room_of_one, **self._nodes.options(node))
         return placed.remote(packed, versions(), self._executor.least_free, data, self._weights)
 
+    def drop_unwanted(self) -> None:
+        """Have Ray begin none of the calls that nobody wants any more; those that run go on."""
+        for under_way, task in self._under_way.items():
+            if not (task.dropped or task.call.wanted()):
+                # A task that runs is deaf to this, see :func:`~.alike.looking_first`.
+                self._ray.cancel(under_way, force=False)
+                self._under_way[under_way] = replace(task, dropped=True)
+
     def finished(self) -> Iterator[tuple[Call, Outcome[T]]]:
         """Yield calls that have an outcome by now; wait a moment for the first."""
         while self._failed:
@@ -253,7 +263,11 @@ class _Tasks(Generic[T]):
 
     def _answered(self, under_way: Any, task: _Task) -> Outcome[T] | None:
         """Return what a node says; ``None`` if the call is made again. Raises what loses a try."""
-        word, node, answer = self._ray.get(under_way, timeout=FETCH_S)
+        try:
+            word, node, answer = self._ray.get(under_way, timeout=FETCH_S)
+        except self._ray.exceptions.TaskCancelledError:
+            self._dropped(task)
+            return Outcome(None, None, "", "", self._age(task))
         if word == "lost":
             raise OSError(answer)
         if word != "done":

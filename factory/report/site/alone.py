@@ -18,8 +18,12 @@ from .render import alone_html
 from .told import AssetPage, with_model
 
 
-def page_of_file(path: Path) -> str:
+def page_of_file(path: Path, live: bool = False) -> str:
     """Return one HTML file that shows a URDF, an MJCF, a mesh or an asset's folder.
+
+    Args:
+        path: of it.
+        live: it is served, and other files may be dropped on it.
 
     Raises:
         InputRejected: it cannot be shown, with a reason code.
@@ -41,7 +45,7 @@ def page_of_file(path: Path) -> str:
     page = with_model(AssetPage(entry), model)
     # Only our own assets are closed at lower: another file is shown as it is.
     start = {"values": dict.fromkeys(scene.completed({}), 0.0), "point": None}
-    return alone_html(replace(page, data={**page.data, "start": start}))
+    return alone_html(replace(page, data={**page.data, "start": start}), live)
 
 
 def _model(path: Path) -> bytes:

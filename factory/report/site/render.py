@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from asset_factory.sim_checks import Severity, Status
 
+from ...runtime.layout import SOLVING
 from ..pages import environment, trusted
 from .told import AssetPage
 
@@ -23,13 +24,28 @@ STATIC = Path(__file__).parent / "static"
 STATIC_FILES = ("base.css", "site.css", "grid.js", "asset.js", "licenses.txt")
 
 
-def asset_html(page: AssetPage) -> str:
-    """Return the page of an asset in a site: pictures, model and scripts lie beside it."""
-    return _templates().get_template("asset.html.j2").render(page=page, alone=None)
+def asset_html(
+    page: AssetPage, films: Sequence[str] = (), seconds: Mapping[str, float] | None = None
+) -> str:
+    """Return the page of an asset in a site: pictures, model and scripts lie beside it.
+
+    Args:
+        page: of the asset.
+        films: names of files in the registry's folder of them, ``<id>-<joint>-<robot>.mp4``.
+        seconds: that its last build took, by stage [s].
+    """
+    template = _templates().get_template("asset.html.j2")
+    shown = {"films": films, "folder": f"../../../{SOLVING}/", "seconds": seconds or {}}
+    return template.render(page=page, alone=None, **shown)
 
 
-def alone_html(page: AssetPage) -> str:
-    """Return the page of an asset as one file that needs nothing else."""
+def alone_html(page: AssetPage, live: bool = False) -> str:
+    """Return the page of an asset as one file that needs nothing else.
+
+    Args:
+        page: of the asset.
+        live: it is served, and files may be dropped on it.
+    """
     model = packed(page.model)
     texts = {name: (STATIC / name).read_text(encoding="utf-8") for name in STATIC_FILES}
     js = f'factoryModel="{model}";\n{texts["asset.js"]}'
@@ -40,7 +56,8 @@ def alone_html(page: AssetPage) -> str:
         "digest": trusted(f"'sha256-{digest}'"),
         "licenses": trusted(texts["licenses.txt"]),
     }
-    return _templates().get_template("asset.html.j2").render(page=page, alone=alone)
+    shown = {"films": (), "seconds": {}, **({"live": True} if live else {})}
+    return _templates().get_template("asset.html.j2").render(page=page, alone=alone, **shown)
 
 
 def grid_html(rows: Sequence[Mapping[str, Any]], lists: int, title: str) -> str:

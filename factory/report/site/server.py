@@ -52,16 +52,6 @@ Answer = Callable[[PageRequest], PageResponse]
 NOT_FOUND = PageResponse(status=HTTPStatus.NOT_FOUND)
 
 
-def one_page(page: bytes) -> Answer:
-    """Return who knows one page of HTML, and nothing else."""
-
-    def answer(asked: PageRequest) -> PageResponse:
-        here = asked.method == "GET" and asked.path in ("/", "/index.html")
-        return PageResponse(page) if here else NOT_FOUND
-
-    return answer
-
-
 @dataclass(frozen=True)
 class PageServer:
     """A server that waits for its pages to be asked for.

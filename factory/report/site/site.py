@@ -16,8 +16,9 @@ from ...display.sheet import MOST, SheetCell, contact_sheet
 from ...errors import RegistryError
 from ...registry import Entry, Registry
 from ...registry.entry import is_id
+from ...registry.logged import logged_build
 from ...runtime.keys import installed_version
-from ...runtime.layout import ASSETS, PAGES, REJECTED, REPORT
+from ...runtime.layout import ASSETS, PAGES, REJECTED, REPORT, SOLVING
 from ...runtime.store import digest_bytes, digest_file, stage_key, write_json, write_whole
 from .render import STATIC, STATIC_FILES, asset_html, grid_html, list_html, packed
 from .told import AssetPage, asset_page
@@ -53,13 +54,18 @@ def stale(registry: Registry) -> Iterator[Entry]:
 
 
 def page_key(root: Path, entry: Entry) -> str:
-    """Return what a page follows from: the entry, its report, and the code that draws it."""
+    """Return what a page follows from: the entry, its report and films, and the code."""
     place = ASSETS if entry.status is Status.PASSED else REJECTED
     try:
         told = digest_file(root / place / entry.id / REPORT)
     except OSError:
         told = "unreadable"
-    return stage_key("page", repr(entry), told, _code())
+    return stage_key("page", repr(entry), told, *_films(root, entry), _code())
+
+
+def _films(root: Path, entry: Entry) -> tuple[str, ...]:
+    """Return the names of an asset's films, ``<id>-<joint>-<robot>.mp4``."""
+    return tuple(sorted(path.name for path in (root / SOLVING).glob(f"{entry.id}-*.mp4")))
 
 
 def write_asset(root: Path, entry: Entry) -> None:
@@ -86,7 +92,9 @@ def write_asset(root: Path, entry: Entry) -> None:
             if data:
                 (folder / f"{name}.webp").write_bytes(data)
         (folder / "model.js").write_bytes(f'factoryModel="{packed(page.model)}";\n'.encode())
-    write_whole(folder / INDEX, asset_html(page).encode())
+    logged = logged_build(root, entry.id)
+    html = asset_html(page, _films(root, entry), logged.stages if logged else None)
+    write_whole(folder / INDEX, html.encode())
     write_json(folder / _ROW, {"key": key, "row": page.row()})
 
 

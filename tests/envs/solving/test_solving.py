@@ -2,13 +2,14 @@
 
 import json
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from openable_samples import write_registry
 from solvable_samples import fin
 
-from asset_factory.envs.solving import REASONS, driving, make_episodes, replay, solve_joint
+from asset_factory.envs.solving import REASONS, driving, film, make_episodes, replay, solve_joint
 from asset_factory.envs.solving.solve import SolveTask, attempted
 from asset_factory.factory.errors import ConfigError, RegistryError
 from asset_factory.sim_checks.processes.isolation import WarmChild
@@ -65,6 +66,24 @@ def test_the_same_actions_open_it_again(registry, solved):
     # One action fewer is not enough: the episode ends when it is solved.
     assert replay(environment, replace(solved, actions=solved.actions[:-1]))[0] is False
     environment.close()
+
+
+def test_a_film_shows_the_hand_and_what_it_opens(registry, solved, tmp_path, monkeypatch):
+    imageio = pytest.importorskip("imageio.v2", reason="imageio comes with mani_skill")
+    pytest.importorskip("embreex", reason="embreex is not installed")
+    monkeypatch.setattr(film, "WIDTH", 160)
+    monkeypatch.setattr(film, "HEIGHT", 120)
+    monkeypatch.setattr(film, "EVERY", solved.steps // 3)
+    made = film.read_film(str(registry), solved)
+    assert len(made.values) == solved.steps + 1
+    assert made.values[-1]["asset/slide"] > 0.13 > made.values[0]["asset/slide"]
+    film.film(str(registry), solved, tmp_path / "film.mp4")
+    pictures = [np.asarray(each, float) for each in imageio.get_reader(tmp_path / "film.mp4")]
+    assert len(pictures) == 4
+    assert [path.name for path in tmp_path.iterdir()] == ["film.mp4"]
+    # Nearly all of a picture stays; the arm and the drawer are elsewhere in the next.
+    for before, after in pairwise(pictures):
+        assert 0.005 < (np.abs(after - before).max(axis=2) > 40.0).mean() < 0.4
 
 
 def test_the_same_question_has_the_same_answer(registry, solved, child):

@@ -18,9 +18,9 @@ from asset_factory.factory.intake import source as source_module
 from asset_factory.factory.intake.source import Source
 from asset_factory.factory.jobs import Budget, LocalExecutor
 from asset_factory.factory.jobs import job as job_module
-from asset_factory.factory.jobs.log import LOG_NAME
 from asset_factory.factory.jobs.probe import KnownReads
 from asset_factory.factory.registry import Registry, claims
+from asset_factory.factory.registry.logged import LOG_NAME
 from asset_factory.factory.registry.product import Product, refused, without_asset
 from asset_factory.factory.registry.registration import register
 from asset_factory.factory.registry.report_file import BuildReport

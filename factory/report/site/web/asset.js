@@ -1,5 +1,6 @@
 // One asset's page: sliders, switches, the plot, and findings that jump to where they are.
 import { Box3, Vector3 } from "three";
+import { takeDrops } from "./drop.js";
 import { Bodies } from "./hulls.js";
 import { Grab } from "./grab.js";
 import { Model, unpacked } from "./model.js";
@@ -134,6 +135,13 @@ class Page {
     on("#close", () => this.glide(0));
     on("#play", () => this.play());
     on("#view", () => this.viewer.reset());
+    on("#person", () => {
+      const shown = !this.viewer.shown.person;
+      this.viewer.shown.person = shown;
+      find("#person").setAttribute("aria-pressed", String(shown));
+      this.viewer.apply();
+      this.viewer.reset();
+    });
     on("#save", () => {
       const url = URL.createObjectURL(new Blob([this.model.buffer], { type: "model/gltf-binary" }));
       const link = make("a", { href: url, download: `${this.told.name}.glb` });
@@ -285,6 +293,7 @@ class Page {
       else if (event.key === "o") this.glide(1);
       else if (event.key === "c") this.glide(0);
       else if (event.key === "p") this.play();
+      else if (event.key === "m") find("#person").click();
       else if (event.key === "r") this.viewer.reset();
     });
   }
@@ -332,5 +341,6 @@ async function start() {
 
 // For pages that show models of their own.
 window.factoryView = { Bodies, Grab, Model, Viewer };
+if (document.body.classList.contains("live")) takeDrops(find("#drop"));
 if (find("#told") && window.factoryModel) start();
 else if (!document.body.classList.contains("edit-page")) document.body.classList.add("still");

@@ -6,6 +6,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { jointOverlay, mark } from "./overlays.js";
+import { TALL, person } from "./person.js";
 
 function cornersOf({ min, max }) {
   return [0, 1, 2, 3, 4, 5, 6, 7].map((corner) => (
@@ -17,7 +18,7 @@ export class Viewer {
   constructor(canvas, model, front) {
     this.canvas = canvas;
     this.model = model;
-    this.shown = { visuals: true, hulls: false, axes: false, limits: false, contacts: true, replaced: false };
+    this.shown = { visuals: true, hulls: false, axes: false, limits: false, contacts: true, replaced: false, person: false };
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
@@ -34,6 +35,8 @@ export class Viewer {
     this.lights = new Map();
     this.marks = new Group();
     this.scene.add(this.marks);
+    this.person = person();
+    this.scene.add(this.person);
     this.front = front;
     this.frame();
     this.light();
@@ -100,8 +103,12 @@ export class Viewer {
     for (const { group } of [...this.overlays.axes, ...this.overlays.limits]) {
       this.corners.push(...cornersOf(new Box3().setFromObject(group)));
     }
+    // A person stands beside the object, on its ground.
+    const aside = new Vector3(0, 0, 1).cross(this.home.toward).normalize();
+    const reach = Math.max(0, ...this.corners.map((corner) => corner.clone().sub(center).dot(aside)));
+    this.person.position.copy(center).addScaledVector(aside, reach + 0.4).setZ(this.ground);
     this.camera.near = this.size / 100;
-    this.camera.far = this.size * 20;
+    this.camera.far = this.size * 20 + 10 * TALL;
   }
 
   /** The nearest place that has the closed object in the middle and all corners in the picture. */
@@ -112,6 +119,10 @@ export class Viewer {
     const tall = Math.tan((this.camera.fov * Math.PI) / 360) * 0.9;
     const halves = [tall * this.camera.aspect, tall];
     const target = center.clone();
+    const beside = [[0.3, 0], [0.3, TALL]].map(([out, up]) => (
+      this.person.position.clone().addScaledVector(right, out).add(new Vector3(0, 0, up))));
+    const framed = this.shown.person ? [...this.corners, ...beside] : this.corners;
+    const middle = this.shown.person ? framed : this.closed;
     let reach = 0;
     for (let round = 0; round < 6; round += 1) {
       const seen = (corner, axis) => {
@@ -120,13 +131,13 @@ export class Viewer {
       };
       reach = this.size * 0.2;
       axes.forEach((axis, number) => {
-        for (const corner of this.corners) {
+        for (const corner of framed) {
           const { aside, near } = seen(corner, axis);
           reach = Math.max(reach, Math.abs(aside) / halves[number] + near);
         }
       });
       for (const axis of axes) {
-        const ratios = this.closed.map((corner) => {
+        const ratios = middle.map((corner) => {
           const { aside, near } = seen(corner, axis);
           return aside / (reach - near);
         });
@@ -247,6 +258,7 @@ export class Viewer {
       }
     }
     this.marks.visible = shown.contacts;
+    this.person.visible = shown.person;
     this.draw();
   }
 
@@ -282,6 +294,8 @@ export class Viewer {
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
+      const from = this.camera.position.clone().sub(this.person.position);
+      this.person.rotation.z = Math.atan2(from.x, -from.y);
       this.renderer.render(this.scene, this.camera);
       this.drawn?.();
     });

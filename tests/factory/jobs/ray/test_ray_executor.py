@@ -84,6 +84,22 @@ def test_calls_on_a_cluster_of_its_own_are_answered_as_locally(tmp_path):
     assert set(alive("raylet", "gcs_server")) <= before
 
 
+def test_calls_that_nobody_wants_any_more_never_begin_and_running_ones_end(tmp_path):
+    log = str(tmp_path)
+    calls = [
+        Call(
+            str(number),
+            {"number": number, "seconds": 4.0, "log": log},
+            wanted=lambda: not any(tmp_path.iterdir()),
+        )
+        for number in (2, 3)
+    ]
+    made = RayExecutor(workers=1).run(ray_calls.slow_square, calls, LIMITS)
+    outcomes = {call.name: (outcome.value, outcome.failure) for call, outcome in made}
+    assert outcomes == {"2": (4, None), "3": (None, None)}
+    assert [path.name[0] for path in tmp_path.iterdir()] == ["2"]
+
+
 def test_no_cluster_at_an_address_is_said():
     with pytest.raises(ConfigError, match="no Ray cluster at 'nowhere"):
         list(RayExecutor(address="nowhere:1").run(ray_calls.square, [], LIMITS))

@@ -5,18 +5,15 @@ Slow, and it needs Chromium: ``make site-test``.
 
 import json
 import math
-import re
 import shutil
 from dataclasses import replace
 
 import pytest
 from browser import CONTRAST, LAPTOP, PHONE, until
 from registry_samples import PASSED
-from shown_registry import bundle_in, make_registry
+from shown_registry import make_registry
 
-from asset_factory.factory.report.site.alone import page_of_file
 from asset_factory.factory.report.site.render import STATIC, STATIC_FILES, grid_html
-from asset_factory.factory.report.site.server import one_page, serve
 from asset_factory.factory.report.site.site import stale, write_asset, write_index
 from asset_factory.factory.report.site.told import AssetPage
 
@@ -32,31 +29,6 @@ def site(tmp_path_factory):
     for entry in stale(registry):
         write_asset(registry.root, entry)
     return write_index(registry).parent
-
-
-@pytest.fixture
-def opened(browser):
-    """Opens a page; afterwards nothing may have been said on its console."""
-    said = []
-    contexts = []
-
-    def show(address, *, ready="body.ready", **options):
-        context = browser.new_context(viewport=LAPTOP, **options)
-        contexts.append(context)
-        page = context.new_page()
-        page.on("console", lambda each: said.append(each.text) if each.type != "log" else None)
-        page.on("pageerror", lambda error: said.append(str(error)))
-        page.on(
-            "request", lambda asked: said.append(asked.url) if "http" in asked.url[:5] else None
-        )
-        page.goto(address if isinstance(address, str) else address.as_uri())
-        page.wait_for_selector(ready, timeout=60_000)
-        return page
-
-    yield show
-    for context in contexts:
-        context.close()
-    assert said == []
 
 
 def link_positions(page):
@@ -161,6 +133,23 @@ def test_the_closed_object_is_in_the_middle_and_all_limits_are_in_the_picture(op
     assert 0.1 < found["reach"] <= 1.0
 
 
+def test_a_person_stands_beside_the_object_in_the_picture(opened, site):
+    page = opened(site / "a/cabinet-1/index.html")
+    far = "factory.viewer.camera.position.distanceTo(factory.viewer.controls.target)"
+    before = page.evaluate(far)
+    page.get_by_role("button", name="Person").click()
+    assert page.evaluate("factory.viewer.person.visible")
+    assert page.evaluate(far) > 1.2 * before
+    size = """(() => {
+        const { geometry } = factory.viewer.person;
+        geometry.computeBoundingBox();
+        return geometry.boundingBox.max.z - geometry.boundingBox.min.z;
+    })()"""
+    assert page.evaluate(size) == pytest.approx(1.75, abs=1e-3)
+    page.keyboard.press("m")
+    assert page.evaluate(far) == pytest.approx(before)
+
+
 def test_the_wheel_scrolls_the_page_until_the_model_is_clicked(opened, site):
     page = opened(site / "a/cabinet-1/index.html")
     far = "factory.viewer.camera.position.distanceTo(factory.viewer.controls.target)"
@@ -175,56 +164,6 @@ def test_the_wheel_scrolls_the_page_until_the_model_is_clicked(opened, site):
     page.mouse.wheel(0, 200)
     until(page, f"{far} > {1.05 * before}")
     assert page.evaluate("scrollY") == 0
-
-
-def described(tmp_path, links, joints):
-    """A page of links with a visual cube, and with a collision cube where ``True``."""
-    cube = "<geometry><box size='1 1 1'/></geometry>"
-    solid = f"<visual>{cube}</visual><collision>{cube}</collision>"
-    bodies = [
-        f"<link name='{name}'>{solid if hard else f'<visual>{cube}</visual>'}</link>"
-        for name, hard in links.items()
-    ]
-    file = tmp_path / "x.urdf"
-    file.write_text(f"<robot name='x'>{''.join(bodies)}{joints}</robot>")
-    page = tmp_path / "x.html"
-    page.write_text(page_of_file(file))
-    return page
-
-
-ENDLESS = (
-    "<joint name='turn' type='continuous'><parent link='a'/><child link='b'/>"
-    "<origin xyz='0.626 0 0'/><axis xyz='0 0 1'/></joint>"
-)
-
-
-def test_contact_is_told_only_where_something_can_touch(opened, tmp_path):
-    page = opened(described(tmp_path, {"a": False, "b": False}, ENDLESS))
-    until(page, "document.querySelector('#contact').textContent")
-    assert page.locator("#contact").inner_text() == "No collision geometry in this file"
-    assert page.locator("#size").inner_text() == "1.6 x 1 x 1 m"
-    assert "turns without end" in page.locator("#joints").inner_text()
-    page = opened(described(tmp_path, {"a": True, "b": True}, ENDLESS))
-    until(page, "document.querySelector('#contact').textContent")
-    told = "a and b overlap by 374.0 mm when closed; no further contact in this pose"
-    assert page.locator("#contact").inner_text() == told
-    assert page.evaluate("factory.model.visuals.every((each) => each.material.polygonOffset)")
-    assert re.fullmatch(r"[125]0* (cm|mm|m)", page.locator("#scale").inner_text())
-
-
-def test_a_hundred_joints_are_in_a_list_that_scrolls_and_filters(opened, tmp_path):
-    names = {f"key_{number}": False for number in range(115)}
-    joints = [
-        f"<joint name='press_{name}' type='prismatic'><parent link='body'/><child link='{name}'/>"
-        "<axis xyz='0 0 -1'/><limit lower='0' upper='0.01' effort='1' velocity='1'/></joint>"
-        for name in names
-    ]
-    page = opened(described(tmp_path, {"body": False, **names}, "".join(joints)))
-    rows = page.locator("#joints li")
-    assert rows.count() == 115
-    assert page.evaluate("document.querySelector('#joints').clientHeight < innerHeight")
-    page.get_by_role("searchbox", name="Search joints").fill("key_11")
-    assert [row.is_visible() for row in rows.all()].count(True) == 6
 
 
 def test_the_picture_changes_when_the_door_opens(opened, site):
@@ -336,29 +275,6 @@ def test_without_scripts_there_is_a_plain_list(browser, site):
     page.get_by_role("link", name="hitting-2").click()
     assert "deeper than at rest" in page.inner_text("body")
     context.close()
-
-
-def test_one_file_works_alone_and_from_the_server(opened, tmp_path):
-    text = page_of_file(bundle_in(tmp_path / "bundle") / "asset.urdf")
-    alone = tmp_path / "elsewhere.html"
-    alone.write_text(text)
-    page = opened(alone)
-    assert page.evaluate("factory.model.free.length") == 2
-
-
-def test_the_viewer_is_served_to_this_machine(browser, tmp_path):
-    from threading import Thread
-
-    text = page_of_file(bundle_in(tmp_path / "bundle") / "asset.xml")
-    with serve(one_page(text.encode())) as server:
-        thread = Thread(target=server.run)
-        thread.start()
-        page = browser.new_page()
-        page.goto(server.url)
-        page.wait_for_selector("body.ready", timeout=60_000)
-        page.close()
-        server.stop()
-        thread.join()
 
 
 def test_ten_thousand_assets_open_fast_and_stay_light(opened, tmp_path, record_property):

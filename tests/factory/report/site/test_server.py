@@ -8,12 +8,15 @@ from threading import Thread
 import pytest
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.report.site.server import HOST, one_page, serve
+from asset_factory.factory.report.site.dropped import DroppedFiles, unpack_drop
+from asset_factory.factory.report.site.server import HOST, serve
+
+PAGE = DroppedFiles("<p>here</p>", lambda file: None)
 
 
 @pytest.fixture
 def address():
-    with serve(one_page(b"<p>here</p>")) as server:
+    with serve(PAGE) as server:
         thread = Thread(target=server.run)
         thread.start()
         yield int(server.url.rsplit(":", 1)[1].strip("/"))
@@ -40,5 +43,32 @@ def test_a_page_from_elsewhere_cannot_read_it_under_another_name(address):
 
 
 def test_a_taken_port_is_said(address):
-    with pytest.raises(ConfigError, match="--port"), serve(one_page(b""), address):
+    with pytest.raises(ConfigError, match="--port"), serve(PAGE, address):
         pass
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        (b"", "cannot be read"),
+        (b"{}", "nothing"),
+        (b'[["../x.urdf", 1]]\nx', "cannot be read: ../x.urdf"),
+        (b'[["/etc/x.urdf", 1]]\nx', "cannot be read: /etc/x.urdf"),
+        (b'[["x.urdf", 2]]\nx', "cannot be read: x.urdf"),
+        (b'[["x.txt", 1]]\nx', "no URDF, MJCF or mesh is among what was dropped: x.txt"),
+    ],
+)
+def test_what_is_dropped_is_files_of_its_own_folder(tmp_path, body, said):
+    (tmp_path / "own").mkdir()
+    with pytest.raises(ConfigError, match=said):
+        unpack_drop(body, tmp_path / "own")
+    assert [path.name for path in tmp_path.iterdir()] == ["own"]
+
+
+def test_a_description_is_shown_of_a_dropped_folder(tmp_path):
+    mesh = b"v 0 0 0"
+    shape = b"<visual><geometry><mesh filename='m/a.obj'/></geometry></visual>"
+    robot = b"<robot name='x'><link name='a'>" + shape + b"</link></robot>"
+    head = f'[["r/m/a.obj", {len(mesh)}], ["r/a.urdf", {len(robot)}]]\n'.encode()
+    assert unpack_drop(head + mesh + robot, tmp_path) == tmp_path / "r" / "a.urdf"
+    assert (tmp_path / "r" / "a.urdf").read_bytes() == robot

@@ -1,0 +1,79 @@
+"""Files dropped on the page of ``factory view``: shown in place of what it shows."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from http import HTTPStatus
+from pathlib import Path, PurePosixPath
+from tempfile import TemporaryDirectory
+
+from ...errors import AssetFactoryError, ConfigError
+from ...intake.discover import find_inputs
+from .server import NOT_FOUND, PageRequest, PageResponse
+
+#: Of all files of one drop [bytes].
+MOST_BYTES = 2**29
+TEXT = "text/plain; charset=utf-8"
+
+
+class DroppedFiles:
+    """Answers for the page of a file, and then of whatever is dropped on it.
+
+    Args:
+        page: the first one, HTML.
+        draw: returns the page of a file, or ``None`` where no answer came; raises
+            AssetFactoryError with a sentence.
+    """
+
+    def __init__(self, page: str, draw: Callable[[Path], str | None]) -> None:
+        self._page = page
+        self._draw = draw
+
+    def __call__(self, asked: PageRequest) -> PageResponse:
+        """Return the page, or take what is dropped."""
+        if asked.method == "GET" and asked.path in ("/", "/index.html"):
+            return PageResponse(self._page.encode())
+        if (asked.method, asked.path) != ("POST", "/drop"):
+            return NOT_FOUND
+        try:
+            with TemporaryDirectory() as folder:
+                page = self._draw(unpack_drop(asked.body, Path(folder)))
+        except AssetFactoryError as error:
+            return PageResponse(str(error).encode(), TEXT, HTTPStatus.BAD_REQUEST)
+        if page is None:
+            told = b"It cannot be shown: the terminal says why."
+            return PageResponse(told, TEXT, HTTPStatus.BAD_REQUEST)
+        self._page = page
+        return PageResponse(status=HTTPStatus.NO_CONTENT)
+
+
+def unpack_drop(body: bytes, folder: Path) -> Path:
+    """Write dropped files into a folder; return the one to be shown, descriptions first.
+
+    Args:
+        body: a line of JSON with names and sizes, ``[["robot/arm.urdf", 120], ...]``, then the
+            bytes of all.
+        folder: an empty one.
+
+    Raises:
+        ConfigError: these are no files, or there is none among them that can be shown.
+    """
+    head, _, rest = body.partition(b"\n")
+    try:
+        told = [(str(name), int(size)) for name, size in json.loads(head)]
+        for name, size in told:
+            path = PurePosixPath(name)
+            if path.is_absolute() or ".." in path.parts or not 0 <= size <= len(rest):
+                raise ValueError(name)
+            target = folder / path
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_bytes(rest[:size])
+            rest = rest[size:]
+    except (ValueError, TypeError, OSError) as error:
+        raise ConfigError(f"dropped files cannot be read: {error}") from error
+    found = find_inputs([folder])
+    if not found:
+        names = ", ".join(name for name, _ in told[:5]) or "nothing"
+        raise ConfigError(f"no URDF, MJCF or mesh is among what was dropped: {names}")
+    return found[0]
