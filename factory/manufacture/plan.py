@@ -29,7 +29,8 @@ class Plan:
         exclude: pairs that MuJoCo is told not to collide: the knuckles of hinges, which other
             engines ignore.
         upper, lower: joint name -> limit that was pulled in [rad] or [m].
-        mended: joint name -> the joint with another axis, or elsewhere, that it should have been.
+        mended: joint name -> the joint that it should have been: with another axis, elsewhere, or
+            with limits where it had none.
         frozen: dispensable joints that cannot move, made fixed.
         build_fronts: thin fronts are built anew, with the body around them, as bare ones are.
         rehung: guessed hinges that are at the front edges of their doors now.
@@ -99,6 +100,8 @@ def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
         if joint.name in plan.mended:
             mended = plan.mended[joint.name]
             joint = replace(joint, axis=mended.axis, origin=mended.origin)
+            if mended.kind is not joint.kind:
+                joint = replace(joint, kind=mended.kind, lower=mended.lower, upper=mended.upper)
         return replace(
             joint,
             lower=plan.lower.get(joint.name, joint.lower),
