@@ -7,9 +7,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ..articulate.locate import located
 from ..articulation import Articulation, Joint, JointKind
 from ..geometry.coupling import with_common_ranges
 from ..geometry.welding import welded
+from ..part import PartKind
 from .hinges import at_front_edge
 from .lying import lying_on
 from .repair import Pair, Repair, RepairKind
@@ -109,7 +111,26 @@ def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
         )
 
     joints = with_common_ranges([changed(joint) for joint in articulation.joints])
-    return replace(articulation, joints=joints)
+    return _relocated(articulation, replace(articulation, joints=joints))
+
+
+def _relocated(before: Articulation, made: Articulation) -> Articulation:
+    """Return the tree as made; parts that were given limits say anew what they are: no knobs."""
+    ended = {
+        joint.child
+        for was, joint in zip(before.joints, made.joints, strict=True)
+        if was.kind is JointKind.CONTINUOUS and joint.kind is JointKind.REVOLUTE
+    }
+    if not ended:
+        return made
+    parts = [
+        replace(part, kind=PartKind.PART) if index in ended else part
+        for index, part in enumerate(made.parts)
+    ]
+    told = located(replace(made, parts=tuple(parts))).parts
+    kept = zip(made.parts, told, strict=True)
+    parts = [new if index in ended else part for index, (part, new) in enumerate(kept)]
+    return replace(made, parts=tuple(parts))
 
 
 def dispensable_joints(articulation: Articulation, share: float) -> Spare:

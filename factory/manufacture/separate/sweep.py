@@ -57,7 +57,7 @@ def free_until(
         articulation: whose joint of that name is replaced by this one.
         hulls: per part, object frame at rest.
         joint: to be turned.
-        free_m: what is no deeper than this is free [m].
+        free_m: up to which a deepening counts as none [m].
         gap_m: hulls nearer than this count as touching [m].
     """
     quarters = max(1, int(np.ceil(joint.range / (np.pi / 2.0))))

@@ -20,8 +20,8 @@ from .shorten import FREE_M, GAP_M
 def find_limits(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """Return every blocked hinge without limits with those that its surroundings give it.
 
-    What turns freely all the way has none still. What is free over less than the share of a quarter
-    turn that a joint may be shortened to is left to other repairs.
+    One that turns freely all the way has none still. One that is free over less than the share of a
+    quarter turn that a joint may be shortened to is left to other repairs.
     """
     asset = evidence.asset
     if asset is None or "sweep_penetration" not in evidence.codes:

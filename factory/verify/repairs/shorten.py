@@ -60,7 +60,7 @@ def shorten_or_freeze(evidence: RepairEvidence, plan: Plan) -> Plan | None:
 
 
 def freeze_small(evidence: RepairEvidence, plan: Plan) -> Plan | None:
-    """Fix small joints to what carries them, where all that rejects is about such joints alone."""
+    """Return the small joints fixed to what carries them, if nothing else is wrong."""
     if evidence.asset is None:
         return None
     tree = evidence.asset.articulation

@@ -14,6 +14,7 @@ from asset_factory.factory.geometry.posing import posed
 from asset_factory.factory.manufacture.plan import Plan, Spare, as_planned
 from asset_factory.factory.manufacture.separate.sweep import swept_m
 from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.part import PartKind
 from asset_factory.factory.verify.repair import next_plan
 
 CONFIG = RepairConfig()
@@ -196,8 +197,11 @@ def test_a_hinge_without_limits_goes_as_far_as_it_is_free_and_closes_where_it_is
         bodies=(shut.bodies[0], replace(shut.bodies[1], hulls=(moved,))),
     )
     plan = mended(asset)
-    hinge = as_planned(asset.articulation, plan).joints[0]
+    planned = as_planned(asset.articulation, plan)
+    hinge = planned.joints[0]
     assert hinge.kind is JointKind.REVOLUTE
+    if not ajar:
+        assert planned.parts[1].kind is PartKind.DOOR
     assert hinge.axis == pytest.approx([0.0, 0.0, -1.0])
     assert hinge.lower == pytest.approx(-ajar, abs=0.06)
     assert 4.4 < hinge.upper + ajar < 4.75
