@@ -36,9 +36,10 @@ def swept_m(
     """
     worst = 0.0
     for ones, others, poses in _ways(articulation, hulls, joint, POSES):
-        worst = max(worst, _deepening(ones, others, poses, enough_m, gap_m)[0])
-        if worst > enough_m:
-            break
+        for deeper in _deepening(ones, others, poses, gap_m):
+            worst = max(worst, deeper)
+            if worst > enough_m:
+                return worst
     return worst
 
 
@@ -46,26 +47,33 @@ def free_until(
     articulation: Articulation,
     hulls: Sequence[Sequence[Hull]],
     joint: Joint,
+    passed_m: float,
     free_m: float,
     gap_m: float,
 ) -> float:
-    """Return how far a hinge turns from its lower end before two parts get deeper than free [rad].
+    """Return where a hinge is free last before it runs into something [rad], from lower on.
 
-    As many poses are looked at in each quarter turn as along any joint; the last free one counts.
+    As many poses are looked at in each quarter turn as along any joint.
 
     Args:
         articulation: whose joint of that name is replaced by this one.
         hulls: per part, object frame at rest.
         joint: to be turned.
-        free_m: up to which a deepening counts as none [m].
+        passed_m: deeper than this two parts do not pass one another [m].
+        free_m: where it ends they are no deeper than this [m].
         gap_m: hulls nearer than this count as touching [m].
     """
     quarters = max(1, int(np.ceil(joint.range / (np.pi / 2.0))))
     values = np.linspace(joint.lower, joint.upper, POSES * quarters)
-    free = len(values)
+    deepest = np.zeros(len(values))
     for ones, others, poses in _ways(articulation, hulls, joint, len(values)):
-        free = min(free, _deepening(ones, others, poses[:free], free_m, gap_m)[1])
-    return float(values[free - 1])
+        for number, deeper in enumerate(_deepening(ones, others, poses, gap_m)):
+            deepest[number] = max(deepest[number], deeper)
+            if deeper > passed_m:
+                deepest = deepest[:number]
+            if number >= len(deepest) - 1:
+                break
+    return float(values[np.flatnonzero(deepest <= free_m)[-1]])
 
 
 def _ways(
@@ -87,22 +95,12 @@ def _ways(
 
 
 def _deepening(
-    ones: Sequence[Hull],
-    others: Sequence[Hull],
-    poses: list[FloatArray],
-    enough_m: float,
-    gap_m: float,
-) -> tuple[float, int]:
-    """Return how much deeper than at the first pose hulls of two parts get [m], see above.
-
-    And how many poses were looked at before they got deeper than ``enough_m``.
-    """
+    ones: Sequence[Hull], others: Sequence[Hull], poses: list[FloatArray], gap_m: float
+) -> Iterator[float]:
+    """Yield how much deeper hulls of two parts are at each pose than at the first [m]."""
     if not ones or not others:
-        return 0.0, len(poses)
-    rest = hull_depth(ones, others, poses[0], gap_m) + gap_m
-    worst = 0.0
-    for number, pose in enumerate(poses[1:], start=1):
-        worst = max(worst, hull_depth(ones, others, pose, gap_m) + gap_m - rest)
-        if worst > enough_m:
-            return worst, number
-    return worst, len(poses)
+        return
+    rest = hull_depth(ones, others, poses[0], gap_m)
+    yield 0.0
+    for pose in poses[1:]:
+        yield hull_depth(ones, others, pose, gap_m) - rest

@@ -14,6 +14,7 @@ from ...manufacture.plan import Plan
 from ...manufacture.repair import Repair, RepairKind
 from ...manufacture.separate.sweep import free_until
 from .evidence import RepairEvidence
+from .mend import PLANED_M
 from .shorten import FREE_M, GAP_M
 
 
@@ -53,12 +54,16 @@ def find_limits(evidence: RepairEvidence, plan: Plan) -> Plan | None:
 
 
 def _free_about_the_drawn_pose(asset: Asset, joint: Joint) -> Joint:
-    """Return the hinge between the two ends up to which nothing gets deeper than as drawn."""
+    """Return the hinge between the two ends up to which nothing gets deeper than as drawn.
+
+    But for so much on the way as the cut that follows may plane off.
+    """
     hulls = [body.hulls for body in asset.bodies]
     onwards = replace(joint, kind=JointKind.REVOLUTE, lower=0.0, upper=MOST_TURN)
     backwards = replace(onwards, axis=-joint.axis)
     lower, upper = (
-        free_until(asset.articulation, hulls, way, FREE_M, GAP_M) for way in (backwards, onwards)
+        free_until(asset.articulation, hulls, way, PLANED_M, FREE_M, GAP_M)
+        for way in (backwards, onwards)
     )
     return replace(onwards, lower=-lower, upper=upper)
 
