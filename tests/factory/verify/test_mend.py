@@ -216,6 +216,15 @@ def test_what_has_no_room_to_turn_without_limits_gets_none():
     assert plan is None or not plan.mended
 
 
+def test_what_turns_without_end_is_as_drawn_while_another_part_moves():
+    # Half a turn on, the arm would be in the door's way.
+    knob = Joint("knob", JointKind.CONTINUOUS, 0, 2, UP, (0.5, -0.5, 0.0), -np.pi, np.pi)
+    arm = [((0.4, 0.02, 0.1), (0.75, -0.5, 0.0))]
+    asset = with_more(cabinet(axis=(0.0, 0.0, -1.0)), "arm", arm, knob)
+    hulls = [body.hulls for body in asset.bodies]
+    assert swept_m(asset.articulation, hulls, asset.articulation.joints[0]) < 1e-6
+
+
 @pytest.mark.parametrize("code", ["jammed", "rest_penetration"])
 def test_a_small_part_that_cannot_move_is_fixed_where_nothing_else_is_wrong(code):
     asset = cabinet()
