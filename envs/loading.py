@@ -10,6 +10,8 @@ from xml.etree import ElementTree
 
 from defusedxml.ElementTree import fromstring
 
+from asset_factory.sim_checks.simulators.sapien_backend import couple_as_written
+
 from .assets import RegisteredAsset
 from .integrity import check_unaltered
 
@@ -55,6 +57,7 @@ def load_asset(scene: Any, asset: RegisteredAsset, name: str, index: int) -> Any
     loader.fix_root_link = True
     loader.set_material(SURFACE_FRICTION, SURFACE_FRICTION, 0.0)
     builder = loader.parse(str(asset.urdf))["articulation_builders"][0]
+    couple_as_written(builder)
     builder.initial_pose = sapien.Pose(p=[0.0, 0.0, asset.ground_offset])
     builder.set_scene_idxs([index])
     articulation = builder.build(name=name)

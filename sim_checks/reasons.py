@@ -201,7 +201,7 @@ WARNINGS: Mapping[str, str] = {
     "topples_when_pulled": "a hand's pull where a joint sticks or ends tips the whole object [N]",
     "creeps": "the same in MuJoCo from a URDF, which cannot say how stiffly friction holds",
     "opens_by_itself": "a joint opens under its own weight [share of its range]",
-    "mimic_ignored": "joints that the file couples move freely in this simulator",
+    "mimic_ignored": "joints that the file couples are not coupled so by this simulator itself",
     "link_added": "the simulator holds links that the file does not have",
     "joint_added": "the simulator holds joints that the file does not have",
     "shape_added": "the simulator made more shapes of a link than the file has",

@@ -9,7 +9,7 @@ import numpy as np
 from ..articulation import Joint, JointKind
 from ..errors import InputRejected
 from ..geometry.rows import distinct_rows
-from ..mesh import FloatArray, Mesh
+from ..mesh import BoolArray, FloatArray, Mesh
 from .draft import Draft
 
 TURN = 2.0 * np.pi
@@ -191,7 +191,8 @@ def _opens_downwards(draft: Draft, joint: Joint, *, drawn: bool) -> tuple[bool |
     near = AT_END * joint.range
     if drawn and -joint.lower <= near:
         return False, ""
-    low, high = (_box_volume(draft, joint, value) for value in (joint.lower, joint.upper))
+    inside = np.isin(draft.face_part, list(draft.subtree(joint.child)))
+    low, high = (box_volume(draft.mesh, inside, joint, end) for end in (joint.lower, joint.upper))
     alike = abs(low - high) <= CLEAR_DIFFERENCE * max(low, high)
     if drawn and joint.upper <= near:
         if low <= (1.0 - OPEN_DIFFERENCE) * high:
@@ -221,10 +222,16 @@ def _opens_downwards(draft: Draft, joint: Joint, *, drawn: bool) -> tuple[bool |
     )
 
 
-def _box_volume(draft: Draft, joint: Joint, value: float) -> float:
-    """Return the volume [m3] of the object's box with one joint moved; no box is flat."""
-    inside = np.isin(draft.face_part, list(draft.subtree(joint.child)))
-    corners = draft.mesh.vertices[draft.mesh.faces]
+def box_volume(mesh: Mesh, inside: BoolArray, joint: Joint, value: float) -> float:
+    """Return the volume [m3] of an object's box with one joint moved; no box is flat.
+
+    Args:
+        mesh: the object [m].
+        inside: of each face whether the joint moves it, shape [face_count].
+        joint: of the object.
+        value: to which the joint is moved [rad] or [m].
+    """
+    corners = mesh.vertices[mesh.faces]
     motion = joint.motion(value)
     moved = corners[inside].reshape(-1, 3) @ motion[:3, :3].T + motion[:3, 3]
     points = np.concatenate([corners[~inside].reshape(-1, 3), moved])

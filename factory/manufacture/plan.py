@@ -7,9 +7,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ..articulate.locate import located
 from ..articulation import Articulation, Joint, JointKind
 from ..geometry.coupling import with_common_ranges
 from ..geometry.welding import welded
+from ..part import PartKind
 from .hinges import at_front_edge
 from .lying import lying_on
 from .repair import Pair, Repair, RepairKind
@@ -29,7 +31,8 @@ class Plan:
         exclude: pairs that MuJoCo is told not to collide: the knuckles of hinges, which other
             engines ignore.
         upper, lower: joint name -> limit that was pulled in [rad] or [m].
-        mended: joint name -> the joint with another axis, or elsewhere, that it should have been.
+        mended: joint name -> the joint that it should have been: with another axis, elsewhere, or
+            with limits where it had none.
         frozen: dispensable joints that cannot move, made fixed.
         build_fronts: thin fronts are built anew, with the body around them, as bare ones are.
         rehung: guessed hinges that are at the front edges of their doors now.
@@ -99,6 +102,8 @@ def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
         if joint.name in plan.mended:
             mended = plan.mended[joint.name]
             joint = replace(joint, axis=mended.axis, origin=mended.origin)
+            if mended.kind is not joint.kind:
+                joint = replace(joint, kind=mended.kind, lower=mended.lower, upper=mended.upper)
         return replace(
             joint,
             lower=plan.lower.get(joint.name, joint.lower),
@@ -106,7 +111,26 @@ def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
         )
 
     joints = with_common_ranges([changed(joint) for joint in articulation.joints])
-    return replace(articulation, joints=joints)
+    return _relocated(articulation, replace(articulation, joints=joints))
+
+
+def _relocated(before: Articulation, made: Articulation) -> Articulation:
+    """Return the tree as made; parts that were given limits say anew what they are: no knobs."""
+    ended = {
+        joint.child
+        for was, joint in zip(before.joints, made.joints, strict=True)
+        if was.kind is JointKind.CONTINUOUS and joint.kind is JointKind.REVOLUTE
+    }
+    if not ended:
+        return made
+    parts = [
+        replace(part, kind=PartKind.PART) if index in ended else part
+        for index, part in enumerate(made.parts)
+    ]
+    told = located(replace(made, parts=tuple(parts))).parts
+    kept = zip(made.parts, told, strict=True)
+    parts = [new if index in ended else part for index, (part, new) in enumerate(kept)]
+    return replace(made, parts=tuple(parts))
 
 
 def dispensable_joints(articulation: Articulation, share: float) -> Spare:

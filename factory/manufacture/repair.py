@@ -57,6 +57,10 @@ class RepairKind(StrEnum):
         *("hinge_to_back_edge", "hinge moved"),
         "mended {joints}: its hinge was {before:.1f} mm off its panel's back edge" + _AFTER,
     )
+    HINGE_TO_LINE = (
+        *("hinge_to_line", "hinge moved"),
+        "mended {joints}: its hinge was {before:.1f} mm off that of its neighbour" + _AFTER,
+    )
     OPENING_REVERSED = (
         *("opening_reversed", "opening reversed"),
         "mended {joints}: it opened inwards and is turned round" + _AFTER,
@@ -84,6 +88,10 @@ class RepairKind(StrEnum):
         *("range_shortened", "range shortened"),
         "ended {joints} at {after:.4g} instead of {before:.4g} {unit}: "
         "it runs into something there",
+    )
+    LIMITS_FOUND = (
+        *("limits_found", "limits found"),
+        "found limits of {joints}, which had none: free from {before:.4g} to {after:.4g} {unit}",
     )
     JOINT_FROZEN = "joint_frozen", "joint frozen", "froze {joints}: {why}"
     OTHER = "other", "other", "{why}"

@@ -8,6 +8,7 @@ from ..asset import Asset
 from ..config import RepairConfig
 from ..manufacture.plan import Plan, Spare
 from .repairs.evidence import RepairEvidence
+from .repairs.find_limits import find_limits
 from .repairs.geometry import (
     build_fronts,
     exclude_knuckles,
@@ -19,7 +20,7 @@ from .repairs.give_up import give_up_guesses
 from .repairs.mend import mend_joints
 from .repairs.pull_in import pull_in
 from .repairs.rehang import rehang_doors
-from .repairs.shorten import shorten_or_freeze
+from .repairs.shorten import freeze_small, shorten_or_freeze
 from .validate import Verdict
 
 Repairer = Callable[[RepairEvidence, Plan], Plan | None]
@@ -31,12 +32,14 @@ REPAIRS: tuple[Repairer, ...] = (
     exclude_knuckles,
     fit_closely,
     rehang_doors,
+    find_limits,
     mend_joints,
     pull_in,
     build_fronts,
     hollow_out,
     give_up_guesses,
     shorten_or_freeze,
+    freeze_small,
 )
 #: Those that change collision geometry only; all others change joints or parts.
 GEOMETRY: frozenset[Repairer] = frozenset(

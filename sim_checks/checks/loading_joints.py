@@ -176,8 +176,8 @@ def _coupling(
             )
     if dropped:
         message = (
-            f"{simulator} lets {listed(dropped)} move freely, "
-            "which the file couples to another joint: whoever simulates it must couple them"
+            f"{simulator} does not couple {listed(dropped)} to another joint as the file does: "
+            "whoever simulates it must"
         )
         count = float(len(dropped))
         yield warning(

@@ -6,6 +6,7 @@ import math
 import tempfile
 import warnings
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +42,9 @@ class SapienSimulator:
         "joint friction of the file is dropped: joints rest, fall and are driven without any",
         (
             "joints that follow another are coupled only to the joint that carries them, "
-            "or to one of the same link"
+            "or to one of the same link, at which SAPIEN's loader takes the leader for the "
+            "follower: here they are coupled as written, elsewhere swap the two names in the "
+            "builder's mimic_joint_records before it builds"
         ),
     )
 
@@ -63,16 +66,15 @@ class SapienSimulator:
                 _require_one(len(articulations), len(actors))
                 if actors:
                     actors[0].set_physx_body_type("kinematic")
+                records = articulations[0].mimic_joint_records if articulations else []
+                said = [replace(record) for record in records]
+                forced = couple_as_written(articulations[0]) if articulations else frozenset()
                 body = articulations[0].build() if articulations else actors[0].build()
             except Exception as error:
                 raise ValueError(f"{type(error).__name__}: {error}") from error
         if not articulations:
             return SapienWorld(scene, None, _actor_model(body))
-        return SapienWorld(
-            scene,
-            body,
-            _articulation_model(body, _mimics(body, articulations[0].mimic_joint_records)),
-        )
+        return SapienWorld(scene, body, _articulation_model(body, _mimics(body, said), forced))
 
 
 def _require_one(articulations: int, actors: int) -> None:
@@ -212,28 +214,45 @@ def _actor_model(actor: Any) -> LoadedModel:
     return LoadedModel((link,), (), ())
 
 
-def _mimics(articulation: Any, records: Any) -> dict[str, Mimic]:
-    """Return which joints SAPIEN forces to follow which others, and how, by its builder's rule.
+def couple_as_written(builder: Any) -> frozenset[str]:
+    """Make a builder couple joints of one link as its file does; return the followers' names.
 
-    It cannot be asked. It couples a joint to the one that carries it as the file says, and two
-    joints of one link the wrong way round: the leader goes by the follower's value. All others it
-    leaves free.
+    It would hold the leader at the follower's value, which is the same at ratios of 1 and -1.
+    """
+    links = {link.joint_record.name: link.parent for link in builder.link_builders}
+    turned = [
+        record
+        for record in builder.mimic_joint_records
+        if links[record.joint] is links[record.mimic]
+        and (record.multiplier, record.offset) != (1.0, 0.0)
+        and record.multiplier != -1.0
+    ]
+    for record in turned:
+        record.joint, record.mimic = record.mimic, record.joint
+    return frozenset(record.mimic for record in turned)
+
+
+def _mimics(articulation: Any, records: Any) -> dict[str, Mimic]:
+    """Return which joints SAPIEN forces to follow which others, by what the file records.
+
+    It cannot be asked. A joint follows the one that carries it, or one of the same link. All others
+    it leaves free.
     """
     found: dict[str, Mimic] = {}
     for record in records:
         follower, leader = (
             articulation.find_joint_by_name(name) for name in (record.joint, record.mimic)
         )
-        rate = float(record.multiplier)
-        offset = float(record.offset)
-        if follower.parent_link == leader.child_link:
-            found[record.joint] = Mimic(record.mimic, rate, offset)
-        elif follower.parent_link == leader.parent_link:
-            found[record.joint] = Mimic(record.mimic, 1.0 / rate, -offset / rate)
+        if follower.parent_link in (leader.child_link, leader.parent_link):
+            found[record.joint] = Mimic(
+                record.mimic, float(record.multiplier), float(record.offset)
+            )
     return found
 
 
-def _articulation_model(articulation: Any, mimics: Mapping[str, Mimic]) -> LoadedModel:
+def _articulation_model(
+    articulation: Any, mimics: Mapping[str, Mimic], forced: frozenset[str]
+) -> LoadedModel:
     links = tuple(
         LoadedLink(
             link.name,
@@ -246,7 +265,8 @@ def _articulation_model(articulation: Any, mimics: Mapping[str, Mimic]) -> Loade
         for link in articulation.links
     )
     joints = tuple(
-        _joint(joint).following(mimics.get(joint.name)) for joint in articulation.active_joints
+        _joint(joint).following(mimics.get(joint.name), forced_by_judge=joint.name in forced)
+        for joint in articulation.active_joints
     )
     rules = PairRules(
         moving_parent=False, static_parent=False, others=True, excluded=_excluded(articulation)

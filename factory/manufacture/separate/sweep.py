@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from ...articulation import Articulation, Joint
+from ...articulation import Articulation, Joint, JointKind
 from ...asset import Hull
 from ...mesh import FloatArray
 from .along import hull_depth
@@ -34,38 +34,73 @@ def swept_m(
         enough_m: deeper than this is not looked into [m].
         gap_m: hulls nearer than this count as touching [m].
     """
-    joints = tuple(joint if each.name == joint.name else each for each in articulation.joints)
-    tried = replace(articulation, joints=joints)
-    moved = tried.carried(joint.child)
-    closed = {each.name: each.lower for each in tried.movable_joints}
-    poses = [
-        tried.poses({**closed, **tried.together(joint, float(value))})
-        for value in np.linspace(joint.lower, joint.upper, POSES)
-    ]
     worst = 0.0
-    for a in (part for part in range(len(hulls)) if part not in moved):
-        for b in moved:
-            relative = [np.asarray(np.linalg.inv(pose[a]) @ pose[b]) for pose in poses]
-            worst = max(worst, _deepening(hulls[a], hulls[b], relative, enough_m, gap_m))
+    for ones, others, poses in _ways(articulation, hulls, joint, POSES):
+        for deeper in _deepening(ones, others, poses, gap_m):
+            worst = max(worst, deeper)
             if worst > enough_m:
                 return worst
     return worst
 
 
-def _deepening(
-    ones: Sequence[Hull],
-    others: Sequence[Hull],
-    poses: list[FloatArray],
-    enough_m: float,
+def free_until(
+    articulation: Articulation,
+    hulls: Sequence[Sequence[Hull]],
+    joint: Joint,
+    passed_m: float,
+    free_m: float,
     gap_m: float,
 ) -> float:
-    """Return how much deeper than at the first pose hulls of two parts get [m], see above."""
+    """Return where a hinge is free last before it runs into something [rad], from lower on.
+
+    As many poses are looked at in each quarter turn as along any joint.
+
+    Args:
+        articulation: whose joint of that name is replaced by this one.
+        hulls: per part, object frame at rest.
+        joint: to be turned.
+        passed_m: deeper than this two parts do not pass one another [m].
+        free_m: where it ends they are no deeper than this [m].
+        gap_m: hulls nearer than this count as touching [m].
+    """
+    quarters = max(1, int(np.ceil(joint.range / (np.pi / 2.0))))
+    values = np.linspace(joint.lower, joint.upper, POSES * quarters)
+    deepest = np.zeros(len(values))
+    for ones, others, poses in _ways(articulation, hulls, joint, len(values)):
+        for number, deeper in enumerate(_deepening(ones, others, poses, gap_m)):
+            deepest[number] = max(deepest[number], deeper)
+            if deeper > passed_m:
+                deepest = deepest[:number]
+            if number >= len(deepest) - 1:
+                break
+    return float(values[np.flatnonzero(deepest <= free_m)[-1]])
+
+
+def _ways(
+    articulation: Articulation, hulls: Sequence[Sequence[Hull]], joint: Joint, count: int
+) -> Iterator[tuple[Sequence[Hull], Sequence[Hull], list[FloatArray]]]:
+    """Yield hulls of two parts that move against one another, and the poses of the second."""
+    joints = tuple(joint if each.name == joint.name else each for each in articulation.joints)
+    tried = replace(articulation, joints=joints)
+    moved = tried.carried(joint.child)
+    # What has no ends has no closed one.
+    closed = {j.name: j.lower for j in tried.movable_joints if j.kind is not JointKind.CONTINUOUS}
+    poses = [
+        tried.poses({**closed, **tried.together(joint, float(value))})
+        for value in np.linspace(joint.lower, joint.upper, count)
+    ]
+    for a in (part for part in range(len(hulls)) if part not in moved):
+        for b in moved:
+            yield hulls[a], hulls[b], [np.linalg.inv(pose[a]) @ pose[b] for pose in poses]
+
+
+def _deepening(
+    ones: Sequence[Hull], others: Sequence[Hull], poses: list[FloatArray], gap_m: float
+) -> Iterator[float]:
+    """Yield how much deeper hulls of two parts are at each pose than at the first [m]."""
     if not ones or not others:
-        return 0.0
-    rest = hull_depth(ones, others, poses[0], gap_m) + gap_m
-    worst = 0.0
+        return
+    rest = hull_depth(ones, others, poses[0], gap_m)
+    yield 0.0
     for pose in poses[1:]:
-        worst = max(worst, hull_depth(ones, others, pose, gap_m) + gap_m - rest)
-        if worst > enough_m:
-            break
-    return worst
+        yield hull_depth(ones, others, pose, gap_m) - rest

@@ -1,20 +1,21 @@
-"""A joint that is slightly wrong: turned round, straightened, or hung at its panel's edge."""
+"""A joint that is slightly wrong: turned round, straightened, or hung elsewhere."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind
 from ...asset import Asset
-from ...manufacture.hinges import at_back_edge, at_front_edge, is_askew
+from ...manufacture.hinges import STRAIGHT, at_back_edge, at_front_edge, is_askew
 from ...manufacture.plan import Plan
 from ...manufacture.repair import Repair, RepairKind
 from ...manufacture.separate.sweep import swept_m
 from ...mesh import FloatArray
 from .evidence import RepairEvidence
+from .shorten import SHORTER
 
 #: A hinge may be moved by this share of its part's diagonal.
 MOVED_SHARE = 0.06
@@ -32,70 +33,151 @@ TO_EDGE = {
 }
 
 
+@dataclass(frozen=True)
+class Mended:
+    """A joint as it should have been.
+
+    Attributes:
+        joint: with another axis, or elsewhere.
+        repair: that made it so.
+        ended: what ended it early besides; ``None`` where it goes all its way.
+    """
+
+    joint: Joint
+    repair: Repair
+    ended: Repair | None = None
+
+
 def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """Return every blocked joint that one small change lets go all its way, once each.
 
     The change is made only if nothing gets deeper along the whole range by it; beside a hinge at
-    an edge, no more than may be planed off there.
+    an edge, no more than may be planed off there. A hinge that no change of its own frees goes to
+    the line of another of the same part; and one that is blocked too soon to be ended there is
+    changed and ended.
     """
     asset = evidence.asset
     if asset is None or "sweep_penetration" not in evidence.codes:
         return None
-    joints = dict(plan.mended)
-    repairs = list(plan.repairs)
-    for measured in evidence.joints():
-        if measured.clear_until is None or measured.joint in plan.mended:
-            continue
-        joint = asset.articulation.joint(measured.joint)
-        # Guesses are hung anew by those who made them.
-        if joint.confidence is not None:
-            continue
-        share = (measured.clear_until - measured.lower) / (measured.upper - measured.lower)
+    shares = {
+        measured.joint: (measured.clear_until - measured.lower) / (measured.upper - measured.lower)
+        for measured in evidence.joints()
+        if measured.clear_until is not None
+    }
+    joints = [asset.articulation.joint(name) for name in shares if name not in plan.mended]
+    # Guesses are hung anew by those who made them.
+    blocked = [joint for joint in joints if joint.confidence is None]
+    found: dict[str, Mended] = {}
+    for joint in blocked:
         # A button is pressed into its panel: it is small, and never turned round.
-        small = joint.name in evidence.spare.joints
-        found = _freed(asset, joint, 1.0 if small else share)
-        if found is not None:
-            joints[joint.name], repair = found
-            repairs.append(replace(repair, free_share=share))
-    if len(joints) == len(plan.mended):
-        return None
-    return replace(plan, mended=joints, repairs=tuple(repairs))
+        share = 1.0 if joint.name in evidence.spare.joints else shares[joint.name]
+        change = _freed(asset, _changes(asset.articulation, joint, share))
+        if change is not None:
+            found[joint.name] = change
+    straight = [j for j in asset.articulation.joints if j.name not in shares]
+    for joint in (each for each in blocked if each.name not in found):
+        lines = [*straight, *(one.joint for one in found.values())]
+        others = list(_at_lines(asset.articulation, joint, lines))
+        change = _freed(asset, others)
+        least = evidence.config.least_range_share
+        if (
+            change is None
+            and shares[joint.name] < least
+            and joint.name not in evidence.spare.joints
+        ):
+            own = _changes(asset.articulation, joint, share=1.0)
+            change = _freed_early(asset, [*own, *others], least)
+        if change is not None:
+            found[joint.name] = change
+    return _with(plan, found, shares) if found else None
 
 
-def _freed(asset: Asset, joint: Joint, share: float) -> tuple[Joint, Repair] | None:
+def _with(plan: Plan, found: Mapping[str, Mended], shares: Mapping[str, float]) -> Plan:
+    """Return the plan with the joints that were mended, and those ended besides."""
+    repairs = [replace(one.repair, free_share=shares[name]) for name, one in found.items()]
+    ended = {name: one for name, one in found.items() if one.ended is not None}
+    return replace(
+        plan,
+        mended={**plan.mended, **{name: one.joint for name, one in found.items()}},
+        upper={**plan.upper, **{name: one.joint.upper for name, one in ended.items()}},
+        repairs=(*plan.repairs, *repairs, *(one.ended for one in ended.values() if one.ended)),
+    )
+
+
+def _freed(asset: Asset, changes: Iterable[Mended]) -> Mended | None:
     """Return the first change that frees the joint all along, else the one that leaves least."""
     hulls = [body.hulls for body in asset.bodies]
     least = np.inf
     best = None
-    for changed, repair in _changes(asset.articulation, joint, share):
-        most_m = PLANED_M if repair.kind in TO_EDGE else FREE_M
-        swept = swept_m(asset.articulation, hulls, changed, most_m)
+    for change in changes:
+        most_m = PLANED_M if change.repair.kind in TO_EDGE else FREE_M
+        swept = swept_m(asset.articulation, hulls, change.joint, most_m)
         if swept <= FREE_M:
-            return changed, repair
+            return change
         if swept <= most_m and swept < least:
             least = swept
-            best = changed, repair
+            best = change
     return best
 
 
-def _changes(
-    articulation: Articulation, joint: Joint, share: float
-) -> Iterator[tuple[Joint, Repair]]:
+def _freed_early(asset: Asset, changes: Iterable[Mended], least_share: float) -> Mended | None:
+    """Return the change that frees the joint furthest, ended there; ``None`` if not far enough."""
+    hulls = [body.hulls for body in asset.bodies]
+    changes = list(changes)
+    for share in SHORTER:
+        for change in changes if share >= least_share else ():
+            joint = change.joint
+            shorter = replace(joint, upper=joint.lower + share * joint.range)
+            if (
+                shorter.upper >= 0.0
+                and swept_m(asset.articulation, hulls, shorter, FREE_M) <= FREE_M
+            ):
+                kind = RepairKind.RANGE_SHORTENED
+                names = (joint.name,)
+                ended = Repair(
+                    kind, joints=names, before=joint.upper, after=shorter.upper, unit=joint.unit
+                )
+                return replace(change, joint=shorter, ended=ended)
+    return None
+
+
+def _changes(articulation: Articulation, joint: Joint, share: float) -> Iterator[Mended]:
     """Yield small changes, the least first."""
     names = (joint.name,)
     straight = _straightened(joint)
     if straight is not None:
         angle = float(np.degrees(np.arccos(min(1.0, float(straight.axis @ joint.axis)))))
         kind = RepairKind.AXIS_STRAIGHTENED
-        yield straight, Repair(kind, joints=names, before=angle, after=0.0, unit="deg")
+        yield Mended(straight, Repair(kind, joints=names, before=angle, after=0.0, unit="deg"))
     # An axis that is off is not left so for the sake of another change.
     base = straight or joint
     for kind, hung in _rehung(articulation, base):
-        moved = 1000.0 * float(np.linalg.norm(hung.origin - joint.origin))
-        yield hung, Repair(kind, joints=names, before=moved, after=0.0, unit="mm")
+        yield Mended(hung, _moved(kind, joint, hung))
     if share < BLOCKED_SHARE and joint.lower == 0.0:
         turned = replace(base, axis=-base.axis)
-        yield turned, Repair(RepairKind.OPENING_REVERSED, joints=names)
+        yield Mended(turned, Repair(RepairKind.OPENING_REVERSED, joints=names))
+
+
+def _at_lines(articulation: Articulation, joint: Joint, lines: Iterable[Joint]) -> Iterator[Mended]:
+    """Yield a hinge at the lines of others of the same part that it is nearly at."""
+    most = MOVED_SHARE * articulation.part_mesh(joint.child).diagonal
+    for line in lines:
+        cosine = float(line.axis @ joint.axis)
+        hinges = joint.kind is JointKind.REVOLUTE is line.kind
+        if not hinges or line.parent != joint.parent:
+            continue
+        along = line.axis * float(line.axis @ (joint.origin - line.origin))
+        axis = line.axis * np.sign(cosine)
+        hung = replace(joint, axis=axis, origin=line.origin + along)
+        near = float(np.linalg.norm(hung.origin - joint.origin)) <= most
+        if near and abs(cosine) >= STRAIGHT:
+            yield Mended(hung, _moved(RepairKind.HINGE_TO_LINE, joint, hung))
+
+
+def _moved(kind: RepairKind, joint: Joint, hung: Joint) -> Repair:
+    """Return the repair that moves a hinge."""
+    moved = 1000.0 * float(np.linalg.norm(hung.origin - joint.origin))
+    return Repair(kind, joints=(joint.name,), before=moved, after=0.0, unit="mm")
 
 
 def _straightened(joint: Joint) -> Joint | None:

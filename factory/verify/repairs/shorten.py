@@ -9,6 +9,7 @@ from ...manufacture.plan import Plan
 from ...manufacture.repair import Repair, RepairKind
 from ...manufacture.separate.sweep import swept_m
 from .evidence import RepairEvidence
+from .give_up import BY_A_GUESS
 
 #: Shares of the way to where a joint fails that are tried as its end, the longest first.
 SHORTER = (0.98, 0.95, 0.9, 0.85, 0.8, 0.7, 0.6, 0.5)
@@ -56,6 +57,36 @@ def shorten_or_freeze(evidence: RepairEvidence, plan: Plan) -> Plan | None:
 
     changed = replace(plan, upper=upper, frozen=frozenset(frozen), repairs=tuple(repairs))
     return changed if changed != plan else None
+
+
+def freeze_small(evidence: RepairEvidence, plan: Plan) -> Plan | None:
+    """Return the small joints fixed to what carries them, if nothing else is wrong."""
+    if evidence.asset is None:
+        return None
+    tree = evidence.asset.articulation
+    spare = evidence.spare.joints - plan.frozen
+    # Guesses are given up by who is less sure.
+    stated = [joint for joint in tree.joints if joint.confidence is None and joint.name in spare]
+    frozen: dict[str, Repair] = {}
+    for finding in evidence.errors:
+        about = [
+            joint.name
+            for joint in stated
+            if joint.name == finding.joint
+            or (finding.joint is None and tree.parts[joint.child].name in finding.parts)
+        ]
+        if not about or finding.code not in BY_A_GUESS:
+            return None
+        for name in about:
+            told = Repair(
+                RepairKind.JOINT_FROZEN, joints=(name,), code=finding.code, why=finding.message
+            )
+            frozen.setdefault(name, told)
+    if not frozen:
+        return None
+    return replace(
+        plan, frozen=plan.frozen | frozen.keys(), repairs=(*plan.repairs, *frozen.values())
+    )
 
 
 def _free_end(asset: Asset | None, name: str, clear_until: float) -> float | None:

@@ -10,9 +10,11 @@ from test_repair import contact, hard, joint, verdict
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
 from asset_factory.factory.config import RepairConfig
+from asset_factory.factory.geometry.posing import posed
 from asset_factory.factory.manufacture.plan import Plan, Spare, as_planned
 from asset_factory.factory.manufacture.separate.sweep import swept_m
 from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.part import PartKind
 from asset_factory.factory.verify.repair import next_plan
 
 CONFIG = RepairConfig()
@@ -50,6 +52,32 @@ def cabinet(axis=UP, origin=EDGE, upper=1.5, lower=0.0, kind=JointKind.REVOLUTE)
         for vertices, found in ((body, faces), (door, door_faces))
     )
     return Asset("cabinet", articulation, bodies, (), ())
+
+
+def with_more(asset, name, boxes, hinge=None):
+    """The same asset with more boxes, of one of its parts or of a new one that a joint holds."""
+    tree = asset.articulation
+    bodies = list(asset.bodies)
+    mesh, parts, hulls = tree.mesh, {part.name: part for part in tree.parts}, []
+    for size, at in boxes:
+        vertices, faces = box(size, at)
+        triangles = np.concatenate([mesh.vertices[mesh.faces], vertices[faces]]).reshape(-1, 3)
+        more = np.arange(len(mesh.faces), len(mesh.faces) + len(faces))
+        mesh = Mesh.from_triangles(triangles, np.arange(len(triangles)).reshape(-1, 3))
+        known = parts[name].faces if name in parts else np.array([], np.int64)
+        parts[name] = Part(name, np.concatenate([known, more]))
+        hulls.append(Hull(vertices, np.asarray(faces)))
+    if hinge is None:
+        at = list(parts).index(name)
+        bodies[at] = replace(bodies[at], hulls=(*bodies[at].hulls, *hulls))
+    else:
+        bodies.append(replace(bodies[-1], hulls=tuple(hulls)))
+    joints = (*tree.joints, *([hinge] if hinge else []))
+    return replace(
+        asset,
+        articulation=Articulation(mesh, tuple(parts.values()), joints, "annotated"),
+        bodies=tuple(bodies),
+    )
 
 
 def blocked(asset, clear_until):
@@ -119,6 +147,95 @@ def test_what_the_edge_leaves_in_the_way_is_for_the_cut_that_follows(deep, left)
 )
 def test_what_no_small_change_frees_is_left_to_the_judge(asset):
     assert mended(asset) is None
+
+
+def test_a_hinge_that_no_edge_frees_goes_to_the_line_of_its_neighbour():
+    # A side reaches before the door, and its rim before its own front edge, so that neither edge
+    # will do; the true line is that of the door above.
+    line = (-0.3, -0.24, 0.0)
+    above = Joint("above", JointKind.REVOLUTE, 0, 2, -np.array(UP), np.array(line), 0.0, 1.5)
+    asset = cabinet(axis=(0.0, 0.0, -1.0), origin=(-0.27, -0.205, 0.0))
+    asset = with_more(asset, "base", [((0.02, 0.2, 0.8), (-0.311, -0.135, 0.0))])
+    asset = with_more(asset, "door", [((0.02, 0.1, 0.8), (-0.29, -0.275, 0.0))])
+    assert mended(asset) is None
+    plan = mended(with_more(asset, "upper", [((0.6, 0.02, 0.3), (0.0, -0.215, 0.6))], above))
+    assert "46.1 mm off that of its neighbour" in plan.repairs[-1].sentence
+    assert plan.mended["hinge"].origin == pytest.approx(line)
+
+
+def test_what_is_askew_and_goes_too_far_is_straightened_and_ended():
+    asset = cabinet(axis=(np.sin(np.radians(8.0)), 0.0, -np.cos(np.radians(8.0))), upper=5.5)
+    plan = mended(asset)
+    assert [each.sentence.split()[0] for each in plan.repairs] == ["mended", "ended"]
+    hinge = as_planned(asset.articulation, plan).joints[0]
+    assert hinge.axis == pytest.approx([0.0, 0.0, -1.0])
+    assert 2.75 <= hinge.upper < 4.75
+    # What would have to be turned round besides is no small change.
+    assert mended(replace(asset, articulation=cabinet(axis=(1.0, 0.0, 1.0)).articulation)) is None
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("ajar", [0.0, 0.7])
+def test_a_hinge_without_limits_goes_as_far_as_it_is_free_and_closes_where_it_is_smallest(
+    sign, ajar
+):
+    shut = cabinet(axis=(0.0, 0.0, -1.0))
+    drawn = posed(shut.articulation, {"hinge": ajar})
+    turn = shut.articulation.joints[0].motion(ajar)
+    door = shut.bodies[1].hulls[0]
+    moved = Hull(door.vertices @ turn[:3, :3].T + turn[:3, 3], door.faces)
+    endless = replace(
+        drawn.joints[0],
+        kind=JointKind.CONTINUOUS,
+        axis=np.array([0.0, 0.0, sign]),
+        lower=-np.pi,
+        upper=np.pi,
+    )
+    asset = replace(
+        shut,
+        articulation=replace(drawn, joints=(endless,)),
+        bodies=(shut.bodies[0], replace(shut.bodies[1], hulls=(moved,))),
+    )
+    plan = mended(asset)
+    planned = as_planned(asset.articulation, plan)
+    hinge = planned.joints[0]
+    assert hinge.kind is JointKind.REVOLUTE
+    if not ajar:
+        assert planned.parts[1].kind is PartKind.DOOR
+    assert hinge.axis == pytest.approx([0.0, 0.0, -1.0])
+    assert hinge.lower == pytest.approx(-ajar, abs=0.06)
+    assert 4.4 < hinge.upper + ajar < 4.75
+    assert "had none" in plan.repairs[-1].sentence
+
+
+def test_what_has_no_room_to_turn_without_limits_gets_none():
+    # Between two blocks before the cabinet.
+    asset = cabinet(kind=JointKind.CONTINUOUS, lower=-np.pi, upper=np.pi)
+    walls = [((0.1, 0.6, 0.8), (x, -0.53, 0.0)) for x in (-0.36, 0.36)]
+    plan = mended(with_more(asset, "base", [*walls, ((0.6, 0.1, 0.8), (0.0, -0.3, 0.0))]))
+    assert plan is None or not plan.mended
+
+
+def test_what_turns_without_end_is_as_drawn_while_another_part_moves():
+    # Half a turn on, the arm would be in the door's way.
+    knob = Joint("knob", JointKind.CONTINUOUS, 0, 2, UP, (0.5, -0.5, 0.0), -np.pi, np.pi)
+    arm = [((0.4, 0.02, 0.1), (0.75, -0.5, 0.0))]
+    asset = with_more(cabinet(axis=(0.0, 0.0, -1.0)), "arm", arm, knob)
+    hulls = [body.hulls for body in asset.bodies]
+    assert swept_m(asset.articulation, hulls, asset.articulation.joints[0]) < 1e-6
+
+
+@pytest.mark.parametrize("code", ["jammed", "rest_penetration"])
+def test_a_small_part_that_cannot_move_is_fixed_where_nothing_else_is_wrong(code):
+    asset = cabinet()
+    spare = Spare(joints=frozenset({"hinge"}))
+    named = "hinge" if code == "jammed" else None
+    started = Plan(separate=frozenset({("base", "door")}))
+    wrong = hard(code, name=named)
+    plan = next_plan(verdict(wrong), started, CONFIG, spare, asset)
+    assert plan.frozen == {"hinge"}
+    other = verdict(wrong, hard("jammed", name="other"))
+    assert next_plan(other, started, CONFIG, spare, asset) is None
 
 
 def test_a_small_part_that_is_pressed_into_another_is_not_turned_round():

@@ -1,0 +1,85 @@
+"""A hinge without limits that runs into something turns as far as it is free, either way."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ...articulate.ranges import CLEAR_DIFFERENCE, MOST_TURN, box_volume
+from ...articulation import Articulation, Joint, JointKind
+from ...asset import Asset
+from ...geometry.posing import face_parts
+from ...manufacture.plan import Plan
+from ...manufacture.repair import Repair, RepairKind
+from ...manufacture.separate.sweep import free_until
+from .evidence import RepairEvidence
+from .mend import PLANED_M
+from .shorten import FREE_M, GAP_M
+
+
+def find_limits(evidence: RepairEvidence, plan: Plan) -> Plan | None:
+    """Return every blocked hinge without limits with those that its surroundings give it.
+
+    One that turns freely all the way has none still. One that is free over less than the share of a
+    quarter turn that a joint may be shortened to is left to other repairs.
+    """
+    asset = evidence.asset
+    if asset is None or "sweep_penetration" not in evidence.codes:
+        return None
+    mended = dict(plan.mended)
+    repairs = list(plan.repairs)
+    mimics = {j.name: j.mimic for j in asset.articulation.joints if j.mimic is not None}
+    coupled = mimics.keys() | {mimic.leader for mimic in mimics.values()}
+    least = evidence.config.least_range_share * np.pi / 2.0
+    for measured in evidence.joints():
+        joint = asset.articulation.joint(measured.joint)
+        # Guesses are hung anew by those who made them.
+        stated = joint.confidence is None and joint.name not in coupled
+        if measured.clear_until is None or joint.kind is not JointKind.CONTINUOUS or not stated:
+            continue
+        found = opening(asset.articulation, _free_about_the_drawn_pose(asset, joint))
+        if found.range >= least:
+            mended[joint.name] = found
+            repairs.append(
+                Repair(
+                    RepairKind.LIMITS_FOUND,
+                    joints=(joint.name,),
+                    before=found.lower,
+                    after=found.upper,
+                    unit=joint.unit,
+                )
+            )
+    return None if mended == plan.mended else replace(plan, mended=mended, repairs=tuple(repairs))
+
+
+def _free_about_the_drawn_pose(asset: Asset, joint: Joint) -> Joint:
+    """Return the hinge between the two ends up to which nothing gets deeper than as drawn.
+
+    But for so much on the way as the cut that follows may plane off.
+    """
+    hulls = [body.hulls for body in asset.bodies]
+    onwards = replace(joint, kind=JointKind.REVOLUTE, lower=0.0, upper=MOST_TURN)
+    backwards = replace(onwards, axis=-joint.axis)
+    lower, upper = (
+        free_until(asset.articulation, hulls, way, PLANED_M, FREE_M, GAP_M)
+        for way in (backwards, onwards)
+    )
+    return replace(onwards, lower=-lower, upper=upper)
+
+
+def opening(articulation: Articulation, joint: Joint) -> Joint:
+    """Return a hinge whose limits nobody stated, closed where the object is smallest.
+
+    That is at an end of its range, or as drawn: then it opens from there, the way that is longer.
+    """
+    flipped = replace(joint, axis=-joint.axis, lower=-joint.upper, upper=-joint.lower)
+    inside = np.isin(face_parts(articulation), articulation.carried(joint.child))
+    low, drawn, high = (
+        box_volume(articulation.mesh, inside, joint, value)
+        for value in (joint.lower, 0.0, joint.upper)
+    )
+    if drawn <= (1.0 + CLEAR_DIFFERENCE) * min(low, high):
+        longer = joint if joint.upper >= -joint.lower else flipped
+        return replace(longer, lower=0.0)
+    return joint if low < high else flipped
