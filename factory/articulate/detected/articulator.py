@@ -119,8 +119,8 @@ class DetectedArticulator:
     ) -> Articulation:
         """Return a guess without the parts that a side shows and the detector does not see.
 
-        Racks, knobs and parts that no side shows move where something else does; those that rules of
-        shape find move alone as well, such as a cooktop's knobs.
+        Racks, knobs and parts that no side shows move where something else does; those that rules
+        of shape find move alone as well, such as a cooktop's knobs.
         """
         kept = []
         chances = {}
