@@ -165,6 +165,8 @@ def test_sound_neighbours_do_not_meet():
 def test_an_overlap_that_was_there_at_rest_is_no_news():
     """Drawer and door overlap by 8 mm when closed: opening one beside the other adds nothing."""
     result = check(cabinet("sib"))
+    (met,) = (each for each in result.measurements["rest"] if each["depth_mm"] > 1.0)
+    assert met["point_m"] == pytest.approx([0.0, -0.211, 0.394], abs=1e-6), "where they rest"
     assert [item for item in result.measurements["neighbours"] if item["excess_mm"] > 0.0] == []
 
 
