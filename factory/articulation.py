@@ -345,7 +345,7 @@ def _check_joint(joint: Joint) -> None:
             )
     length = float(np.linalg.norm(joint.axis))
     if abs(length - 1.0) > UNIT_TOLERANCE:
-        raise InvalidArticulation(f"{where}: axis has length {length:.6g}, want 1")
+        raise InvalidArticulation(f"{where}: axis must have length 1, not {length:.6g}")
     if not (np.isfinite(joint.lower) and np.isfinite(joint.upper)):
         raise InvalidArticulation(
             f"{where}: limits are [{joint.lower}, {joint.upper}], want finite ones"

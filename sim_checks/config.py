@@ -33,8 +33,8 @@ class PenetrationConfig:
         little_open: share of its range at which a joint is a little open. Where another cannot
             reach its range with it there, and wherever further open it is tried, the asset is
             rejected: 10 % of a drawer is 4 cm, which whoever opens the other does not see.
-        pair_looks: exact looks that pairs of joints swept together may take of one file; what is
-            left out then is told.
+        pair_looks: exact looks that pairs of joints swept together may take of one file; pairs
+            that are then left out are told.
     """
 
     rest_m: float = 0.002

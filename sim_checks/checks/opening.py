@@ -79,7 +79,7 @@ class _OpeningOrder:
                 first, needs_open=ordered, alternative=self._swept(name, self.needs[name])
             )
         worst = max(self._failing(first), key=lambda pair: pair.excess)
-        # What is clear on the whole way is clear on a part of it.
+        # Pairs that are clear on the whole way are clear on a part of it.
         course = replace(course, only=frozenset(pair.parts for pair in self._failing(first)))
         waits = self._between(self._failing(first)) - {name, *self.needs}
         return replace(

@@ -74,6 +74,9 @@ def _measured(
     rest = Rest(lower, upper, tuple(solids.standings(config.clearance_m)), solids.diagonal())
     pairs = Pairs(solids, description.excluded)
     pairs = replace(pairs, knuckles=_knuckles(pairs, rest, poses, config))
+    # Contacts are located as the solids are placed, which sweeps change.
+    at_rest = pairs.worst(rest.standings, lower)
+    at_zero = _at_zero(pairs, ranges, config)
     sweeps = judge_joints(
         [joint for joint in tree.free if joint.name in ranges], pairs, rest, config
     )
@@ -81,8 +84,8 @@ def _measured(
         diagonal=rest.diagonal,
         parts=tree.parts,
         hulls=len(solids.items),
-        rest=pairs.worst(rest.standings, lower),
-        zero=_at_zero(pairs, ranges, config),
+        rest=at_rest,
+        zero=at_zero,
         sweeps=sweeps,
         neighbours=open_neighbours(pairs, rest, config, told_parts(sweeps, config)),
         combinations=_combinations(pairs, ranges, rest.standings, config),

@@ -39,9 +39,9 @@ def two_parts(joint, parts=None):
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({"axis": [0, 0, 0.5]}, "joint 'hinge': axis has length 0.5, want 1"),
-        ({"axis": [0, 0, np.nan]}, "axis is"),
-        ({"origin": [0, np.inf, 0]}, "origin is"),
+        ({"axis": [0, 0, 0.5]}, "joint 'hinge': axis must have length 1, not 0.5"),
+        ({"axis": [0, 0, np.nan]}, "axis must be three"),
+        ({"origin": [0, np.inf, 0]}, "origin must be three"),
         ({"lower": 1.0, "upper": 0.0}, "want lower < upper"),
         ({"lower": 0.5, "upper": 1.0}, "leave out 0, the pose of the input mesh"),
         ({"upper": np.inf}, "want finite ones"),
@@ -49,7 +49,7 @@ def two_parts(joint, parts=None):
         ({"parent": 1}, "parents first"),
         ({"child": 2}, "tree order"),
         ({"name": "a b"}, "want a name of letters"),
-        ({"friction": -1.0}, "friction is -1.0"),
+        ({"friction": -1.0}, "friction must be .* not -1.0"),
     ],
 )
 def test_a_wrong_joint_is_refused_with_its_number(changes, sentence):

@@ -33,8 +33,8 @@ def test_flat_inverted_or_broken_hulls_are_refused(vertices, faces):
 @pytest.mark.parametrize(
     ("mass", "moments", "sentence"),
     [
-        (0.0, (1, 1, 1), "mass is 0.0 kg"),
-        (np.nan, (1, 1, 1), "mass is nan kg"),
+        (0.0, (1, 1, 1), "mass must be more than 0, not 0.0 kg"),
+        (np.nan, (1, 1, 1), "mass must be more than 0, not nan kg"),
         (1.0, (1, 1, -1), "smallest principal moment is -1"),
         (1.0, (1, 1, 3), "triangle inequality"),
         (1.0, (1, 1, np.inf), "not finite"),

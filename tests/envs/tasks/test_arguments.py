@@ -33,7 +33,7 @@ def test_several_environments_without_a_gpu_are_told_so():
 
 @pytest.mark.parametrize("bounds", [(2.0, 1.0), (-1.0, 1.0), (0.0, float("inf"))])
 def test_a_range_that_is_none_is_refused(bounds):
-    with pytest.raises(ConfigError, match="friction_range is"):
+    with pytest.raises(ConfigError, match="friction_range must be"):
         arguments.check_range("OpenJointEnv", "friction_range", bounds)
 
 

@@ -73,7 +73,7 @@ def test_the_half_is_the_parity_of_a_hash():
             "line 2: half is",
         ),
         (f"{','.join(COLUMNS)}\n,s,c,d,a,{half_of('a')},\n", "line 2: want a path"),
-        (f"{','.join(COLUMNS)}\na,s,c,d,a,{half_of('a')},left\n", "front_yaw is 'left'"),
+        (f"{','.join(COLUMNS)}\na,s,c,d,a,{half_of('a')},left\n", "not 'left'"),
     ],
 )
 def test_a_bad_list_is_refused(tmp_path, text, message):

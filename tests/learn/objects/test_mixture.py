@@ -58,7 +58,7 @@ def test_settings_from_a_file_are_checked():
         MixtureSettings(categories=("sofa",))
     with pytest.raises(ConfigError, match="one of them above"):
         MixtureSettings(artist=0.0, generated=0.0)
-    with pytest.raises(ConfigError, match="plain is 2"):
+    with pytest.raises(ConfigError, match="plain must be 0 to 1, not 2"):
         MixtureSettings(plain=2.0)
     with pytest.raises(ConfigError, match="most_parts"):
         MixtureSettings(most_parts=1)

@@ -164,4 +164,4 @@ def test_the_command_writes_the_same_files_for_the_same_options(tmp_path):
         text=True,
     )
     assert wrong.returncode == 2
-    assert "want 0 to 1" in wrong.stderr
+    assert "must be 0 to 1" in wrong.stderr

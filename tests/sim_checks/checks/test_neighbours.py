@@ -96,15 +96,25 @@ def _free_until(finding):
     return float(re.findall(r"free until ([\d.]+) ", finding.message)[0])
 
 
-def test_doors_that_pass_the_plane_between_their_hinges_are_found_where_they_are_deepest():
-    """Both are hinged 3 cm beside the middle and turn by 2 rad; every pose of both is tried."""
+def doors(hinge, center, turn):
+    """Two mirrored doors, 2 cm thick and 0.4 m wide, that turn by 2 rad; ``hinge`` on the right."""
     links = [BASE]
     joints = []
     for name, side in (("left", -1.0), ("right", 1.0)):
-        hinge = (0.03 * side, 0.0, 0.0)
-        links.append(body(name, [((0.23 * side, 0.0, 0.0), (0.4, 0.02, 0.4))], hinge))
-        axis = (0.0, 0.0, -side)
-        joints.append(joint(f"{name}_hinge", "revolute", "base", name, hinge, axis, (0.0, 2.0)))
+        at, middle = (np.array(place) * [side, 1.0, 1.0] for place in (hinge, center))
+        links.append(body(name, [(middle, (0.4, 0.02, 0.4))], at))
+        axis = (0.0, 0.0, turn * side)
+        joints.append(joint(f"{name}_hinge", "revolute", "base", name, at, axis, (0.0, 2.0)))
+    return described(links, joints)
+
+
+def test_doors_that_only_touch_in_the_middle_of_a_cabinet_are_sound():
+    """Hinged at their outer front edges, each gets 0.5 mm past the middle on its way."""
+    assert check(doors((0.4, -0.01, 0.0), (0.2, 0.0, 0.0), 1.0)).findings == ()
+
+
+def test_doors_that_pass_the_plane_between_their_hinges_are_found_where_they_are_deepest():
+    """Both are hinged 3 cm beside the middle and turn by 2 rad; every pose of both is tried."""
 
     def hull(side, angle):
         turned = rotation_about(np.array([0.0, 0.0, -side]), angle)
@@ -114,7 +124,7 @@ def test_doors_that_pass_the_plane_between_their_hinges_are_found_where_they_are
     poses = np.linspace(0.0, 2.0, 41)
     lefts, rights = ([hull(side, angle) for angle in poses] for side in (-1.0, 1.0))
     deepest = max(overlap(left, right).depth for left in lefts for right in rights)
-    result = check(described(links, joints))
+    result = check(doors((0.03, 0.0, 0.0), (0.23, 0.0, 0.0), -1.0))
     (found,) = result.findings
     assert (found.code, found.joints) == ("joints_collide", ("left_hinge", "right_hinge"))
     assert found.value == pytest.approx(1000 * deepest, rel=0.05)
@@ -155,6 +165,8 @@ def test_sound_neighbours_do_not_meet():
 def test_an_overlap_that_was_there_at_rest_is_no_news():
     """Drawer and door overlap by 8 mm when closed: opening one beside the other adds nothing."""
     result = check(cabinet("sib"))
+    (met,) = (each for each in result.measurements["rest"] if each["depth_mm"] > 1.0)
+    assert met["point_m"] == pytest.approx([0.0, -0.211, 0.394], abs=1e-6), "where they rest"
     assert [item for item in result.measurements["neighbours"] if item["excess_mm"] > 0.0] == []
 
 

@@ -30,7 +30,7 @@ def test_auto_takes_the_first_device_that_works(works, taken, monkeypatch, tmp_p
     monkeypatch.setattr(device, "run_isolated", tried)
     assert input_config(InputFlags()).particulate.device == taken
     assert input_config(InputFlags(device="cuda:1")).particulate.device == "cuda:1"
-    with pytest.raises(ConfigError, match="want auto, cpu, cuda"):
+    with pytest.raises(ConfigError, match="must be auto, cpu, cuda"):
         input_config(InputFlags(device="gpu"))
 
 
