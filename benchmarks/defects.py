@@ -37,7 +37,14 @@ from real_yield import DATA
 from results_file import renew
 
 HULLS = Path("meshes", "collision")
-COLUMNS = ("defects", "checker", "caught", "caught or warned of", "rejected without", "core-s a file")
+COLUMNS = (
+    "defects",
+    "checker",
+    "caught",
+    "caught or warned of",
+    "rejected without",
+    "core-s a file",
+)
 
 
 @dataclass(frozen=True)
