@@ -16,6 +16,7 @@ from __future__ import annotations
 import argparse
 import datetime
 import json
+import statistics
 import sys
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
@@ -108,15 +109,15 @@ def row_of(file: Published, found: Sequence[Checker], work: Path, build: Ask) ->
     before = asked_of(found, file.path, answers)
     try:
         built = kept("factory build", file.path, answers, build)["report"]
+        if not built:
+            return Row(file, before, "no answer in time", {})
+        if built["status"] != "passed":
+            return Row(file, before, built["reason"], {})
+        folder = work / "built" / built["place"]
+        urdf, usd = (folder / f"asset.{suffix}" for suffix in ("urdf", "usd"))
+        after = {**asked_of(found, usd, answers), **asked_of(found, urdf, answers)}
     except Unasked:
         return Row(file, before, NOT_BUILT, {})
-    if not built:
-        return Row(file, before, "no answer in time", {})
-    folder = work / "built" / built["place"]
-    urdf, usd = (folder / f"asset.{suffix}" for suffix in ("urdf", "usd"))
-    if built["status"] != "passed":
-        return Row(file, before, built["reason"], {})
-    after = {**asked_of(found, usd, answers), **asked_of(found, urdf, answers)}
     return Row(file, before, "passed", after)
 
 
@@ -170,12 +171,17 @@ def table_row(source: str, rows: Sequence[Row]) -> tuple[str, ...]:
         str(sum(not answer.errors for answer in ours)),
         middle_mm(ours),
         str(sum(bool(answer.report.get("disagreements")) for answer in ours)),
-        ", ".join(f"`{code}` {count}" for code, count in codes.most_common(3)),
+        ", ".join(f"`{code}` {count}" for code, count in ranked(codes)[:3]),
         passing([row.before for row in rows], "simcheck"),
         f"{len(built)} of {sum(row.status != NOT_BUILT for row in rows)}",
         middle_mm([row.after[OURS] for row in built]),
         passing([row.after for row in built], "simcheck"),
     )
+
+
+def ranked(codes: Counter[str]) -> list[tuple[str, int]]:
+    """Return codes with their counts, the most frequent first."""
+    return sorted(codes.items(), key=lambda each: (-each[1], each[0]))
 
 
 def codes_of(answer: Answer) -> set[str]:
@@ -205,8 +211,8 @@ def deepest(answer: Answer) -> float:
 
 def middle_mm(answers: Sequence[Answer]) -> str:
     """Return the median and the most of the deepest penetrations [mm]."""
-    depths = sorted(map(deepest, answers))
-    return f"{depths[len(depths) // 2]:.1f} / {depths[-1]:.1f}" if depths else ""
+    depths = list(map(deepest, answers))
+    return f"{statistics.median(depths):.1f} / {max(depths):.1f}" if depths else ""
 
 
 def overlooked(rows: Sequence[Row], checker: str, of: str) -> Counter[str]:
@@ -236,8 +242,8 @@ def page(rows: Sequence[Row], table: Sequence[Sequence[str]]) -> str:
             ours=OURS,
             NOT_BUILT=NOT_BUILT,
             missed={
-                (OURS, "simcheck"): overlooked(rows, OURS, "simcheck").most_common(),
-                ("simcheck", OURS): overlooked(rows, "simcheck", OURS).most_common(),
+                (OURS, "simcheck"): ranked(overlooked(rows, OURS, "simcheck")),
+                ("simcheck", OURS): ranked(overlooked(rows, "simcheck", OURS)),
             },
         )
     )

@@ -37,7 +37,14 @@ from real_yield import DATA
 from results_file import renew
 
 HULLS = Path("meshes", "collision")
-COLUMNS = ("defects", "checker", "caught", "caught or warned of", "false alarms", "core-s a file")
+COLUMNS = (
+    "defects",
+    "checker",
+    "caught",
+    "caught or warned of",
+    "rejected without",
+    "core-s a file",
+)
 
 
 @dataclass(frozen=True)
@@ -121,7 +128,7 @@ def corpus(work: Path) -> list[Case]:
             if not name.is_file():
                 shutil.rmtree(place, ignore_errors=True)
                 place.mkdir(parents=True)
-                name.write_text(exhibit.build(place).name)
+                name.write_text(exhibit.build(place).relative_to(place).as_posix())
             defect = exhibit.name if exhibit.rejected else ""
             found.append(Case(place / name.read_text(), defect))
     return found

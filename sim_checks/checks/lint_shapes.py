@@ -116,8 +116,8 @@ def _hull_findings(
         if volume <= 0.0 or hull.volume > config.convexity * volume:
             ratio = round(hull.volume / volume, 4) if volume > 0.0 else None
             told = (
-                "but it is open or inside out"
-                if ratio is None
+                "but it is open, flat or inside out"
+                if ratio is None or ratio > 1e3
                 else f"{ratio:.3g} times its own volume"
             )
             message = f"{name} is not convex: engines take its hull, {told}"
