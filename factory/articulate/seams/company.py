@@ -18,23 +18,10 @@ LEVEL = 0.85
 TALL = 0.9
 #: A bar from this share of a panel's height on is at its top.
 TOP = 0.7
-#: Beside a door with an upright bar, what has a knob and is at most so wide is where controls sit.
-NARROW = 0.6
 #: By how much the log-weight of a way changes.
 UNLIKELY = -4.0
 LESS_LIKELY = -1.5
 LIKELIER = 1.5
-
-
-def without_control_panels(panels: Sequence[FrontPanel]) -> list[FrontPanel]:
-    """Drop panels beside a microwave's door: no two doors differ so in handles."""
-    doors = [each for each in panels if _grip(each) is GripShape.UPRIGHT]
-    return [
-        panel
-        for panel in panels
-        if _grip(panel) is not GripShape.KNOB
-        or not any(_is_narrow_beside(panel, door) for door in doors)
-    ]
 
 
 def said_by_company(
@@ -81,20 +68,10 @@ def _pair(one: FrontPanel, other: FrontPanel) -> bool:
     return tall and max(widths) <= ALIKE * min(widths) and common >= LEVEL * max(heights)
 
 
-def _is_narrow_beside(panel: FrontPanel, door: FrontPanel) -> bool:
-    heights = [float(each.rectangle.size[0]) for each in (panel, door)]
-    narrow = panel.rectangle.size[1] <= NARROW * door.rectangle.size[1]
-    return bool(narrow and _common(panel, door) >= LEVEL * max(heights))
-
-
 def _common(one: FrontPanel, other: FrontPanel) -> float:
     """Return how much of their heights two have in common [pixels]."""
     both = (one.rectangle, other.rectangle)
     return min(float(each.high[0]) for each in both) - max(float(each.low[0]) for each in both)
-
-
-def _grip(panel: FrontPanel) -> GripShape | None:
-    return None if panel.handle is None else panel.handle.grip
 
 
 def _has_bar_on_top(panel: FrontPanel) -> bool:

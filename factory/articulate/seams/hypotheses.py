@@ -11,9 +11,7 @@ from ...views.raster import Side
 from ...views.view import Views
 from .appliances import appliance_door
 from .candidates import is_among
-from .company import without_control_panels
 from .fronts import AROUND, Front, fronts_of
-from .glimpses import glimpsed
 from .groups import FrontPanel
 from .handles import cleared
 from .knobs import knobs_on
@@ -24,7 +22,6 @@ from .panels import choose
 from .placing import OpeningPart, lid_mover, panel_mover
 from .rectangles import Rectangle
 from .relief import Relief, reliefs_of
-from .revising import revised
 from .slabs import slabs_on
 from .straight import straightening
 
@@ -42,10 +39,6 @@ LEAST_OTHER = 0.1
 MARGIN = 2.0
 #: A panel of which the picture network sees less than this share is none.
 LEAST_SEEN = 0.15
-#: One without a handle beside others must end so surely on each side, as it sees it, and to this
-#: share of its surest side.
-LEAST_ENDS = 0.4
-EVEN_ENDS = 0.6
 #: Of panels of which it sees that much nobody else's doubts count.
 CLEAR = 0.85
 #: What is closed by grooves and steps to this, and has a handle that stands off so far [pixels],
@@ -128,7 +121,7 @@ def _openings(seen: _Sides, *, has_knobs: bool) -> tuple[Movers, ...]:
     if by_rules and side is seen.side and seen.has_all_of(learned.panels):
         return by_rules
     if learned.value <= max((odds if by_rules else 0.0) + MARGIN, 0.0):
-        return by_rules or _glimpsed_hypotheses(seen) or _slab_hypotheses(seen)
+        return by_rules or _slab_hypotheses(seen)
     others = seen.hypotheses_of(side, learned.panels)
     return (*others[: MOST - 1], *by_rules)[:MOST]
 
@@ -216,11 +209,8 @@ class _Sides:
         """Return panels of one side whose values are log-odds; with others that fit better."""
         front = self.fronts[side]
         seen = [panel for panel in panels if _is_seen(front, panel)]
-        seen = _without_planks(front, seen)
         if not seen:
             return ()
-        seen = without_control_panels(revised(front, seen, self.found[side]))
-        seen = _without_planks(front, seen) or seen
         openings = openings_of(front.scene, seen, front.sight)
         best = _movers(self.fronts, side, openings)
         found = [best]
@@ -233,13 +223,6 @@ class _Sides:
                 found.append(_movers(self.fronts, side, other))
         found[1:] = sorted(found[1:], key=lambda movers: -_probability(movers))
         return tuple(found[:MOST])
-
-
-def _glimpsed_hypotheses(seen: _Sides) -> tuple[Movers, ...]:
-    """Return the side on which the picture network alone is surest of most."""
-    panels = {side: glimpsed(seen.fronts[side]) for side in AROUND}
-    side = max(AROUND, key=lambda each: _front_value(panels[each], each))
-    return seen.hypotheses_of(side, panels[side])
 
 
 def _slab_hypotheses(seen: _Sides) -> tuple[Movers, ...]:
@@ -280,19 +263,6 @@ def _is_seen(front: Front, panel: FrontPanel) -> bool:
     pulled = panel.handle is not None and panel.handle.height >= STANDS_OFF
     evident = pulled and float(panel.rectangle.relief.min()) >= EVIDENT
     return evident or front.sight.shows(panel.rectangle) >= LEAST_SEEN
-
-
-def _without_planks(front: Front, panels: list[FrontPanel]) -> list[FrontPanel]:
-    """Keep, of several panels, those with handles and those that end on all sides."""
-    if len(panels) < 2:
-        return panels
-    return [panel for panel in panels if panel.handles or _has_ends(front, panel)]
-
-
-def _has_ends(front: Front, panel: FrontPanel) -> bool:
-    """Return whether the picture network sees it end on all sides, as planks and plates do not."""
-    ends = front.sight.ends(panel.rectangle)
-    return bool(ends.min() >= max(LEAST_ENDS, EVEN_ENDS * ends.max()))
 
 
 def _movers(

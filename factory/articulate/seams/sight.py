@@ -40,9 +40,6 @@ NO_END = 0.15
 #: Added to what all squares together say of each way: a glance at few decides nothing.
 LEAST_CHANCE = 10.0
 
-#: First row and the one after the last, likewise of columns [squares].
-Block = tuple[int, int, int, int]
-
 
 @dataclass(frozen=True, eq=False)
 class Sight:
@@ -77,27 +74,6 @@ class Sight:
         known = np.stack([sure & (each < NO_END) for each in ends])
         pixels = known.repeat(SQUARE, axis=1).repeat(SQUARE, axis=2)
         return np.asarray(pixels[:, : shape[0], : shape[1]])
-
-    def ends(self, rectangle: Rectangle) -> FloatArray:
-        """Return how surely a panel ends at a rectangle's bottom, top, left and right, [4]."""
-        bottom, left = rectangle.low // SQUARE
-        top, right = np.maximum(rectangle.high // SQUARE, rectangle.low // SQUARE + 1)
-        return self.ends_of((int(bottom), int(top), int(left), int(right)))
-
-    def ends_of(self, block: Block) -> FloatArray:
-        """Return the same as :meth:`ends` for squares."""
-        bottom, top, left, right = block
-        level = np.pad(self.level[:, left:right], ((2, 2), (0, 0)))
-        upright = np.pad(self.upright[bottom:top], ((0, 0), (2, 2)))
-        # Padded by two, so that the square before the first is the second of three.
-        return np.array(
-            [
-                level[bottom : bottom + 3].max(axis=0).mean(),
-                level[top + 1 : top + 4].max(axis=0).mean(),
-                upright[:, left : left + 3].max(axis=1).mean(),
-                upright[:, right + 1 : right + 4].max(axis=1).mean(),
-            ]
-        )
 
     def is_of_lid(self, rectangle: Rectangle) -> bool:
         """Return whether more of a rectangle belongs to a lid than to a door, drawer or flap."""

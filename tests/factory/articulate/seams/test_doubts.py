@@ -13,7 +13,6 @@ from asset_factory.factory.articulate.seams.candidates import (
     usable,
     whole_side,
 )
-from asset_factory.factory.articulate.seams.company import without_control_panels
 from asset_factory.factory.articulate.seams.controls import with_strips
 from asset_factory.factory.articulate.seams.fronts import fronts_of
 from asset_factory.factory.articulate.seams.groups import FrontPanel, Group, together
@@ -115,15 +114,6 @@ def test_what_ends_far_behind_its_middle_is_no_panel():
 def _handle(row, column, rows, columns):
     high = np.array([row + rows - 1, column + columns - 1])
     return Protrusion(np.array([row, column]), high, 6.0, 1.0)
-
-
-def test_a_narrow_panel_with_a_knob_beside_a_door_with_a_bar_is_for_controls():
-    door = FrontPanel(_rectangle(0, 0, 100, 120), (_handle(20, 110, 60, 5),), 1.0)
-    narrow = _rectangle(0, 120, 100, 170)
-    knob = FrontPanel(narrow, (_handle(80, 140, 12, 12),), 1.0)
-    bar = FrontPanel(narrow, (_handle(20, 125, 60, 5),), 1.0)
-    assert without_control_panels([door, knob]) == [door]
-    assert without_control_panels([door, bar]) == [door, bar]
 
 
 @pytest.mark.parametrize(("parted", "wanted"), [(False, True), (True, False)])

@@ -89,12 +89,6 @@ def test_a_panel_runs_on_where_the_network_sees_one_and_no_end():
     assert not doubtful.runs_on((79, 119)).any()
 
 
-def test_ends_are_as_sure_as_the_squares_along_them():
-    seen = _seeing_two_doors()
-    assert seen.ends(_rectangle((0, 60), (79, 119))) == pytest.approx([0.6, 0.6, 0.9, 0.0])
-    assert seen.ends(_rectangle((20, 20), (60, 40))) == pytest.approx([0.0] * 4)
-
-
 def test_lines_on_a_panel_that_runs_on_part_nothing():
     front = fronts_of(reliefs_of(Views(one_piece.doors())))[Side.FRONT]
     middle = front.relief.shape[1] // 2
@@ -105,26 +99,6 @@ def test_lines_on_a_panel_that_runs_on_part_nothing():
     told = replace(front)
     told.__dict__["sight"] = sure
     assert np.abs(told.scene.upright.at - middle).min() > 20
-
-
-@pytest.mark.parametrize(("end", "count"), [(0.9, 2), (0.1, 1)])
-def test_a_panel_without_a_handle_ends_on_all_sides(end, count):
-    reliefs = reliefs_of(Views(one_piece.doors()))
-    sides = hypotheses._Sides.of(reliefs)
-    pulled, bare = (replace(panel, value=1.0) for panel in sides.panels)
-    bare = replace(bare, handles=())
-    seen = sides.front.sight
-    rows, columns = seen.panel.shape
-    told = replace(sides.front)
-    told.__dict__["sight"] = replace(
-        seen,
-        panel=np.full((rows, columns), 0.5),
-        level=np.full((rows, columns), end),
-        upright=np.full((rows, columns), end),
-    )
-    fronts = {**sides.fronts, sides.side: told}
-    best, *_ = replace(sides, fronts=fronts).hypotheses_of(sides.side, [pulled, bare])
-    assert len(best) == count
 
 
 def _rectangle(low, high):
