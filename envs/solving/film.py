@@ -83,7 +83,7 @@ def film(registry: str, attempt: Attempt, path: Path) -> None:
 
 
 def read_film(registry: str, attempt: Attempt) -> FilmScene:
-    """Return what is to be drawn of an attempt, whose actions are taken again."""
+    """Take the actions of an attempt again; return all that its film shows."""
     environment = make_episodes(registry, attempt.robot)
     task = environment.unwrapped
     seen: list[Values] = []
