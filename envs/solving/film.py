@@ -83,7 +83,7 @@ def film(registry: str, attempt: Attempt, path: Path) -> None:
 
 
 def read_film(registry: str, attempt: Attempt) -> FilmScene:
-    """Return what is to be drawn of an attempt, whose actions are taken again."""
+    """Take the actions of an attempt again; return all that its film shows."""
     environment = make_episodes(registry, attempt.robot)
     task = environment.unwrapped
     seen: list[Values] = []
@@ -149,7 +149,7 @@ def _post(foot: FloatArray) -> tuple[SceneSurface, ...]:
         return ()
     ends = [(at - POST_M, at + POST_M) for at in foot[:2]]
     corners = np.array(np.meshgrid(*ends, (0.0, foot[2]))).reshape(3, -1).T
-    return (plain_surface(0, corners, ConvexHull(corners).simplices, POST_COLOR),)
+    return (plain_surface(0, corners, ConvexHull(corners).simplices.astype(np.int64), POST_COLOR),)
 
 
 def _camera(made: FilmScene, width: int, height: int) -> Camera:

@@ -11,7 +11,7 @@ from tyro.conf import Positional
 from ..errors import ConfigError, Exit
 from ..registry import Registry
 from ..runtime.terminal import say
-from .flags import check_effort, entries_where, require_maniskill
+from .flags import check_effort, entries_where, require_maniskill, require_writable
 
 if TYPE_CHECKING:
     from asset_factory.envs.assets import RegisteredAsset
@@ -92,6 +92,7 @@ def run(command: Demos) -> int:
     shards = make_shards(
         assets, range(command.seed, command.seed + command.per_joint), command.shard_size
     )
+    require_writable(command.to, "--to")
     with hold(command.to, settings, shards):
         making = Making(str(command.output), command.to, settings, command.workers, command.timeout)
         found = dict(making.run(shards))

@@ -288,6 +288,23 @@ def in_own_process(
     return outcome.value
 
 
+def require_writable(folder: Path, flag: str) -> None:
+    """Make a folder now, as finding out after hours that nothing can be written loses the work.
+
+    Raises ConfigError naming the flag.
+    """
+    from tempfile import TemporaryFile
+
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise ConfigError(
+            f"{flag}: {folder}: {error.strerror}; want a folder that can be written to"
+        ) from error
+
+
 def require_maniskill(purpose: str, *modules: str) -> None:
     """Raise ConfigError unless ManiSkill, and further modules, can be imported."""
     try:

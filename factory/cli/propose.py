@@ -12,7 +12,7 @@ from tyro.conf import Positional
 from ..errors import ConfigError, Exit
 from ..runtime.store import write_whole
 from ..runtime.terminal import say
-from .flags import InputFlags, in_own_process, input_config
+from .flags import InputFlags, in_own_process, input_config, require_writable
 
 SHEET = "sheet.png"
 INSTRUCTION = "instruction.txt"
@@ -52,7 +52,7 @@ def run(command: Propose) -> int:
     if asked.rejected:
         say(f"rejected: {asked.rejected}")
         return Exit.REJECTED
-    command.to.mkdir(parents=True, exist_ok=True)
+    require_writable(command.to, "--to")
     write_whole(command.to / SHEET, asked.sheet)
     write_whole(command.to / INSTRUCTION, asked.instruction.encode())
     write_whole(command.to / SCHEMA, (json.dumps(schema(), indent=1) + "\n").encode())

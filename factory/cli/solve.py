@@ -51,7 +51,7 @@ class Solve:
     timeout: float = 300.0
     """Longest that one joint may take a robot [s]."""
     video: bool = False
-    """Film what is solved, on any machine: <output>/solving/<id>-<joint>-<robot>.mp4, also on the
+    """Film solved joints, on any machine: <output>/solving/<id>-<joint>-<robot>.mp4, also on the
     asset's page."""
     strict: bool = False
     """Exit with 1 when some asset has no joint that was opened."""

@@ -15,7 +15,7 @@ LOG_NAME = Path(LOGS) / "builds.jsonl"
 
 @dataclass(frozen=True)
 class LoggedBuild:
-    """What the log says of an asset's last build.
+    """An entry of the log on an asset's last build.
 
     Attributes:
         input: path of what it was made of, as it was given.

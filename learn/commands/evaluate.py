@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from tempfile import TemporaryFile
 from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
@@ -97,6 +96,7 @@ def evaluate(command: Evaluate) -> bool:
     Raises:
         ConfigError: wrong usage, and what would be right.
     """
+    from asset_factory.factory.cli.flags import require_writable
     from asset_factory.factory.config import BuildConfig
     from asset_factory.sim_checks.processes.isolation import Limits
 
@@ -110,7 +110,7 @@ def evaluate(command: Evaluate) -> bool:
         _write_meshes(command.meshes, requests, command.cache)
         return True
     methods = _methods(command)
-    _require_writable(command.output)
+    require_writable(command.output, "--output")
     settings = _settings(command, len(requests))
     template = Trial(
         requests[0],
@@ -158,18 +158,6 @@ def _require_sound(command: Evaluate) -> None:
             raise ConfigError(
                 f"{flag}: {' '.join(names) or 'nothing'}; want at least one, each once"
             )
-
-
-def _require_writable(folder: Path) -> None:
-    """Make the folder now, as finding out after hours that it is not writable loses the results."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with TemporaryFile(dir=folder):
-            pass
-    except OSError as error:
-        raise ConfigError(
-            f"--output: {folder}: {error.strerror}; want a folder that can be written to"
-        ) from error
 
 
 def _requests(command: Evaluate) -> tuple[Request, ...]:

@@ -65,7 +65,7 @@ def looking_first() -> Callable[..., tuple[str, str, Any]]:
 
         import ray
 
-        # What is cancelled while it runs ends all the same; what still waits never begins.
+        # A cancelled task that runs already ends all the same; one that waits never begins.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         node = str(ray.get_runtime_context().get_node_id())
         try:

@@ -31,7 +31,7 @@ class DroppedFiles:
         self._draw = draw
 
     def __call__(self, asked: PageRequest) -> PageResponse:
-        """Return the page, or take what is dropped."""
+        """Return the page, or take dropped files."""
         if asked.method == "GET" and asked.path in ("/", "/index.html"):
             return PageResponse(self._page.encode())
         if (asked.method, asked.path) != ("POST", "/drop"):

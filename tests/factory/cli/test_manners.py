@@ -42,6 +42,23 @@ def test_a_mistyped_command_is_recognised(typed, told, capsys):
     assert told in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("typed", "told"),
+    [
+        (["check", "x.urdf", "--json", "folder"], "folder: cannot be written: Is a directory"),
+        (["check", "x.urdf", "--srdf", "x.srdf"], "--srdf: x.srdf is no file"),
+        (["check", "x.urdf", "--baseline", "x.json"], "no baseline (No such file or directory)"),
+        (["nightly", "--config", "x.toml"], "x.toml: No such file or directory"),
+    ],
+)
+def test_a_wrong_path_is_told_in_words(typed, told, monkeypatch, tmp_path, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "x.urdf").write_text("<robot", encoding="utf-8")
+    assert run(typed) == 2
+    assert told in capsys.readouterr().err
+
+
 def test_a_flag_that_is_there_twice_is_told_and_not_half_obeyed(capsys, tmp_path):
     with pytest.raises(SystemExit) as left:
         run(["build", "--input", "a.glb", "--input", "b.glb", "--output", str(tmp_path)])

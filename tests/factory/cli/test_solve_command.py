@@ -10,6 +10,7 @@ from openable_samples import cabinet, valve, write_registry
 
 from asset_factory.envs.solving import Attempt
 from asset_factory.envs.solving.record import SolveRecord, read_record
+from asset_factory.factory.cli import report
 from asset_factory.factory.cli import solve as command
 from asset_factory.factory.errors import ConfigError, Exit, RegistryError
 from asset_factory.sim_checks.processes.isolation import Outcome
@@ -105,12 +106,12 @@ def test_a_video_of_what_is_solved_already_is_made(output, notes, robots, monkey
     def film(_, attempt):
         filmed.append((attempt.joint, attempt.robot))
         (output / "solving" / f"{attempt.asset}-{attempt.joint}-{attempt.robot}.mp4").touch()
-        return True
 
     monkeypatch.setattr(command, "_film", film)
+    monkeypatch.setattr(report, "report_after", lambda *_: filmed.append("pages"))
     for _ in range(2):
         command.run(command.Solve(output=output, video=True))
-    assert filmed == [("hinge", "panda"), ("slide", "fetch")]
+    assert filmed == [("hinge", "panda"), ("slide", "fetch"), "pages", "pages"]
 
 
 def test_an_altered_asset_and_more_tries_are_asked_again(output, notes, robots):
