@@ -31,8 +31,8 @@ TO_EDGE = {
     RepairKind.HINGE_TO_FRONT_EDGE: at_front_edge,
     RepairKind.HINGE_TO_BACK_EDGE: at_back_edge,
 }
-#: Kinds that hang a hinge elsewhere.
-HUNG = frozenset({*TO_EDGE, RepairKind.HINGE_TO_LINE})
+#: Kinds that hang a hinge elsewhere, or as its neighbour.
+HUNG = frozenset({*TO_EDGE, RepairKind.HINGE_TO_LINE, RepairKind.REVERSED_TOO})
 
 
 @dataclass(frozen=True)
@@ -85,6 +85,8 @@ def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
             continue
         lines = [*straight, *(one.joint for name, one in found.items() if name != joint.name)]
         others = list(_at_lines(asset.articulation, joint, lines))
+        if shares[joint.name] < BLOCKED_SHARE and joint.lower == 0.0:
+            others += _turned_as(asset.articulation, joint, lines)
         change = min(
             (each for each in (own, _freed(asset, others)) if each is not None),
             key=lambda each: each.left_m,
@@ -178,6 +180,16 @@ def _at_lines(articulation: Articulation, joint: Joint, lines: Iterable[Joint]) 
         near = float(np.linalg.norm(hung.origin - joint.origin)) <= most
         if near and abs(cosine) >= STRAIGHT:
             yield Mended(hung, _moved(RepairKind.HINGE_TO_LINE, joint, hung))
+
+
+def _turned_as(
+    articulation: Articulation, joint: Joint, lines: Iterable[Joint]
+) -> Iterator[Mended]:
+    """Yield a hinge turned round, where another at its line opens the other way."""
+    against = (line for line in lines if float(line.axis @ joint.axis) < 0.0)
+    if any(_at_lines(articulation, joint, against)):
+        turned = replace(joint, axis=-joint.axis)
+        yield Mended(turned, Repair(RepairKind.REVERSED_TOO, joints=(joint.name,)))
 
 
 def _moved(kind: RepairKind, joint: Joint, hung: Joint) -> Repair:
