@@ -65,6 +65,10 @@ class RepairKind(StrEnum):
         *("opening_reversed", "opening reversed"),
         "mended {joints}: it opened inwards and is turned round" + _AFTER,
     )
+    REVERSED_TOO = (
+        *("reversed_too", "opening reversed"),
+        "mended {joints}: it opened inwards and is turned round as its neighbour opens" + _AFTER,
+    )
     CLOSED_END_PULLED_IN = (
         *("closed_end_pulled_in", "closed end pulled in"),
         "began {joints} at {after:.4g} instead of {before:.4g} {unit}: "

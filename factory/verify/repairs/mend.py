@@ -31,6 +31,8 @@ TO_EDGE = {
     RepairKind.HINGE_TO_FRONT_EDGE: at_front_edge,
     RepairKind.HINGE_TO_BACK_EDGE: at_back_edge,
 }
+#: Kinds that hang a hinge elsewhere, or as its neighbour.
+HUNG = frozenset({*TO_EDGE, RepairKind.HINGE_TO_LINE, RepairKind.REVERSED_TOO})
 
 
 @dataclass(frozen=True)
@@ -41,20 +43,22 @@ class Mended:
         joint: with another axis, or elsewhere.
         repair: that made it so.
         ended: what ended it early besides; ``None`` where it goes all its way.
+        left_m: how much deeper than at rest it still gets [m].
     """
 
     joint: Joint
     repair: Repair
     ended: Repair | None = None
+    left_m: float = 0.0
 
 
 def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """Return every blocked joint that one small change lets go all its way, once each.
 
-    The change is made only if nothing gets deeper along the whole range by it; beside a hinge at
-    an edge, no more than may be planed off there. A hinge that no change of its own frees goes to
-    the line of another of the same part; and one that is blocked too soon to be ended there is
-    changed and ended.
+    The change is made only if nothing gets deeper along the whole range by it; beside a hinge that
+    is hung elsewhere, no more than may be planed off there. One that its own part's edges do not
+    free goes to the line of another hinge of the same part, if that leaves less; and one that is
+    blocked too soon to be ended there is changed and ended.
     """
     asset = evidence.asset
     if asset is None or "sweep_penetration" not in evidence.codes:
@@ -75,18 +79,24 @@ def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         if change is not None:
             found[joint.name] = change
     straight = [j for j in asset.articulation.joints if j.name not in shares]
-    for joint in (each for each in blocked if each.name not in found):
-        lines = [*straight, *(one.joint for one in found.values())]
+    for joint in blocked:
+        own = found.get(joint.name)
+        if own is not None and own.left_m <= FREE_M:
+            continue
+        lines = [*straight, *(one.joint for name, one in found.items() if name != joint.name)]
         others = list(_at_lines(asset.articulation, joint, lines))
-        change = _freed(asset, others)
+        if shares[joint.name] < BLOCKED_SHARE and joint.lower == 0.0:
+            others += _turned_as(asset.articulation, joint, lines)
+        change = min(
+            (each for each in (own, _freed(asset, others)) if each is not None),
+            key=lambda each: each.left_m,
+            default=None,
+        )
         least = evidence.config.least_range_share
-        if (
-            change is None
-            and shares[joint.name] < least
-            and joint.name not in evidence.spare.joints
-        ):
-            own = _changes(asset.articulation, joint, share=1.0)
-            change = _freed_early(asset, [*own, *others], least)
+        stuck = shares[joint.name] < least and joint.name not in evidence.spare.joints
+        if change is None and stuck:
+            small = _changes(asset.articulation, joint, share=1.0)
+            change = _freed_early(asset, [*small, *others], least)
         if change is not None:
             found[joint.name] = change
     return _with(plan, found, shares) if found else None
@@ -107,16 +117,14 @@ def _with(plan: Plan, found: Mapping[str, Mended], shares: Mapping[str, float]) 
 def _freed(asset: Asset, changes: Iterable[Mended]) -> Mended | None:
     """Return the first change that frees the joint all along, else the one that leaves least."""
     hulls = [body.hulls for body in asset.bodies]
-    least = np.inf
     best = None
     for change in changes:
-        most_m = PLANED_M if change.repair.kind in TO_EDGE else FREE_M
-        swept = swept_m(asset.articulation, hulls, change.joint, most_m)
-        if swept <= FREE_M:
+        most_m = PLANED_M if change.repair.kind in HUNG else FREE_M
+        left_m = swept_m(asset.articulation, hulls, change.joint, most_m)
+        if left_m <= FREE_M:
             return change
-        if swept <= most_m and swept < least:
-            least = swept
-            best = change
+        if left_m <= most_m and (best is None or left_m < best.left_m):
+            best = replace(change, left_m=left_m)
     return best
 
 
@@ -172,6 +180,16 @@ def _at_lines(articulation: Articulation, joint: Joint, lines: Iterable[Joint]) 
         near = float(np.linalg.norm(hung.origin - joint.origin)) <= most
         if near and abs(cosine) >= STRAIGHT:
             yield Mended(hung, _moved(RepairKind.HINGE_TO_LINE, joint, hung))
+
+
+def _turned_as(
+    articulation: Articulation, joint: Joint, lines: Iterable[Joint]
+) -> Iterator[Mended]:
+    """Yield a hinge turned round, where another at its line opens the other way."""
+    against = (line for line in lines if float(line.axis @ joint.axis) < 0.0)
+    if any(_at_lines(articulation, joint, against)):
+        turned = replace(joint, axis=-joint.axis)
+        yield Mended(turned, Repair(RepairKind.REVERSED_TOO, joints=(joint.name,)))
 
 
 def _moved(kind: RepairKind, joint: Joint, hung: Joint) -> Repair:

@@ -163,6 +163,23 @@ def test_a_hinge_that_no_edge_frees_goes_to_the_line_of_its_neighbour():
     assert plan.mended["hinge"].origin == pytest.approx(line)
 
 
+def test_doors_on_one_line_are_turned_round_together():
+    # Something stands 3.5 mm in the lower door's way out, which a cut may plane off.
+    asset = with_more(cabinet(axis=UP), "base", [((0.1, 0.1, 0.8), (-0.3, -0.87, 0.0))])
+    assert mended(asset) is None
+    above = Joint("above", JointKind.REVOLUTE, 0, 2, UP, EDGE, 0.0, 1.5)
+    asset = with_more(asset, "base", [((0.6, 0.4, 0.4), (0.0, 0.0, 0.6))])
+    asset = with_more(asset, "upper", [((0.6, 0.02, 0.3), (0.0, -0.215, 0.6))], above)
+    stuck = [joint(name, upper=1.5, clear_until=0.01) for name in ("hinge", "above")]
+    given = verdict(hard("sweep_penetration", name="hinge"), joints=stuck)
+    started = Plan(separate=frozenset({("base", "door"), ("base", "upper")}))
+    plan = next_plan(given, started, CONFIG, Spare(), asset)
+    assert {name: tuple(each.axis) for name, each in plan.mended.items()} == {
+        "hinge": (0.0, 0.0, -1.0),
+        "above": (0.0, 0.0, -1.0),
+    }
+
+
 def test_what_is_askew_and_goes_too_far_is_straightened_and_ended():
     asset = cabinet(axis=(np.sin(np.radians(8.0)), 0.0, -np.cos(np.radians(8.0))), upper=5.5)
     plan = mended(asset)
