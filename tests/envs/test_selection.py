@@ -88,7 +88,7 @@ def test_an_empty_choice_names_what_there_is(assets, wanted, message):
     "filters", [{"split": "val"}, {"verdict": "good"}, {"joint_types": ("planar",)}]
 )
 def test_a_filter_that_means_nothing_is_refused_with_those_that_do(filters):
-    with pytest.raises(ConfigError, match="want one of"):
+    with pytest.raises(ConfigError, match="must be one of"):
         Wanted(**filters)
 
 

@@ -237,7 +237,7 @@ def test_an_asset_altered_after_the_task_was_made_is_refused(tmp_path):
 @pytest.mark.parametrize(
     ("options", "error", "message"),
     [
-        ({"robot_uids": "googlebot"}, ConfigError, "want one of 'panda', 'fetch', 'none'"),
+        ({"robot_uids": "googlebot"}, ConfigError, "must be one of 'panda', 'fetch', 'none'"),
         ({"num_envs": 2}, ConfigError, "num_envs must be 1"),
         ({"obs_mode": "rgbd", "render_backend": "none"}, ConfigError, "needs a renderer"),
         ({"category": "car"}, RegistryError, "none with category 'car'"),

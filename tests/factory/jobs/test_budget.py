@@ -18,7 +18,7 @@ def test_a_point_in_time_is_seconds_ago_a_date_or_a_file(tmp_path):
     os.utime(stamp, (500.0, 500.0))
     assert parse_since(str(stamp)) == 500.0
     for text in ("yesterday", "-1", "nan", str(tmp_path / "nothing")):
-        with pytest.raises(ConfigError, match="want seconds ago, a date such as"):
+        with pytest.raises(ConfigError, match="must be seconds ago, a date such as"):
             parse_since(text)
 
 
