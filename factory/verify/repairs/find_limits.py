@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -22,7 +23,8 @@ def find_limits(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """Return every blocked hinge without limits with those that its surroundings give it.
 
     One that turns freely all the way has none still. One that is free over less than the share of a
-    quarter turn that a joint may be shortened to is left to other repairs.
+    quarter turn that a joint may be shortened to is left to other repairs, and so are knobs and
+    caps: the object is as large wherever they stand.
     """
     asset = evidence.asset
     if asset is None or "sweep_penetration" not in evidence.codes:
@@ -37,6 +39,9 @@ def find_limits(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         # Guesses are hung anew by those who made them.
         stated = joint.confidence is None and joint.name not in coupled
         if measured.clear_until is None or joint.kind is not JointKind.CONTINUOUS or not stated:
+            continue
+        low, drawn, high = _sizes(asset.articulation, joint, (-np.pi / 2.0, 0.0, np.pi / 2.0))
+        if max(low, high) <= (1.0 + CLEAR_DIFFERENCE) * drawn:
             continue
         found = opening(asset.articulation, _free_about_the_drawn_pose(asset, joint))
         if found.range >= least:
@@ -74,12 +79,14 @@ def opening(articulation: Articulation, joint: Joint) -> Joint:
     That is at an end of its range, or as drawn: then it opens from there, the way that is longer.
     """
     flipped = replace(joint, axis=-joint.axis, lower=-joint.upper, upper=-joint.lower)
-    inside = np.isin(face_parts(articulation), articulation.carried(joint.child))
-    low, drawn, high = (
-        box_volume(articulation.mesh, inside, joint, value)
-        for value in (joint.lower, 0.0, joint.upper)
-    )
+    low, drawn, high = _sizes(articulation, joint, (joint.lower, 0.0, joint.upper))
     if drawn <= (1.0 + CLEAR_DIFFERENCE) * min(low, high):
         longer = joint if joint.upper >= -joint.lower else flipped
         return replace(longer, lower=0.0)
     return joint if low < high else flipped
+
+
+def _sizes(articulation: Articulation, joint: Joint, values: Sequence[float]) -> list[float]:
+    """Return the volume of the box around the object at each value of a joint [m3]."""
+    inside = np.isin(face_parts(articulation), articulation.carried(joint.child))
+    return [box_volume(articulation.mesh, inside, joint, value) for value in values]
