@@ -39,11 +39,10 @@ class DroppedFiles:
         try:
             with TemporaryDirectory() as folder:
                 page = self._draw(unpack_drop(asked.body, Path(folder)))
+            if page is None:
+                raise ConfigError("It cannot be shown: the terminal says why.")
         except AssetFactoryError as error:
             return PageResponse(str(error).encode(), TEXT, HTTPStatus.BAD_REQUEST)
-        if page is None:
-            told = b"It cannot be shown: the terminal says why."
-            return PageResponse(told, TEXT, HTTPStatus.BAD_REQUEST)
         self._page = page
         return PageResponse(status=HTTPStatus.NO_CONTENT)
 

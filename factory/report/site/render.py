@@ -34,9 +34,8 @@ def asset_html(
         films: names of files in the registry's folder of them, ``<id>-<joint>-<robot>.mp4``.
         seconds: that its last build took, by stage [s].
     """
-    template = _templates().get_template("asset.html.j2")
     shown = {"films": films, "folder": f"../../../{SOLVING}/", "seconds": seconds or {}}
-    return template.render(page=page, alone=None, **shown)
+    return _templates().get_template("asset.html.j2").render(page=page, alone=None, **shown)
 
 
 def alone_html(page: AssetPage, live: bool = False) -> str:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Iterator
+from bisect import bisect_left
+from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -47,40 +48,43 @@ def stale(registry: Registry) -> Iterator[Entry]:
     for old in folder.iterdir() if folder.is_dir() else ():
         if old.name not in known and is_id(old.name) and not old.is_symlink():
             shutil.rmtree(old)
+    films = _all_films(registry.root)
     for entry in entries:
         row = _row(folder / entry.id)
-        if row is None or row["key"] != page_key(registry.root, entry):
+        if row is None or row["key"] != page_key(registry.root, entry, _films(films, entry)):
             yield entry
 
 
-def page_key(root: Path, entry: Entry) -> str:
+def page_key(root: Path, entry: Entry, films: Sequence[str]) -> str:
     """Return what a page follows from: the entry, its report and films, and the code."""
     place = ASSETS if entry.status is Status.PASSED else REJECTED
     try:
         told = digest_file(root / place / entry.id / REPORT)
     except OSError:
         told = "unreadable"
-    return stage_key("page", repr(entry), told, *_films(root, entry), _code())
+    return stage_key("page", repr(entry), told, *films, _code())
 
 
-def _films(root: Path, entry: Entry) -> tuple[str, ...]:
-    """Return the names of an asset's films, ``<id>-<joint>-<robot>.mp4``."""
-    return tuple(sorted(path.name for path in (root / SOLVING).glob(f"{entry.id}-*.mp4")))
+def _all_films(root: Path) -> list[str]:
+    """Return the names of a registry's films, ``<id>-<joint>-<robot>.mp4``, sorted."""
+    return sorted(path.name for path in (root / SOLVING).glob("*.mp4"))
+
+
+def _films(names: Sequence[str], entry: Entry) -> Sequence[str]:
+    """Return those of one asset; a point comes next after a hyphen."""
+    return names[bisect_left(names, f"{entry.id}-") : bisect_left(names, f"{entry.id}.")]
 
 
 def write_asset(root: Path, entry: Entry) -> None:
     """Write the page of one asset with its pictures and model; its row, last, says it is whole.
-
-    Args:
-        root: of the registry.
-        entry: its row.
 
     Raises:
         OSError: the site cannot be written.
     """
     folder = root / PAGES / _ASSETS / entry.id
     folder.mkdir(parents=True, exist_ok=True)
-    key = page_key(root, entry)
+    films = _films(_all_films(root), entry)
+    key = page_key(root, entry, films)
     try:
         page = asset_page(root, entry)
     except RegistryError:
@@ -93,7 +97,7 @@ def write_asset(root: Path, entry: Entry) -> None:
                 (folder / f"{name}.webp").write_bytes(data)
         (folder / "model.js").write_bytes(f'factoryModel="{packed(page.model)}";\n'.encode())
     logged = logged_build(root, entry.id)
-    html = asset_html(page, _films(root, entry), logged.stages if logged else None)
+    html = asset_html(page, films, logged.stages if logged else None)
     write_whole(folder / INDEX, html.encode())
     write_json(folder / _ROW, {"key": key, "row": page.row()})
 
@@ -154,10 +158,8 @@ def _code() -> str:
     """Return the code and the libraries that draw pages."""
     package = Path(__file__).parents[2]
     folders = ("report/site", "report/templates", "display")
-    suffixes = {".py", ".j2"}
-    files = sorted(
-        f for name in folders for f in (package / name).rglob("*") if f.suffix in suffixes
-    )
+    found = (file for name in folders for file in (package / name).rglob("*"))
+    files = sorted(file for file in found if file.suffix in {".py", ".j2"})
     lines = [digest_file(file) for file in files if "node_modules" not in file.parts]
     lines += [f"{name} {installed_version(name)}" for name in _LIBRARIES]
     return digest_bytes("\n".join(lines).encode())

@@ -11,7 +11,7 @@ from asset_factory.sim_checks.measurements import MeasuredContact, MeasuredJoint
 from ...asset import Asset
 from ...config import RepairConfig
 from ...manufacture.plan import Spare
-from ...manufacture.repair import Pair
+from ...manufacture.repair import Pair, Repair, RepairKind
 from ..validate import Verdict
 
 
@@ -59,3 +59,8 @@ class RepairEvidence:
 def ordered(one: str, other: str) -> Pair:
     """Return two parts, in a fixed order."""
     return (min(one, other), max(one, other))
+
+
+def record_change(kind: RepairKind, joint: str, before: float, after: float, unit: str) -> Repair:
+    """Return the repair that changed one number of one joint."""
+    return Repair(kind, joints=(joint,), before=before, after=after, unit=unit)

@@ -12,9 +12,9 @@ from ...articulation import Articulation, Joint, JointKind
 from ...asset import Asset
 from ...geometry.posing import face_parts
 from ...manufacture.plan import Plan
-from ...manufacture.repair import Repair, RepairKind
+from ...manufacture.repair import RepairKind
 from ...manufacture.separate.sweep import free_until
-from .evidence import RepairEvidence
+from .evidence import RepairEvidence, record_change
 from .mend import PLANED_M
 from .shorten import FREE_M, GAP_M
 
@@ -46,15 +46,8 @@ def find_limits(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         found = opening(asset.articulation, _free_about_the_drawn_pose(asset, joint))
         if found.range >= least:
             mended[joint.name] = found
-            repairs.append(
-                Repair(
-                    RepairKind.LIMITS_FOUND,
-                    joints=(joint.name,),
-                    before=found.lower,
-                    after=found.upper,
-                    unit=joint.unit,
-                )
-            )
+            kind = RepairKind.LIMITS_FOUND
+            repairs.append(record_change(kind, joint.name, found.lower, found.upper, joint.unit))
     return None if mended == plan.mended else replace(plan, mended=mended, repairs=tuple(repairs))
 
 

@@ -14,7 +14,7 @@ from ...manufacture.plan import Plan
 from ...manufacture.repair import Repair, RepairKind
 from ...manufacture.separate.sweep import swept_m
 from ...mesh import FloatArray
-from .evidence import RepairEvidence
+from .evidence import RepairEvidence, record_change
 from .shorten import SHORTER
 
 #: A hinge may be moved by this share of its part's diagonal.
@@ -141,29 +141,25 @@ def _freed_early(asset: Asset, changes: Iterable[Mended], least_share: float) ->
                 and swept_m(asset.articulation, hulls, shorter, FREE_M) <= FREE_M
             ):
                 kind = RepairKind.RANGE_SHORTENED
-                names = (joint.name,)
-                ended = Repair(
-                    kind, joints=names, before=joint.upper, after=shorter.upper, unit=joint.unit
-                )
+                ended = record_change(kind, joint.name, joint.upper, shorter.upper, joint.unit)
                 return replace(change, joint=shorter, ended=ended)
     return None
 
 
 def _changes(articulation: Articulation, joint: Joint, share: float) -> Iterator[Mended]:
     """Yield small changes, the least first."""
-    names = (joint.name,)
     straight = _straightened(joint)
     if straight is not None:
         angle = float(np.degrees(np.arccos(min(1.0, float(straight.axis @ joint.axis)))))
         kind = RepairKind.AXIS_STRAIGHTENED
-        yield Mended(straight, Repair(kind, joints=names, before=angle, after=0.0, unit="deg"))
+        yield Mended(straight, record_change(kind, joint.name, angle, 0.0, "deg"))
     # An axis that is off is not left so for the sake of another change.
     base = straight or joint
     for kind, hung in _rehung(articulation, base):
         yield Mended(hung, _moved(kind, joint, hung))
     if share < BLOCKED_SHARE and joint.lower == 0.0:
         turned = replace(base, axis=-base.axis)
-        yield Mended(turned, Repair(RepairKind.OPENING_REVERSED, joints=names))
+        yield Mended(turned, Repair(RepairKind.OPENING_REVERSED, joints=(joint.name,)))
 
 
 def _at_lines(articulation: Articulation, joint: Joint, lines: Iterable[Joint]) -> Iterator[Mended]:
@@ -195,7 +191,7 @@ def _turned_as(
 def _moved(kind: RepairKind, joint: Joint, hung: Joint) -> Repair:
     """Return the repair that moves a hinge."""
     moved = 1000.0 * float(np.linalg.norm(hung.origin - joint.origin))
-    return Repair(kind, joints=(joint.name,), before=moved, after=0.0, unit="mm")
+    return record_change(kind, joint.name, moved, 0.0, "mm")
 
 
 def _straightened(joint: Joint) -> Joint | None:

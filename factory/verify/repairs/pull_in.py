@@ -9,9 +9,9 @@ import numpy as np
 from ...articulation import Joint
 from ...asset import Asset
 from ...manufacture.plan import Plan
-from ...manufacture.repair import Repair, RepairKind
+from ...manufacture.repair import RepairKind
 from ...manufacture.separate.sweep import swept_m
-from .evidence import RepairEvidence
+from .evidence import RepairEvidence, record_change
 
 #: Values between the lower limit and the pose as modelled that are tried as a new lower limit.
 TRIED = 9
@@ -36,15 +36,8 @@ def pull_in(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         begins = _free_from(asset, joint, evidence.config.least_range_share)
         if begins is not None:
             lower[joint.name] = begins
-            repairs.append(
-                Repair(
-                    RepairKind.CLOSED_END_PULLED_IN,
-                    joints=(joint.name,),
-                    before=joint.lower,
-                    after=begins,
-                    unit=joint.unit,
-                )
-            )
+            kind = RepairKind.CLOSED_END_PULLED_IN
+            repairs.append(record_change(kind, joint.name, joint.lower, begins, joint.unit))
     return None if lower == plan.lower else replace(plan, lower=lower, repairs=tuple(repairs))
 
 

@@ -8,7 +8,7 @@ from ...asset import Asset
 from ...manufacture.plan import Plan
 from ...manufacture.repair import Repair, RepairKind
 from ...manufacture.separate.sweep import swept_m
-from .evidence import RepairEvidence
+from .evidence import RepairEvidence, record_change
 from .give_up import BY_A_GUESS
 
 #: Shares of the way to where a joint fails that are tried as its end, the longest first.
@@ -40,15 +40,8 @@ def shorten_or_freeze(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         long_enough = ends and share >= evidence.config.least_range_share
         if joint.joint not in plan.upper and long_enough:
             upper[joint.joint] = end
-            repairs.append(
-                Repair(
-                    RepairKind.RANGE_SHORTENED,
-                    joints=(joint.joint,),
-                    before=joint.upper,
-                    after=end,
-                    unit=joint.unit,
-                )
-            )
+            kind = RepairKind.RANGE_SHORTENED
+            repairs.append(record_change(kind, joint.joint, joint.upper, end, joint.unit))
         elif joint.joint in evidence.spare.joints:
             frozen.add(joint.joint)
             repairs.append(Repair(RepairKind.JOINT_FROZEN, joints=(joint.joint,), free_share=share))
