@@ -68,6 +68,8 @@ def test_the_same_actions_open_it_again(registry, solved):
     environment.close()
 
 
+# imageio's reader leaves the pipes of ffmpeg to the collector.
+@pytest.mark.filterwarnings("ignore:unclosed file:ResourceWarning")
 def test_a_film_shows_the_hand_and_what_it_opens(registry, solved, tmp_path, monkeypatch):
     imageio = pytest.importorskip("imageio.v2", reason="imageio comes with mani_skill")
     pytest.importorskip("embreex", reason="embreex is not installed")
@@ -78,7 +80,7 @@ def test_a_film_shows_the_hand_and_what_it_opens(registry, solved, tmp_path, mon
     assert len(made.values) == solved.steps + 1
     assert made.values[-1]["asset/slide"] > 0.13 > made.values[0]["asset/slide"]
     film.film(str(registry), solved, tmp_path / "film.mp4")
-    pictures = [np.asarray(each, float) for each in imageio.get_reader(tmp_path / "film.mp4")]
+    pictures = [np.asarray(each, float) for each in imageio.mimread(tmp_path / "film.mp4")]
     assert len(pictures) == 4
     assert [path.name for path in tmp_path.iterdir()] == ["film.mp4"]
     # Nearly all of a picture stays; the arm and the drawer are elsewhere in the next.
