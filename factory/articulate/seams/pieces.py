@@ -60,6 +60,18 @@ class PieceOutlines:
         common = np.minimum(self.high[:, :2], high) - np.maximum(self.low[:, :2], low)
         return np.asarray((np.clip(common, 0.0, None) / size).clip(0.0, 1.0).prod(axis=1))
 
+    def set_in(self, piece: int) -> BoolArray:
+        """Return which pieces lie within the box of one: a pane, shape [piece_count]."""
+        return np.asarray(
+            ((self.low >= self.low[piece]) & (self.high <= self.high[piece])).all(axis=1)
+        )
+
+    def around(self, piece: int) -> BoolArray:
+        """Return which pieces one is set in by its outline: its frame, shape [piece_count]."""
+        low, high = self.low[:, :2], self.high[:, :2]
+        holds = ((low <= low[piece]) & (high >= high[piece])).all(axis=1)
+        return np.asarray(holds & (self.within(low[piece], high[piece]) < WHOLE))
+
     def shown(self, low: FloatArray, high: FloatArray) -> FloatArray:
         """Return the share of a rectangle [m] that shows each piece, shape [piece_count]."""
         seen = self.view.part[self.view.raster.window(low, high)]
@@ -113,6 +125,11 @@ def own_pieces(outlines: PieceOutlines, panel: Panel, margin: float) -> BoolArra
     depth = float(outlines.high[:, 2].max() - outlines.low[:, 2].min())
     inside_it = outlines.within(panel.low - margin, panel.high + margin) >= WHOLE
     begins = outlines.low[:, 2] <= panel.front + (panel.thickness or 0.0)
-    slides = panel.opens is OpensBy.OUT
-    shallow = outlines.high[:, 2] - outlines.low[:, 2] <= DEEPEST[slides] * depth
+    deep = outlines.high[:, 2] - outlines.low[:, 2]
+    share = DEEPEST[panel.opens is OpensBy.OUT]
+    shallow = deep <= share * depth
+    # A door in its frame is as deep as all of it.
+    leaf = deep <= share * float((panel.high - panel.low).min())
+    for piece in np.flatnonzero(inside_it & begins & leaf & ~shallow):
+        shallow[piece] = outlines.around(int(piece)).any()
     return np.asarray(inside_it & begins & shallow)

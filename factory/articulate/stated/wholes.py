@@ -87,6 +87,8 @@ class SeenPieces:
             # What hangs in the air before a panel is another part's: a cistern's lever.
             own = own_pieces(outlines, mover.panel, margin)
             own &= outlines.high[:, 2] >= mover.panel.front - margin
+            for leaf in np.flatnonzero(own & (shown >= OWN)).tolist():
+                own = (own | outlines.set_in(leaf)) & ~outlines.around(leaf)
         elif part.is_panel or mover.kind is PartKind.SCREEN:
             own = self._share_within(mover.region) >= ABOVE
         else:

@@ -15,7 +15,7 @@ from ...asset import Hull
 from ...geometry.edges import label_linked
 from ...geometry.rows import distinct_rows
 from ...geometry.triangles import doubled_normals
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
 
 #: Less volume than this is nothing to collide with [m3]: a cube of a tenth of a millimetre.
 LEAST_VOLUME_M3 = 1e-12
@@ -114,8 +114,8 @@ def union(solids: list[Manifold]) -> Manifold:
 def gate(vertices: FloatArray, faces: IntArray) -> Gated:
     """Sort triangles into solids, cavities and sheets.
 
-    Duplicated faces count once, double-sided ones too unless the rest closes without them; inverted
-    bodies are turned; an inverted body inside another one is a cavity.
+    Duplicated faces count once, double-sided ones too; where the rest closes without these they are
+    sheets. Inverted bodies are turned; an inverted body inside another one is a cavity.
 
     Args:
         vertices: welded positions [m], shape [n, 3].
@@ -128,6 +128,10 @@ def gate(vertices: FloatArray, faces: IntArray) -> Gated:
         manifold = manifold_of(vertices, faces[group])
         if manifold is not None:
             closed += manifold.decompose()
+            # A pane that hangs at its frame's corners is no part of the volume.
+            panes = faces[group][_both_ways(faces[group])]
+            if len(panes):
+                sheets += [_compact(vertices, patch) for patch in two_sided_patches(panes)]
             continue
         for patch in two_sided_patches(faces[group]):
             manifold = manifold_of(vertices, patch)
@@ -146,6 +150,12 @@ def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
     turned = np.take_along_axis(faces, (first[:, None] + np.arange(3)) % 3, axis=1)
     kept, _ = distinct_rows(turned)
     return faces[np.sort(kept)]
+
+
+def _both_ways(faces: IntArray) -> BoolArray:
+    """Return the faces that are there twice, once each way, shape [m]."""
+    _, label = distinct_rows(np.sort(faces, axis=1))
+    return np.asarray(np.bincount(label)[label] > 1)
 
 
 def _groups(faces: IntArray, vertex_count: int) -> list[IntArray]:

@@ -133,7 +133,8 @@ def _claimed(skin: CutSkin, panel: FlatPanel, claimants: set[int], behind: float
         pieces = cut(pieces, frame[axis], end, pieces.touching(room))
     skin = skin.chosen(~near).joined(pieces)
     middles = skin.middles @ frame.T
-    inside = column.holds(middles) | (_inner_side(skin, frame) & _behind(panel).holds(middles))
+    lining = _inner_side(skin, frame) & _behind(panel).holds(middles) & ~_beyond(skin, panel)
+    inside = column.holds(middles) | lining
     own = skin.part == panel.part
     part = skin.part.copy()
     part[inside & np.isin(part, list(claimants - {panel.part}))] = panel.part
@@ -148,6 +149,14 @@ def _behind(panel: FlatPanel, depth: float = OWN_BACK_M) -> Box:
         np.append(panel.low + INSET_M, panel.back),
         np.append(panel.high - INSET_M, panel.back + depth),
     )
+
+
+def _beyond(skin: CutSkin, panel: FlatPanel) -> BoolArray:
+    """Return the triangles that reach beyond a panel's edges: a frame's or a neighbour's."""
+    places = skin.corners @ panel.side.frame[:2].T
+    low = places.min(axis=1) < panel.low - INSET_M
+    high = places.max(axis=1) > panel.high + INSET_M
+    return np.asarray((low | high).any(axis=1))
 
 
 def _inner_side(skin: CutSkin, frame: FloatArray) -> BoolArray:

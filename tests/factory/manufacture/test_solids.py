@@ -67,6 +67,17 @@ def test_double_sided_faces_count_once():
     assert not gated.sheets
 
 
+def test_a_pane_at_the_corners_of_its_frame_is_a_sheet():
+    # Beside a box, not in it, and hung from two of its corners.
+    vertices, faces = box((1, 1, 1))
+    hung = np.flatnonzero((vertices[:, 0] > 0) & (vertices[:, 1] > 0))
+    vertices = np.concatenate([vertices, [[2.0, 0.5, 0.0]]])
+    pane = np.array([[*hung, 8], [*hung[::-1], 8]])
+    gated = gate(vertices, np.concatenate([faces, pane]))
+    assert [solid.volume() for solid in gated.solids] == pytest.approx([1.0])
+    assert [len(sheet.faces) for sheet in gated.sheets] == [1]
+
+
 def test_boxes_that_share_welded_faces_edges_or_corners_come_apart():
     for at in ((1, 0, 0), (1, 1, 0), (1, 1, 1)):
         assert volumes(welded(together(box((1, 1, 1)), box((1, 1, 1), at)))) == [1.0, 1.0]

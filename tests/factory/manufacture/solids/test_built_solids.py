@@ -14,6 +14,7 @@ from asset_factory.factory.manufacture.separate.clip import meeting
 from asset_factory.factory.manufacture.solids.build import solids
 from asset_factory.factory.manufacture.solids.panel import DOOR_M
 from asset_factory.factory.manufacture.solids.surfaces import boundary
+from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.factory.views.raster import Side
 from asset_factory.factory.views.view import elevation
 
@@ -108,6 +109,20 @@ def test_a_door_of_its_own_is_a_closed_surface(cupboard_built):
     assert len(boundary(mesh.vertices[mesh.faces])) == 0 or trimesh.Trimesh(
         mesh.vertices, mesh.faces
     ).volume == pytest.approx(0.4 * 0.6 * DOOR_M, rel=0.08)
+
+
+def test_a_frame_behind_a_door_stays_behind():
+    # A two-sided front of a shelf or frame right behind the door, in large triangles.
+    y, half = -SIZE[1] / 2.0 + DOOR_M + 0.01, SIZE[0] / 2.0 - 0.02
+    corners = np.array([[x, y, z] for z in (0.39, 0.45) for x in (-half, half)])
+    faces = np.array([[0, 1, 3], [0, 3, 2], [0, 3, 1], [0, 2, 3]])
+    given = cupboard()
+    sheet = Mesh.from_triangles(corners, faces)
+    body = np.append(given.parts[0].faces, len(given.mesh.faces) + np.arange(len(faces)))
+    parts = (replace(given.parts[0], faces=body), *given.parts[1:])
+    given = replace(given, mesh=concatenate([given.mesh, sheet]), parts=parts)
+    door = solids(given, CONFIG).articulation.part_mesh(1)
+    assert (np.abs(door.bounds[:, 0]) < 0.21).all()
 
 
 def test_a_drawer_has_a_bottom_two_sides_a_back_and_no_top():
