@@ -65,7 +65,8 @@ def _panel(mesh: Mesh, joint: Joint, part: Part, points: FloatArray) -> Panel | 
     motion = Motion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
     outward = motion.velocity(middle) * (1.0 if joint.upper >= -joint.lower else -1.0)
-    side = side_facing(outward)
+    # The middle of a high lid swings back more than up.
+    side = Side.TOP if part.kind is PartKind.LID else side_facing(outward)
     local = points @ side.frame.T
     low = local.min(axis=0)
     high = local.max(axis=0)

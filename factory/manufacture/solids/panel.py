@@ -128,7 +128,7 @@ def find_panel(
     front = float(np.percentile(face[known], 20))
     deepest = float(np.percentile(face[known], 95))
     is_lid = view.side is Side.TOP
-    rim = _rim(mesh, faces, view, (low, high))
+    rim = _rim(mesh, faces, view, (low, high), whole=is_lid)
     far = float((mesh.bounds @ view.side.frame.T)[:, 2].max())
     back, rule = _back(is_lid, front, deepest, rim, far)
     if back - front > float((high - low).max()) and not is_lid:
@@ -176,9 +176,17 @@ def _rectangle(view: View, seen: BoolArray) -> tuple[FloatArray, FloatArray] | N
 
 
 def _rim(
-    mesh: Mesh, faces: IntArray, view: View, rectangle: tuple[FloatArray, FloatArray]
+    mesh: Mesh,
+    faces: IntArray,
+    view: View,
+    rectangle: tuple[FloatArray, FloatArray],
+    whole: bool,
 ) -> float | None:
-    """Return the depth down to which nine tenths of the faces around a part's rim reach [m]."""
+    """Return the depth down to which nine tenths of the faces around a part's rim reach [m].
+
+    If ``whole``, down to which all would, were the last tenth as even as those before: a ragged
+    end does not count, and a lid ends at its seam.
+    """
     corners = (mesh.vertices @ view.side.frame.T)[mesh.faces[faces]]
     normals = doubled_normals(corners)
     area = np.linalg.norm(normals, axis=1)
@@ -195,7 +203,10 @@ def _rim(
     depth = np.where(deep, corners[chosen, :, 2].max(axis=1), middle[chosen, 2])
     order = np.argsort(depth)
     share = np.cumsum(area[chosen][order]) / area[chosen].sum()
-    return float(depth[order][np.searchsorted(share, 0.9)])
+    half, most = (float(depth[order][np.searchsorted(share, part)]) for part in (0.5, 0.9))
+    if not whole:
+        return most
+    return min(most + 0.25 * (most - half), float(corners[..., 2].max()))
 
 
 def _back(
@@ -203,7 +214,7 @@ def _back(
 ) -> tuple[float, str]:
     room = far - front
     thickness = None if rim is None else rim - front
-    most = 0.6 * room if is_lid else min(max(THICKEST_M, THICKEST_SHARE * room), 0.4 * room)
+    most = 0.8 * room if is_lid else min(max(THICKEST_M, THICKEST_SHARE * room), 0.4 * room)
     if thickness is not None and THINNEST_M <= thickness <= most:
         back = rim if rim is not None else front
         rule = "rim"

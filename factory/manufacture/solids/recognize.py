@@ -139,7 +139,9 @@ def _claimed(skin: CutSkin, panel: FlatPanel, claimants: set[int], behind: float
     part = skin.part.copy()
     part[inside & np.isin(part, list(claimants - {panel.part}))] = panel.part
     fitted = _behind(panel, np.inf).holds(middles) & (not panel.slides)
-    part[own & ~inside & ~fitted] = 0
+    # Straps and locks stand out of a lid; above its seam is nothing else.
+    proud = (middles[:, 2] <= panel.back) & panel.is_lid
+    part[own & ~inside & ~fitted & ~proud] = 0
     return skin.labelled(part)
 
 

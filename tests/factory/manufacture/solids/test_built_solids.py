@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from labelled_skins import SIZE, bin_with_lid, chest, cupboard
+from labelled_skins import FINE, SIZE, bin_with_lid, box_skin, chest, cupboard, labelled
 
-from asset_factory.factory.articulation import JointKind
+from asset_factory.factory.articulate.locate import located
+from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.config import SolidsConfig
 from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.separate.clip import meeting
@@ -15,6 +16,7 @@ from asset_factory.factory.manufacture.solids.build import solids
 from asset_factory.factory.manufacture.solids.panel import DOOR_M
 from asset_factory.factory.manufacture.solids.surfaces import boundary
 from asset_factory.factory.mesh import Mesh, concatenate
+from asset_factory.factory.part import PartKind
 from asset_factory.factory.views.raster import Side
 from asset_factory.factory.views.view import elevation
 
@@ -148,6 +150,22 @@ def test_a_lid_is_hollow_and_so_is_what_it_closes():
     for piece in made.pieces:
         for hull in piece.hulls:
             assert (depth_below(hull, top) < 0.0).all()
+
+
+def test_a_high_lid_takes_all_above_its_seam_along():
+    seam = 0.25
+    hinge = Joint("hinge", JointKind.REVOLUTE, 0, 1, [-1, 0, 0], [0, 0.25, seam], 0.0, 1.5)
+    given = labelled(*box_skin(), [lambda at: at[:, 2] > seam], [hinge])
+    strap = trimesh.creation.box((0.06, 0.06, 0.4))
+    strap.apply_translation([0.1, -SIZE[1] / 2.0 - 0.02, seam + 0.25])
+    both = concatenate([given.mesh, Mesh.from_triangles(strap.vertices, strap.faces)])
+    own = np.append(given.parts[1].faces, len(given.mesh.faces) + np.arange(len(strap.faces)))
+    lid = replace(given.parts[1], faces=own, kind=PartKind.LID, panel=None)
+    given = located(replace(given, mesh=both, parts=(given.parts[0], lid)))
+    made = solids(given, CONFIG).articulation
+    assert made.part_mesh(0).bounds[1][2] < seam + FINE
+    assert made.part_mesh(0).bounds[0][1] == pytest.approx(-SIZE[1] / 2.0)
+    assert made.part_mesh(1).bounds[0][1] == pytest.approx(-SIZE[1] / 2.0 - 0.05)
 
 
 def test_without_an_interior_nothing_is_hollow():
