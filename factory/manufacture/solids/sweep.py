@@ -83,7 +83,8 @@ def _lines(panel: FlatPanel, joint: Joint) -> list[tuple[Joint, str]]:
     ends = (panel.low[across], panel.high[across])
     edge = 2 * across + int(abs(at[across] - ends[1]) < abs(at[across] - ends[0]))
     depths = {"slab back": panel.back + BEHIND_M, "slab front": panel.front}
-    if np.isfinite(panel.frame[edge]):
+    # What stands further before a panel is no frame, but a cistern behind a seat.
+    if panel.front - panel.frame[edge] <= panel.thickness and np.isfinite(panel.frame[edge]):
         depths = {"frame": min(float(panel.frame[edge]), panel.back), **depths}
     lines = []
     for rule, depth in depths.items():

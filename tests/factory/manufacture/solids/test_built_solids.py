@@ -168,6 +168,17 @@ def test_a_high_lid_takes_all_above_its_seam_along():
     assert made.part_mesh(1).bounds[0][1] == pytest.approx(-SIZE[1] / 2.0 - 0.05)
 
 
+def test_a_lids_hinge_stays_under_the_cistern_behind_it():
+    given = bin_with_lid()
+    cistern = trimesh.creation.box((SIZE[0], 0.2, 1.5))
+    cistern.apply_translation([0.0, SIZE[1] / 2.0 + 0.1, 0.75])
+    both = concatenate([given.mesh, Mesh.from_triangles(cistern.vertices, cistern.faces)])
+    body = np.append(given.parts[0].faces, len(given.mesh.faces) + np.arange(len(cistern.faces)))
+    parts = (replace(given.parts[0], faces=body), *given.parts[1:])
+    (joint,) = solids(replace(given, mesh=both, parts=parts), CONFIG).articulation.joints
+    assert 0.69 < joint.origin[2] < SIZE[2] + 0.01
+
+
 def test_without_an_interior_nothing_is_hollow():
     made = solids(chest(), replace(CONFIG, interior=False))
     kinds = {each.kind for each in made.surfaces}
