@@ -87,6 +87,14 @@ class Panel:
         object.__setattr__(self, "front", float(self.front))
         object.__setattr__(self, "opens", OpensBy(self.opens))
 
+    def has_box(self, back: float) -> bool:
+        """Tell whether a drawer is more than its front: deeper than that is wide or high.
+
+        Args:
+            back: how far away the drawer ends [m].
+        """
+        return back - self.front > float((self.high - self.low).min())
+
     @property
     def outward(self) -> FloatArray:
         """Return the unit normal that points at the viewer, object frame, shape [3]."""

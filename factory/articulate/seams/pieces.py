@@ -60,11 +60,23 @@ class PieceOutlines:
         common = np.minimum(self.high[:, :2], high) - np.maximum(self.low[:, :2], low)
         return np.asarray((np.clip(common, 0.0, None) / size).clip(0.0, 1.0).prod(axis=1))
 
-    def set_in(self, piece: int) -> BoolArray:
-        """Return which pieces lie within the box of one: a pane, shape [piece_count]."""
-        return np.asarray(
-            ((self.low >= self.low[piece]) & (self.high <= self.high[piece])).all(axis=1)
-        )
+    def set_in(self, pieces: BoolArray) -> BoolArray:
+        """Return some pieces with those within the box of one: panes, bottoms of drawers.
+
+        What lies on a box is not within it: the ceiling that a drawer slides under.
+
+        Args:
+            pieces: shape [piece_count].
+
+        Returns:
+            Shape [piece_count].
+        """
+        found = pieces.copy()
+        pixel = self.view.raster.pixel
+        for piece in np.flatnonzero(pieces).tolist():
+            within = (self.low >= self.low[piece] - pixel) & (self.high <= self.high[piece] + pixel)
+            found |= within.all(axis=1) & (self.low[:, 1] < self.high[piece, 1] - pixel)
+        return found
 
     def around(self, piece: int) -> BoolArray:
         """Return which pieces one is set in by its outline: its frame, shape [piece_count]."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ...articulation import JointKind
 from ...geometry.components import connected_components
 from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, IntArray, Mesh
@@ -87,8 +88,9 @@ class SeenPieces:
             # What hangs in the air before a panel is another part's: a cistern's lever.
             own = own_pieces(outlines, mover.panel, margin)
             own &= outlines.high[:, 2] >= mover.panel.front - margin
+            own = outlines.set_in(own)
             for leaf in np.flatnonzero(own & (shown >= OWN)).tolist():
-                own = (own | outlines.set_in(leaf)) & ~outlines.around(leaf)
+                own &= ~outlines.around(leaf)
         elif part.is_panel or mover.kind is PartKind.SCREEN:
             own = self._share_within(mover.region) >= ABOVE
         else:
@@ -102,6 +104,8 @@ class SeenPieces:
             own &= self._share_within(mover.region) >= ABOVE
         if shown[own].sum() < enough or own.all():
             return StatedWay(mover)
+        if part.stated.range is None and mover.motion.kind is JointKind.PRISMATIC:
+            mover = _in_its_rails(mover, float(outlines.high[own, 2].max()))
         return StatedWay(mover, np.flatnonzero(own))
 
     def nearest(self, side: Side, corners: FloatArray, reach: FloatArray) -> FloatArray | None:
@@ -131,3 +135,12 @@ class SeenPieces:
         whole = np.bincount(self.of_faces, weights=self._areas)
         inner = np.bincount(self.of_faces, weights=self._areas * within, minlength=len(whole))
         return np.asarray(inner / np.maximum(whole, 1e-12))
+
+
+def _in_its_rails(mover: OpeningPart, back: float) -> OpeningPart:
+    """Return a drawer with its box, which ends at ``back`` [m], sliding no further than that."""
+    panel = mover.panel
+    if panel is None or not panel.has_box(back):
+        return mover
+    upper = min(mover.motion.upper, back - panel.front)
+    return replace(mover, motion=replace(mover.motion, upper=upper))

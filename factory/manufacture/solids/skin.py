@@ -53,7 +53,16 @@ def parts_to_build(articulation: Articulation, fronts: bool = False) -> tuple[in
         fronts: build every thin front, bare or not.
     """
     found = plates(articulation) if fronts else bare_fronts(articulation)
-    return tuple(sorted({*skin_parts(articulation), *found}))
+    patches = (part for part in skin_parts(articulation) if not _has_box(articulation, part))
+    return tuple(sorted({*patches, *found}))
+
+
+def _has_box(articulation: Articulation, part: int) -> bool:
+    """Tell whether a part is a drawer with all that slides behind its front."""
+    panel = articulation.parts[part].panel
+    if panel is None or articulation.joints[part - 1].kind is not JointKind.PRISMATIC:
+        return False
+    return panel.has_box(float((articulation.part_mesh(part).vertices @ panel.frame[2]).max()))
 
 
 def border(mesh: Mesh, part: IntArray) -> tuple[IntArray, IntArray]:

@@ -315,6 +315,22 @@ def test_a_door_in_its_frame_takes_its_pane_along():
     assert not ((left[..., 0] > 0.2) & (left[..., 0] < 0.5) & (left[..., 2] < 1.8)).any()
 
 
+def test_a_drawer_takes_its_bottom_along_and_stays_in_its_rails():
+    case = block([0.0, 0.0, 0.0], [0.6, 0.9, 0.5]) - block([0.05, -1.0, 0.3], [0.55, 0.85, 0.45])
+    tray = block([0.06, -0.02, 0.31], [0.54, 0.4, 0.44]) - block([0.08, 0.02, 0.0], [0.52, 0.38, 1])
+    bottom = block([0.09, 0.1, 0.32], [0.51, 0.37, 0.325])
+    ceiling = block([0.07, 0.1, 0.4395], [0.53, 0.39, 0.44])
+    mesh = mesh_of(case + tray + bottom + ceiling, 0.1)
+    part = {"kind": "drawer", "side": "front", "box": [0.1, 0.62, 0.9, 0.88]}
+    made = articulated(mesh, part)[0]
+    assert made.joints[0].upper == pytest.approx(0.42, abs=FINE)
+    moved = made.part_mesh(1).vertices
+    assert ((moved[:, 0] > 0.085) & (moved[:, 2] < 0.326) & (moved[:, 2] > 0.315)).any()
+    assert not (moved[:, 2] == np.float32(0.4395)).any()
+    ranged = articulated(mesh, {**part, "range": [0, 600]})[0]
+    assert ranged.joints[0].upper == pytest.approx(0.6)
+
+
 def test_a_wheel_turns_about_its_hub_and_a_lever_about_its_edge():
     whole = (
         block([-0.2, 0.1, 0.0], [0.2, 0.5, 1.0])

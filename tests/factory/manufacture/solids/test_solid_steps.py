@@ -5,7 +5,7 @@ import pytest
 import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
-from labelled_skins import SIZE, box_skin, chest, cupboard
+from labelled_skins import SIZE, box_skin, chest, cupboard, labelled
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, rotation_about
 from asset_factory.factory.config import SolidsConfig
@@ -23,7 +23,7 @@ from asset_factory.factory.manufacture.solids.matter import PATH, Matter
 from asset_factory.factory.manufacture.solids.pieces import FOIL_M, convex_pieces
 from asset_factory.factory.manufacture.solids.reach import reaching
 from asset_factory.factory.manufacture.solids.seam import CutSkin, cut
-from asset_factory.factory.manufacture.solids.skin import skin_parts
+from asset_factory.factory.manufacture.solids.skin import parts_to_build, skin_parts
 from asset_factory.factory.manufacture.solids.surfaces import boundary, inside_of, outside_of, plate
 from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.factory.views.raster import Side
@@ -45,6 +45,15 @@ def test_parts_that_are_patches_of_one_surface_are_told_from_bodies():
     hinge = Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
     parts = (Part("body", np.arange(12)), Part("door", np.arange(12, 24)))
     assert skin_parts(Articulation(concatenate(boxes), parts, (hinge,), "test")) == ()
+
+
+@pytest.mark.parametrize(("depth", "built"), [(0.02, (1,)), (0.4, ())])
+def test_a_drawer_deeper_than_high_keeps_its_own_box(depth, built):
+    slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, -1, 0], [0, -0.25, 0.1], 0.0, 0.3)
+    ends = depth - SIZE[1] / 2.0
+    given = labelled(*box_skin(), [lambda at: (at[:, 2] < 0.2) & (at[:, 1] < ends)], [slide])
+    assert skin_parts(given) == (1,)
+    assert parts_to_build(given) == built
 
 
 @pytest.mark.parametrize("axis", range(3))
