@@ -319,7 +319,7 @@ def test_a_drawer_takes_its_bottom_along_and_stays_in_its_rails():
     case = block([0.0, 0.0, 0.0], [0.6, 0.9, 0.5]) - block([0.05, -1.0, 0.3], [0.55, 0.85, 0.45])
     tray = block([0.06, -0.02, 0.31], [0.54, 0.4, 0.44]) - block([0.08, 0.02, 0.0], [0.52, 0.38, 1])
     bottom = block([0.09, 0.1, 0.32], [0.51, 0.37, 0.325])
-    ceiling = block([0.07, 0.1, 0.4395], [0.53, 0.39, 0.44])
+    ceiling = block([0.09, 0.1, 0.4395], [0.51, 0.37, 0.44])
     mesh = mesh_of(case + tray + bottom + ceiling, 0.1)
     part = {"kind": "drawer", "side": "front", "box": [0.1, 0.62, 0.9, 0.88]}
     made = articulated(mesh, part)[0]
