@@ -39,6 +39,11 @@ class PieceOutlines:
     low: FloatArray
     high: FloatArray
 
+    @property
+    def ends(self) -> FloatArray:
+        """Return both ends of each piece's box [m], shape [2, piece_count, 3]."""
+        return np.stack([self.low, self.high])
+
     @classmethod
     def of(cls, views: Views, side: Side) -> PieceOutlines:
         """Look from a side at a mesh [m] whose parts are its pieces."""

@@ -11,7 +11,7 @@ from ...geometry.components import connected_components
 from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, IntArray, Mesh
 from ...part import PartKind
-from ...views.raster import Side
+from ...views.raster import Side, side_facing
 from ...views.view import Views
 from ..seams.cutting import Region
 from ..seams.pieces import OWN, WHOLE, PieceOutlines, own_pieces
@@ -90,6 +90,9 @@ class SeenPieces:
             own &= outlines.high[:, 2] >= mover.panel.front - margin
             own = outlines.set_in(own)
             for leaf in np.flatnonzero(own & (shown >= OWN)).tolist():
+                if self._shows_its_back(outlines, leaf):
+                    # A door between two rooms has handles on either side.
+                    own |= outlines.within(*outlines.ends[:, leaf, :2]) >= WHOLE
                 own &= ~outlines.around(leaf)
         elif part.is_panel or mover.kind is PartKind.SCREEN:
             own = self._share_within(mover.region) >= ABOVE
@@ -107,6 +110,13 @@ class SeenPieces:
         if part.stated.range is None and mover.motion.kind is JointKind.PRISMATIC:
             mover = _in_its_rails(mover, float(outlines.high[own, 2].max()))
         return StatedWay(mover, np.flatnonzero(own))
+
+    def _shows_its_back(self, outlines: PieceOutlines, piece: int) -> bool:
+        """Tell whether a piece that is seen from one side is seen from behind as well."""
+        side = outlines.view.side
+        behind = self.seen_from(side_facing(side.frame[2]))
+        ends = (outlines.ends[:, piece] @ side.frame @ behind.view.side.frame.T)[:, :2]
+        return bool(behind.shown(ends.min(axis=0), ends.max(axis=0))[piece] >= OWN)
 
     def nearest(self, side: Side, corners: FloatArray, reach: FloatArray) -> FloatArray | None:
         """Return the outline of the piece that a rectangle means, low and high [m], shape [2, 2].

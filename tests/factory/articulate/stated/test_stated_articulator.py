@@ -299,20 +299,21 @@ def test_a_piece_that_a_box_means_is_the_part_and_nothing_is_cut():
     assert box_of(cut, 1)[1][1] > 0.015
 
 
-def test_a_door_in_its_frame_takes_its_pane_along():
+def test_a_door_in_its_frame_takes_pane_and_handles_along():
     # As deep as all of the object, by its handles.
     frame = block([0.0, 0.0, 0.0], [1.0, 0.1, 2.0]) - block([0.06, -1.0, -1.0], [0.94, 1.0, 1.94])
     leaf = block([0.07, 0.02, 0.0], [0.93, 0.06, 1.93]) - block([0.2, -1, 0.2], [0.5, 1, 1.7])
     handles = block([0.8, -0.05, 0.9], [0.85, 0.15, 1.0])
     pane = block([0.21, 0.035, 0.21], [0.49, 0.045, 1.69])
-    mesh = mesh_of(frame + (leaf + handles) + pane, 0.1)
+    behind = block([0.8, 0.065, 1.1], [0.85, 0.14, 1.2])
+    mesh = mesh_of(frame + (leaf + handles) + pane + behind, 0.1)
     part = {"kind": "door", "side": "front", "box": [0.07, 0.0, 0.93, 0.97], "hinge": "left"}
     made = articulated(mesh, part)[0]
     leaf_box = np.array([[0.07, -0.05, 0.0], [0.93, 0.15, 1.93]])
     assert box_of(made, 1) == pytest.approx(leaf_box)
     assert box_of(made, 0) == pytest.approx(np.array([[0.0, 0.0, 0.0], [1.0, 0.1, 2.0]]))
     left = made.mesh.vertices[made.mesh.faces[made.parts[0].faces]]
-    assert not ((left[..., 0] > 0.2) & (left[..., 0] < 0.5) & (left[..., 2] < 1.8)).any()
+    assert not ((left[..., 0] > 0.2) & (left[..., 0] < 0.9) & (left[..., 2] < 1.9)).any()
 
 
 def test_a_drawer_takes_its_bottom_along_and_stays_in_its_rails():
