@@ -46,7 +46,8 @@ format: $(VENV)/.ready-dev
 	$(BIN)/ruff format .
 
 # What these measure comes with no checkout.
-ASKED := $(addprefix benchmarks/,board.py defects.py real_objects.py real_yield.py)
+ASKED := $(addprefix benchmarks/,board.py broken_copies.py defects.py real_objects.py real_yield.py \
+	stated.py)
 
 bench: $(VENV)/.ready-dev           ## one JSON line per claim
 	for script in $(filter-out $(ASKED),$(wildcard benchmarks/*.py)); do $(BIN)/python $$script || exit 1; done

@@ -39,8 +39,9 @@ def main() -> int:
     asked = parser.parse_args()
     inputs = asked.output / "inputs"
     labels = write_sidecars(asked.data / "train_static", inputs)
-    build = ["factory", "build", "--input", str(inputs), "--sim", "all"]
-    build += ["--workers", asked.workers, "--output", str(asked.output / "built")]
+    program = Path(sys.executable).with_name("factory")
+    build = [program, "build", "--input", inputs, "--output", asked.output / "built"]
+    build += ["--sim", "all", "--workers", asked.workers]
     # An input that is rejected is data; its exit code is no failure.
     subprocess.run(build, check=False)
     expected = asked.output / "expected.json"
