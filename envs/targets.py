@@ -106,8 +106,7 @@ class Targets:
         """Return poses of the held links: position [m], quaternion wxyz; shape [environment, 7]."""
         if self._on_gpu:
             return self._px.cuda_rigid_body_data.torch()[self._now["handle"], :7]
-        pose: torch.Tensor = self._handles[0][int(self.slot[0])].pose.raw_pose
-        return pose
+        return self._handles[0][int(self.slot[0])].pose.raw_pose
 
     def motion(self) -> tuple[torch.Tensor, torch.Tensor, torch.Tensor]:
         """Return the moved links' orientation wxyz, velocity [m/s] and angular velocity [rad/s]."""
@@ -137,8 +136,7 @@ class Targets:
 
 def turned(vectors: torch.Tensor, orientation: torch.Tensor) -> torch.Tensor:
     """Turn vectors, shape [environment, 3], by quaternions wxyz, shape [environment, 4]."""
-    result: torch.Tensor = quaternion_apply(orientation, vectors)
-    return result
+    return quaternion_apply(orientation, vectors)
 
 
 def named_slot(asset: RegisteredAsset, joint: str) -> int:

@@ -108,12 +108,11 @@ def _judged(taken: Taken, success: bool, info: dict[str, Any], settings: Setting
     if success:
         return replace(taken, success=True, reason="", message="", steps=steps, info=info)
     if taken.success:
-        how = (
-            "same actions did not open it again"
-            if settings.control_mode == SOLVED_IN
-            else "actions did not open it"
-        )
-        reason = "irreproducible" if settings.control_mode == SOLVED_IN else "unconvertible"
+        reason = "unconvertible"
+        how = "actions did not open it"
+        if settings.control_mode == SOLVED_IN:
+            reason = "irreproducible"
+            how = "same actions did not open it again"
         message = f"solved in {taken.steps} steps, and as {settings.control_mode} the {how}"
         taken = replace(taken, success=False, reason=reason, message=message)
     return replace(taken, steps=steps, info=info if settings.keep_failures else None)

@@ -145,11 +145,9 @@ class JointScene(BaseEnv):  # type: ignore[misc]
             return self._assets
         if joint is None and asset in self._assets:
             return {asset: self._assets[asset]}
-        among = (
-            self._available
-            if asset is not None
-            else {key: self._available[key] for key in self._assets}
-        )
+        among = self._available
+        if asset is None:
+            among = {key: among[key] for key in self._assets}
         return select(among, replace(self._about, asset=asset, joint=joint))
 
     def _draw(self, env_idx: torch.Tensor) -> dict[str, torch.Tensor]:

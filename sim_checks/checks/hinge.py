@@ -46,12 +46,7 @@ def knuckles(
         return frozenset()
     turning = [item.collider.hull.vertices for item in solids.items if item.part == moving]
     length = float(np.ptp(np.vstack(turning) @ path.axis))
-    taken = _covered(
-        [
-            (float(lo), float(hi))
-            for lo, hi in (_span(region @ path.axis) for region in inside.values())
-        ]
-    )
+    taken = _covered([_span(region @ path.axis) for region in inside.values()])
     return frozenset(inside) if taken <= config.hinge_share * length else frozenset()
 
 

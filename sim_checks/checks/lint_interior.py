@@ -136,7 +136,7 @@ def _same(visuals: Sequence[DescribedShape], collisions: Sequence[DescribedShape
 
 
 def _grid(shapes: Sequence[DescribedShape], config: LintConfig) -> _Grid:
-    corners = np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes])
+    corners = np.vstack([shape.corners for shape in shapes])
     bounds = np.array([corners.min(axis=0), corners.max(axis=0)])
     extent = bounds[1] - bounds[0]
     size = max(float(extent.max()) / config.voxels, config.voxel_m)
@@ -188,8 +188,7 @@ def _points(
     place = np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)
     u = (place // (down[which] + 1)) / along[which]
     v = (place % (down[which] + 1)) / down[which] * (1.0 - u)
-    points: FloatArray = a[which] + u[:, None] * (b - a)[which] + v[:, None] * (c - a)[which]
-    return points
+    return a[which] + u[:, None] * (b - a)[which] + v[:, None] * (c - a)[which]
 
 
 def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull:
@@ -200,7 +199,7 @@ def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull:
     Raises:
         FlatHull: where they span no volume.
     """
-    points = np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes])
+    points = np.vstack([shape.corners for shape in shapes])
     # One format welds corners that another repeats.
     cells = np.rint((points - grid.start) / (ROUNDING * grid.size)).astype(np.int64)
     points = points[np.unique(cells, axis=0, return_index=True)[1]]
@@ -230,8 +229,7 @@ def _directions() -> FloatArray:
 def _outside(surface: BoolArray) -> BoolArray:
     """Return free voxels that the outside reaches."""
     labels, _ = ndimage.label(~surface)
-    reached: BoolArray = labels == labels[0, 0, 0]
-    return reached
+    return labels == labels[0, 0, 0]
 
 
 def _walled(surface: BoolArray, down: FloatArray) -> BoolArray:
@@ -246,8 +244,7 @@ def _walled(surface: BoolArray, down: FloatArray) -> BoolArray:
         met += ahead
         if axis == lowest:
             floor = ahead if down[axis] > 0.0 else behind
-    walled: BoolArray = floor & (met >= WALLED)
-    return walled
+    return floor & (met >= WALLED)
 
 
 def _reached(surface: BoolArray, grid: _Grid, hand: float) -> BoolArray:

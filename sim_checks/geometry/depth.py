@@ -60,10 +60,7 @@ def overlap_along(a: CollisionHull, b: CollisionHull, directions: FloatArray) ->
         b: second hull, same frame.
         directions: unit vectors from ``a`` towards ``b``, shape [direction_count, 3].
     """
-    reach: FloatArray = (a.vertices @ directions.T).max(axis=0) - (b.vertices @ directions.T).min(
-        axis=0
-    )
-    return reach
+    return (a.vertices @ directions.T).max(axis=0) - (b.vertices @ directions.T).min(axis=0)
 
 
 def overlap(a: CollisionHull, b: CollisionHull) -> HullOverlap:
@@ -109,8 +106,7 @@ def _nearest_to_origin(points: FloatArray) -> FloatArray:
     # With a row of ones the weights may have any sum: the best share is the same.
     scaled = points / np.linalg.norm(points, axis=1).max()
     weights, _ = nnls(np.vstack([scaled.T, np.ones(len(points))]), np.array([0.0, 0.0, 0.0, 1.0]))
-    nearest: FloatArray = weights @ points / weights.sum()
-    return nearest
+    return weights @ points / weights.sum()
 
 
 def _faces(a: CollisionHull, b: CollisionHull) -> HullOverlap:
@@ -161,8 +157,7 @@ def _differences(a: CollisionHull, b: CollisionHull, directions: FloatArray) -> 
     """Return extreme corners of the Minkowski difference by direction [m], [direction_count, 3]."""
     far = a.vertices[np.argmax(a.vertices @ directions.T, axis=0)]
     near = b.vertices[np.argmin(b.vertices @ directions.T, axis=0)]
-    corners: FloatArray = far - near
-    return corners
+    return far - near
 
 
 def _edges(a: CollisionHull, b: CollisionHull, found: HullOverlap) -> HullOverlap:
@@ -207,10 +202,7 @@ def _arcs_cross(first: FloatArray, second: FloatArray) -> np.ndarray:
     d_side = across_first @ d.T
     a_side = a @ across_second.T
     b_side = b @ across_second.T
-    crossing: np.ndarray = (
-        (c_side * d_side < 0.0) & (a_side * b_side < 0.0) & (c_side * b_side > 0.0)
-    )
-    return crossing
+    return (c_side * d_side < 0.0) & (a_side * b_side < 0.0) & (c_side * b_side > 0.0)
 
 
 def _verified(

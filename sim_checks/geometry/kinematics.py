@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from ..description import Description, FloatArray, JointLine, Mimic, sensible
 from .coupling import common_range, sound_chains, whole_chain
+from .placing import rigid
 
 MOVING_KINDS = ("revolute", "continuous", "prismatic")
 
@@ -158,6 +160,13 @@ def build_tree(description: Description) -> Tree:
     return Tree(roots[0], order, moving, _parts(names, roots[0], order), sound_mimics(description))
 
 
+def find_tree(description: Description) -> Tree | None:
+    """Return the tree of a description; ``None`` where its links form none, as the lint says."""
+    with suppress(NotATree):
+        return build_tree(description)
+    return None
+
+
 def sound_mimics(description: Description) -> dict[str, Mimic]:
     """Return follower -> mimic, where the chain of leaders ends at a joint that moves by itself.
 
@@ -195,13 +204,12 @@ def _parts(
 
 def joint_motion(joint: JointLine, value: float) -> FloatArray:
     """Return what the joint adds to its origin at ``value`` [rad] or [m]; shape [4, 4]."""
-    pose = np.eye(4)
     axis = unit_axis(joint)
     if joint.kind == "prismatic":
-        pose[:3, 3] = value * axis
-    elif joint.kind in ("revolute", "continuous"):
-        pose[:3, :3] = rotation_about(axis, value)
-    return pose
+        return rigid(np.eye(3), value * axis)
+    if joint.kind in MOVING_KINDS:
+        return rigid(rotation_about(axis, value), np.zeros(3))
+    return np.eye(4)
 
 
 def unit_axis(joint: JointLine) -> FloatArray:

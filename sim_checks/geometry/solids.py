@@ -12,9 +12,10 @@ from .collision import Collider
 from .coupled_path import AnyPath, CoupledPath
 from .depth import HullOverlap
 from .hull import FlatHull, convex_hull
-from .kinematics import Poser, Tree, unit_axis
+from .kinematics import Poser, Tree
 from .looks import LookBudget
-from .path import Path
+from .path import Path, joint_path
+from .placing import diagonal
 
 
 @dataclass(frozen=True)
@@ -104,12 +105,7 @@ class Solids:
 
     def diagonal(self) -> float:
         """Return the diagonal of the box around everything as placed [m]."""
-        boxes = self.bounds()
-        return (
-            float(np.linalg.norm(boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)))
-            if len(boxes)
-            else 0.0
-        )
+        return diagonal([self.bounds()]) if self.items else 0.0
 
     def standings(self, floor: float) -> Iterator[SolidPair]:
         """Yield pairs of solids of different parts closer than ``floor`` [m], in a fixed order.
@@ -132,10 +128,7 @@ class Solids:
 
     def path(self, joint: JointLine, poses: Mapping[str, FloatArray], length: float) -> Path:
         """Return the way a joint by itself moves what hangs below it, from the posed value on."""
-        frame = poses[joint.child]
-        # The axis is the same line in the child's frame at every value.
-        axis = frame[:3, :3] @ unit_axis(joint)
-        return Path(joint.kind != "prismatic", frame[:3, 3], axis, length)
+        return joint_path(joint, poses[joint.child], length)
 
     def groups(self, joint: JointLine) -> tuple[SolidGroup, ...]:
         """Return the solids grouped by how they move with ``joint`` and its followers.

@@ -72,11 +72,9 @@ class MujocoModel:
             return [self.base / reference, document.parent / reference]
         own = self.settings("texturedir" if element.tag == "texture" else "meshdir")
         folders = [_plain(folder) for folder in (*own, *self.settings("assetdir"))] or [""]
-        names = (
-            [Path(reference).name, reference]
-            if "true" in self.settings("strippath")
-            else [reference]
-        )
+        names = [reference]
+        if "true" in self.settings("strippath"):
+            names.insert(0, Path(reference).name)
         bases = [self.base, document.parent]
         return [base / folder / name for name in names for folder in folders for base in bases]
 

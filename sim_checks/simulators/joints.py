@@ -49,11 +49,8 @@ def ranges(world: World) -> Ranges:
     doors of which one follows the other backwards would begin with one of them open.
     """
     ends = {joint.name: _ends(joint) for joint in world.joints}
-    limits = {
-        joint.name: (joint.lower, joint.upper)
-        for joint in world.joints
-        if joint.lower < joint.upper
-    }
+    limited = [joint for joint in world.joints if joint.lower < joint.upper]
+    limits = {joint.name: (joint.lower, joint.upper) for joint in limited}
     sound = sound_chains({joint.name: joint.mimic for joint in world.joints})
     led: dict[str, dict[str, Mimic]] = {}
     for name in sound:
@@ -61,11 +58,8 @@ def ranges(world: World) -> Ranges:
         led.setdefault(whole.leader, {})[name] = whole
     for leader, wholes in led.items():
         lower, upper = ends[leader]
-        common = common_range(
-            (lower, upper),
-            [(whole, limits[name]) for name, whole in wholes.items() if name in limits],
-        )
-        ends[leader] = common if common is not None else (lower, lower)
+        followers = [(whole, limits[name]) for name, whole in wholes.items() if name in limits]
+        ends[leader] = common_range((lower, upper), followers) or (lower, lower)
         for name, whole in wholes.items():
             lower, upper = (whole.multiplier * end + whole.offset for end in ends[leader])
             ends[name] = lower, upper

@@ -94,11 +94,8 @@ def captured_lines(lines: list[str]) -> Iterator[None]:
             file.seek(0)
             text = file.read().decode("utf-8", "replace")
             found = (line.strip() for line in re.sub(BULLET_PREFIX, "\n", text).splitlines())
-            lines.extend(
-                list(dict.fromkeys(line for line in found if line and not _is_chatter(line)))[
-                    :MOST_LINES
-                ]
-            )
+            told = dict.fromkeys(line for line in found if line and not _is_chatter(line))
+            lines.extend(list(told)[:MOST_LINES])
 
 
 def _timeless(line: str, path: Path) -> str:

@@ -6,6 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from msgspec import ValidationError
+
 from asset_factory.sim_checks import Finding
 from asset_factory.sim_checks.measurements import (
     MeasuredContact,
@@ -61,7 +63,7 @@ class Places:
     def _read(measurements: Mapping[str, Any]) -> tuple[MeasuredPenetration, ...]:
         try:
             return penetrations(measurements)
-        except (KeyError, TypeError, AttributeError):
+        except ValidationError:
             # A report of another version; its words remain.
             return ()
 

@@ -72,8 +72,7 @@ class _Urdf:
             self._link(root, self._stage.bodies[path])
         for joint, child in self._hung:
             self._joint(root, joint, child)
-        written: bytes = ElementTree.tostring(root, encoding="utf-8")
-        return written
+        return ElementTree.tostring(root, encoding="utf-8")
 
     def _frame(self, path: str) -> FloatArray:
         """Return a link's frame in its body's: where its joint is; of a root, the world's own."""
