@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 import torch  # noqa: TID253 - this module is only imported to make an environment
 from mani_skill.utils.geometry.rotation_conversions import quaternion_apply  # noqa: TID253
 
@@ -48,29 +49,20 @@ class Targets:
         )
         self.slot = self._allowed[:, 0].clone()
         self._rows = torch.arange(len(assets), device=device)
-        self._table = {
-            name: torch.tensor(
-                [[getattr(j, name).tolist() for j in row] for row in joints], device=device
-            )
-            for name in VECTORS
-        } | {
-            name: torch.tensor([[getattr(j, name) for j in row] for row in joints], device=device)
-            for name in VALUES
+        columns = {
+            name: [[np.asarray(getattr(j, name)).tolist() for j in row] for row in joints]
+            for name in (*VECTORS, *VALUES)
         }
-        self._table["slides"] = torch.tensor(
-            [[float(j.kind == "prismatic") for j in row] for row in joints], device=device
-        )
+        columns["slides"] = [[float(j.kind == "prismatic") for j in row] for row in joints]
+        self._table = {
+            name: torch.tensor(rows, dtype=torch.float32, device=device)
+            for name, rows in columns.items()
+        }
         orders = [
             {joint.name: i for i, joint in enumerate(each.active_joints)} for each in articulations
         ]
-        self._table["dof"] = torch.tensor(
-            [[order[j.name] for j in row] for order, row in zip(orders, joints, strict=True)],
-            device=device,
-        )
-        self._table = {
-            name: table if name == "dof" else table.to(torch.float32)
-            for name, table in self._table.items()
-        }
+        degrees = [[order[j.name] for j in row] for order, row in zip(orders, joints, strict=True)]
+        self._table["dof"] = torch.tensor(degrees, device=device)
         self._handles = [
             [a.links_map[j.handle_link] for j in row]
             for a, row in zip(articulations, joints, strict=True)

@@ -139,7 +139,7 @@ class MeasuredPenetration:
 
     def to_dict(self) -> dict[str, Any]:
         """Return JSON data."""
-        return msgspec.json.decode(msgspec.json.encode(self))
+        return msgspec.json.decode(msgspec.json.encode(self), type=dict[str, Any])
 
 
 def penetrations(measurements: Mapping[str, Any]) -> tuple[MeasuredPenetration, ...]:

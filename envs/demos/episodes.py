@@ -11,15 +11,13 @@ from asset_factory.factory.runtime.code import code_digest
 from asset_factory.factory.runtime.store import stage_key
 
 from ..assets import RegisteredAsset
-from ..solving.attempt import SOLVER
+from ..solving.attempt import SOLVER, UNJUDGED
 from ..solving.solve import STEPS
 
 #: Of the layout of what is written.
 VERSION = 1
 #: What says how an episode is written.
 RECORDER = ("asset_factory.envs.demos.recording",)
-#: Reasons that say nothing of the joint; such episodes are tried again by the next run.
-UNJUDGED = ("crashed", "timeout", "failed")
 #: What the bits of a trajectory depend on besides this package.
 LIBRARIES = ("mani_skill", "sapien", "mplib", "numpy")
 #: The control mode that the solver acts in.

@@ -24,19 +24,12 @@ def record(registry: str, episode: Episode, settings: Settings, folder: str) -> 
     Raises:
         RegistryError, ConfigError: as the environment does.
     """
-    attempt = attempted(
-        SolveTask(
-            registry, episode.asset, episode.joint, settings.robot, episode.seed, settings.tries
-        )
-    )
-    taken = Taken(
-        episode,
-        attempt.solved,
-        attempt.reason,
-        attempt.message,
-        round(attempt.open_fraction, 6),
-        attempt.steps,
-    )
+    where = episode.asset, episode.joint
+    how = settings.robot, episode.seed, settings.tries
+    attempt = attempted(SolveTask(registry, *where, *how))
+    why = attempt.reason, attempt.message
+    opened = round(attempt.open_fraction, 6)
+    taken = Taken(episode, attempt.solved, *why, opened, attempt.steps)
     if attempt.solved or (settings.keep_failures and attempt.steps):
         return act_again(registry, taken, attempt, settings, Path(folder))
     keep_episode(Path(folder), settings, taken, None)

@@ -11,13 +11,11 @@ from typing import Any
 from asset_factory.factory.runtime.code import code_digest
 from asset_factory.factory.runtime.store import write_json
 
-from .attempt import SOLVER, Attempt
+from .attempt import SOLVER, UNJUDGED, Attempt
 
 FOLDER = "solving"
 #: Of the file's layout.
 VERSION = 3
-#: Reasons that say nothing of the asset.
-UNJUDGED = ("crashed", "timeout", "failed")
 
 
 @dataclass(frozen=True)

@@ -219,13 +219,9 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         factors = {}
         for name, (lower, upper) in self._factors.items():
             factors[name] = (lower + draws[name] * (upper - lower)).tolist()
-        for row, index in enumerate(env_idx.tolist()):
-            resist(
-                self._parts[index],
-                self.assets[index],
-                factors["friction"][row],
-                factors["damping"][row],
-            )
+        pairs = zip(factors["friction"], factors["damping"], strict=True)
+        for index, (friction, damping) in zip(env_idx.tolist(), pairs, strict=True):
+            resist(self._parts[index], self.assets[index], friction, damping)
 
     # Cameras.
 

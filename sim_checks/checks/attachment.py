@@ -9,7 +9,8 @@ import numpy as np
 from ..config import LintConfig
 from ..description import Description, FloatArray, IntArray, JointLine
 from ..geometry.collision import Skin
-from ..geometry.kinematics import build_tree, joint_motion, sweep_range
+from ..geometry.kinematics import build_tree, sweep_range
+from ..geometry.path import joint_path
 from ..geometry.placing import box_gap, joined, placed
 from .lint_ranges import closed_poses
 from .result import CheckResult, about, error
@@ -130,8 +131,7 @@ class _Surfaces:
         self, joint: JointLine, limits: tuple[float, float], vertices: FloatArray
     ) -> Iterator[FloatArray]:
         """Yield points that a joint moves, given at lower, at poses along its range."""
-        frame = self._poses[joint.parent] @ joint.origin
-        start = np.linalg.inv(self._poses[joint.child])
-        for value in np.linspace(*limits, POSES):
-            pose = frame @ joint_motion(joint, float(value)) @ start
+        length = limits[1] - limits[0]
+        path = joint_path(joint, self._poses[joint.child], length)
+        for pose in path.poses(np.linspace(0.0, length, POSES)):
             yield placed(vertices, pose)

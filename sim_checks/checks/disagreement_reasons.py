@@ -39,7 +39,8 @@ class EngineEvidence:
 
     def said(self, simulator: str, check: str) -> Mapping[str, Any]:
         """Return what ``loading`` or ``motion`` measured; empty if the engine got no further."""
-        return self.measurements.get(simulator, {}).get(check, {})
+        found: Mapping[str, Any] = self.measurements.get(simulator, {}).get(check, {})
+        return found
 
     def answer(self, simulator: str, codes: frozenset[str], joint: str | None = None) -> str:
         """Return ``pass``, or the first of these codes that the engine found (on one joint)."""

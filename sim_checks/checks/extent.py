@@ -16,9 +16,8 @@ def oversized(description: Description, config: WorkConfig) -> Finding | None:
     """Return why none of the static checks looks at a file, if it is too large for them."""
     hulls = sum(len(link.collisions) for link in description.links)
     if hulls > config.hulls:
-        return beyond(
-            f"{hulls} collision shapes: every one is compared with all others", hulls, config.hulls
-        )
+        words = f"{hulls} collision shapes: every one is compared with all others"
+        return beyond(words, hulls, config.hulls)
     tree = find_tree(description)
     if tree is None:
         return None
@@ -29,11 +28,8 @@ def oversized(description: Description, config: WorkConfig) -> Finding | None:
         above[joint.child] = above[joint.parent] + (joint.name in moving)
     moved = sum(above.values())
     if moved > config.moved_links:
-        return beyond(
-            f"its joints move {moved} links, counted once for each joint that moves them",
-            moved,
-            config.moved_links,
-        )
+        words = f"its joints move {moved} links, counted once for each joint that moves them"
+        return beyond(words, moved, config.moved_links)
     return None
 
 

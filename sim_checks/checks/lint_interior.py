@@ -204,10 +204,8 @@ def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull:
     cells = np.rint((points - grid.start) / (ROUNDING * grid.size)).astype(np.int64)
     points = points[np.unique(cells, axis=0, return_index=True)[1]]
     if len(points) > CORNERS:
-        columns = np.rint((points[:, :2] - grid.start[:2]) / grid.size).astype(np.int64) @ [
-            grid.shape[1],
-            1,
-        ]
+        cells = np.rint((points[:, :2] - grid.start[:2]) / grid.size).astype(np.int64)
+        columns = cells @ [grid.shape[1], 1]
         order = np.lexsort((points[:, 2], columns))
         starts = np.flatnonzero(np.diff(columns[order], prepend=-1))
         ends = np.concatenate([starts[1:], [len(order)]]) - 1

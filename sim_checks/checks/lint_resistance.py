@@ -61,13 +61,10 @@ def _force_findings(
 ) -> Iterator[Finding]:
     friction = joint.friction / lever.reach
     damping = joint.damping * length / config.opening_s / lever.reach
+    within = f"open it against its damping within {config.opening_s:g} s"
     ways = (
         ("friction_excessive", friction, "overcome its friction"),
-        (
-            "damping_excessive",
-            damping,
-            f"open it against its damping within {config.opening_s:g} s",
-        ),
+        ("damping_excessive", damping, within),
     )
     for code, force, purpose in ways:
         if force > config.pull_soft_n:

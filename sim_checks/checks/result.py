@@ -7,8 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypedDict, Unpack
 
-import numpy.typing as npt
-
 from ..description import JointLine
 from ..report import Finding, Severity
 
@@ -86,6 +84,6 @@ def listed(names: Sequence[str], most: int = 4) -> str:
     return ", ".join(repr(name) for name in names[:most]) + more
 
 
-def three(values: npt.ArrayLike | None) -> str:
+def three(values: Any) -> str:
     """Return three numbers as a sentence holds them."""
-    return "(" + ", ".join(f"{float(v):.4g}" for v in values) + ")"  # type: ignore[union-attr]
+    return "(" + ", ".join(f"{float(v):.4g}" for v in values) + ")"

@@ -133,7 +133,8 @@ def _thinned(points: FloatArray) -> FloatArray:
     kept = order[np.flatnonzero(np.diff(keys[order], prepend=-1))]
     # The box around everything stays as it is.
     ends = np.concatenate([points.argmin(axis=0), points.argmax(axis=0)])
-    return points[np.unique(np.concatenate([kept, ends]))]
+    thinned: FloatArray = points[np.unique(np.concatenate([kept, ends]))]
+    return thinned
 
 
 def _assemble(hull: ConvexHull, center: FloatArray, corners_before: int) -> CollisionHull:

@@ -64,7 +64,8 @@ def parse_xml(data: bytes, name: str) -> ET.Element:
         message = f"{name}: {items} elements and attributes, at most {MAX_ITEMS} are read"
         raise DescriptionError("too_large", message)
     with _refusing(name):
-        return fromstring(data, forbid_dtd=True)
+        root: ET.Element = fromstring(data, forbid_dtd=True)
+        return root
 
 
 def refuse_doctype(data: bytes, name: str) -> None:

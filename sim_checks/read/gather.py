@@ -14,7 +14,7 @@ from ..report import Finding, Severity
 from .copies import Copies
 from .document import find_file, is_file, parse_document
 from .gather_mjcf import copy_mjcf
-from .references import named_files
+from .references import named_files, urdf_references
 from .roots import ReadOptions, Roots
 from .srdf import SUFFIX as SRDF
 from .xacro import expand_xacro, is_xacro
@@ -85,14 +85,9 @@ def _told(path: Path, roots: Roots) -> Finding:
     return Finding("read_from_root", Severity.NOTE, words)
 
 
-def _references(document: ET.Element) -> list[ET.Element]:
-    """Return the elements of a URDF that name a file; a plugin names some program's library."""
-    return [item for item in document.iter() if item.get("filename") and item.tag != "plugin"]
-
-
 def _urdf_strays(path: Path, document: ET.Element) -> bool:
     """Return whether a URDF refers to what its folder alone does not explain."""
-    for element in _references(document):
+    for element in urdf_references(document):
         reference = element.get("filename", "")
         try:
             find_file(reference, path.parent)
@@ -113,7 +108,7 @@ def _mjcf_strays(path: Path, document: ET.Element) -> bool:
 
 
 def _copy_urdf(path: Path, document: ET.Element, copies: Copies, target: Path) -> None:
-    for element in _references(document):
+    for element in urdf_references(document):
         try:
             file = copies.roots.find(element.get("filename", ""))
         except DescriptionError as error:

@@ -218,6 +218,11 @@ def nested(inner: Path, chain: tuple[Path, ...]) -> tuple[Path, ...]:
     return chain
 
 
+def urdf_references(document: ET.Element) -> list[ET.Element]:
+    """Return the elements of a URDF that name a file; a plugin names some program's library."""
+    return [item for item in document.iter() if item.get("filename") and item.tag != "plugin"]
+
+
 def refuse_outside_urdf(path: Path, document: ET.Element) -> None:
     """Refuse a URDF that names a file outside its folder, even one that only an engine reads.
 
@@ -225,11 +230,8 @@ def refuse_outside_urdf(path: Path, document: ET.Element) -> None:
         DescriptionError: ``outside_folder``.
     """
     folder = path.parent.resolve()
-    for element in document.iter():
-        # A plugin is the name of a library of some other program.
-        reference = element.get("filename") if element.tag != "plugin" else None
-        if reference:
-            locate(reference, folder)
+    for element in urdf_references(document):
+        locate(element.get("filename", ""), folder)
     beside = path.with_suffix(".srdf")
     if beside.exists() and not inside(beside, folder):
         raise outside_error(beside.name, (beside,))

@@ -17,6 +17,8 @@ SIZES = {
     "capsule": (("radius", 1), ("length", 1)),
     "sphere": (("radius", 1),),
 }
+#: The entries of an inertia tensor on and above its diagonal, row by row.
+TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 @dataclass(frozen=True)

@@ -106,9 +106,7 @@ class MujocoWorld:
         links = tuple(_link(model, mujoco, i) for i in range(model.nbody))
         # Without the flag MuJoCo keeps a link and a moving parent apart, but not a link and the
         # unmoved base.
-        rules = PairRules(
-            parents_touch, static_parent=True, others=True, excluded=_excluded(model, links)
-        )
+        rules = PairRules(parents_touch, static_parent=True, excluded=_excluded(model, links))
         self.model = LoadedModel(links, every, (), rules)
         self.time_step = float(model.opt.timestep)
         self.carried = tuple(_below(model, links, int(model.jnt_bodyid[i])) for i in self._ids)

@@ -123,7 +123,6 @@ class NewtonWorld(MujocoWorld):
         rules = PairRules(
             moving_parent=False,
             static_parent=False,
-            others=True,
             excluded=tuple(pair for pair in apart if not _jointed(pair, links, model)),
         )
         self.model = replace(self.model, links=links, joints=joints, pairs=rules)

@@ -119,7 +119,6 @@ class PybulletWorld:
         rules = PairRules(
             config.parents_touch,
             static_parent=config.parents_touch,
-            others=True,
             excluded=self._let_pass(exempt),
         )
         self.model = LoadedModel(tuple(self._link(i) for i in self._names), self.joints, (), rules)
@@ -277,11 +276,9 @@ class PybulletWorld:
     def _states(self) -> FloatArray:
         """Return positions and velocities, shape [2, joint_count]; read once a step."""
         if self._state is None:
-            states = (
-                self._bullet.getJointStates(self._body, self._ids, **self._client)
-                if self._ids
-                else ()
-            )
+            states: Any = ()
+            if self._ids:
+                states = self._bullet.getJointStates(self._body, self._ids, **self._client)
             self._state = np.array([[state[k] for state in states] for k in (0, 1)], np.float64)
         return self._state
 

@@ -260,9 +260,7 @@ def _articulation_model(
         for link in articulation.links
     )
     joints = tuple(_joint(joint, mimics, forced) for joint in articulation.active_joints)
-    rules = PairRules(
-        moving_parent=False, static_parent=False, others=True, excluded=_excluded(articulation)
-    )
+    rules = PairRules(moving_parent=False, static_parent=False, excluded=_excluded(articulation))
     return LoadedModel(links, joints, (), rules)
 
 

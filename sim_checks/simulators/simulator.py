@@ -83,19 +83,18 @@ class LoadedJoint:
 class PairRules:
     """Which links the engine lets touch, as loaded.
 
+    All touch that no joint joins: siblings, and links further apart, also across a fixed joint.
+
     Attributes:
         moving_parent: whether a link touches the link it is jointed to, where that link moves
             itself.
         static_parent: the same where that link belongs to the unmoved base.
-        others: whether all other links touch: siblings, and links further apart, also across a
-            fixed joint.
         excluded: pairs that would touch by these rules, and that the file or the files beside it
             exempt.
     """
 
     moving_parent: bool
     static_parent: bool
-    others: bool
     excluded: tuple[tuple[str, str], ...] = ()
 
     def words(self) -> dict[str, Any]:
@@ -104,7 +103,7 @@ class PairRules:
         return {
             "link_and_moving_parent": yes_no[self.moving_parent],
             "link_and_unmoved_parent": yes_no[self.static_parent],
-            "siblings_and_further": yes_no[self.others],
+            "siblings_and_further": "touch",
             "excluded": [list(pair) for pair in self.excluded],
         }
 

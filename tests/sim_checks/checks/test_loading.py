@@ -63,7 +63,7 @@ def test_one_shape_of_many_that_is_dropped_is_named_too(description, held, codes
         ({"axis": (1.0, 0.0, 0.0)}, "axis_mismatch"),
         ({"axis": (-1.0, 0.001, 0.0)}, "axis_mismatch"),
         ({"axis": (0.0, 0.0, 0.0)}, "axis_mismatch"),
-        ({"follows": "hinge"}, "mimic_mismatch"),
+        ({"mimic": Mimic("hinge")}, "mimic_mismatch"),
     ],
 )
 def test_each_lie_about_a_joint_is_named(description, changes, code):
