@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 from asset_factory.factory.runtime.code import code_digest
+from asset_factory.factory.runtime.keys import installed_version
 from asset_factory.factory.runtime.store import stage_key
 
 from ..assets import RegisteredAsset
@@ -79,7 +79,8 @@ class Episode:
     def key(self, settings: Settings) -> str:
         """Return the name of everything that the trajectory depends on."""
         code = code_digest(*SOLVER, *RECORDER)
-        return stage_key("episode", code, _libraries(), settings, self)
+        libraries = {name: installed_version(name) for name in LIBRARIES}
+        return stage_key("episode", code, libraries, settings, self)
 
 
 @dataclass(frozen=True)
@@ -144,13 +145,3 @@ def make_shards(
         for number, start in enumerate(range(0, len(wanted), size)):
             shards.append(Shard(f"{asset.id}-{number:03d}", tuple(wanted[start : start + size])))
     return tuple(shards)
-
-
-def _libraries() -> dict[str, str]:
-    found = {}
-    for name in LIBRARIES:
-        try:
-            found[name] = version(name)
-        except PackageNotFoundError:
-            found[name] = ""
-    return found

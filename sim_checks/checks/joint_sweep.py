@@ -14,7 +14,7 @@ from ..description import FloatArray, JointLine
 from ..geometry.coupled_path import AnyPath, CoupledPath
 from ..geometry.depth import HullOverlap, contact_region
 from ..geometry.looks import LookBudget
-from ..geometry.path import Path
+from ..geometry.path import Path, joint_path
 from ..geometry.solids import SolidGroup, SolidPair
 from ..geometry.sweep import Candidate, Sweep, Tolerance, Worst
 from .hinge import within
@@ -124,7 +124,7 @@ class JointCourse:
 
     def path(self) -> Path:
         """Return the motion of the joint by itself; the solids are placed where it starts."""
-        own = self.pairs.solids.path(self.joint, self._placed(), self._length)
+        own = joint_path(self.joint, self._placed()[self.joint.child], self._length)
         return own if self.motion is None else replace(self.motion, length=self._length)
 
     @property

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..config import LoadingConfig
 from ..description import Description, JointLine
-from ..geometry.coupling import whole_chain
+from ..geometry.coupling import leaders, whole_chain
 from ..geometry.kinematics import MOVING_KINDS, sound_mimics, unit_axis
 from ..report import Finding
 from ..simulators.simulator import LoadedJoint
@@ -134,17 +134,15 @@ def _coupling(
         held = joints.get(line.name)
         if held is None or line.kind not in MOVING_KINDS:
             continue
-        leaders: list[str] = []
-        while (at := leaders[-1] if leaders else line.name) in mimics:
-            leaders.append(mimics[at].leader)
+        followed = leaders(line.name, mimics)
         subject = about(line, simulator)
-        if leaders and (held.follows is None or held.forced_by_judge):
+        if followed and (held.follows is None or held.forced_by_judge):
             dropped.append(line.name)
-        elif line.mimic is not None and not leaders:
+        elif line.mimic is not None and not followed:
             # It follows nothing that can be followed, which the lint says.
             continue
-        elif held.follows is not None and held.follows not in leaders:
-            said = f"follows {leaders[0]!r}" if leaders else "is free"
+        elif held.follows is not None and held.follows not in followed:
+            said = f"follows {followed[0]!r}" if followed else "is free"
             message = (
                 f"{simulator}: joint {line.name!r} is made to follow {held.follows!r}, "
                 f"in the file it {said}; want them coupled as written"

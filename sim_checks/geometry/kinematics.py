@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from ..description import Description, FloatArray, JointLine, Mimic, sensible
-from .coupling import common_range, sound_chains, whole_chain
+from .coupling import common_range, leaders, sound_chains, whole_chain
 from .placing import rigid
 
 MOVING_KINDS = ("revolute", "continuous", "prismatic")
@@ -53,7 +53,7 @@ class Tree:
     def _followers(self) -> Mapping[str, tuple[JointLine, ...]]:
         found: dict[str, tuple[JointLine, ...]] = {}
         for other in self.moving:
-            for leader in self._leaders(other.name):
+            for leader in leaders(other.name, self.mimics):
                 found[leader] = (*found.get(leader, ()), other)
         return found
 
@@ -71,13 +71,6 @@ class Tree:
     def completed(self, values: Mapping[str, float]) -> dict[str, float]:
         """Return values for every moving joint, followers included; file order."""
         return {joint.name: self.value_of(joint.name, values) for joint in self.moving}
-
-    def _leaders(self, name: str) -> tuple[str, ...]:
-        found: list[str] = []
-        while name in self.mimics:
-            name = self.mimics[name].leader
-            found.append(name)
-        return tuple(found)
 
     def link_poses(self, values: Mapping[str, float]) -> dict[str, FloatArray]:
         """Link frames in the root's frame, each of shape [4, 4].

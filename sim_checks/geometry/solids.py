@@ -10,11 +10,12 @@ import numpy as np
 from ..description import Description, FloatArray, JointLine
 from .collision import Collider
 from .coupled_path import AnyPath, CoupledPath
+from .coupling import leaders
 from .depth import HullOverlap
 from .hull import FlatHull, convex_hull
 from .kinematics import Poser, Tree
 from .looks import LookBudget
-from .path import Path, joint_path
+from .path import joint_path
 from .placing import diagonal
 
 
@@ -126,10 +127,6 @@ class Solids:
             if overlap.depth > -floor:
                 yield SolidPair(first, second, overlap)
 
-    def path(self, joint: JointLine, poses: Mapping[str, FloatArray], length: float) -> Path:
-        """Return the way a joint by itself moves what hangs below it, from the posed value on."""
-        return joint_path(joint, poses[joint.child], length)
-
     def groups(self, joint: JointLine) -> tuple[SolidGroup, ...]:
         """Return the solids grouped by how they move with ``joint`` and its followers.
 
@@ -182,7 +179,8 @@ class Solids:
         back = [(joint, -rate) for joint, rate in reversed(standing.ways[shared:])]
         steps = [*back, *moving.ways[shared:]]
         if len(steps) == 1 and steps[0][1] == 1.0:
-            return self.path(steps[0][0], poses, length)
+            joint = steps[0][0]
+            return joint_path(joint, poses[joint.child], length)
         return self._coupled(steps, poses, length)
 
     def way(self, group: SolidGroup, poses: Mapping[str, FloatArray], length: float) -> CoupledPath:
@@ -195,13 +193,13 @@ class Solids:
         poses: Mapping[str, FloatArray],
         length: float,
     ) -> CoupledPath:
-        lines = tuple((self.path(joint, poses, abs(rate) * length), rate) for joint, rate in steps)
-        return CoupledPath(lines, length)
+        paths = ((joint_path(j, poses[j.child], abs(rate) * length), rate) for j, rate in steps)
+        return CoupledPath(tuple(paths), length)
 
     def between(self, first: int, second: int) -> frozenset[str]:
         """Return the names of the free joints that move two parts against one another."""
         here, there = (self._above(part) for part in (first, second))
-        return frozenset(self._leader(name) for name in here ^ there)
+        return frozenset((name, *leaders(name, self.tree.mimics))[-1] for name in here ^ there)
 
     def _above(self, part: int) -> set[str]:
         """Return the names of the moving joints above a part."""
@@ -215,11 +213,6 @@ class Solids:
     def _rate(self, joint: JointLine, other: JointLine) -> float:
         start, end = (self.tree.value_of(other.name, {joint.name: value}) for value in (0.0, 1.0))
         return end - start
-
-    def _leader(self, name: str) -> str:
-        while name in self.tree.mimics:
-            name = self.tree.mimics[name].leader
-        return name
 
 
 def _steps(tree: Tree, part_of: Mapping[str, int]) -> tuple[tuple[int, int, JointLine], ...]:

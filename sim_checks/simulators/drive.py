@@ -9,11 +9,10 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray
-from .joints import Groups, Ranges, any_carried, companions, ranges, share
+from .joints import Groups, Ranges, any_carried, companions, pressing, ranges, share
 from .law import drive_law
 from .rest import Gain, let_go
 from .simulator import JointMotion, World
-from .touching import pressing
 
 #: How often the joints that make way are added to, because another link stands behind them.
 WIDENED = 3

@@ -1,4 +1,4 @@
-"""What rest, fall and drive ask of a world's joints: ends, couplings, and the mass each carries."""
+"""What rest, fall and drive ask of a world's joints: ends, couplings, contacts, and masses."""
 
 from __future__ import annotations
 
@@ -82,6 +82,25 @@ def companions(world: World, index: int) -> frozenset[int]:
     for _ in pairs:
         found |= {name for pair in pairs if pair & found for name in pair}
     return frozenset(i for i, joint in enumerate(world.joints) if joint.name in found)
+
+
+def pressing(world: World, index: int) -> tuple[str, str] | None:
+    """Return the hardest pressed pair of links across a joint.
+
+    Args:
+        world: after a step in which what presses pressed.
+        index: the joint; one link of the pair is moved by it, the other is not.
+
+    Returns:
+        Names in the order of the model's links; ``None`` if nothing presses.
+    """
+    moved = world.carried[index]
+    across = [
+        (touch.force, touch.depth, pair)
+        for pair, touch in world.contacts().items()
+        if touch.presses and (pair[0] in moved) != (pair[1] in moved)
+    ]
+    return max(across)[2] if across else None
 
 
 def any_carried(world: World) -> bool:
