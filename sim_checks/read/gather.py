@@ -61,7 +61,8 @@ def gather(path: Path, folder: Path, options: ReadOptions) -> Gathered:
         return Gathered(path)
     roots = Roots(path, options)
     copies = Copies(folder / (path.absolute().parent.name or "root"), roots)
-    target = copies.folder / (f"{_stem(path)}.urdf" if made else path.name)
+    stem = path.name.removesuffix(path.suffix).removesuffix(".urdf")
+    target = copies.folder / (f"{stem}.urdf" if made else path.name)
     if document.tag == "mujoco":
         copy_mjcf(path, document, copies, target)
     else:
@@ -70,10 +71,6 @@ def gather(path: Path, folder: Path, options: ReadOptions) -> Gathered:
     told = Finding("read_by_xacro", Severity.NOTE, f"{path.name} was expanded by xacro")
     findings = (*([told] if made else []), *([_told(path, roots)] if strays else []))
     return Gathered(target, (*included, *copies.originals), findings)
-
-
-def _stem(path: Path) -> str:
-    return path.name.removesuffix(path.suffix).removesuffix(".urdf")
 
 
 def _told(path: Path, roots: Roots) -> Finding:

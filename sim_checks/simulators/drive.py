@@ -180,7 +180,8 @@ def drive(
     for track in tracks:
         track.weight_closed = track.opening(balance)
     turned = False
-    for time in _times(config, world.time_step):
+    for step in range(1, round(2.0 * turning_point / world.time_step) + 1):
+        time = step * world.time_step
         goal[indices], speed[indices], acceleration[indices] = _ramp(
             time, span.lower[indices], span.travel[indices], config
         )
@@ -209,11 +210,6 @@ def drive(
         track.motion(opened, float(law.bound[i]), stopped.get(i), gain)
         for i, track in zip(indices, tracks, strict=True)
     )
-
-
-def _times(config: MotionConfig, time_step: float) -> list[float]:
-    total = 2.0 * (config.ramp_s + config.hold_s)
-    return [i * time_step for i in range(1, round(total / time_step) + 1)]
 
 
 def _ramp(

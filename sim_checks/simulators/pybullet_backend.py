@@ -108,7 +108,8 @@ class PybulletWorld:
         self.time_step = config.time_step_s
         # One process opens many worlds, and a client keeps some 25 MB until it is told to go.
         self._end = weakref.finalize(self, _disconnect, pybullet, client)
-        infos = [self._info(i) for i in range(pybullet.getNumJoints(body, **self._client))]
+        count = pybullet.getNumJoints(body, **self._client)
+        infos = [pybullet.getJointInfo(body, i, **self._client) for i in range(count)]
         moving = [info for info in infos if info[2] != pybullet.JOINT_FIXED]
         self._ids = [info[0] for info in moving]
         self._names = {BASE: pybullet.getBodyInfo(body, **self._client)[0].decode()}
@@ -269,9 +270,6 @@ class PybulletWorld:
         while link not in (BASE, joint):
             link = self._parents[link]
         return link == joint
-
-    def _info(self, i: int) -> Any:
-        return self._bullet.getJointInfo(self._body, i, **self._client)
 
     def _states(self) -> FloatArray:
         """Return positions and velocities, shape [2, joint_count]; read once a step."""
