@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -143,13 +144,15 @@ class MeasuredPenetration:
 
 
 def penetrations(measurements: Mapping[str, Any]) -> tuple[MeasuredPenetration, ...]:
-    """Return the measurements of each file of an asset.
+    """Return the measurements of each file of an asset; those of another version are left out.
 
     Args:
         measurements: of a report, by file and check.
-
-    Raises:
-        msgspec.ValidationError: they are of another version.
     """
-    judged = (data.get(PENETRATION) for data in measurements.values() if isinstance(data, Mapping))
-    return tuple(msgspec.convert(data, MeasuredPenetration) for data in judged if data)
+    found = []
+    for checks in measurements.values():
+        data = checks.get(PENETRATION) if isinstance(checks, Mapping) else None
+        if data:
+            with suppress(msgspec.ValidationError):
+                found.append(msgspec.convert(data, MeasuredPenetration))
+    return tuple(found)

@@ -71,7 +71,7 @@ def check_motion(
 
 @dataclass(frozen=True)
 class _MotionChecks:
-    """What is wrong with the motions of one engine.
+    """The checks of one engine's motions.
 
     Attributes:
         simulator: its name.
@@ -218,7 +218,7 @@ class _MotionChecks:
     def _energy(
         self, energy: float, height: float, where: str, subject: Concerned
     ) -> Iterator[Finding]:
-        """Check energy from nowhere [J], and how high it would lift what moves [m]."""
+        """Check energy from nowhere [J], and how high it would lift the moving parts [m]."""
         config = self.config
         if not (energy > config.energy_floor_j and height > config.energy_soft_m):
             return

@@ -49,7 +49,7 @@ class PhysicsJoint:
 
 
 def require_ends(prim: Any) -> None:
-    """Refuse a joint that holds on to what is not there; one that names nothing holds the world.
+    """Refuse a joint that names a body which no prim is; one that names none holds the world.
 
     Raises:
         DescriptionError: ``missing_element``.
