@@ -24,9 +24,10 @@ def record(registry: str, episode: Episode, settings: Settings, folder: str) -> 
     Raises:
         RegistryError, ConfigError: as the environment does.
     """
-    where = episode.asset, episode.joint
-    how = settings.robot, episode.seed, settings.tries
-    attempt = attempted(SolveTask(registry, *where, *how))
+    asset = episode.asset
+    joint = episode.joint
+    task = SolveTask(registry, asset, joint, settings.robot, episode.seed, settings.tries)
+    attempt = attempted(task)
     why = attempt.reason, attempt.message
     opened = round(attempt.open_fraction, 6)
     taken = Taken(episode, attempt.solved, *why, opened, attempt.steps)

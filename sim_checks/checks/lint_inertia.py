@@ -60,7 +60,8 @@ def inertia_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
         message = f"link {link.name!r} weighs {mass:g} kg, want more than 0"
         yield error("mass_not_positive", message, parts=parts, value=mass, unit="kg", limit=0.0)
         return
-    moments: FloatArray = np.linalg.eigvalsh(0.5 * (inertia.tensor + inertia.tensor.T))
+    symmetric = 0.5 * (inertia.tensor + inertia.tensor.T)
+    moments: FloatArray = np.linalg.eigvalsh(symmetric).astype(np.float64)
     if moments[0] <= 0.0:
         message = (
             f"link {link.name!r}: smallest principal moment is "

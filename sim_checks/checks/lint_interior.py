@@ -188,7 +188,8 @@ def _points(
     place = np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)
     u = (place // (down[which] + 1)) / along[which]
     v = (place % (down[which] + 1)) / down[which] * (1.0 - u)
-    return a[which] + u[:, None] * (b - a)[which] + v[:, None] * (c - a)[which]
+    points: FloatArray = a[which] + u[:, None] * (b - a)[which] + v[:, None] * (c - a)[which]
+    return points
 
 
 def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull:
@@ -227,7 +228,8 @@ def _directions() -> FloatArray:
 def _outside(surface: BoolArray) -> BoolArray:
     """Return free voxels that the outside reaches."""
     labels, _ = ndimage.label(~surface)
-    return labels == labels[0, 0, 0]
+    reached: BoolArray = labels == labels[0, 0, 0]
+    return reached
 
 
 def _walled(surface: BoolArray, down: FloatArray) -> BoolArray:

@@ -66,7 +66,7 @@ def _size_findings(
             f"joint {joint.name!r} moves by {length:.3g} {unit} and so opens nothing, "
             f"want {least:.3g} at least"
         )
-        limit = significant(least)
+        limit = float(f"{least:.6g}")
         yield warning("range_tiny", message, **about(joint), value=value, unit=unit, limit=limit)
 
 

@@ -247,4 +247,5 @@ def _sampled(
     a = corners[chosen, 0]
     b = corners[chosen, 1]
     c = corners[chosen, 2]
-    return a + u[:, None] * (b - a) + v[:, None] * (c - a)
+    points: FloatArray = a + u[:, None] * (b - a) + v[:, None] * (c - a)
+    return points

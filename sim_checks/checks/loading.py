@@ -69,12 +69,9 @@ def _link_findings(
         yield error("link_missing", message, **subject)
         return
     written = len(link.collisions)
-    details: Details = {
-        **subject,
-        "value": float(held.shapes),
-        "unit": "shapes",
-        "limit": float(written),
-    }
+    details: Details = {"simulator": simulator, "parts": (link.name,), "unit": "shapes"}
+    details["value"] = float(held.shapes)
+    details["limit"] = float(written)
     if held.shapes < written:
         words = f"{written - held.shapes} of {written} collision shapes of link {link.name!r}"
         yield error("shape_dropped", f"{simulator}: {words} were dropped", **details)

@@ -128,7 +128,8 @@ class _RestingBody:
 
     def _center(self) -> FloatArray:
         """Return the centre of mass as posed, in the root's frame [m], shape [3]."""
-        return np.sum(list(self._moments.values()), axis=0) / self.mass
+        total: FloatArray = np.sum(list(self._moments.values()), axis=0) / self.mass
+        return total
 
     def _support(self, values: Mapping[str, float]) -> FloatArray | None:
         """Return the support's edges: lines (nx, ny, d), ``n @ x <= d`` inside, [edge_count, 3]."""
@@ -358,4 +359,5 @@ def _edges(points: FloatArray, thinnest: float) -> FloatArray | None:
 def _farthest(points: FloatArray, distances: FloatArray) -> FloatArray:
     """Return the point with the greatest distance; of several, the highest."""
     far = points[distances >= distances.max() - SAME]
-    return far[int(np.argmax(far[:, 2]))]
+    point: FloatArray = far[int(np.argmax(far[:, 2]))]
+    return point

@@ -38,7 +38,8 @@ class CoupledPath:
 
     def pose(self, at: float) -> FloatArray:
         """Return the motion at ``at``, identity at 0; shape [4, 4]."""
-        return self.poses(np.array([at]))[0]
+        pose: FloatArray = self.poses(np.array([at]))[0]
+        return pose
 
     def poses(self, at: FloatArray) -> FloatArray:
         """Return the motion at many places, shape [place_count] -> [place_count, 4, 4]."""
@@ -110,7 +111,8 @@ class CoupledOrbit:
         """
         first, last = (self._heights(direction, at) for at in (starts, ends))
         rise = np.outer((ends - starts) ** 2 / 8.0, self.acceleration)
-        return (np.maximum(first, last) + rise).max(axis=1)
+        higher: FloatArray = (np.maximum(first, last) + rise).max(axis=1)
+        return higher
 
     def swept_bounds(self, at: FloatArray) -> FloatArray:
         """Return the boxes that hold the points all the way between neighbouring places.

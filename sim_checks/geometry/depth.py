@@ -60,7 +60,10 @@ def overlap_along(a: CollisionHull, b: CollisionHull, directions: FloatArray) ->
         b: second hull, same frame.
         directions: unit vectors from ``a`` towards ``b``, shape [direction_count, 3].
     """
-    return (a.vertices @ directions.T).max(axis=0) - (b.vertices @ directions.T).min(axis=0)
+    reach: FloatArray = (a.vertices @ directions.T).max(axis=0) - (b.vertices @ directions.T).min(
+        axis=0
+    )
+    return reach
 
 
 def overlap(a: CollisionHull, b: CollisionHull) -> HullOverlap:
@@ -106,7 +109,8 @@ def _nearest_to_origin(points: FloatArray) -> FloatArray:
     # With a row of ones the weights may have any sum: the best share is the same.
     scaled = points / np.linalg.norm(points, axis=1).max()
     weights, _ = nnls(np.vstack([scaled.T, np.ones(len(points))]), np.array([0.0, 0.0, 0.0, 1.0]))
-    return weights @ points / weights.sum()
+    nearest: FloatArray = weights @ points / weights.sum()
+    return nearest
 
 
 def _faces(a: CollisionHull, b: CollisionHull) -> HullOverlap:
@@ -157,7 +161,8 @@ def _differences(a: CollisionHull, b: CollisionHull, directions: FloatArray) -> 
     """Return extreme corners of the Minkowski difference by direction [m], [direction_count, 3]."""
     far = a.vertices[np.argmax(a.vertices @ directions.T, axis=0)]
     near = b.vertices[np.argmin(b.vertices @ directions.T, axis=0)]
-    return far - near
+    corners: FloatArray = far - near
+    return corners
 
 
 def _edges(a: CollisionHull, b: CollisionHull, found: HullOverlap) -> HullOverlap:

@@ -58,7 +58,8 @@ def _side_strayed(
 
 def _small(surface: VisibleSurface, pieces: IntArray) -> IntArray:
     areas = np.bincount(surface.pieces, weights=surface.areas)
-    return pieces[areas[pieces] < SMALL_SHARE * areas.sum()]
+    small: IntArray = pieces[areas[pieces] < SMALL_SHARE * areas.sum()]
+    return small
 
 
 def _nearer(

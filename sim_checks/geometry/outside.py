@@ -75,4 +75,5 @@ def _edge_distances(points: FloatArray, hull: CollisionHull) -> FloatArray:
     # Small distances drown in the rounding of large squares, so the nearest is measured again.
     share = share[np.arange(len(points)), edge]
     feet = starts[edge] + share[:, None] * along[edge]
-    return np.linalg.norm(points - feet, axis=1)
+    distances: FloatArray = np.linalg.norm(points - feet, axis=1)
+    return distances

@@ -29,7 +29,8 @@ class Path:
 
     def pose(self, at: float) -> FloatArray:
         """Return the motion at ``at``, identity at 0; shape [4, 4]."""
-        return self.poses(np.array([at]))[0]
+        pose: FloatArray = self.poses(np.array([at]))[0]
+        return pose
 
     def poses(self, at: FloatArray) -> FloatArray:
         """Return the motion at many places, shape [place_count] -> [place_count, 4, 4]."""
@@ -101,7 +102,10 @@ class Orbit:
         """
         if not self.path.turning:
             slope = self.path.axis @ direction
-            return (self.start @ direction).max() + np.maximum(starts * slope, ends * slope)
+            slid: FloatArray = (self.start @ direction).max() + np.maximum(
+                starts * slope, ends * slope
+            )
+            return slid
         cosine = self.radial @ direction
         sine = self.tangent @ direction
         at = np.concatenate([starts, ends])

@@ -59,7 +59,8 @@ class VisibleSurface:
     def areas(self) -> FloatArray:
         """Return the area of every face [m2], shape [face_count]."""
         a, b, c = (self.vertices[self.faces[:, k]] for k in range(3))
-        return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+        areas: FloatArray = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+        return areas
 
     @cached_property
     def welded(self) -> IntArray:

@@ -74,7 +74,8 @@ class _Urdf:
             self._link(root, self._stage.bodies[path])
         for joint, child in self._hung:
             self._joint(root, joint, child)
-        return ElementTree.tostring(root, encoding="utf-8")
+        written: bytes = ElementTree.tostring(root, encoding="utf-8")
+        return written
 
     def _frame(self, path: str) -> FloatArray:
         """Return a link's frame in its body's: where its joint is; of a root, the world's own."""
