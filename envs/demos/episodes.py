@@ -11,7 +11,8 @@ from asset_factory.factory.runtime.keys import installed_version
 from asset_factory.factory.runtime.store import stage_key
 
 from ..assets import RegisteredAsset
-from ..solving.attempt import SOLVER, UNJUDGED
+from ..solving.attempt import SOLVER
+from ..solving.record import UNJUDGED
 from ..solving.solve import STEPS
 
 #: Of the layout of what is written.

@@ -25,8 +25,6 @@ REASONS = {
     "timeout": "no answer in time",
     "failed": "the episode could not be run",
 }
-#: Those that say nothing of the joint: it is tried again by the next run.
-UNJUDGED = ("crashed", "timeout", "failed")
 
 
 @dataclass(frozen=True)

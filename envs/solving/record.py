@@ -11,11 +11,13 @@ from typing import Any
 from asset_factory.factory.runtime.code import code_digest
 from asset_factory.factory.runtime.store import write_json
 
-from .attempt import SOLVER, UNJUDGED, Attempt
+from .attempt import SOLVER, Attempt
 
 FOLDER = "solving"
 #: Of the file's layout.
 VERSION = 3
+#: Reasons that say nothing of the joint: it is tried again by the next run.
+UNJUDGED = ("crashed", "timeout", "failed")
 
 
 @dataclass(frozen=True)
