@@ -17,10 +17,9 @@ from pathlib import Path
 
 from asset_factory.sim_checks.checks.agreement import pose_samples
 from asset_factory.sim_checks.config import CheckConfig
-from asset_factory.sim_checks.judge import Judge
+from asset_factory.sim_checks.judge import Judge, run_checks
 from asset_factory.sim_checks.processes.isolation import WarmChild, processors
 from asset_factory.sim_checks.read.read import read_description
-from asset_factory.sim_checks.run import run_checks
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS, installed
 from asset_factory.sim_checks.simulators.observe import observe
 

@@ -81,6 +81,17 @@ def build_ground(scene: Any) -> Any:
 
 
 @contextmanager
+def replaced(owner: Any, name: str, value: Any) -> Iterator[None]:
+    """Have an attribute of somebody else's module or class be another within this."""
+    before = getattr(owner, name)
+    setattr(owner, name, value)
+    try:
+        yield
+    finally:
+        setattr(owner, name, before)
+
+
+@contextmanager
 def invisible_robots(scene: Any) -> Iterator[None]:
     """Let robots load whose URDF names materials, as Fetch's does, where nothing can render.
 
@@ -101,11 +112,8 @@ def invisible_robots(scene: Any) -> Iterator[None]:
                 link.remove(visual)
         return parse(loader, ElementTree.tostring(robot, encoding="unicode"))
 
-    URDFLoader._parse_urdf = parse_without_visuals
-    try:
+    with replaced(URDFLoader, "_parse_urdf", parse_without_visuals):
         yield
-    finally:
-        URDFLoader._parse_urdf = parse
 
 
 def resist(

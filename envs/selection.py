@@ -164,11 +164,9 @@ def _nothing_to_move(left: Assets, wanted: Wanted, assets: Assets) -> str:
     )
     why = f" ({'; '.join(reasons[:3])})" if reasons else ""
     # Asked for one asset, people want to know which others would do.
-    others = (
-        f"; assets with one: {listed(list(_admitted(assets, wanted)))}"
-        if wanted.asset is not None
-        else ""
-    )
+    others = f"; assets with one: {listed(list(_admitted(assets, wanted)))}"
+    if wanted.asset is None:
+        others = ""
     return f"{_where(left)}: no {need}{there}{why}{others}"
 
 

@@ -21,7 +21,7 @@ import sys
 import tempfile
 import weakref
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager, nullcontext, suppress
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, ClassVar
@@ -32,10 +32,11 @@ import trimesh
 from defusedxml.ElementTree import parse
 
 from asset_factory.factory.errors import RegistryError
+from asset_factory.sim_checks.simulators.sapien_backend import couple_as_written
 
 from .assets import FloatArray, RegisteredAsset, read_registry
 from .integrity import check_unaltered
-from .loading import invisible_robots, resist
+from .loading import invisible_robots, replaced, resist
 from .placement import facing_direction
 from .selection import Split, Wanted, select
 from .tasks.arguments import words
@@ -70,6 +71,8 @@ def described(asset: RegisteredAsset) -> ElementTree.Element:
         children.add(child)
         if joint.get("type") == "continuous" or child not in held:
             joint.set("type", "fixed")
+            for mimic in joint.findall("mimic"):
+                joint.remove(mimic)
     root = next(
         link.get("name", "") for link in robot.iter("link") if link.get("name") not in children
     )
@@ -152,6 +155,7 @@ class RegistryCabinets:
         _add_to_partnet({name: path for name, (_, path) in self._sources.items()})
         with (
             _handles_from_files(self._sources),
+            _coupled_as_written(),
             nullcontext() if self.scene.can_render() else unpainted(),
         ):
             super()._load_cabinets(joint_types)  # type: ignore[misc]
@@ -193,8 +197,23 @@ def _add_to_partnet(files: dict[str, Path]) -> None:
         partnet_mobility.PARTNET_MOBILITY["model_urdf_paths"][name] = path
 
 
-@contextmanager
-def _handles_from_files(sources: dict[str, tuple[RegisteredAsset, Path]]) -> Iterator[None]:
+def _coupled_as_written() -> AbstractContextManager[None]:
+    """Let joints follow others at the ratios of their files, which SAPIEN's loader turns round."""
+    from mani_skill.utils.building.articulations import partnet_mobility
+
+    make = partnet_mobility.get_partnet_mobility_builder
+
+    def coupled(*args: Any, **options: Any) -> Any:
+        builder = make(*args, **options)
+        couple_as_written(builder)
+        return builder
+
+    return replaced(partnet_mobility, make.__name__, coupled)
+
+
+def _handles_from_files(
+    sources: dict[str, tuple[RegisteredAsset, Path]],
+) -> AbstractContextManager[None]:
     """Let the stock code find handles without a renderer, and the middle of flat ones.
 
     It takes their shapes from what the renderer loaded, and only asks for the middle of the box
@@ -209,12 +228,7 @@ def _handles_from_files(sources: dict[str, tuple[RegisteredAsset, Path]]) -> Ite
         box = trimesh.creation.box(np.maximum(np.ptp(points, axis=0), THINNEST))
         return [box.apply_translation((points.min(axis=0) + points.max(axis=0)) / 2)]
 
-    generate = Link.generate_mesh
-    Link.generate_mesh = from_files
-    try:
-        yield
-    finally:
-        Link.generate_mesh = generate
+    return replaced(Link, "generate_mesh", from_files)
 
 
 @contextmanager
@@ -226,15 +240,11 @@ def unpainted() -> Iterator[None]:
     import sapien
     from sapien import pysapien
 
-    modules = (sapien.render, pysapien.render)
-    paints = [module.RenderMaterial for module in modules]
-    for module in modules:
-        module.RenderMaterial = SimpleNamespace
-    try:
+    with (
+        replaced(sapien.render, "RenderMaterial", SimpleNamespace),
+        replaced(pysapien.render, "RenderMaterial", SimpleNamespace),
+    ):
         yield
-    finally:
-        for module, paint in zip(modules, paints, strict=True):
-            module.RenderMaterial = paint
 
 
 def _handles(link: ElementTree.Element) -> list[ElementTree.Element]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 import torch  # noqa: TID253 - this module is only imported to make an environment
 from mani_skill.utils.geometry.rotation_conversions import quaternion_apply  # noqa: TID253
 
@@ -48,29 +49,20 @@ class Targets:
         )
         self.slot = self._allowed[:, 0].clone()
         self._rows = torch.arange(len(assets), device=device)
-        self._table = {
-            name: torch.tensor(
-                [[getattr(j, name).tolist() for j in row] for row in joints], device=device
-            )
-            for name in VECTORS
-        } | {
-            name: torch.tensor([[getattr(j, name) for j in row] for row in joints], device=device)
-            for name in VALUES
+        columns = {
+            name: [[np.asarray(getattr(j, name)).tolist() for j in row] for row in joints]
+            for name in (*VECTORS, *VALUES)
         }
-        self._table["slides"] = torch.tensor(
-            [[float(j.kind == "prismatic") for j in row] for row in joints], device=device
-        )
+        columns["slides"] = [[float(j.kind == "prismatic") for j in row] for row in joints]
+        self._table = {
+            name: torch.tensor(rows, dtype=torch.float32, device=device)
+            for name, rows in columns.items()
+        }
         orders = [
             {joint.name: i for i, joint in enumerate(each.active_joints)} for each in articulations
         ]
-        self._table["dof"] = torch.tensor(
-            [[order[j.name] for j in row] for order, row in zip(orders, joints, strict=True)],
-            device=device,
-        )
-        self._table = {
-            name: table if name == "dof" else table.to(torch.float32)
-            for name, table in self._table.items()
-        }
+        degrees = [[order[j.name] for j in row] for order, row in zip(orders, joints, strict=True)]
+        self._table["dof"] = torch.tensor(degrees, device=device)
         self._handles = [
             [a.links_map[j.handle_link] for j in row]
             for a, row in zip(articulations, joints, strict=True)
@@ -106,8 +98,7 @@ class Targets:
         """Return poses of the held links: position [m], quaternion wxyz; shape [environment, 7]."""
         if self._on_gpu:
             return self._px.cuda_rigid_body_data.torch()[self._now["handle"], :7]
-        pose: torch.Tensor = self._handles[0][int(self.slot[0])].pose.raw_pose
-        return pose
+        return self._handles[0][int(self.slot[0])].pose.raw_pose
 
     def motion(self) -> tuple[torch.Tensor, torch.Tensor, torch.Tensor]:
         """Return the moved links' orientation wxyz, velocity [m/s] and angular velocity [rad/s]."""
@@ -137,8 +128,7 @@ class Targets:
 
 def turned(vectors: torch.Tensor, orientation: torch.Tensor) -> torch.Tensor:
     """Turn vectors, shape [environment, 3], by quaternions wxyz, shape [environment, 4]."""
-    result: torch.Tensor = quaternion_apply(orientation, vectors)
-    return result
+    return quaternion_apply(orientation, vectors)
 
 
 def named_slot(asset: RegisteredAsset, joint: str) -> int:

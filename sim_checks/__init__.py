@@ -3,8 +3,7 @@
 Knows files, not the factory's types.
 """
 
-from .judge import Judge
+from .judge import Judge, run_checks
 from .report import Disagreement, Finding, Report, Severity, Status
-from .run import run_checks
 
 __all__ = ["Disagreement", "Finding", "Judge", "Report", "Severity", "Status", "run_checks"]

@@ -61,6 +61,11 @@ class DescribedShape:
     faces: IntArray
     file: str | None = None
 
+    @property
+    def corners(self) -> FloatArray:
+        """Return the vertices that are a corner of some face [m], shape [corner_count, 3]."""
+        return self.vertices[np.unique(self.faces)]
+
 
 @dataclass(frozen=True)
 class LinkInertia:
@@ -130,6 +135,11 @@ class JointLine:
     mimic: Mimic | None = None
     effort: float | None = None
     velocity: float | None = None
+
+    @property
+    def unit(self) -> str:
+        """Return the unit of its values."""
+        return "m" if self.kind == "prismatic" else "rad"
 
 
 @dataclass(frozen=True)

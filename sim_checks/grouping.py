@@ -86,7 +86,5 @@ def excuse_unread(report: Report, beside: Collection[Report]) -> Report:
         f"ranges and links, was driven in {', '.join(driven[0].simulators)}"
     )
     note = Finding("simulated_beside", Severity.NOTE, message)
-    return replace(
-        report,
-        findings=tuple(note if each.code == "not_simulated" else each for each in report.findings),
-    )
+    findings = (note if each.code == "not_simulated" else each for each in report.findings)
+    return replace(report, findings=tuple(findings))

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
-from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from types import TracebackType
 from typing import Any
 
 from .checks.disagreement import disagreements
@@ -64,12 +62,7 @@ class Judge:
     def __enter__(self) -> Judge:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        at: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
     def close(self) -> None:
@@ -88,11 +81,9 @@ class Judge:
         outcome = child.call(examine_here, path, self._config, limits=limits)
         if outcome.value is not None:
             return outcome.value
-        if isinstance(outcome.error, DescriptionError):
-            return Examination(
-                None, (Finding(outcome.error.code, Severity.ERROR, outcome.error.message),)
-            )
         failure = _failure(outcome, path)
+        if isinstance(outcome.error, DescriptionError):
+            return Examination(None, (failure,))
         second = child.call(examine_here, path, self._config, limits=limits, native=False).value
         if second is None:
             return Examination(None, (failure,))
@@ -144,19 +135,16 @@ class Judge:
             try:
                 return ask_of(child, path.name, readable, path, folder, options, limits=limits)
             except (DescriptionError, TimeoutError, ChildProcessError) as error:
-                return _unread(error)
+                return _unanswered(str(error), error)
         outcome = child.call(readable, path, folder, options, limits=limits)
-        if isinstance(outcome.error, DescriptionError):
-            return _unread(outcome.error)
         return _failure(outcome, path) if outcome.value is None else outcome.value
 
     def _reported(self, name: str, examined: Examination, simulators: Sequence[str]) -> Report:
         findings = list(examined.findings)
         measurements = dict(examined.measurements)
         if examined.description is not None:
-            for engine, result in zip(
-                simulators, self._ask(examined.description, simulators), strict=True
-            ):
+            results = self._ask(examined.description, simulators)
+            for engine, result in zip(simulators, results, strict=True):
                 findings += result.findings
                 measurements[engine] = dict(result.measurements)
             findings += _unasked(examined.description, simulators)
@@ -168,19 +156,15 @@ class Judge:
     def _ask(self, description: Description, simulators: Sequence[str]) -> Iterator[CheckResult]:
         from .checks.in_simulator import judge_in_simulator
 
+        def ask(name: str, child: WarmChild) -> CheckResult:
+            return judge_in_simulator(description, name, self._config, child)
+
         children = [self._child(name) for name in simulators]
-        judged = partial(judge_in_simulator, description, config=self._config)
         if self._workers == 1 or len(children) < 2:
-            return (
-                judged(name, child=child) for name, child in zip(simulators, children, strict=True)
-            )
+            return map(ask, simulators, children)
         pool = ThreadPoolExecutor(min(self._workers, len(children)), thread_name_prefix="judge")
         try:
-            asked = [
-                pool.submit(judged, name, child=c)
-                for name, c in zip(simulators, children, strict=True)
-            ]
-            return iter([future.result() for future in asked])
+            return iter(list(pool.map(ask, simulators, children)))
         finally:
             # Someone who interrupts does not wait for an engine to finish.
             pool.shutdown(wait=False, cancel_futures=True)
@@ -188,6 +172,29 @@ class Judge:
     def _child(self, name: str) -> WarmChild:
         limits = self._config.child
         return self._children.setdefault(name, WarmChild(limits.calls, limits.resident_bytes))
+
+
+def run_checks(
+    description: Path,
+    simulators: Sequence[str] = ("sapien",),
+    config: CheckConfig = DEFAULT_CONFIG,
+    options: ReadOptions = OWN_PACKAGE,
+) -> Report:
+    """Validate one URDF, MJCF or USD file from anyone: one call of :meth:`Judge.check`.
+
+    Native code runs in killable children; whatever the file does to them becomes a finding.
+
+    Args:
+        description: the file; its meshes lie in its folder, its package or a root.
+        simulators: which engines to ask, by name, in this order; none for the static checks alone.
+        config: every threshold.
+        options: what may be read beyond the file's folder and its package.
+
+    Raises:
+        ValueError: for a simulator that does not exist, with those that do.
+    """
+    with Judge(config) as judge:
+        return judge.check(description, simulators, options=options)
 
 
 def readable(path: Path, folder: Path, options: ReadOptions) -> Gathered:
@@ -267,17 +274,13 @@ def _failure(outcome: Outcome[Any], path: Path) -> Finding:
     return _unanswered(message, ChildProcessError() if outcome.killed else outcome.error)
 
 
-def _unread(error: Exception) -> Finding:
+def _unanswered(message: str, error: Exception | None) -> Finding:
+    """Tell a refusal, a hang (TimeoutError) and an ended process (ChildProcessError) from a crash.
+
+    Readers in children of their own raise the first three; see :func:`~.read.native.require_word`.
+    """
     if isinstance(error, DescriptionError):
         return Finding(error.code, Severity.ERROR, error.message)
-    return _unanswered(str(error), error)
-
-
-def _unanswered(message: str, error: Exception | None) -> Finding:
-    """Tell a hang (TimeoutError) and an ended process (ChildProcessError) from a crash.
-
-    Readers in children of their own raise the first two; see :func:`~.read.native.require_word`.
-    """
     if isinstance(error, TimeoutError):
         return Finding("check_timeout", Severity.ERROR, message, cause=OUT_OF_TIME)
     cause = KILLED if isinstance(error, ChildProcessError) else None

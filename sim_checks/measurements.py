@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass
+from contextlib import suppress
+from dataclasses import dataclass
 from typing import Any
+
+import msgspec
 
 #: Of a check's measurements in a report.
 PENETRATION = "penetration"
@@ -137,59 +140,19 @@ class MeasuredPenetration:
 
     def to_dict(self) -> dict[str, Any]:
         """Return JSON data."""
-        data: dict[str, Any] = _plain(asdict(self))
-        return data
-
-    @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> MeasuredPenetration:
-        """Return the inverse of :meth:`to_dict`."""
-        zero = data["zero"]
-        return cls(
-            diagonal_m=data["diagonal_m"],
-            hulls=data["hulls"],
-            parts=tuple(tuple(part) for part in data["parts"]),
-            rest=tuple(_contact(each) for each in data["rest"]),
-            zero=None if zero is None else tuple(_contact(each) for each in zero),
-            joints=tuple(_joint(each) for each in data["joints"]),
-            neighbours=tuple(MeasuredNeighbour(**_tuples(each)) for each in data["neighbours"]),
-            combinations=tuple(
-                MeasuredCombination(**_tuples(each)) for each in data["combinations"]
-            ),
-        )
+        return msgspec.json.decode(msgspec.json.encode(self), type=dict[str, Any])
 
 
 def penetrations(measurements: Mapping[str, Any]) -> tuple[MeasuredPenetration, ...]:
-    """Return the measurements of each file of an asset.
+    """Return the measurements of each file of an asset; those of another version are left out.
 
     Args:
         measurements: of a report, by file and check.
     """
-    judged = (data.get(PENETRATION) for data in measurements.values() if isinstance(data, Mapping))
-    return tuple(MeasuredPenetration.from_dict(data) for data in judged if data)
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {name: _plain(item) for name, item in value.items()}
-    return [_plain(item) for item in value] if isinstance(value, tuple) else value
-
-
-def _contact(data: Mapping[str, Any]) -> MeasuredContact:
-    return MeasuredContact(**_tuples(data))
-
-
-def _joint(data: Mapping[str, Any]) -> MeasuredJoint:
-    other = data["with_those_open"]
-    return MeasuredJoint(
-        **{
-            **_tuples(data),
-            "pairs": tuple(MeasuredPair(**_tuples(pair)) for pair in data["pairs"]),
-            "with_those_open": None if other is None else _joint(other),
-        }
-    )
-
-
-def _tuples(data: Mapping[str, Any]) -> dict[str, Any]:
-    return {
-        name: tuple(value) if isinstance(value, list) else value for name, value in data.items()
-    }
+    found = []
+    for checks in measurements.values():
+        data = checks.get(PENETRATION) if isinstance(checks, Mapping) else None
+        if data:
+            with suppress(msgspec.ValidationError):
+                found.append(msgspec.convert(data, MeasuredPenetration))
+    return tuple(found)

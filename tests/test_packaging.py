@@ -53,7 +53,7 @@ def test_importing_and_help_load_nothing_heavy(code):
 
 def test_judging_needs_no_torch():
     loaded = modules_after(
-        "import asset_factory.sim_checks.run, asset_factory.factory.build, "
+        "import asset_factory.sim_checks.judge, asset_factory.factory.build, "
         "asset_factory.factory.jobs"
     )
     assert loaded.isdisjoint(

@@ -4,22 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 from asset_factory.factory.runtime.code import code_digest
+from asset_factory.factory.runtime.keys import installed_version
 from asset_factory.factory.runtime.store import stage_key
 
 from ..assets import RegisteredAsset
 from ..solving.attempt import SOLVER
+from ..solving.record import UNJUDGED
 from ..solving.solve import STEPS
 
 #: Of the layout of what is written.
 VERSION = 1
 #: What says how an episode is written.
 RECORDER = ("asset_factory.envs.demos.recording",)
-#: Reasons that say nothing of the joint; such episodes are tried again by the next run.
-UNJUDGED = ("crashed", "timeout", "failed")
 #: What the bits of a trajectory depend on besides this package.
 LIBRARIES = ("mani_skill", "sapien", "mplib", "numpy")
 #: The control mode that the solver acts in.
@@ -81,7 +80,8 @@ class Episode:
     def key(self, settings: Settings) -> str:
         """Return the name of everything that the trajectory depends on."""
         code = code_digest(*SOLVER, *RECORDER)
-        return stage_key("episode", code, _libraries(), settings, self)
+        libraries = {name: installed_version(name) for name in LIBRARIES}
+        return stage_key("episode", code, libraries, settings, self)
 
 
 @dataclass(frozen=True)
@@ -146,13 +146,3 @@ def make_shards(
         for number, start in enumerate(range(0, len(wanted), size)):
             shards.append(Shard(f"{asset.id}-{number:03d}", tuple(wanted[start : start + size])))
     return tuple(shards)
-
-
-def _libraries() -> dict[str, str]:
-    found = {}
-    for name in LIBRARIES:
-        try:
-            found[name] = version(name)
-        except PackageNotFoundError:
-            found[name] = ""
-    return found

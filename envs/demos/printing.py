@@ -58,13 +58,9 @@ def print_summary(summary: dict[str, Any]) -> None:
     named = [Column(name, overflow="fold") for name in ("asset", "joint")]
     table = Table(*named, "episodes", "successes", "steps", "why not")
     for row in summary["joints"]:
-        colour = (
-            "green"
-            if row["successes"] == row["episodes"]
-            else "yellow"
-            if row["successes"]
-            else "red"
-        )
+        colour = "yellow" if row["successes"] else "red"
+        if row["successes"] == row["episodes"]:
+            colour = "green"
         reasons = ", ".join(f"{reason} {count}" for reason, count in row["reasons"].items())
         why = f"{reasons}: {row['message']}" if reasons else ""
         table.add_row(

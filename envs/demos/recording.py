@@ -24,19 +24,13 @@ def record(registry: str, episode: Episode, settings: Settings, folder: str) -> 
     Raises:
         RegistryError, ConfigError: as the environment does.
     """
-    attempt = attempted(
-        SolveTask(
-            registry, episode.asset, episode.joint, settings.robot, episode.seed, settings.tries
-        )
-    )
-    taken = Taken(
-        episode,
-        attempt.solved,
-        attempt.reason,
-        attempt.message,
-        round(attempt.open_fraction, 6),
-        attempt.steps,
-    )
+    asset = episode.asset
+    joint = episode.joint
+    task = SolveTask(registry, asset, joint, settings.robot, episode.seed, settings.tries)
+    attempt = attempted(task)
+    why = attempt.reason, attempt.message
+    opened = round(attempt.open_fraction, 6)
+    taken = Taken(episode, attempt.solved, *why, opened, attempt.steps)
     if attempt.solved or (settings.keep_failures and attempt.steps):
         return act_again(registry, taken, attempt, settings, Path(folder))
     keep_episode(Path(folder), settings, taken, None)
@@ -108,12 +102,11 @@ def _judged(taken: Taken, success: bool, info: dict[str, Any], settings: Setting
     if success:
         return replace(taken, success=True, reason="", message="", steps=steps, info=info)
     if taken.success:
-        how = (
-            "same actions did not open it again"
-            if settings.control_mode == SOLVED_IN
-            else "actions did not open it"
-        )
-        reason = "irreproducible" if settings.control_mode == SOLVED_IN else "unconvertible"
+        reason = "unconvertible"
+        how = "actions did not open it"
+        if settings.control_mode == SOLVED_IN:
+            reason = "irreproducible"
+            how = "same actions did not open it again"
         message = f"solved in {taken.steps} steps, and as {settings.control_mode} the {how}"
         taken = replace(taken, success=False, reason=reason, message=message)
     return replace(taken, steps=steps, info=info if settings.keep_failures else None)

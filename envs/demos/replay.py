@@ -19,6 +19,7 @@ from typing import Any, NoReturn
 from asset_factory.factory.errors import Exit
 from asset_factory.factory.runtime.terminal import complain
 
+from ..loading import replaced
 from ..tasks.arguments import BLIND_MODES
 from ..tasks.catalog import TASKS
 from .converting import to_hand_poses
@@ -75,7 +76,6 @@ def _told(registry: str | None) -> Iterator[None]:
     from mani_skill.utils import io_utils
 
     load = io_utils.load_json
-    convert = conversion.from_pd_joint_pos_to_ee
 
     def told(filename: Any) -> Any:
         data = load(filename)
@@ -88,13 +88,11 @@ def _told(registry: str | None) -> Iterator[None]:
         info["env_kwargs"].setdefault("max_episode_steps", info["max_episode_steps"])
         return data
 
-    io_utils.load_json = told
-    conversion.from_pd_joint_pos_to_ee = to_hand_poses
-    try:
+    with (
+        replaced(io_utils, "load_json", told),
+        replaced(conversion, "from_pd_joint_pos_to_ee", to_hand_poses),
+    ):
         yield
-    finally:
-        io_utils.load_json = load
-        conversion.from_pd_joint_pos_to_ee = convert
 
 
 if __name__ == "__main__":

@@ -165,12 +165,8 @@ def reach(
         square = jacobian @ jacobian.transpose(0, 2, 1) + DAMPING * np.eye(6)
         rest = CENTRING * (middle - values[:, columns]) / width
         inside = (jacobian @ rest[:, :, None])[:, :, 0]
-        step = (
-            rest
-            + (jacobian.transpose(0, 2, 1) @ np.linalg.solve(square, (error - inside)[:, :, None]))[
-                :, :, 0
-            ]
-        )
+        solved = np.linalg.solve(square, (error - inside)[:, :, None])
+        step = rest + (jacobian.transpose(0, 2, 1) @ solved)[:, :, 0]
         values[:, columns] = np.clip(values[:, columns] + np.clip(step, -STEP, STEP), lower, upper)
     error = pose_error(chain.forward(values, root, line)[:, tip], goals)
     return values, np.stack(
@@ -184,14 +180,8 @@ def pose_error(poses: FloatArray, goals: FloatArray) -> FloatArray:
     Poses and goals have shape [count, 4, 4].
     """
     turn = goals[:, :3, :3] @ poses[:, :3, :3].transpose(0, 2, 1)
-    twice = np.stack(
-        [
-            turn[:, 2, 1] - turn[:, 1, 2],
-            turn[:, 0, 2] - turn[:, 2, 0],
-            turn[:, 1, 0] - turn[:, 0, 1],
-        ],
-        1,
-    )
+    skew = turn - turn.transpose(0, 2, 1)
+    twice = np.stack([skew[:, 2, 1], skew[:, 0, 2], skew[:, 1, 0]], 1)
     length = np.linalg.norm(twice, axis=1)
     angle = np.arctan2(length, np.trace(turn, axis1=1, axis2=2) - 1.0)
     # A turn by half a circle has no direction here; any will do for one step.

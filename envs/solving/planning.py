@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from ..assets import FloatArray
 from .grips import STANDOFF, Grip
-from .world import RobotWorld
+from .world import BoolArray, RobotWorld
 
 #: Starting points of the search for joint values per grip, and its iterations.
 STARTS = 8
@@ -162,8 +162,7 @@ def _ways(
     far = np.zeros(len(row), dtype=int)
     for goal in goals:
         following, off = world.reach(goal, current, WAY_ITERATIONS)
-        leap = np.abs(following - current).max(axis=1)
-        alive &= (off[:, 0] < 2 * NEAR_M) & (off[:, 1] < 2 * NEAR_RAD) & (leap < LEAP)
+        alive &= _follows(current, following, off)
         far += alive
         current = np.where(alive[:, None], following, current)
         steps.append(current)
@@ -178,18 +177,16 @@ def _ways(
         worth = (shares[stations - 1] - now) / (1.0 - now) * (0.3 + grip.score) - 0.03 * lag[index]
         way = np.array([step[index] for step in steps[:stations]])
         start = values[row[index]]
-        found.append(
-            ArmPlan(
-                grip,
-                start,
-                start[None],
-                way,
-                shares[:stations],
-                goals[:stations, index],
-                float(worth),
-            )
-        )
+        hands = goals[:stations, index]
+        reached = shares[:stations]
+        found.append(ArmPlan(grip, start, start[None], way, reached, hands, float(worth)))
     return found
+
+
+def _follows(current: FloatArray, following: FloatArray, off: FloatArray) -> BoolArray:
+    """Tell which hands went where they should without a leap of a joint, shape [count]."""
+    leap = np.abs(following - current).max(axis=1)
+    return np.asarray((off[:, 0] < 2 * NEAR_M) & (off[:, 1] < 2 * NEAR_RAD) & (leap < LEAP))
 
 
 def _checked(
@@ -251,11 +248,7 @@ def _entered(world: RobotWorld, plans: list[ArmPlan]) -> list[ArmPlan]:
         moved = hands.copy()
         moved[:, :3, 3] -= back * hands[:, :3, 2]
         following, off = world.reach(moved, current, WAY_ITERATIONS)
-        fine &= (
-            (off[:, 0] < 2 * NEAR_M)
-            & (off[:, 1] < 2 * NEAR_RAD)
-            & (np.abs(following - current).max(axis=1) < LEAP)
-        )
+        fine &= _follows(current, following, off)
         current = following
         steps.append(current)
     entries = np.array(steps[::-1]).transpose(1, 0, 2)

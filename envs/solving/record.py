@@ -16,7 +16,7 @@ from .attempt import SOLVER, Attempt
 FOLDER = "solving"
 #: Of the file's layout.
 VERSION = 3
-#: Reasons that say nothing of the asset.
+#: Reasons that say nothing of the joint: it is tried again by the next run.
 UNJUDGED = ("crashed", "timeout", "failed")
 
 

@@ -145,22 +145,14 @@ def robot_balls(articulation: Any, fingers: Sequence[int]) -> Balls:
 
 def object_pieces(articulation: Any) -> LinkHulls:
     """Return the convex pieces of an object."""
-    return LinkHulls(
-        tuple(
-            _piece(i, mesh) for i, link in enumerate(articulation.links) for mesh in _meshes(link)
-        )
-    )
+    links = enumerate(articulation.links)
+    return LinkHulls(tuple(_piece(i, mesh) for i, link in links for mesh in _meshes(link)))
 
 
 def _piece(link: int, mesh: trimesh.Trimesh) -> Piece:
     normals = np.asarray(mesh.face_normals)
-    return Piece(
-        link,
-        normals,
-        np.einsum("fi,fi->f", normals, mesh.triangles[:, 0]),
-        np.array(mesh.bounds),
-        mesh,
-    )
+    offsets = np.einsum("fi,fi->f", normals, mesh.triangles[:, 0])
+    return Piece(link, normals, offsets, np.array(mesh.bounds), mesh)
 
 
 def _meshes(link: Any) -> list[trimesh.Trimesh]:
@@ -179,10 +171,7 @@ def _mesh(shape: Any) -> trimesh.Trimesh:
     if hasattr(shape, "half_size"):
         return trimesh.creation.box(extents=2.0 * np.asarray(shape.half_size))
     if hasattr(shape, "half_length"):
-        return trimesh.creation.box(
-            extents=[
-                2.0 * (float(shape.half_length) + float(shape.radius)),
-                *[2.0 * float(shape.radius)] * 2,
-            ]
-        )
+        radius = float(shape.radius)
+        length = float(shape.half_length) + radius
+        return trimesh.creation.box(extents=[2.0 * length, 2.0 * radius, 2.0 * radius])
     return trimesh.creation.icosphere(subdivisions=1, radius=float(shape.radius))

@@ -10,7 +10,13 @@ from typing import Any
 import numpy as np
 
 from asset_factory.factory.errors import ConfigError, RegistryError
-from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcome, WarmChild
+from asset_factory.sim_checks.processes.isolation import (
+    Failure,
+    Limits,
+    Outcome,
+    WarmChild,
+    run_isolated,
+)
 
 from ..assets import listed, read_registry
 from .attempt import Attempt
@@ -70,11 +76,8 @@ def solve_joint(
     """
     _require_there(registry, asset_id, joint, robot)
     task = SolveTask(str(registry), asset_id, joint, robot, seed, tries)
-    limits = Limits(wall_s=timeout_s)
-    if child is not None:
-        return answered(child.call(attempted, task, limits=limits), task)
-    with WarmChild() as own:
-        return answered(own.call(attempted, task, limits=limits), task)
+    ask = run_isolated if child is None else child.call
+    return answered(ask(attempted, task, limits=Limits(wall_s=timeout_s)), task)
 
 
 def answered(outcome: Outcome[Attempt], task: SolveTask) -> Attempt:
@@ -87,15 +90,14 @@ def answered(outcome: Outcome[Attempt], task: SolveTask) -> Attempt:
     if isinstance(outcome.error, (ConfigError, RegistryError)):
         raise outcome.error
     reason = "failed" if outcome.failure is Failure.RAISED else outcome.failure
-    nothing = _nothing(task.asset_id, task.joint, task.robot, task.seed)
-    return replace(nothing, reason=reason, message=outcome.detail, seconds=outcome.seconds)
+    return replace(_nothing(task), reason=reason, message=outcome.detail, seconds=outcome.seconds)
 
 
 def attempted(task: SolveTask) -> Attempt:
     """Solve as :func:`solve_joint`, in this process, which native code may take down."""
     environment = make_episodes(task.registry, task.robot)
     try:
-        return _solve_in(environment, task.asset_id, task.joint, task.robot, task.seed, task.tries)
+        return _solve_in(environment, task)
     finally:
         environment.close()
 
@@ -159,20 +161,17 @@ def episode_options(asset_id: str, joint: str) -> dict[str, Any]:
     return {"asset": asset_id, "joint": joint, "reconfigure": True}
 
 
-def _solve_in(
-    environment: Any, asset_id: str, joint: str, robot: str, seed: int, tries: int
-) -> Attempt:
-    best = _nothing(asset_id, joint, robot, seed)
+def _solve_in(environment: Any, task: SolveTask) -> Attempt:
+    best = _nothing(task)
     avoided: frozenset[tuple[object, ...]] = frozenset()
-    for number in range(tries):
+    for number in range(task.tries):
         attempt, used = _try(environment, replace(best, tries=number + 1), avoided)
         if attempt.solved:
             again, share = replay(environment, attempt)
             if again and share == attempt.open_fraction:
                 return attempt
-            message = (
-                f"open by {attempt.open_fraction:.3%} the first time and {share:.3%} the second"
-            )
+            first = f"{attempt.open_fraction:.3%} the first time"
+            message = f"open by {first} and {share:.3%} the second"
             attempt = replace(attempt, solved=False, reason="irreproducible", message=message)
         if number == 0 or attempt.open_fraction > best.open_fraction:
             best = attempt
@@ -197,6 +196,7 @@ def _try(
     driver = Driver(environment, read_world(task), STEPS)
     course = act(driver, blank.seed, avoided)
     touched = [force for force in driver.forces if force > 0.0]
+    actions = np.array(driver.actions, dtype=np.float32)
     attempt = replace(
         blank,
         digest=task.asset_record.digest,
@@ -208,12 +208,11 @@ def _try(
         mean_force=float(np.mean(touched)) if touched else 0.0,
         target=course.target,
         kinds=course.kinds,
-        actions=np.array(driver.actions, dtype=np.float32).reshape(
-            -1, *environment.action_space.shape
-        ),
+        actions=actions.reshape(-1, *environment.action_space.shape),
     )
     return attempt, course.used
 
 
-def _nothing(asset_id: str, joint: str, robot: str, seed: int) -> Attempt:
-    return Attempt(asset_id, "", joint, robot, seed, episode_options(asset_id, joint), False)
+def _nothing(task: SolveTask) -> Attempt:
+    options = episode_options(task.asset_id, task.joint)
+    return Attempt(task.asset_id, "", task.joint, task.robot, task.seed, options, solved=False)

@@ -54,21 +54,18 @@ def act(driver: Driver, seed: int, avoided: frozenset[Key]) -> EpisodeCourse:
     useless: set[Key] = set()
     target = -1
     begun = driver.share()
+
+    def ended(reason: str, message: str) -> EpisodeCourse:
+        return EpisodeCourse(reason, message, tuple(used), tuple(kinds), target)
+
     try:
         for stage in range(STAGES):
             found = _best(driver, seed, stage, avoided | useless)
-            if isinstance(found, tuple):
-                plan, path = found
-            else:
+            if isinstance(found, _Nothing):
                 if used and driver.share() < MOVED:
                     break
-                return EpisodeCourse(
-                    "short" if used else found.reason,
-                    found.message,
-                    tuple(used),
-                    tuple(kinds),
-                    target,
-                )
+                return ended("short" if used else found.reason, found.message)
+            plan, path = found
             if not kinds:
                 target = plan.grip.target
             kinds.append(plan.grip.kind)
@@ -88,19 +85,17 @@ def act(driver: Driver, seed: int, avoided: frozenset[Key]) -> EpisodeCourse:
         pass
     share = driver.share()
     if driver.solved:
-        return EpisodeCourse("", "", tuple(used), tuple(kinds), target)
+        return ended("", "")
     peak = sustained(driver.loads)
+    opened = f"open by {share:.1%}"
     if share < MOVED:
-        message = f"{len(used)} grips, a force of up to {peak:.0f} N, and it is open by {share:.1%}"
-        return EpisodeCourse("stuck", message, tuple(used), tuple(kinds), target)
+        force = f"a force of up to {peak:.0f} N"
+        return ended("stuck", f"{len(used)} grips, {force}, and it is {opened}")
     if driver.overloaded:
-        message = (
-            f"the hand bore {peak:.0f} N, want at most {OVERLOAD:.0f} N; it is open by {share:.1%}"
-        )
-        return EpisodeCourse("forced", message, tuple(used), tuple(kinds), target)
+        bore = f"the hand bore {peak:.0f} N, want at most {OVERLOAD:.0f} N"
+        return ended("forced", f"{bore}; it is {opened}")
     reason = "short" if share - begun > MOVED else "slipped"
-    message = f"{len(used)} grips in {len(driver.actions)} steps left it open by {share:.1%}"
-    return EpisodeCourse(reason, message, tuple(used), tuple(kinds), target)
+    return ended(reason, f"{len(used)} grips in {len(driver.actions)} steps left it {opened}")
 
 
 @dataclass(frozen=True)
@@ -127,9 +122,8 @@ def _best(
         found += [plan for plan in ways if _key(stage, plan) not in avoided]
     opened = f"open by {driver.share():.1%}"
     if not free:
-        return _Nothing(
-            "no_target", f"{opened}, none of {len(world.targets)} targets leaves room for this hand"
-        )
+        message = f"{opened}, none of {len(world.targets)} targets leaves room for this hand"
+        return _Nothing("no_target", message)
     if not found:
         return _Nothing("unreachable", f"{opened}, none of {free} grips is within the arm's reach")
     found.sort(key=lambda plan: -plan.worth)
@@ -137,10 +131,8 @@ def _best(
         path = transit(world, driver.values(), plan.before, poses, seed + route)
         if path is not None:
             return plan, path
-    return _Nothing(
-        "blocked",
-        f"{opened}, no free way to the best {min(ROUTES, len(found))} of {len(found)} grips",
-    )
+    best = f"the best {min(ROUTES, len(found))} of {len(found)} grips"
+    return _Nothing("blocked", f"{opened}, no free way to {best}")
 
 
 def _key(stage: int, plan: ArmPlan) -> Key:

@@ -145,11 +145,9 @@ class JointScene(BaseEnv):  # type: ignore[misc]
             return self._assets
         if joint is None and asset in self._assets:
             return {asset: self._assets[asset]}
-        among = (
-            self._available
-            if asset is not None
-            else {key: self._available[key] for key in self._assets}
-        )
+        among = self._available
+        if asset is None:
+            among = {key: among[key] for key in self._assets}
         return select(among, replace(self._about, asset=asset, joint=joint))
 
     def _draw(self, env_idx: torch.Tensor) -> dict[str, torch.Tensor]:
@@ -221,13 +219,9 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         factors = {}
         for name, (lower, upper) in self._factors.items():
             factors[name] = (lower + draws[name] * (upper - lower)).tolist()
-        for row, index in enumerate(env_idx.tolist()):
-            resist(
-                self._parts[index],
-                self.assets[index],
-                factors["friction"][row],
-                factors["damping"][row],
-            )
+        pairs = zip(factors["friction"], factors["damping"], strict=True)
+        for index, (friction, damping) in zip(env_idx.tolist(), pairs, strict=True):
+            resist(self._parts[index], self.assets[index], friction, damping)
 
     # Cameras.
 

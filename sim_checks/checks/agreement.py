@@ -11,10 +11,10 @@ import numpy.typing as npt
 
 from ..config import LoadingConfig
 from ..description import Description, FloatArray, JointLine, sensible
-from ..geometry.kinematics import MOVING_KINDS, NotATree, build_tree
+from ..geometry.kinematics import MOVING_KINDS, find_tree
 from ..report import Finding
 from ..simulators.simulator import JointValues, Observation
-from .result import CheckResult, error
+from .result import CheckResult, Concerned, error, significant
 
 #: Shares of the range at which link poses are compared; irrational steps, so that no symmetry hides
 #: a sign.
@@ -31,10 +31,9 @@ def pose_samples(description: Description) -> tuple[JointValues, ...]:
 
     Joints that follow others are where these take them; every joint that moves has a value.
     """
-    moving = [joint for joint in description.joints if joint.kind in MOVING_KINDS]
-    try:
-        tree = build_tree(description)
-    except NotATree:
+    tree = find_tree(description)
+    if tree is None:
+        moving = [joint for joint in description.joints if joint.kind in MOVING_KINDS]
         return tuple(_sample(moving, share) for share in POSE_SHARES)
     return tuple(tree.completed(_sample(list(tree.free), share)) for share in POSE_SHARES)
 
@@ -63,10 +62,9 @@ def check_agreement(
 
     A sample says where every joint was put, so followers are compared where they were put, too.
     """
-    try:
-        tree = build_tree(description)
-    except NotATree:
-        # The lint says so; there is no pose to compare with.
+    tree = find_tree(description)
+    if tree is None:
+        # There is no pose to compare with.
         return CheckResult()
     worst: dict[str, tuple[float, float]] = {}
     for sample in observation.poses:
@@ -76,12 +74,7 @@ def check_agreement(
             continue
         # Nothing can be told of where the links are if the base is nowhere, and so every link is.
         from_base = np.linalg.inv(base) if np.isfinite(base).all() else np.full((4, 4), np.nan)
-        common = [
-            link.name
-            for link in description.links
-            if link.name in expected and link.name in sample.poses
-        ]
-        for name in common:
+        for name in (link.name for link in description.links if link.name in sample.poses):
             distance, angle = _difference(expected[name], from_base @ sample.poses[name])
             before = worst.get(name, (0.0, 0.0))
             worst[name] = (max(before[0], distance), max(before[1], angle))
@@ -93,45 +86,31 @@ def check_agreement(
     measurements = {
         "pose_samples": len(observation.poses),
         "links_compared": len(worst),
-        "worst_position_m": _rounded(d for d, _ in worst.values()),
-        "worst_angle_rad": _rounded(a for _, a in worst.values()),
+        "worst_position_m": _largest(d for d, _ in worst.values()),
+        "worst_angle_rad": _largest(a for _, a in worst.values()),
     }
     return CheckResult(tuple(findings), measurements)
 
 
-def _rounded(values: Iterable[float]) -> float | None:
-    largest = max(values, default=0.0)
+def _largest(values: Iterable[float]) -> float | None:
     # Below that a difference is one of rounding, and another on every processor.
-    return float(f"{round(largest, DECIMALS):.3g}") if math.isfinite(largest) else None
+    return significant(round(max(values, default=0.0), DECIMALS), 3)
 
 
 def _finding(
     name: str, distance: float, angle: float, simulator: str, config: LoadingConfig
 ) -> Finding:
+    subject: Concerned = {"simulator": simulator, "parts": (name,)}
+    limit = config.position_m
     if math.isinf(distance):
         message = f"{simulator} has NaN or infinity for the place of link {name!r}"
-        return error(
-            "pose_mismatch",
-            message,
-            simulator=simulator,
-            parts=(name,),
-            unit="m",
-            limit=config.position_m,
-        )
+        return error("pose_mismatch", message, **subject, unit="m", limit=limit)
     message = (
         f"{simulator} puts link {name!r} up to {1000 * distance:.4g} mm and "
         f"{math.degrees(angle):.4g} deg from where the file puts it; at most "
         f"{1000 * config.position_m:g} mm and {math.degrees(config.angle_rad):.3g} deg are allowed"
     )
-    return error(
-        "pose_mismatch",
-        message,
-        simulator=simulator,
-        parts=(name,),
-        value=distance,
-        unit="m",
-        limit=config.position_m,
-    )
+    return error("pose_mismatch", message, **subject, value=distance, unit="m", limit=limit)
 
 
 def _difference(ours: FloatArray, theirs: npt.NDArray[Any]) -> tuple[float, float]:

@@ -9,9 +9,11 @@ import numpy as np
 from ..config import LintConfig
 from ..description import Description, FloatArray, IntArray, JointLine
 from ..geometry.collision import Skin
-from ..geometry.kinematics import build_tree, joint_motion, sweep_range
-from .lint_ranges import box_gap, closed_poses
-from .result import CheckResult, error
+from ..geometry.kinematics import build_tree, sweep_range
+from ..geometry.path import joint_path
+from ..geometry.placing import box_gap, joined, placed
+from .lint_ranges import closed_poses
+from .result import CheckResult, about, error
 
 #: Poses along a joint that are asked, both ends among them.
 POSES = 9
@@ -40,16 +42,9 @@ def check_attachment(description: Description, config: LintConfig) -> CheckResul
             f"the part that joint {joint.name!r} moves is {1000 * gap:.1f} mm away from its "
             f"parent {joint.parent!r} {where}; want at most {1000 * away:.3g} mm"
         )
+        value, limit = (round(1000 * length, 4) for length in (gap, away))
         findings.append(
-            error(
-                "part_detached",
-                message,
-                joint=joint.name,
-                parts=(joint.parent, joint.child),
-                value=round(1000 * gap, 4),
-                unit="mm",
-                limit=round(1000 * away, 4),
-            )
+            error("part_detached", message, **about(joint), value=value, unit="mm", limit=limit)
         )
     return CheckResult(tuple(findings))
 
@@ -125,26 +120,18 @@ class _Surfaces:
         self, names: Sequence[str], *, visible: bool
     ) -> tuple[FloatArray, IntArray] | None:
         """Return corners [m] and faces of links' visible or collision shapes; ``None`` if none."""
-        vertices = []
-        faces = []
-        count = 0
-        for name in names:
-            link = self._links[name]
-            pose = self._poses[name]
-            for shape in link.visuals if visible else link.collisions:
-                vertices.append(shape.vertices @ pose[:3, :3].T + pose[:3, 3])
-                faces.append(shape.faces + count)
-                count += len(shape.vertices)
-        if not any(map(len, faces)):
-            return None
-        return np.vstack(vertices), np.vstack(faces)
+        links = [self._links[name] for name in names]
+        return joined(
+            (shape, self._poses[link.name])
+            for link in links
+            for shape in (link.visuals if visible else link.collisions)
+        )
 
     def _along(
         self, joint: JointLine, limits: tuple[float, float], vertices: FloatArray
     ) -> Iterator[FloatArray]:
         """Yield points that a joint moves, given at lower, at poses along its range."""
-        frame = self._poses[joint.parent] @ joint.origin
-        start = np.linalg.inv(self._poses[joint.child])
-        for value in np.linspace(*limits, POSES):
-            pose = frame @ joint_motion(joint, float(value)) @ start
-            yield vertices @ pose[:3, :3].T + pose[:3, 3]
+        length = limits[1] - limits[0]
+        path = joint_path(joint, self._poses[joint.child], length)
+        for pose in path.poses(np.linspace(0.0, length, POSES)):
+            yield placed(vertices, pose)

@@ -99,11 +99,9 @@ def likely_cause(evidence: CauseEvidence, rest_m: float, excess_m: float) -> Cau
             return Cause.LEAKED_SEGMENT
         if evidence.at_rest:
             return Cause.PARTS_OVERLAP
-    return (
-        None
-        if evidence.way is None
-        else _along(evidence.way, evidence.visual is not None, rest_m, excess_m)
-    )
+    if evidence.way is None:
+        return None
+    return _along(evidence.way, evidence.visual is not None, rest_m, excess_m)
 
 
 def _along(way: Way, seen: bool, rest_m: float, excess_m: float) -> Cause | None:

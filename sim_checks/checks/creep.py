@@ -11,15 +11,11 @@ from typing import Any
 
 from ..config import CheckConfig, MotionConfig
 from ..description import Description, JointLine
-from ..geometry.kinematics import NotATree, build_tree
+from ..geometry.kinematics import find_tree
 from ..geometry.statics import gravity_load
-from ..report import Finding, Severity
+from ..report import Finding
 from ..simulators.simulator import HoldMotion, Observation
-from .result import CheckResult, error
-
-#: Numbers in a report keep this many decimals: engines differ in the last bits from machine to
-#: machine.
-DECIMALS = 6
+from .result import DECIMALS, CheckResult, about, error, graded
 
 
 def check_creep(
@@ -40,9 +36,8 @@ def check_creep(
         soft: whether no file of this format can tell the engine how stiffly friction holds; then
             creep is a warning.
     """
-    try:
-        tree = build_tree(description)
-    except NotATree:
+    tree = find_tree(description)
+    if tree is None:
         return CheckResult()
     lines = {line.name: line for line in description.joints}
     ranges = {motion.joint: motion.range for motion in observation.motions}
@@ -69,26 +64,25 @@ def _findings(
     config: MotionConfig,
     soft: bool,
 ) -> Iterator[Finding]:
-    parts = (line.parent, line.child)
+    subject = about(line, simulator)
     at = f"{round(held.values[line.name], DECIMALS) + 0.0:.4g}"
     if not held.finite:
         message = (
             f"{simulator}: joint {line.name!r} went to infinity or NaN while left alone at {at}"
         )
-        yield error("not_finite", message, simulator=simulator, joint=line.name, parts=parts)
+        yield error("not_finite", message, **subject)
         return
-    unit, most = ("m", config.creep_m) if line.kind == "prismatic" else ("rad", config.creep_rad)
+    most = config.creep_m if line.kind == "prismatic" else config.creep_rad
     allowed = min(most, config.creep_share * length)
+    unit = line.unit
     if held.moved > allowed:
         message = (
             f"{simulator}: joint {line.name!r}, left alone at {at}, crept by {held.moved:.3g} "
             f"{unit} in {config.held_s:g} s though its friction of {line.friction:.3g} holds its "
             f"weight; at most {allowed:.3g} {unit} is allowed{_remedy(held, simulator, soft)}"
         )
-        severity = Severity.WARNING if soft else Severity.ERROR
-        moved = round(held.moved, DECIMALS)
-        limit = round(allowed, DECIMALS)
-        yield Finding("creeps", severity, message, simulator, line.name, parts, moved, unit, limit)
+        moved, limit = (round(length, DECIMALS) for length in (held.moved, allowed))
+        yield graded(not soft, "creeps", message, **subject, value=moved, unit=unit, limit=limit)
 
 
 def _remedy(held: HoldMotion, simulator: str, soft: bool) -> str:

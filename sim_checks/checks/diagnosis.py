@@ -13,7 +13,6 @@ from functools import cache
 import numpy as np
 
 from ..config import PenetrationConfig
-from ..description import JointLine
 from ..geometry.path import Path
 from .cause import MOST_OF_THE_RANGE, CauseEvidence, Way, likely_cause
 from .joint_sweep import JointCourse, Rest, clear_until
@@ -51,18 +50,15 @@ class Diagnosis:
 
     def explained(self, study: PenetrationStudy) -> PenetrationStudy:
         """Return the same study, with visible surfaces and a cause for all that is too deep."""
-        joints = {joint.name: joint for joint in self.pairs.solids.tree.moving}
         return replace(
             study,
-            rest=tuple(self._at_rest(contact) for contact in study.rest),
-            zero=None
-            if study.zero is None
-            else tuple(self._at_rest(contact) for contact in study.zero),
-            sweeps=tuple(self._along(sweep, joints[sweep.joint]) for sweep in study.sweeps),
+            rest=tuple(map(self._at_rest, study.rest)),
+            zero=None if study.zero is None else tuple(map(self._at_rest, study.zero)),
+            sweeps=tuple(map(self._along, study.sweeps)),
             neighbours=replace(
                 study.neighbours, met=tuple(map(self._both_open, study.neighbours.met))
             ),
-            combinations=tuple(self._combined(item) for item in study.combinations),
+            combinations=tuple(map(self._combined, study.combinations)),
         )
 
     def _at_rest(self, contact: Contact) -> Contact:
@@ -88,14 +84,14 @@ class Diagnosis:
             cause = likely_cause(evidence, self.config.rest_m, self.config.excess_m)
         return replace(contact, visual=visual, cause=cause)
 
-    def _along(self, sweep: JointSweep, joint: JointLine) -> JointSweep:
+    def _along(self, sweep: JointSweep) -> JointSweep:
         failing = [pair for pair in sweep.pairs if pair.excess > self.config.excess_m]
         if not failing:
             return self._with_clearance(sweep)
         if sweep.alternative is not None:
             # What others have to make way for is no fault that wants a cause.
             return sweep
-        course = JointCourse(joint, self.pairs, self.rest, self.config, self.rest.lower)
+        course = JointCourse(sweep.joint, self.pairs, self.rest, self.config, self.rest.lower)
         otherwise = cache(lambda: self._least_otherwise(course))
         pairs = tuple(
             self._failing(pair, sweep, course, otherwise) if pair in failing else pair
@@ -107,12 +103,10 @@ class Diagnosis:
         if not sweep.pairs:
             return sweep
         nearest = max(sweep.pairs, key=lambda pair: pair.excess)
-        seen = replace(
-            nearest, contact=replace(nearest.contact, visual=self.visible.gap(nearest.contact))
-        )
-        return replace(
-            sweep, pairs=tuple(seen if pair is nearest else pair for pair in sweep.pairs)
-        )
+        contact = replace(nearest.contact, visual=self.visible.gap(nearest.contact))
+        seen = replace(nearest, contact=contact)
+        pairs = tuple(seen if pair is nearest else pair for pair in sweep.pairs)
+        return replace(sweep, pairs=pairs)
 
     def _failing(
         self,
@@ -127,25 +121,21 @@ class Diagnosis:
             alone = replace(course, only=frozenset({pair.parts}))
             clear = (clear_until(alone, pair) - sweep.lower) / (sweep.upper - sweep.lower)
             # Where the joint opens for most of its way, no other is looked for.
-            return Way(
-                clear, sweep.excess, otherwise() if clear < MOST_OF_THE_RANGE else None, at_rest
-            )
+            other = otherwise() if clear < MOST_OF_THE_RANGE else None
+            return Way(clear, sweep.excess, other, at_rest)
 
         # How a joint goes says something of what blocks it, not of its knuckles or of pairs that
         # may touch. Where another joint would have to make way first, it says nothing of this one.
         plain = pair.contact.kind is PairKind.PLAIN and not sweep.waits_for
         allowed = self.config.excess_m + at_rest
-        return replace(
-            pair, contact=self._judged(pair.contact, allowed, way=way if plain else None)
-        )
+        contact = self._judged(pair.contact, allowed, way=way if plain else None)
+        return replace(pair, contact=contact)
 
     def _least_otherwise(self, course: JointCourse) -> float | None:
         """Return the least worst excess among the other motions that can be tried [m]."""
-        motions = self._other_motions(course)
-        return min(
-            (replace(course, motion=item, located=False).run().excess for item in motions),
-            default=None,
-        )
+        course = replace(course, located=False)
+        tried = (replace(course, motion=item).run() for item in self._other_motions(course))
+        return min((sweep.excess for sweep in tried), default=None)
 
     def _other_motions(self, course: JointCourse) -> tuple[Path, ...]:
         """Yield the joint turned around; and a hinge at either edge, the far one both ways.
@@ -181,10 +171,8 @@ class Diagnosis:
     def _both_open(self, item: BothOpen) -> BothOpen:
         if item.pair.excess <= self.config.excess_m:
             return item
-        return replace(
-            item,
-            pair=replace(item.pair, contact=self._met_open(item.pair.contact, item.pair.excess)),
-        )
+        contact = self._met_open(item.pair.contact, item.pair.excess)
+        return replace(item, pair=replace(item.pair, contact=contact))
 
     def _combined(self, item: Combination) -> Combination:
         if item.excess <= self.config.excess_m:

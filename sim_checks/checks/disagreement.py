@@ -8,9 +8,11 @@ from typing import Any
 
 from ..report import Disagreement, Finding
 from .disagreement_reasons import PASS, Dispute, EngineEvidence, likely_reason
+from .result import DECIMALS
 
 NOT_FINITE = "not_finite"
-DECIMALS = 6
+#: Codes of a joint that an engine did not bring to upper.
+NOT_OPENED = frozenset({"jammed", NOT_FINITE})
 #: Findings that mean that an engine holds another asset than the file's, or none.
 LOADING_CODES = frozenset(
     {
@@ -56,9 +58,7 @@ def _beyond(motion: Mapping[str, Any]) -> float:
 
 QUESTIONS = (
     _Question("opens", "jammed", "joints", lambda motion: motion["reached"]),
-    _Question(
-        "returns", "not_returned", "joints", lambda motion: motion["returned"], needs_open=True
-    ),
+    _Question("returns", "not_returned", "joints", lambda motion: motion["returned"], True),
     _Question("rests", "pushed_at_rest", "rest", lambda rest: rest["share"]),
     _Question("leaves_others", "others_moved", "joints", lambda motion: motion["others_moved"]),
     _Question("keeps_limits", "limit_overshoot", "joints", _beyond),
@@ -80,12 +80,12 @@ def disagreements(
         ``rests``, ``leaves_others``, ``keeps_limits``.
     """
     evidence = EngineEvidence(findings, measurements, simulators)
+    disputes = (case for case in _cases(evidence) if len(set(case.verdicts.values())) > 1)
     return tuple(
         Disagreement(
             case.question, case.joint, case.verdicts, case.values, case.unit, likely_reason(case)
         )
-        for case in _cases(evidence)
-        if len(set(case.verdicts.values())) > 1
+        for case in disputes
     )
 
 
@@ -99,18 +99,13 @@ def _cases(evidence: EngineEvidence) -> Iterator[Dispute]:
 
 def _loads(evidence: EngineEvidence) -> Dispute:
     answers = {name: evidence.answer(name, LOADING_CODES) for name in evidence.simulators}
-    verdicts = {
-        name: answer
-        for name, answer in answers.items()
-        if answer != PASS or evidence.said(name, "loading")
-    }
+    verdicts = {n: a for n, a in answers.items() if a != PASS or evidence.said(n, "loading")}
     return Dispute("loads", None, verdicts, dict.fromkeys(verdicts), None, evidence)
 
 
 def _link_poses(evidence: EngineEvidence) -> Dispute:
-    worst = {
-        name: evidence.said(name, "loading").get("worst_position_m") for name in evidence.simulators
-    }
+    said = {name: evidence.said(name, "loading") for name in evidence.simulators}
+    worst = {name: numbers.get("worst_position_m") for name, numbers in said.items()}
     values = {name: round(value, DECIMALS) for name, value in worst.items() if value is not None}
     verdicts = {name: evidence.answer(name, frozenset({"pose_mismatch"})) for name in values}
     return Dispute("link_poses", None, verdicts, values, "m", evidence)
@@ -118,14 +113,9 @@ def _link_poses(evidence: EngineEvidence) -> Dispute:
 
 def _joints(evidence: EngineEvidence) -> Iterator[str]:
     """Yield every joint that an engine moved or left alone, once, in the order of their lists."""
-    motions = [evidence.said(name, "motion") for name in evidence.simulators]
-    entries = (
-        entry
-        for motion in motions
-        for among in ("joints", "rest")
-        for entry in motion.get(among, ())
-    )
-    yield from dict.fromkeys(entry["joint"] for entry in entries)
+    motions = (evidence.said(name, "motion") for name in evidence.simulators)
+    lists = (motion.get(among, ()) for motion in motions for among in ("joints", "rest"))
+    yield from dict.fromkeys(entry["joint"] for entries in lists for entry in entries)
 
 
 def _asked(question: _Question, joint: str, evidence: EngineEvidence) -> Dispute:
@@ -134,17 +124,13 @@ def _asked(question: _Question, joint: str, evidence: EngineEvidence) -> Dispute
     for name in evidence.simulators:
         entries = evidence.said(name, "motion").get(question.among, ())
         entry = next((entry for entry in entries if entry["joint"] == joint), None)
-        if entry is None:
-            continue
-        if (
-            question.needs_open
-            and evidence.answer(name, frozenset({"jammed", NOT_FINITE}), joint) != PASS
+        if entry is None or (
+            question.needs_open and evidence.answer(name, NOT_OPENED, joint) != PASS
         ):
             continue
+        verdicts[name] = NOT_FINITE
+        values[name] = None
         if entry["finite"]:
             verdicts[name] = evidence.answer(name, frozenset({question.code}), joint)
             values[name] = round(question.number(entry), DECIMALS)
-        else:
-            verdicts[name] = NOT_FINITE
-            values[name] = None
     return Dispute(question.name, joint, verdicts, values, "of range", evidence)

@@ -87,14 +87,9 @@ class Dispute:
     @property
     def parts(self) -> frozenset[str]:
         """Return parent and child of the joint, as a finding names them; empty if none does."""
-        for finding in self.evidence.findings:
-            if (
-                finding.joint == self.joint
-                and finding.simulator in self.failing
-                and len(finding.parts) == 2
-            ):
-                return frozenset(finding.parts)
-        return frozenset()
+        told = (f for f in self.evidence.findings if f.simulator in self.failing)
+        both = (f.parts for f in told if f.joint == self.joint and len(f.parts) == 2)
+        return frozenset(next(both, ()))
 
     @property
     def blockers(self) -> frozenset[str]:
@@ -113,9 +108,7 @@ class Dispute:
         """
         contacts = list(self._contacts())
         blocking = [contact for contact in contacts if set(contact["links"]) == self.blockers]
-        return max(
-            blocking or contacts, key=lambda contact: float(contact["depth_mm"]), default=None
-        )
+        return max(blocking or contacts, key=lambda each: float(each["depth_mm"]), default=None)
 
     def _contacts(self) -> Iterator[Mapping[str, Any]]:
         if self.question != "rests":
@@ -146,9 +139,8 @@ def _loading(case: Dispute) -> str | None:
     refusing = [name for name, verdict in case.verdicts.items() if verdict == "load_failed"]
     if not refusing or len(refusing) != len(case.failing):
         return None
-    return (
-        f"the loader of {_titles(refusing)} asks more of a file; its own words are in its finding"
-    )
+    own_words = "its own words are in its finding"
+    return f"the loader of {_titles(refusing)} asks more of a file; {own_words}"
 
 
 def _soft_limit(case: Dispute) -> str | None:
@@ -176,9 +168,8 @@ def _follower(case: Dispute) -> str | None:
 
 
 def _explicit_damping(case: Dispute) -> str | None:
-    stiff = [
-        f for f in case.evidence.findings if f.code == "damping_stiff" and f.joint == case.joint
-    ]
+    told = (f for f in case.evidence.findings if f.code == "damping_stiff")
+    stiff = [f for f in told if f.joint == case.joint]
     if not stiff or case.failing != {"pybullet"} or case.blockers:
         return None
     takes = f"damping takes {stiff[0].value:.3g} times the speed in one step"
@@ -232,12 +223,8 @@ def _friction(case: Dispute) -> str | None:
     touches = contact is not None and contact["depth_mm"] > TOUCH_MM
     if touches or case.passing != {"sapien"} or case.question not in {"opens", "returns"}:
         return None
-    dropped = any(
-        finding.code == "friction_ignored"
-        and finding.simulator == "sapien"
-        and case.joint in finding.joints
-        for finding in case.evidence.findings
-    )
+    told = (f for f in case.evidence.findings if f.code == "friction_ignored")
+    dropped = any(f.simulator == "sapien" and case.joint in f.joints for f in told)
     return "nothing is in the way, and SAPIEN drops the file's joint friction" if dropped else None
 
 

@@ -7,24 +7,19 @@ from __future__ import annotations
 
 from ..config import WorkConfig
 from ..description import Description
-from ..geometry.kinematics import NotATree, build_tree, free_ranges
+from ..geometry.kinematics import find_tree, free_ranges
 from ..report import Finding
 from .result import error
-
-CODE = "too_large_to_judge"
 
 
 def oversized(description: Description, config: WorkConfig) -> Finding | None:
     """Return why none of the static checks looks at a file, if it is too large for them."""
     hulls = sum(len(link.collisions) for link in description.links)
     if hulls > config.hulls:
-        return beyond(
-            f"{hulls} collision shapes: every one is compared with all others", hulls, config.hulls
-        )
-    try:
-        tree = build_tree(description)
-    except NotATree:
-        # There is no motion to follow; the lint says so.
+        words = f"{hulls} collision shapes: every one is compared with all others"
+        return beyond(words, hulls, config.hulls)
+    tree = find_tree(description)
+    if tree is None:
         return None
     # Depths below each joint: a chain moves half the square of its links.
     above = {tree.root: 0}
@@ -33,20 +28,15 @@ def oversized(description: Description, config: WorkConfig) -> Finding | None:
         above[joint.child] = above[joint.parent] + (joint.name in moving)
     moved = sum(above.values())
     if moved > config.moved_links:
-        return beyond(
-            f"its joints move {moved} links, counted once for each joint that moves them",
-            moved,
-            config.moved_links,
-        )
+        words = f"its joints move {moved} links, counted once for each joint that moves them"
+        return beyond(words, moved, config.moved_links)
     return None
 
 
 def undriven(description: Description, name: str, config: WorkConfig) -> Finding | None:
     """Return why a simulator is not asked, if driving every joint takes too much of it."""
-    try:
-        driven = len(free_ranges(build_tree(description)))
-    except NotATree:
-        return None
+    tree = find_tree(description)
+    driven = 0 if tree is None else len(free_ranges(tree))
     work = driven * len(description.links)
     if work <= config.driven_links:
         return None
@@ -59,10 +49,5 @@ def undriven(description: Description, name: str, config: WorkConfig) -> Finding
 
 def beyond(words: str, count: int, most: int, simulator: str | None = None) -> Finding:
     """Return the finding that something was too much to look at."""
-    return error(
-        CODE,
-        f"too large to validate: {words} ({count}, at most {most})",
-        simulator=simulator,
-        value=count,
-        limit=most,
-    )
+    message = f"too large to validate: {words} ({count}, at most {most})"
+    return error("too_large_to_judge", message, simulator=simulator, value=count, limit=most)

@@ -46,22 +46,14 @@ def knuckles(
         return frozenset()
     turning = [item.collider.hull.vertices for item in solids.items if item.part == moving]
     length = float(np.ptp(np.vstack(turning) @ path.axis))
-    taken = _covered(
-        [
-            (float(lo), float(hi))
-            for lo, hi in (_span(region @ path.axis) for region in inside.values())
-        ]
-    )
+    heights = [region @ path.axis for region in inside.values()]
+    taken = _covered([(float(each.min()), float(each.max())) for each in heights])
     return frozenset(inside) if taken <= config.hinge_share * length else frozenset()
 
 
 def within(region: FloatArray, path: Path, radius: float) -> bool:
     """Return whether every point lies within ``radius`` [m] of the axis."""
     return bool(np.linalg.norm(path.orbit(region).radial, axis=1).max() <= radius)
-
-
-def _span(heights: FloatArray) -> tuple[float, float]:
-    return float(heights.min()), float(heights.max())
 
 
 def _covered(spans: list[tuple[float, float]]) -> float:

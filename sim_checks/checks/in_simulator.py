@@ -42,16 +42,16 @@ def judge_in_simulator(
     engine = simulator(name)
     if not installed(name):
         message = f"{name} is not installed; {install_line(name)} adds it"
-        return _only(error("simulator_missing", message, simulator=name))
+        return CheckResult((error("simulator_missing", message, simulator=name),))
     if description.format not in engine.formats:
         message = (
             f"{name} loads {' and '.join(engine.formats)} here, not {description.format}: "
             "it did not validate this file"
         )
-        return _only(note("format_not_loaded", message, simulator=name))
+        return CheckResult((note("format_not_loaded", message, simulator=name),))
     too_large = undriven(description, name, config.work)
     if too_large is not None:
-        return _only(too_large)
+        return CheckResult((too_large,))
     samples = pose_samples(description)
     apart = joints_apart(description)
     ask = run_isolated if child is None else child.call
@@ -59,7 +59,7 @@ def judge_in_simulator(
         observe, name, description.path, config.motion, samples, apart, limits=config.child.limits
     )
     if outcome.value is None:
-        return _only(_failure(outcome, name, description.path))
+        return CheckResult((_failure(outcome, name, description.path),))
     observation = outcome.value
     loading = check_loading(description, name, observation, config)
     motion = check_motion(description, name, observation, config)
@@ -92,7 +92,3 @@ def _failure(outcome: Outcome[Observation], name: str, path: Path) -> Finding:
     message = f"{name} died on {path.name}: {outcome.detail}"
     cause = KILLED if outcome.killed else None
     return error("simulator_crashed", message, simulator=name, cause=cause)
-
-
-def _only(finding: Finding) -> CheckResult:
-    return CheckResult((finding,), {})

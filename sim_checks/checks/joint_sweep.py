@@ -14,7 +14,7 @@ from ..description import FloatArray, JointLine
 from ..geometry.coupled_path import AnyPath, CoupledPath
 from ..geometry.depth import HullOverlap, contact_region
 from ..geometry.looks import LookBudget
-from ..geometry.path import Path
+from ..geometry.path import Path, joint_path
 from ..geometry.solids import SolidGroup, SolidPair
 from ..geometry.sweep import Candidate, Sweep, Tolerance, Worst
 from .hinge import within
@@ -120,11 +120,11 @@ class JointCourse:
                     found[key] = pair
             looks += encounter.sweep.looks
         ordered = tuple(found[key] for key in sorted(found))
-        return JointSweep(self.joint.name, self.joint.kind, start, end, ordered, looks)
+        return JointSweep(self.joint, start, end, ordered, looks)
 
     def path(self) -> Path:
         """Return the motion of the joint by itself; the solids are placed where it starts."""
-        own = self.pairs.solids.path(self.joint, self._placed(), self._length)
+        own = joint_path(self.joint, self._placed()[self.joint.child], self._length)
         return own if self.motion is None else replace(self.motion, length=self._length)
 
     @property
@@ -153,11 +153,10 @@ class JointCourse:
     def _encounter(self, moving: SolidGroup, standing: SolidGroup) -> _Encounter:
         solids = self.pairs.solids
         poses = self._placed()
-        path = (
-            self.path()
-            if self.motion is not None
-            else solids.seen(moving, standing, poses, self._length)
-        )
+        if self.motion is not None:
+            path: AnyPath = self.path()
+        else:
+            path = solids.seen(moving, standing, poses, self._length)
         colliders = [solids.items[index].collider for index in moving.solids]
         reach = path.travel(
             np.vstack([np.zeros((0, 3)), *(collider.hull.vertices for collider in colliders)])
@@ -219,13 +218,10 @@ class _Encounter:
                 continue
             overlap = rest.overlaps.get((min(mover, stander), max(mover, stander)))
             depth = 0.0 if overlap is None else max(0.0, overlap.depth)
+            directions: tuple[FloatArray, ...] = ()
             # Directions known at rest hold for this path only if it starts there.
-            usable = overlap is not None and at_rest
-            directions = (
-                (overlap.direction * (1.0 if mover < stander else -1.0),)
-                if usable and overlap
-                else ()
-            )
+            if overlap is not None and at_rest:
+                directions = (overlap.direction * (1.0 if mover < stander else -1.0),)
             group = pairs.parts(mover, stander), pairs.kind(mover, stander)
             groups.setdefault(group, []).append(Candidate(row, column, depth, directions))
         return groups

@@ -10,9 +10,10 @@ import numpy as np
 from ..config import LintConfig
 from ..description import ABSURD, Description, FloatArray, Link, LinkInertia, sensible
 from ..geometry.hull import FlatHull, convex_hull
-from ..geometry.kinematics import NotATree, build_tree
-from ..report import Finding, Severity
-from .result import error, warning
+from ..geometry.kinematics import find_tree
+from ..geometry.placing import box_around
+from ..report import Finding
+from .result import error, graded, significant, warning
 
 #: Relative slack of the triangle inequality: files are written with few digits.
 TRIANGLE_SLACK = 1e-3
@@ -25,10 +26,9 @@ def missing_inertia_findings(description: Description) -> Iterator[Finding]:
     """
     if description.format != "urdf":
         return
-    try:
-        parts = build_tree(description).parts
-    except NotATree:
-        parts = (tuple(link.name for link in description.links),)
+    tree = find_tree(description)
+    every = tuple(link.name for link in description.links)
+    parts = (every,) if tree is None else tree.parts
     bare = {link.name for link in description.links if link.inertia is None}
     seen = {link.name for link in description.links if link.collisions or link.visuals}
     for i, part in enumerate(parts):
@@ -42,8 +42,7 @@ def missing_inertia_findings(description: Description) -> Iterator[Finding]:
                 f"link {name!r} {what} no inertia: every simulator invents another; "
                 "state its mass, centre of mass and moments in an <inertial>"
             )
-            severity = Severity.ERROR if moves else Severity.WARNING
-            yield Finding("missing_inertia", severity, message, parts=(name,))
+            yield graded(moves, "missing_inertia", message, parts=(name,))
 
 
 def inertia_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
@@ -57,26 +56,20 @@ def inertia_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
         yield error("inertia_not_finite", message, parts=parts)
         return
     if inertia.mass <= 0.0:
-        message = f"link {link.name!r} weighs {inertia.mass:g} kg, want more than 0"
-        yield error(
-            "mass_not_positive", message, parts=parts, value=inertia.mass, unit="kg", limit=0.0
-        )
+        mass = inertia.mass
+        message = f"link {link.name!r} weighs {mass:g} kg, want more than 0"
+        yield error("mass_not_positive", message, parts=parts, value=mass, unit="kg", limit=0.0)
         return
-    moments: FloatArray = np.linalg.eigvalsh(0.5 * (inertia.tensor + inertia.tensor.T)).astype(
-        np.float64
-    )
+    symmetric = 0.5 * (inertia.tensor + inertia.tensor.T)
+    moments: FloatArray = np.linalg.eigvalsh(symmetric).astype(np.float64)
     if moments[0] <= 0.0:
         message = (
             f"link {link.name!r}: smallest principal moment is "
             f"{moments[0]:.3g} kg m2, want more than 0"
         )
+        least = float(moments[0])
         yield error(
-            "inertia_not_positive",
-            message,
-            parts=parts,
-            value=float(moments[0]),
-            unit="kg m2",
-            limit=0.0,
+            "inertia_not_positive", message, parts=parts, value=least, unit="kg m2", limit=0.0
         )
         return
     if moments[0] + moments[1] < moments[2] * (1.0 - TRIANGLE_SLACK):
@@ -99,8 +92,7 @@ def _plausible(
         return
     points = np.vstack([shape.vertices for shape in shapes])
     diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
-    everything = np.vstack([shape.vertices for shape in (*link.collisions, *link.visuals)])
-    box = np.array([everything.min(axis=0), everything.max(axis=0)])
+    box = box_around(shape.vertices for shape in (*link.collisions, *link.visuals))
     yield from _center(link, inertia.center, box, config)
     gyration = math.sqrt(float(moments[2]) / inertia.mass)
     second = np.trace(inertia.tensor) / 2.0 - np.diag(inertia.tensor)
@@ -125,14 +117,9 @@ def _center(
         f"link {link.name!r}: centre of mass lies {1000 * outside:.1f} mm outside the link's box, "
         f"want at most {1000 * limit:.3g} mm"
     )
-    yield Finding(
-        "center_outside",
-        Severity.ERROR if hard else Severity.WARNING,
-        message,
-        parts=(link.name,),
-        value=round(1000 * outside, 4),
-        unit="mm",
-        limit=round(1000 * limit, 4),
+    value, limit = (round(1000 * length, 4) for length in (outside, limit))
+    yield graded(
+        hard, "center_outside", message, parts=(link.name,), value=value, unit="mm", limit=limit
     )
 
 
@@ -153,14 +140,10 @@ def _density(link: Link, mass: float, config: LintConfig) -> Iterator[Finding]:
         f"link {link.name!r}: {mass:.3g} kg in {1000 * room:.3g} litres is {density:.3g} kg/m3, "
         f"want at {'least' if low else 'most'} {limit:g}"
     )
-    yield Finding(
-        "density_implausible",
-        Severity.ERROR if hard else Severity.WARNING,
-        message,
-        parts=(link.name,),
-        value=float(f"{density:.4g}"),
-        unit="kg/m3",
-        limit=limit,
+    value = significant(density, 4)
+    parts = (link.name,)
+    yield graded(
+        hard, "density_implausible", message, parts=parts, value=value, unit="kg/m3", limit=limit
     )
 
 
@@ -187,13 +170,12 @@ def _gyration(
     # Within an extent mass spreads furthest at its two ends, half of it at each.
     most = extent / 2.0 + max(config.center_hard * float(np.linalg.norm(extent)), config.center_m)
     axis = int(np.argmax(spread / most))
-    number = round(gyration, 6) if math.isfinite(gyration) else None
     if spread[axis] > most[axis]:
         message = (
             f"link {link.name!r}: its inertia spreads its mass by {spread[axis]:.3g} m along "
             f"{'xyz'[axis]}, where the link is {extent[axis]:.3g} m long: mass inside it cannot"
         )
-        value = float(f"{spread[axis]:.6g}") if math.isfinite(spread[axis]) else None
+        value = significant(float(spread[axis]))
         limit = round(float(most[axis]), 6)
         yield error(
             "inertia_impossible", message, parts=(link.name,), value=value, unit="m", limit=limit
@@ -203,6 +185,7 @@ def _gyration(
             f"link {link.name!r}: radius of gyration {gyration:.3g} m is too large for a "
             f"link {diagonal:.3g} m across"
         )
+        number = round(gyration, 6) if math.isfinite(gyration) else None
         limit = round(config.gyration_share * diagonal, 6)
         yield warning(
             "inertia_implausible", message, parts=(link.name,), value=number, unit="m", limit=limit

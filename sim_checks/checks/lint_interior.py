@@ -136,7 +136,7 @@ def _same(visuals: Sequence[DescribedShape], collisions: Sequence[DescribedShape
 
 
 def _grid(shapes: Sequence[DescribedShape], config: LintConfig) -> _Grid:
-    corners = np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes])
+    corners = np.vstack([shape.corners for shape in shapes])
     bounds = np.array([corners.min(axis=0), corners.max(axis=0)])
     extent = bounds[1] - bounds[0]
     size = max(float(extent.max()) / config.voxels, config.voxel_m)
@@ -200,15 +200,13 @@ def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull:
     Raises:
         FlatHull: where they span no volume.
     """
-    points = np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes])
+    points = np.vstack([shape.corners for shape in shapes])
     # One format welds corners that another repeats.
     cells = np.rint((points - grid.start) / (ROUNDING * grid.size)).astype(np.int64)
     points = points[np.unique(cells, axis=0, return_index=True)[1]]
     if len(points) > CORNERS:
-        columns = np.rint((points[:, :2] - grid.start[:2]) / grid.size).astype(np.int64) @ [
-            grid.shape[1],
-            1,
-        ]
+        cells = np.rint((points[:, :2] - grid.start[:2]) / grid.size).astype(np.int64)
+        columns = cells @ [grid.shape[1], 1]
         order = np.lexsort((points[:, 2], columns))
         starts = np.flatnonzero(np.diff(columns[order], prepend=-1))
         ends = np.concatenate([starts[1:], [len(order)]]) - 1
@@ -246,8 +244,7 @@ def _walled(surface: BoolArray, down: FloatArray) -> BoolArray:
         met += ahead
         if axis == lowest:
             floor = ahead if down[axis] > 0.0 else behind
-    walled: BoolArray = floor & (met >= WALLED)
-    return walled
+    return floor & (met >= WALLED)
 
 
 def _reached(surface: BoolArray, grid: _Grid, hand: float) -> BoolArray:

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from ..description import ABSURD, Description, JointLine, Mimic, sensible
 from ..geometry.coupling import Limits, common_range, whole_chain
 from ..geometry.kinematics import MOVING_KINDS, own_limits, sound_mimics, sweep_range
-from ..report import Finding, Severity
-from .result import error
+from ..report import Finding
+from .result import about, error, graded
 
 #: Limits written with few digits may miss what the leader asks by this share of the follower's
 #: range.
@@ -24,29 +24,25 @@ def mimic_findings(description: Description) -> Iterator[Finding]:
         mimic = joint.mimic
         if mimic is None:
             continue
-        parts = (joint.parent, joint.child)
         if not sensible((mimic.multiplier, mimic.offset)):
             message = (
                 f"joint {joint.name!r} follows {mimic.leader!r} by {mimic.multiplier} times its "
                 f"value plus {mimic.offset}; want finite numbers up to {ABSURD:g}"
             )
-            yield error("mimic_not_finite", message, joint=joint.name, parts=parts)
+            yield error("mimic_not_finite", message, **about(joint))
         elif joint.name in sound:
             whole = wholes[joint.name]
-            led = [
-                (other, moving[name])
-                for name, other in wholes.items()
-                if other.leader == whole.leader
-            ]
             others = [
-                (other, limits) for other, line in led if (limits := own_limits(line)) is not None
+                (other, limits)
+                for name, other in wholes.items()
+                if other.leader == whole.leader and (limits := own_limits(moving[name])) is not None
             ]
             yield from _limit_findings(joint, moving[whole.leader], whole, others)
         elif joint.kind in MOVING_KINDS:
             message = (
                 f"joint {joint.name!r} follows {mimic.leader!r}, {_fault(joint, mimic, moving)}"
             )
-            yield error("mimic_unknown", message, joint=joint.name, parts=parts)
+            yield error("mimic_unknown", message, **about(joint))
 
 
 def _fault(joint: JointLine, mimic: Mimic, moving: dict[str, JointLine]) -> str:
@@ -68,7 +64,7 @@ def _limit_findings(
     asked = sorted(mimic.multiplier * end + mimic.offset for end in led)
     beyond = max(own[0] - asked[0], asked[1] - own[1])
     if beyond > ROUNDING * (own[1] - own[0]):
-        unit = "m" if joint.kind == "prismatic" else "rad"
+        unit = joint.unit
         stuck = common_range(led, others) is None
         message = (
             f"joint {joint.name!r} may move from {own[0]:g} to {own[1]:g} {unit}, "
@@ -79,13 +75,7 @@ def _limit_findings(
             message += (
                 f"; nowhere are all that move with {leader.name!r} within their limits, so none can"
             )
-        yield Finding(
-            "mimic_limits",
-            Severity.ERROR if stuck else Severity.WARNING,
-            message,
-            joint=joint.name,
-            parts=(joint.parent, joint.child),
-            value=round(beyond, 6),
-            unit=unit,
-            limit=0.0,
+        far = round(beyond, 6)
+        yield graded(
+            stuck, "mimic_limits", message, **about(joint), value=far, unit=unit, limit=0.0
         )

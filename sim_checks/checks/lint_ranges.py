@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import suppress
-from itertools import product
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from ..config import LintConfig
-from ..description import Description, FloatArray, JointLine, Link
-from ..geometry.kinematics import MOVING_KINDS, NotATree, Tree, build_tree, sweep_range, unit_axis
-from ..report import Finding, Severity
-from .result import error, warning
+from ..description import Description, FloatArray, JointLine
+from ..geometry.kinematics import MOVING_KINDS, Tree, find_tree, sweep_range, unit_axis
+from ..geometry.placing import box_gap, diagonal, placed, shape_corners
+from ..report import Finding
+from .result import about, error, finite, graded, significant, warning
 
 #: Directions in the half-degrees of a circle in which an axis may stand off.
 AROUND = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
@@ -21,14 +20,11 @@ AROUND = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
 
 def range_findings(description: Description, config: LintConfig) -> Iterator[Finding]:
     """Yield errors for impossible ranges and axes, warnings for tiny ranges and drives."""
-    tree: Tree | None = None
-    poses: dict[str, FloatArray] = {}
-    # Without a tree, which the lint says, nothing has a place.
-    with suppress(NotATree):
-        tree = build_tree(description)
-        poses = closed_poses(tree)
+    # Without a tree nothing has a place.
+    tree = find_tree(description)
+    poses = {} if tree is None else closed_poses(tree)
     boxes = _boxes(description, poses)
-    diagonal = _diagonal(boxes.values())
+    across = diagonal(boxes.values())
     for joint in description.joints:
         if joint.kind not in MOVING_KINDS:
             continue
@@ -37,7 +33,7 @@ def range_findings(description: Description, config: LintConfig) -> Iterator[Fin
             limit is not None and math.isfinite(limit) for limit in limits
         ):
             yield from _size_findings(
-                joint, (joint.upper or 0.0) - (joint.lower or 0.0), diagonal, config
+                joint, (joint.upper or 0.0) - (joint.lower or 0.0), across, config
             )
         yield from _drive_findings(joint)
         if tree is not None:
@@ -45,35 +41,25 @@ def range_findings(description: Description, config: LintConfig) -> Iterator[Fin
 
 
 def _size_findings(
-    joint: JointLine, length: float, diagonal: float, config: LintConfig
+    joint: JointLine, length: float, across: float, config: LintConfig
 ) -> Iterator[Finding]:
     slides = joint.kind == "prismatic"
-    most = config.slide_share * diagonal if slides else config.turns * 2.0 * math.pi
+    most = config.slide_share * across if slides else config.turns * 2.0 * math.pi
     least = config.tiny_slide_m if slides else config.tiny_turn_rad
-    unit = "m" if slides else "rad"
-    value = float(f"{length:.6g}") if math.isfinite(length) else None
-    parts = (joint.parent, joint.child)
-    if slides and not diagonal > 0.0:
+    unit = joint.unit
+    value = significant(length)
+    if slides and not across > 0.0:
         most = math.inf
     if length > most:
-        of = (
-            f"the object is {diagonal:.3g} m across"
-            if slides
-            else f"that is {length / (2 * math.pi):.3g} turns"
-        )
+        turns = f"that is {length / (2 * math.pi):.3g} turns"
+        of = f"the object is {across:.3g} m across" if slides else turns
         message = (
             f"joint {joint.name!r} moves by {length:.6g} {unit}, "
-            f"but {of}{_slip(length, diagonal, slides)}"
+            f"but {of}{_slip(length, across, slides)}"
         )
         limit = float(f"{most:.6g}")
         yield error(
-            "range_implausible",
-            message,
-            joint=joint.name,
-            parts=parts,
-            value=value,
-            unit=unit,
-            limit=limit,
+            "range_implausible", message, **about(joint), value=value, unit=unit, limit=limit
         )
     elif 0.0 < length < least:
         message = (
@@ -81,26 +67,16 @@ def _size_findings(
             f"want {least:.3g} at least"
         )
         limit = float(f"{least:.6g}")
-        yield warning(
-            "range_tiny",
-            message,
-            joint=joint.name,
-            parts=parts,
-            value=value,
-            unit=unit,
-            limit=limit,
-        )
+        yield warning("range_tiny", message, **about(joint), value=value, unit=unit, limit=limit)
 
 
-def _slip(length: float, diagonal: float, slides: bool) -> str:
+def _slip(length: float, across: float, slides: bool) -> str:
     """Return the likely reason for a range that is too long but would be fair in another unit."""
-    if slides:
-        return (
-            ": millimetres, most likely, where metres are meant"
-            if 0.01 <= length / 1000.0 <= diagonal
-            else ""
-        )
-    return ": degrees, most likely, where radians are meant" if length <= 360.0 else ""
+    if slides and 0.01 <= length / 1000.0 <= across:
+        return ": millimetres, most likely, where metres are meant"
+    if not slides and length <= 360.0:
+        return ": degrees, most likely, where radians are meant"
+    return ""
 
 
 def _drive_findings(joint: JointLine) -> Iterator[Finding]:
@@ -110,11 +86,8 @@ def _drive_findings(joint: JointLine) -> Iterator[Finding]:
                 f"joint {joint.name!r} has {word} {number:g} in its limit: "
                 "nothing may move it; want more than 0"
             )
-            value = number if math.isfinite(number) else None
-            parts = (joint.parent, joint.child)
-            yield warning(
-                "invalid_effort", message, joint=joint.name, parts=parts, value=value, limit=0.0
-            )
+            value = finite(number)
+            yield warning("invalid_effort", message, **about(joint), value=value, limit=0.0)
 
 
 def _place_findings(
@@ -127,26 +100,19 @@ def _place_findings(
     below = tree.below(joint)
     moved = [corners for name, corners in boxes.items() if name in below]
     rest = [corners for name, corners in boxes.items() if name not in below]
-    size = _diagonal(moved)
+    size = diagonal(moved)
     if not (moved and rest and size > 0.0):
         return
     gap = box_gap(np.vstack(moved), np.vstack(rest))
-    most = config.apart * max(size, _diagonal(rest))
+    most = config.apart * max(size, diagonal(rest))
     if gap > most:
         message = (
             f"the part that joint {joint.name!r} moves is {gap:.3g} m away from the rest of the "
             f"object, further than the size of either; want at most {most:.3g} m"
         )
-        parts = (joint.parent, joint.child)
-        yield error(
-            "part_remote",
-            message,
-            joint=joint.name,
-            parts=parts,
-            value=round(gap, 6),
-            unit="m",
-            limit=round(most, 6),
-        )
+        value = round(gap, 6)
+        limit = round(most, 6)
+        yield error("part_remote", message, **about(joint), value=value, unit="m", limit=limit)
     elif joint.kind != "prismatic" and float(np.linalg.norm(joint.axis)) > 0.0:
         yield from _axis_findings(
             joint, poses[joint.child], (np.vstack(moved), np.vstack(rest)), size, config
@@ -168,28 +134,11 @@ def _axis_findings(
             f"the axis of joint {joint.name!r} passes {distance:.3g} m beside every part, "
             f"further than the size of the part that it moves, {size:.3g} m; a hinge is on a part"
         )
+        value = round(distance, 6)
         limit = round((config.axis_hard if hard else config.axis_soft) * size, 6)
-        severity = Severity.ERROR if hard else Severity.WARNING
-        parts = (joint.parent, joint.child)
-        yield Finding(
-            "axis_remote",
-            severity,
-            message,
-            None,
-            joint.name,
-            parts,
-            round(distance, 6),
-            "m",
-            limit,
+        yield graded(
+            hard, "axis_remote", message, **about(joint), value=value, unit="m", limit=limit
         )
-
-
-def box_gap(first: FloatArray, second: FloatArray) -> float:
-    """Return the distance between the boxes around two sets of points [m]; 0 if they meet."""
-    apart = np.maximum(
-        first.min(axis=0) - second.max(axis=0), second.min(axis=0) - first.max(axis=0)
-    )
-    return float(np.linalg.norm(np.maximum(0.0, apart)))
 
 
 def _beside(point: FloatArray, axis: FloatArray, corners: FloatArray) -> float:
@@ -211,32 +160,9 @@ def closed_poses(tree: Tree) -> dict[str, FloatArray]:
 
 def _boxes(description: Description, poses: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
     """Return corners of boxes around the shapes of each posed link [m], shape [corner_count, 3]."""
-    placed = (
-        (link.name, poses[link.name], _corners(link))
-        for link in description.links
-        if link.name in poses
-    )
-    return {
-        name: corners @ pose[:3, :3].T + pose[:3, 3]
-        for name, pose, corners in placed
-        if len(corners)
-    }
-
-
-def _corners(link: Link) -> FloatArray:
-    corners = [np.zeros((0, 3))]
-    for shape in (*link.collisions, *link.visuals):
-        if len(shape.vertices):
-            ends = np.array([shape.vertices.min(axis=0), shape.vertices.max(axis=0)])
-            corners.append(
-                np.array(
-                    [[ends[i, 0], ends[j, 1], ends[k, 2]] for i, j, k in product((0, 1), repeat=3)]
-                )
-            )
-    return np.vstack(corners)
-
-
-def _diagonal(boxes: Iterable[FloatArray]) -> float:
-    """Return the diagonal of the box around everything [m]; 0 where there is nothing."""
-    every = list(boxes)
-    return float(np.linalg.norm(np.ptp(np.vstack(every), axis=0))) if every else 0.0
+    boxes = {}
+    for link in description.links:
+        corners = shape_corners((*link.collisions, *link.visuals))
+        if link.name in poses and len(corners):
+            boxes[link.name] = placed(corners, poses[link.name])
+    return boxes

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine, Link
-from ..geometry.kinematics import NotATree, Tree, build_tree, sweep_range, unit_axis
-from ..report import Finding, Severity
+from ..geometry.kinematics import Tree, find_tree, sweep_range, unit_axis
+from ..geometry.placing import placed
+from ..report import Finding
 from .lint_ranges import closed_poses
-from .result import warning
+from .result import about, graded, warning
 
 #: What robot-learning environments commonly step by [s].
 TIME_STEP_S = 1.0 / 240.0
@@ -38,22 +38,22 @@ def resistance_findings(description: Description, config: LintConfig) -> Iterato
 
     Explicit engines explode from too much damping.
     """
-    with suppress(NotATree):
-        tree = build_tree(description)
-        poses = closed_poses(tree)
-        links = {link.name: link for link in description.links}
-        for joint in tree.moving:
-            limits = sweep_range(joint)
-            usable = (
-                float(np.linalg.norm(joint.axis)) > 0.0
-                and min(joint.friction, joint.damping) >= 0.0
-            )
-            if limits is None or not usable:
-                continue
-            lever = _lever(joint, tree, links, poses)
-            if lever.reach > 0.0:
-                yield from _force_findings(joint, limits[1] - limits[0], lever, config)
-            yield from _step_finding(joint, lever, config)
+    tree = find_tree(description)
+    if tree is None:
+        return
+    poses = closed_poses(tree)
+    links = {link.name: link for link in description.links}
+    for joint in tree.moving:
+        limits = sweep_range(joint)
+        usable = (
+            float(np.linalg.norm(joint.axis)) > 0.0 and min(joint.friction, joint.damping) >= 0.0
+        )
+        if limits is None or not usable:
+            continue
+        lever = _lever(joint, tree, links, poses)
+        if lever.reach > 0.0:
+            yield from _force_findings(joint, limits[1] - limits[0], lever, config)
+        yield from _step_finding(joint, lever, config)
 
 
 def _force_findings(
@@ -61,13 +61,10 @@ def _force_findings(
 ) -> Iterator[Finding]:
     friction = joint.friction / lever.reach
     damping = joint.damping * length / config.opening_s / lever.reach
+    within = f"open it against its damping within {config.opening_s:g} s"
     ways = (
         ("friction_excessive", friction, "overcome its friction"),
-        (
-            "damping_excessive",
-            damping,
-            f"open it against its damping within {config.opening_s:g} s",
-        ),
+        ("damping_excessive", damping, within),
     )
     for code, force, purpose in ways:
         if force > config.pull_soft_n:
@@ -78,11 +75,8 @@ def _force_findings(
                 f"joint {joint.name!r}: it takes {force:.4g} N{where} to {purpose}, "
                 f"want at most {limit:g} N"
             )
-            severity = Severity.ERROR if hard else Severity.WARNING
-            parts = (joint.parent, joint.child)
-            yield Finding(
-                code, severity, message, None, joint.name, parts, round(force, 3), "N", limit
-            )
+            value = round(force, 3)
+            yield graded(hard, code, message, **about(joint), value=value, unit="N", limit=limit)
 
 
 def _step_finding(joint: JointLine, lever: _Lever, config: LintConfig) -> Iterator[Finding]:
@@ -95,16 +89,10 @@ def _step_finding(joint: JointLine, lever: _Lever, config: LintConfig) -> Iterat
             "1/240 s: Bullet and others that integrate it explicitly overshoot "
             f"above {config.damping_step:g} and become unstable above 2"
         )
-        parts = (joint.parent, joint.child)
         value = float(f"{share:.6g}")
+        limit = config.damping_step
         yield warning(
-            "damping_stiff",
-            message,
-            joint=joint.name,
-            parts=parts,
-            value=value,
-            unit="of speed",
-            limit=config.damping_step,
+            "damping_stiff", message, **about(joint), value=value, unit="of speed", limit=limit
         )
 
 
@@ -120,15 +108,12 @@ def _lever(
         link = links[name]
         pose = poses[name]
         for shape in (*link.collisions, *link.visuals):
-            arms = np.cross(axis, shape.vertices @ pose[:3, :3].T + pose[:3, 3] - frame[:3, 3])
+            arms = np.cross(axis, placed(shape.vertices, pose) - frame[:3, 3])
             reach = max(reach, float(np.linalg.norm(arms, axis=1).max(initial=0.0)))
         held = link.inertia
         if held is not None and math.isfinite(held.mass) and np.isfinite(held.tensor).all():
-            about = pose[:3, :3].T @ axis
+            along = pose[:3, :3].T @ axis
             arm = np.cross(axis, pose[:3, :3] @ held.center + pose[:3, 3] - frame[:3, 3])
-            inertia += (
-                held.mass
-                if slides
-                else float(about @ held.tensor @ about + held.mass * (arm @ arm))
-            )
+            turning = float(along @ held.tensor @ along + held.mass * (arm @ arm))
+            inertia += held.mass if slides else turning
     return _Lever(1.0 if slides else reach, inertia)

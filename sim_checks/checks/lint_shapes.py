@@ -14,9 +14,10 @@ from ..config import LintConfig
 from ..description import DescribedShape, FloatArray, Link
 from ..geometry.hull import CollisionHull, FlatHull, convex_hull, farthest_along
 from ..geometry.outside import distance_outside
-from ..report import Finding, Severity
+from ..geometry.placing import diagonal
+from ..report import Finding
 from .lint_interior import interior_findings
-from .result import error, warning
+from .result import error, graded, significant, warning
 
 #: Visible surface is sampled this many times denser where it is the yardstick.
 DENSER = 8
@@ -32,7 +33,7 @@ def shape_findings(
     doubtful: list[Finding] = []
     for shape in link.collisions:
         try:
-            hull = convex_hull(shape.vertices[np.unique(shape.faces)])
+            hull = convex_hull(shape.corners)
         except FlatHull as flat:
             message = f"collision shape {shape.name!r} of link {link.name!r} has no volume: {flat}"
             findings.append(error("degenerate_collision", message, parts=(link.name,)))
@@ -40,15 +41,17 @@ def shape_findings(
         hulls.append(hull)
         doubtful.extend(_hull_findings(link, shape, hull, config))
     findings.extend(_worst_of_each_code(doubtful))
+    count = len(link.collisions)
     numbers: dict[str, Any] = {
-        "collision_shapes": len(link.collisions),
+        "collision_shapes": count,
         "visual_shapes": len(link.visuals),
         "collision_meshes": [
-            _mesh_data(shape) for shape in link.collisions if shape.kind == "mesh"
+            {"file": shape.file, "vertices": len(shape.vertices), "faces": len(shape.faces)}
+            for shape in link.collisions
+            if shape.kind == "mesh"
         ],
     }
-    if len(link.collisions) > config.hulls_per_link:
-        count = len(link.collisions)
+    if count > config.hulls_per_link:
         message = (
             f"link {link.name!r} has {count} collision shapes; "
             f"GPU simulation allows {config.hulls_per_link}"
@@ -64,10 +67,6 @@ def shape_findings(
         numbers.update(distances)
     filled, kept = interior_findings(link, hulls, down, config)
     return findings + filled, {**numbers, **kept}
-
-
-def _mesh_data(shape: DescribedShape) -> dict[str, Any]:
-    return {"file": shape.file, "vertices": len(shape.vertices), "faces": len(shape.faces)}
 
 
 def _worst_of_each_code(findings: list[Finding]) -> Iterator[Finding]:
@@ -88,20 +87,16 @@ def _hull_findings(
     name = f"collision shape {shape.name!r} of link {link.name!r}"
     parts = (link.name,)
     if shape.kind == "mesh" and hull.corners > config.hull_vertices:
-        most = config.most_vertices if hull.corners > config.most_vertices else config.hull_vertices
-        hard = most == config.most_vertices
-        allowed = (
-            "each engine cooks it down to another; want at most"
-            if hard
-            else "GPU simulation allows"
-        )
-        severity = Severity.ERROR if hard else Severity.WARNING
+        most = config.hull_vertices
+        allowed = "GPU simulation allows"
+        if hull.corners > config.most_vertices:
+            most = config.most_vertices
+            allowed = "each engine cooks it down to another; want at most"
+        grave = most == config.most_vertices
         message = f"{name} has a hull of {hull.corners} corners; {allowed} {most}"
         count = float(hull.corners)
         limit = float(most)
-        yield Finding(
-            "many_hull_vertices", severity, message, parts=parts, value=count, limit=limit
-        )
+        yield graded(grave, "many_hull_vertices", message, parts=parts, value=count, limit=limit)
     aspect = _aspect(hull)
     if aspect > config.hull_aspect:
         message = (
@@ -115,11 +110,9 @@ def _hull_findings(
         volume = _signed_volume(shape)
         if volume <= 0.0 or hull.volume > config.convexity * volume:
             ratio = round(hull.volume / volume, 4) if volume > 0.0 else None
-            told = (
-                "but it is open, flat or inside out"
-                if ratio is None or ratio > 1e3
-                else f"{ratio:.3g} times its own volume"
-            )
+            told = "but it is open, flat or inside out"
+            if ratio is not None and ratio <= 1e3:
+                told = f"{ratio:.3g} times its own volume"
             message = f"{name} is not convex: engines take its hull, {told}"
             yield warning(
                 "nonconvex_collision", message, parts=parts, value=ratio, limit=config.convexity
@@ -131,13 +124,8 @@ def _aspect(hull: CollisionHull) -> float:
     centered = hull.vertices - hull.vertices.mean(axis=0)
     _, _, directions = np.linalg.svd(centered, full_matrices=False)
     widths = np.ptp(centered @ directions.T, axis=0)
-    thinnest = min(float(widths.min()), float(_widths(hull).min()))
-    return float(widths.max()) / thinnest
-
-
-def _widths(hull: CollisionHull) -> FloatArray:
-    """Return the width of the hull across each of its faces [m]."""
-    return hull.offsets + farthest_along(hull.vertices, -hull.normals)
+    across_faces = hull.offsets + farthest_along(hull.vertices, -hull.normals)
+    return float(widths.max()) / min(float(widths.min()), float(across_faces.min()))
 
 
 def _signed_volume(shape: DescribedShape) -> float:
@@ -153,14 +141,7 @@ def _scale_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
     if not (link.visuals and link.collisions):
         return
     seen, touched = (
-        float(
-            np.linalg.norm(
-                np.ptp(
-                    np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes]), axis=0
-                )
-            )
-        )
-        for shapes in (link.visuals, link.collisions)
+        diagonal(shape.corners for shape in shapes) for shapes in (link.visuals, link.collisions)
     )
     if not config.scale_share * seen <= touched <= seen / config.scale_share:
         smaller = touched < seen
@@ -170,9 +151,7 @@ def _scale_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
             f"what is visible {seen:.3g} m: "
             f"want {'at least' if smaller else 'at most'} {limit:g} times that; are both in metres?"
         )
-        ratio = (
-            float(f"{touched / seen:.4g}") if seen > 0.0 and math.isfinite(touched / seen) else None
-        )
+        ratio = significant(touched / seen, 4) if seen > 0.0 else None
         yield error("collision_scale", message, parts=(link.name,), value=ratio, limit=limit)
 
 
@@ -188,7 +167,7 @@ def _cover_findings(
 
     low = visible.min(axis=0)
     high = visible.max(axis=0)
-    diagonal = float(np.linalg.norm(high - low))
+    across = float(np.linalg.norm(high - low))
     bare = distance_outside(visible[::DENSER], hulls)
     spacing = float(np.median(np.asarray(cKDTree(visible).query(visible, k=2)[0])[:, 1]))
     empty = np.maximum(0.0, np.asarray(cKDTree(visible).query(touchable)[0]) - spacing)
@@ -201,58 +180,40 @@ def _cover_findings(
         "shift_mm": round(1000 * shift, 3),
         "covered": round(covered, 4),
     }
-    most_shift = config.offset_share * diagonal
+    most_shift = config.offset_share * across
     if shift > most_shift:
-        return [_offset_finding(link, shift, most_shift)], numbers
+        words = f"lies {1000 * shift:.1f} mm beside what is visible"
+        message = f"collision geometry of link {link.name!r} {words}"
+        return [_apart(True, "collision_offset", message, link, shift, most_shift)], numbers
 
     findings = []
     if covered < config.least_covered:
-        findings.append(_bare_finding(link, covered, config))
+        message = (
+            f"link {link.name!r}: {1.0 - covered:.0%} of the visible surface lies more than "
+            f"{1000 * config.gap_m:g} mm outside its collision geometry, where nothing is felt; "
+            f"want {config.least_covered:.0%} covered"
+        )
+        share = round(covered, 4)
+        limit = config.least_covered
+        findings.append(
+            error("collision_gap", message, parts=(link.name,), value=share, limit=limit)
+        )
         uncovered = 0.0
-    allowed = max(config.gap_m, config.gap_share * diagonal)
+    allowed = max(config.gap_m, config.gap_share * across)
     for gap, words in (
         (uncovered, "visible surface lies outside its collision geometry"),
         (overhang, "collision surface lies away from what is visible"),
     ):
         if gap > allowed:
-            findings.append(_gap_finding(link, words, gap, allowed))
+            message = f"link {link.name!r}: {words} by up to {1000 * gap:.1f} mm"
+            findings.append(_apart(False, "collision_gap", message, link, gap, allowed))
     return findings, numbers
 
 
-def _offset_finding(link: Link, shift: float, most: float) -> Finding:
-    message = (
-        f"collision geometry of link {link.name!r} lies {1000 * shift:.1f} "
-        "mm beside what is visible"
-    )
-    value = round(1000 * shift, 3)
-    limit = round(1000 * most, 3)
-    return error(
-        "collision_offset", message, parts=(link.name,), value=value, unit="mm", limit=limit
-    )
-
-
-def _bare_finding(link: Link, covered: float, config: LintConfig) -> Finding:
-    message = (
-        f"link {link.name!r}: {1.0 - covered:.0%} of the visible surface lies more than "
-        f"{1000 * config.gap_m:g} mm outside its collision geometry, where nothing is felt; "
-        f"want {config.least_covered:.0%} covered"
-    )
-    return error(
-        "collision_gap",
-        message,
-        parts=(link.name,),
-        value=round(covered, 4),
-        limit=config.least_covered,
-    )
-
-
-def _gap_finding(link: Link, words: str, gap: float, allowed: float) -> Finding:
-    message = f"link {link.name!r}: {words} by up to {1000 * gap:.1f} mm"
-    value = round(1000 * gap, 3)
-    limit = round(1000 * allowed, 3)
-    return warning(
-        "collision_gap", message, parts=(link.name,), value=value, unit="mm", limit=limit
-    )
+def _apart(grave: bool, code: str, message: str, link: Link, gap: float, most: float) -> Finding:
+    """Return the finding that surfaces of a link are too far apart [m]."""
+    value, limit = (round(1000 * length, 3) for length in (gap, most))
+    return graded(grave, code, message, parts=(link.name,), value=value, unit="mm", limit=limit)
 
 
 def _shift(low: FloatArray, high: FloatArray, hulls: list[CollisionHull]) -> float:

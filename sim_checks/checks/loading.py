@@ -9,11 +9,22 @@ import numpy as np
 
 from ..config import CheckConfig, LoadingConfig
 from ..description import Description, Link, LinkInertia, sensible
-from ..report import Finding, Severity
+from ..report import Finding
 from ..simulators.simulator import LoadedLink, Observation
 from .agreement import check_agreement
-from .loading_joints import finite, joint_findings, joint_numbers, listed, rounded
-from .result import CheckResult, warning
+from .loading_joints import SINGLE, joint_findings, joint_numbers
+from .result import (
+    CheckResult,
+    Concerned,
+    Details,
+    error,
+    finite,
+    graded,
+    listed,
+    significant,
+    three,
+    warning,
+)
 
 MOST_WARNINGS = 3
 
@@ -40,68 +51,59 @@ def check_loading(
     findings.extend(_invented(description, links, simulator))
     agreement = check_agreement(description, simulator, observation, config.loading)
     findings.extend(agreement.findings)
-    findings.extend(_said(observation, simulator))
+    if lines := observation.model.warnings:
+        message = f"{simulator} said while loading: {' | '.join(lines[:MOST_WARNINGS])}"
+        count = float(len(lines))
+        findings.append(
+            warning("loader_warning", message, simulator=simulator, value=count, unit="lines")
+        )
     return CheckResult(tuple(findings), {**_numbers(observation), **agreement.measurements})
 
 
 def _link_findings(
     link: Link, held: LoadedLink | None, simulator: str, config: LoadingConfig
 ) -> Iterator[Finding]:
-    def found(
-        code: str, message: str, severity: Severity = Severity.ERROR, **numbers: Any
-    ) -> Finding:
-        return Finding(
-            code,
-            severity,
-            f"{simulator}: {message}",
-            simulator=simulator,
-            parts=(link.name,),
-            **numbers,
-        )
-
+    subject: Concerned = {"simulator": simulator, "parts": (link.name,)}
     if held is None:
-        yield found("link_missing", f"link {link.name!r} of the file is not in the loaded model")
+        message = f"{simulator}: link {link.name!r} of the file is not in the loaded model"
+        yield error("link_missing", message, **subject)
         return
     written = len(link.collisions)
+    details: Details = {"simulator": simulator, "parts": (link.name,), "unit": "shapes"}
+    details["value"] = float(held.shapes)
+    details["limit"] = float(written)
     if held.shapes < written:
-        message = (
-            f"{written - held.shapes} of {written} collision shapes of link "
-            f"{link.name!r} were dropped"
-        )
-        yield found(
-            "shape_dropped", message, value=float(held.shapes), unit="shapes", limit=float(written)
-        )
+        words = f"{written - held.shapes} of {written} collision shapes of link {link.name!r}"
+        yield error("shape_dropped", f"{simulator}: {words} were dropped", **details)
     elif held.shapes > written:
-        message = f"link {link.name!r} holds {held.shapes} collision shapes, the file has {written}"
-        yield found(
-            "shape_added",
-            message,
-            Severity.WARNING,
-            value=float(held.shapes),
-            unit="shapes",
-            limit=float(written),
-        )
+        words = f"holds {held.shapes} collision shapes, the file has {written}"
+        yield warning("shape_added", f"{simulator}: link {link.name!r} {words}", **details)
     # A mass of nothing is no word to hold anyone to; it counts as invented below.
-    if link.inertia is None or link.inertia.mass <= 0.0 or held.moments is None:
+    inertia = link.inertia
+    if inertia is None or inertia.mass <= 0.0 or held.moments is None:
         return
-    # What never moves is compared where the engine holds it, but its mass changes nothing.
-    weight = Severity.WARNING if held.static else Severity.ERROR
-    mass = link.inertia.mass
-    if not (sensible(mass) and sensible(link.inertia.center) and sensible(link.inertia.tensor)):
+    if not (sensible(inertia.mass) and sensible(inertia.center) and sensible(inertia.tensor)):
         # The lint says so; there is no number to hold anyone to.
         return
-    if not abs(held.mass - mass) <= config.mass * abs(mass):
-        message = f"link {link.name!r} weighs {held.mass:.6g} kg, the file says {mass:.6g} kg"
-        yield found(
-            "mass_mismatch", message, weight, value=finite(held.mass), unit="kg", limit=mass
-        )
-    yield from _inertia_findings(link.name, link.inertia, held, simulator, config)
+    yield from _inertia_findings(inertia, held, subject, config)
 
 
 def _inertia_findings(
-    name: str, inertia: LinkInertia, held: LoadedLink, simulator: str, config: LoadingConfig
+    inertia: LinkInertia, held: LoadedLink, subject: Concerned, config: LoadingConfig
 ) -> Iterator[Finding]:
-    severity = Severity.WARNING if held.static else Severity.ERROR
+    # What never moves is compared where the engine holds it, but its mass changes nothing.
+    grave = not held.static
+    name = held.name
+    simulator = subject["simulator"]
+    mass = inertia.mass
+    if not abs(held.mass - mass) <= config.mass * abs(mass):
+        message = (
+            f"{simulator}: link {name!r} weighs {held.mass:.6g} kg, the file says {mass:.6g} kg"
+        )
+        weight = finite(held.mass)
+        yield graded(
+            grave, "mass_mismatch", message, **subject, value=weight, unit="kg", limit=mass
+        )
     # A tensor that is no tensor is the lint's business; here only whether the engine holds the
     # same.
     written = np.linalg.eigvalsh(0.5 * (inertia.tensor + inertia.tensor.T))
@@ -110,18 +112,13 @@ def _inertia_findings(
     worst = int(np.argmax(difference))
     if not difference[worst] <= config.inertia * float(np.abs(written).max()) + config.moment_floor:
         message = (
-            f"{simulator}: link {name!r} has principal moments {_three(held.moments)} kg m2, "
-            f"the file says {_three(written)} kg m2"
+            f"{simulator}: link {name!r} has principal moments {three(moments)} kg m2, "
+            f"the file says {three(written)} kg m2"
         )
-        yield Finding(
-            "inertia_mismatch",
-            severity,
-            message,
-            simulator=simulator,
-            parts=(name,),
-            value=finite(float(moments[worst])),
-            unit="kg m2",
-            limit=float(written[worst]),
+        value = finite(float(moments[worst]))
+        limit = float(written[worst])
+        yield graded(
+            grave, "inertia_mismatch", message, **subject, value=value, unit="kg m2", limit=limit
         )
     if held.center is None:
         return
@@ -131,16 +128,15 @@ def _inertia_findings(
             f"{simulator}: the centre of mass of link {name!r} is {1000 * offset:.3g} mm "
             "from where the file says"
         )
-        yield Finding(
+        limit = config.position_m
+        yield graded(
+            grave,
             "center_mismatch",
-            severity,
             message,
-            simulator,
-            None,
-            (name,),
-            finite(offset),
-            "m",
-            config.position_m,
+            **subject,
+            value=finite(offset),
+            unit="m",
+            limit=limit,
         )
 
 
@@ -159,16 +155,9 @@ def _added(
             f"{simulator} holds {len(names)} links that the file does not have, "
             f"want none: {listed(names)}"
         )
+        subject: Concerned = {"simulator": simulator, "parts": tuple(names)}
         count = float(len(names))
-        yield warning(
-            "link_added",
-            message,
-            simulator=simulator,
-            parts=tuple(names),
-            value=count,
-            unit="links",
-            limit=0.0,
-        )
+        yield warning("link_added", message, **subject, value=count, unit="links", limit=0.0)
 
 
 def _invented(
@@ -188,23 +177,8 @@ def _invented(
             f"{simulator} invented mass and inertia, {total:.4g} kg in all, "
             f"for {listed(names)}: the file gives none"
         )
-        yield warning(
-            "inertia_invented",
-            message,
-            simulator=simulator,
-            parts=tuple(names),
-            value=finite(total),
-            unit="kg",
-        )
-
-
-def _said(observation: Observation, simulator: str) -> Iterator[Finding]:
-    lines = observation.model.warnings
-    if lines:
-        message = f"{simulator} said while loading: {' | '.join(lines[:MOST_WARNINGS])}"
-        yield warning(
-            "loader_warning", message, simulator=simulator, value=float(len(lines)), unit="lines"
-        )
+        subject: Concerned = {"simulator": simulator, "parts": tuple(names)}
+        yield warning("inertia_invented", message, **subject, value=finite(total), unit="kg")
 
 
 def _numbers(observation: Observation) -> dict[str, Any]:
@@ -215,20 +189,14 @@ def _numbers(observation: Observation) -> dict[str, Any]:
         "shapes": sum(link.shapes for link in links),
         "mass_kg": finite(float(sum(link.mass for link in links))),
         "loader_lines": list(observation.model.warnings),
-        "held_links": [_link_numbers(link) for link in links],
+        "held_links": [
+            {
+                "link": link.name,
+                "mass_kg": significant(link.mass, SINGLE),
+                "shapes": link.shapes,
+                "contact_friction": significant(link.friction, SINGLE),
+            }
+            for link in links
+        ],
         "held_joints": [joint_numbers(joint) for joint in observation.model.joints],
     }
-
-
-def _link_numbers(link: LoadedLink) -> dict[str, Any]:
-    friction = None if link.friction is None else rounded(link.friction)
-    return {
-        "link": link.name,
-        "mass_kg": rounded(link.mass),
-        "shapes": link.shapes,
-        "contact_friction": friction,
-    }
-
-
-def _three(values: Any) -> str:
-    return "(" + ", ".join(f"{float(v):.4g}" for v in values) + ")"

@@ -12,17 +12,17 @@ from typing import Any
 import numpy as np
 
 from ..config import LoadingConfig
-from ..description import Description, JointLine, Mimic
-from ..geometry.coupling import whole_chain
+from ..description import Description, JointLine
+from ..geometry.coupling import leaders, whole_chain
 from ..geometry.kinematics import MOVING_KINDS, sound_mimics, unit_axis
 from ..report import Finding
 from ..simulators.simulator import LoadedJoint
-from .result import error, note, warning
+from .result import about, error, finite, listed, note, significant, three, warning
 
-#: Names spelled out in a sentence that concerns many.
-MOST_NAMES = 4
 #: An axis shorter than this is no direction; what an engine makes of it is the lint's business.
 NO_AXIS = 1e-9
+#: Digits that single precision holds.
+SINGLE = 7
 
 
 def joint_findings(
@@ -44,58 +44,36 @@ def joint_findings(
             f"{simulator} holds {len(added)} joints that the file does not have, "
             f"want none: {listed(added)}"
         )
+        count = float(len(added))
         yield warning(
-            "joint_added",
-            message,
-            simulator=simulator,
-            value=float(len(added)),
-            unit="joints",
-            limit=0.0,
+            "joint_added", message, simulator=simulator, value=count, unit="joints", limit=0.0
         )
 
 
 def joint_numbers(joint: LoadedJoint) -> dict[str, Any]:
     """Return a joint as held, as JSON data."""
+    mimic = None if joint.forced_by_judge else joint.mimic
     return {
         "joint": joint.name,
         "kind": joint.kind,
-        "lower": rounded(joint.lower),
-        "upper": rounded(joint.upper),
-        "axis": None if joint.axis is None else [rounded(number) for number in joint.axis],
-        "damping": rounded(joint.damping),
-        "friction": rounded(joint.friction),
-        "follows": None if joint.forced_by_judge else joint.follows,
-        "rate": None if joint.mimic is None or joint.forced_by_judge else rounded(joint.rate),
-        "offset": None if joint.mimic is None or joint.forced_by_judge else rounded(joint.offset),
+        "lower": significant(joint.lower, SINGLE),
+        "upper": significant(joint.upper, SINGLE),
+        "axis": None if joint.axis is None else [significant(x, SINGLE) for x in joint.axis],
+        "damping": significant(joint.damping, SINGLE),
+        "friction": significant(joint.friction, SINGLE),
+        "follows": None if mimic is None else mimic.leader,
+        "rate": None if mimic is None else significant(mimic.multiplier, SINGLE),
+        "offset": None if mimic is None else significant(mimic.offset, SINGLE),
     }
-
-
-def listed(names: list[str]) -> str:
-    """Return a few names and the number of the others."""
-    more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
-    return ", ".join(repr(name) for name in names[:MOST_NAMES]) + more
-
-
-def rounded(value: float | None) -> float | None:
-    """Round to what single precision holds; ``None`` where there is no number to write."""
-    return None if value is None or not math.isfinite(value) else float(f"{value:.7g}")
-
-
-def finite(value: float) -> float | None:
-    """Return the number, or ``None`` where it is none that can be written."""
-    return value if math.isfinite(value) else None
 
 
 def _joint(
     line: JointLine, held: LoadedJoint | None, simulator: str, config: LoadingConfig
 ) -> Iterator[Finding]:
-    def found(code: str, message: str, **numbers: Any) -> Finding:
-        where = (line.parent, line.child)
-        sentence = f"{simulator}: {message}"
-        return error(code, sentence, simulator=simulator, joint=line.name, parts=where, **numbers)
-
+    subject = about(line, simulator)
     if held is None:
-        yield found("joint_missing", f"joint {line.name!r} of the file is not in the loaded model")
+        message = f"{simulator}: joint {line.name!r} of the file is not in the loaded model"
+        yield error("joint_missing", message, **subject)
         return
     lower = -math.inf if line.lower is None else line.lower
     upper = math.inf if line.upper is None else line.upper
@@ -104,25 +82,29 @@ def _joint(
         math.isinf(lower) and {held.kind, line.kind} <= unlimited
     )
     if line.kind in MOVING_KINDS and not same_kind:
-        yield found("joint_kind", f"joint {line.name!r} is {held.kind}, the file says {line.kind}")
-    unit = "m" if line.kind == "prismatic" else "rad"
+        message = f"{simulator}: joint {line.name!r} is {held.kind}, the file says {line.kind}"
+        yield error("joint_kind", message, **subject)
+    unit = line.unit
     for side, said, has in (("lower", lower, held.lower), ("upper", upper, held.upper)):
         if _differ(said, has, config.limit):
             message = (
-                f"{side} limit of joint {line.name!r} is {has:.6g} {unit}, "
+                f"{simulator}: {side} limit of joint {line.name!r} is {has:.6g} {unit}, "
                 f"the file says {said:.6g} {unit}"
             )
-            yield found("limit_mismatch", message, value=finite(has), unit=unit, limit=finite(said))
-    turned = _turned(line, held)
-    if turned > config.angle_rad:
+            numbers = finite(has), finite(said)
+            yield error(
+                "limit_mismatch", message, **subject, value=numbers[0], unit=unit, limit=numbers[1]
+            )
+    turned = math.degrees(_turned(line, held))
+    most = math.degrees(config.angle_rad)
+    if turned > most:
         message = (
-            f"the axis of joint {line.name!r} is {_three(held.axis)}, "
-            f"{math.degrees(turned):.4g} deg from {_three(unit_axis(line))} of the file"
+            f"{simulator}: the axis of joint {line.name!r} is {three(held.axis)}, "
+            f"{turned:.4g} deg from {three(unit_axis(line))} of the file"
         )
-        limit = round(math.degrees(config.angle_rad), 6)
-        yield found(
-            "axis_mismatch", message, value=round(math.degrees(turned), 6), unit="deg", limit=limit
-        )
+        value = round(turned, 6)
+        limit = round(most, 6)
+        yield error("axis_mismatch", message, **subject, value=value, unit="deg", limit=limit)
 
 
 def _turned(line: JointLine, held: LoadedJoint) -> float:
@@ -152,28 +134,32 @@ def _coupling(
         held = joints.get(line.name)
         if held is None or line.kind not in MOVING_KINDS:
             continue
-        leaders: list[str] = []
-        while (at := leaders[-1] if leaders else line.name) in mimics:
-            leaders.append(mimics[at].leader)
-        if leaders and (held.follows is None or held.forced_by_judge):
+        followed = leaders(line.name, mimics)
+        subject = about(line, simulator)
+        if followed and (held.follows is None or held.forced_by_judge):
             dropped.append(line.name)
-        elif line.mimic is not None and not leaders:
+        elif line.mimic is not None and not followed:
             # It follows nothing that can be followed, which the lint says.
             continue
-        elif held.follows is not None and held.follows not in leaders:
-            said = f"follows {leaders[0]!r}" if leaders else "is free"
+        elif held.follows is not None and held.follows not in followed:
+            said = f"follows {followed[0]!r}" if followed else "is free"
             message = (
                 f"{simulator}: joint {line.name!r} is made to follow {held.follows!r}, "
                 f"in the file it {said}; want them coupled as written"
             )
-            parts = (line.parent, line.child)
-            yield error(
-                "mimic_mismatch", message, simulator=simulator, joint=line.name, parts=parts
-            )
-        elif held.mimic is not None:
-            yield from _otherwise(
-                line, whole_chain(line.name, mimics, held.follows), held.mimic, simulator, config
-            )
+            yield error("mimic_mismatch", message, **subject)
+        elif (has := held.mimic) is not None:
+            whole = whole_chain(line.name, mimics, held.follows)
+            pairs = ((whole.multiplier, has.multiplier), (whole.offset, has.offset))
+            wrong = next((pair for pair in pairs if _differ(*pair, config.limit)), None)
+            if wrong is not None:
+                message = (
+                    f"{simulator}: joint {line.name!r} is held at {has.multiplier:.6g} times "
+                    f"{has.leader!r} plus {has.offset:.6g}, "
+                    f"the file says {whole.multiplier:.6g} times plus {whole.offset:.6g}"
+                )
+                limit, value = map(finite, wrong)
+                yield error("mimic_mismatch", message, **subject, value=value, limit=limit)
     if dropped:
         message = (
             f"{simulator} does not couple {listed(dropped)} to another joint as the file does: "
@@ -182,32 +168,6 @@ def _coupling(
         count = float(len(dropped))
         yield warning(
             "mimic_ignored", message, simulator=simulator, value=count, unit="joints", limit=0.0
-        )
-
-
-def _otherwise(
-    line: JointLine, said: Mimic, held: Mimic, simulator: str, config: LoadingConfig
-) -> Iterator[Finding]:
-    """Tell whether it follows the joint that the file says, but by other numbers."""
-    pairs = ((said.multiplier, held.multiplier), (said.offset, held.offset))
-    wrong = next((pair for pair in pairs if _differ(*pair, config.limit)), None)
-    if wrong is not None:
-        message = (
-            f"{simulator}: joint {line.name!r} is held at {held.multiplier:.6g} times "
-            f"{held.leader!r} plus {held.offset:.6g}, "
-            f"the file says {said.multiplier:.6g} times plus {said.offset:.6g}"
-        )
-        value = finite(wrong[1])
-        limit = finite(wrong[0])
-        parts = (line.parent, line.child)
-        yield error(
-            "mimic_mismatch",
-            message,
-            simulator=simulator,
-            joint=line.name,
-            parts=parts,
-            value=value,
-            limit=limit,
         )
 
 
@@ -225,15 +185,11 @@ def _ignored(
             if has is None or not math.isclose(has, said, rel_tol=1e-4):
                 names.append(line.name)
         if names:
+            code = f"{quantity}_ignored"
             message = f"{simulator} drops the {quantity} that the file gives to {listed(names)}"
-            yield note(
-                f"{quantity}_ignored",
-                message,
-                simulator=simulator,
-                value=float(len(names)),
-                unit="joints",
-                joints=tuple(names),
-            )
+            count = float(len(names))
+            which = tuple(names)
+            yield note(code, message, simulator=simulator, value=count, unit="joints", joints=which)
 
 
 def _differ(said: float, has: float, tolerance: float) -> bool:
@@ -243,7 +199,3 @@ def _differ(said: float, has: float, tolerance: float) -> bool:
     if math.isinf(said) or math.isinf(has):
         return said != has
     return not abs(said - has) <= tolerance * max(1.0, abs(said))
-
-
-def _three(values: Any) -> str:
-    return "(" + ", ".join(f"{float(v):.4g}" for v in values) + ")"

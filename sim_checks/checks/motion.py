@@ -5,19 +5,15 @@ Energy from nowhere is a finding, too.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import asdict
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from ..config import CheckConfig, MotionConfig
-from ..description import Description
-from ..report import Finding, Severity
+from ..description import Description, JointLine
+from ..report import Finding
 from ..simulators.simulator import Fall, FallMotion, JointMotion, Observation, RestMotion
-from .result import CheckResult, error, note, warning
-
-#: Numbers in a report keep this many decimals: engines differ in the last bits from machine to
-#: machine.
-DECIMALS = 6
+from .result import DECIMALS, CheckResult, Concerned, about, error, graded, note, warning
 
 
 def check_motion(
@@ -31,22 +27,18 @@ def check_motion(
         observation: from :func:`~asset_factory.sim_checks.simulators.observe.observe`.
         config: thresholds in ``config.motion``.
     """
-    parts = {line.name: (line.parent, line.child) for line in description.joints}
-    units = {line.name: "m" if line.kind == "prismatic" else "rad" for line in description.joints}
-    findings: list[Finding] = []
-    for rest in observation.rest:
-        findings.extend(_rest_findings(rest, parts.get(rest.joint, ()), simulator, config.motion))
+    lines = {line.name: line for line in description.joints}
+    checks = _MotionChecks(simulator, lines, config.motion)
+    findings = [finding for rest in observation.rest for finding in checks.rest(rest)]
     pushed = {rest.joint for rest in observation.rest if rest.share > config.motion.drift_soft}
     # With weight, the same contacts make up the same energy again.
     known = any(finding.code == "energy_grows" for finding in findings)
-    findings.extend(_fall_findings(observation.fall, simulator, config.motion, known=known))
+    findings.extend(checks.fall(observation.fall, known=known))
     for fallen in observation.fall.joints:
         if fallen.joint not in pushed:
-            own = parts.get(fallen.joint, ()), units.get(fallen.joint, "")
-            findings.extend(_opened(fallen, *own, simulator, config.motion))
+            findings.extend(checks.opened(fallen))
     for motion in observation.motions:
-        own = parts.get(motion.joint, ()), units.get(motion.joint, "")
-        findings.extend(_motion_findings(motion, *own, simulator, config.motion))
+        findings.extend(checks.driven(motion))
     if observation.warnings:
         message = f"{simulator} complained while moving: {', '.join(observation.warnings)}"
         findings.append(warning("engine_warning", message, simulator=simulator))
@@ -62,9 +54,8 @@ def check_motion(
     ]
     for name in idle:
         message = f"{simulator}: joint {name!r} was not driven: it has no range from lower to upper"
-        findings.append(
-            note("not_driven", message, simulator=simulator, joint=name, parts=parts.get(name, ()))
-        )
+        findings.append(note("not_driven", message, **checks.subject(name)))
+    pairs = observation.model.pairs
     measurements: dict[str, Any] = {
         "joints": [_rounded(asdict(motion)) for motion in observation.motions],
         "rest": [_rounded(asdict(rest)) for rest in observation.rest],
@@ -73,167 +64,174 @@ def check_motion(
         "moved_with_others": sorted(coupled - spoken_for),
         "dependencies": [motion.joint for motion in observation.motions if motion.needs_open],
         "engine_warnings": list(observation.warnings),
-        "pairs_enforced": observation.model.pairs.words()
-        if observation.model.pairs is not None
-        else None,
+        "pairs_enforced": None if pairs is None else pairs.words(),
     }
     return CheckResult(tuple(findings), measurements)
 
 
-def _motion_findings(
-    motion: JointMotion, parts: tuple[str, ...], unit: str, simulator: str, config: MotionConfig
-) -> Iterator[Finding]:
-    others = _leant_on(motion)
-    parts += tuple(link for link in motion.blocked_by or () if link not in parts)
+@dataclass(frozen=True)
+class _MotionChecks:
+    """The checks of one engine's motions.
 
-    def found(code: str, severity: Severity, message: str, value: float, limit: float) -> Finding:
-        sentence = f"{simulator}: joint {motion.joint!r} {message}"
-        return Finding(
-            code,
-            severity,
-            sentence,
-            simulator,
-            motion.joint,
-            parts,
-            round(value, DECIMALS),
-            "of range",
-            limit,
-            joints=others,
+    Attributes:
+        simulator: its name.
+        lines: the file's joints, by name; an engine may have added others.
+        config: thresholds.
+    """
+
+    simulator: str
+    lines: Mapping[str, JointLine]
+    config: MotionConfig
+
+    def subject(self, joint: str) -> Concerned:
+        """Return a joint as the subject of a finding."""
+        if joint in self.lines:
+            return about(self.lines[joint], self.simulator)
+        return {"simulator": self.simulator, "joint": joint}
+
+    def _unit(self, joint: str) -> str:
+        return self.lines[joint].unit if joint in self.lines else ""
+
+    def driven(self, motion: JointMotion) -> Iterator[Finding]:
+        """Check a joint that was driven to upper and back, and let go of there."""
+        config = self.config
+        unit = self._unit(motion.joint)
+        subject = self.subject(motion.joint)
+        parts = subject.get("parts", ())
+        subject["parts"] = (
+            *parts,
+            *(link for link in motion.blocked_by or () if link not in parts),
         )
 
-    if not motion.finite:
-        message = f"{simulator}: joint {motion.joint!r} went to infinity or NaN while driven"
-        yield error("not_finite", message, simulator=simulator, joint=motion.joint, parts=parts)
-        return
-    if motion.reached < config.reach_fraction:
-        message = (
-            f"reached {motion.reached:.1%} of its range{_stuck(motion, unit)}, "
-            f"{config.reach_fraction:.0%} is wanted{_blocker(motion)}"
-        )
-        yield found("jammed", Severity.ERROR, message, motion.reached, config.reach_fraction)
-    elif motion.returned > config.return_fraction:
-        message = (
-            f"stayed {motion.returned:.1%} open{_stuck(motion, unit)} after driving back, "
-            f"at most {config.return_fraction:.0%} may remain{_blocker(motion)}"
-        )
-        yield found(
-            "not_returned", Severity.ERROR, message, motion.returned, config.return_fraction
-        )
-    beyond = motion.overshoot / motion.range if motion.range > 0.0 else 0.0
-    if beyond > config.overshoot_soft:
-        severity = Severity.ERROR if beyond > config.overshoot_hard else Severity.WARNING
-        message = f"passed its limit by {motion.overshoot:.4g} {unit} ({beyond:.1%} of its range)"
-        yield found("limit_overshoot", severity, message, beyond, config.overshoot_soft)
-    if motion.others_moved > config.others_soft:
-        severity = Severity.ERROR if motion.others_moved > config.others_hard else Severity.WARNING
-        message = (
-            f"pushed joint {motion.pushed!r} by {motion.others_moved:.1%} of that joint's range"
-        )
-        yield found("others_moved", severity, message, motion.others_moved, config.others_soft)
-    if _made_up(motion.energy, motion.energy_height, config):
+        def found(grave: bool, code: str, message: str, value: float, limit: float) -> Finding:
+            sentence = f"{self.simulator}: joint {motion.joint!r} {message}"
+            share = round(value, DECIMALS)
+            others = _leant_on(motion)
+            return graded(
+                grave,
+                code,
+                sentence,
+                **subject,
+                value=share,
+                unit="of range",
+                limit=limit,
+                joints=others,
+            )
+
+        if not motion.finite:
+            message = (
+                f"{self.simulator}: joint {motion.joint!r} went to infinity or NaN while driven"
+            )
+            yield error("not_finite", message, **subject)
+            return
+        if motion.reached < config.reach_fraction:
+            message = (
+                f"reached {motion.reached:.1%} of its range{_stuck(motion, unit)}, "
+                f"{config.reach_fraction:.0%} is wanted{_blocker(motion)}"
+            )
+            yield found(True, "jammed", message, motion.reached, config.reach_fraction)
+        elif motion.returned > config.return_fraction:
+            message = (
+                f"stayed {motion.returned:.1%} open{_stuck(motion, unit)} after driving back, "
+                f"at most {config.return_fraction:.0%} may remain{_blocker(motion)}"
+            )
+            yield found(True, "not_returned", message, motion.returned, config.return_fraction)
+        beyond = motion.overshoot / motion.range if motion.range > 0.0 else 0.0
+        if beyond > config.overshoot_soft:
+            grave = beyond > config.overshoot_hard
+            message = (
+                f"passed its limit by {motion.overshoot:.4g} {unit} ({beyond:.1%} of its range)"
+            )
+            yield found(grave, "limit_overshoot", message, beyond, config.overshoot_soft)
+        if motion.others_moved > config.others_soft:
+            grave = motion.others_moved > config.others_hard
+            share = f"{motion.others_moved:.1%} of that joint's range"
+            message = f"pushed joint {motion.pushed!r} by {share}"
+            yield found(grave, "others_moved", message, motion.others_moved, config.others_soft)
         where = f"joint {motion.joint!r} was let go of"
-        yield _energy(
-            motion.energy, motion.energy_height, where, simulator, config, motion.joint, parts
-        )
+        yield from self._energy(motion.energy, motion.energy_height, where, subject)
 
-
-def _rest_findings(
-    rest: RestMotion, parts: tuple[str, ...], simulator: str, config: MotionConfig
-) -> Iterator[Finding]:
-    if not rest.finite:
-        message = (
-            f"{simulator}: joint {rest.joint!r} went to infinity or NaN while left "
-            "alone at its lower limit"
-        )
-        yield error("not_finite", message, simulator=simulator, joint=rest.joint, parts=parts)
-        return
-    if rest.share > config.drift_soft:
-        severity = Severity.ERROR if rest.share > config.drift_hard else Severity.WARNING
-        who = " and ".join(map(repr, rest.pushed_by)) if rest.pushed_by else "parts"
-        message = (
-            f"{simulator}: joint {rest.joint!r} moved {rest.share:.1%} of its range by itself, "
-            f"without gravity and springs: {who} overlap and push each other"
-        )
-        share = round(rest.share, DECIMALS)
-        yield Finding(
-            "pushed_at_rest",
-            severity,
-            message,
-            simulator,
-            rest.joint,
-            parts,
-            share,
-            "of range",
-            config.drift_soft,
-        )
-    if _made_up(rest.energy, rest.energy_height, config):
+    def rest(self, rest: RestMotion) -> Iterator[Finding]:
+        """Check a joint that was left alone at lower without gravity and springs."""
+        subject = self.subject(rest.joint)
+        if not rest.finite:
+            message = (
+                f"{self.simulator}: joint {rest.joint!r} went to infinity or NaN while left "
+                "alone at its lower limit"
+            )
+            yield error("not_finite", message, **subject)
+            return
+        if rest.share > self.config.drift_soft:
+            grave = rest.share > self.config.drift_hard
+            who = " and ".join(map(repr, rest.pushed_by)) if rest.pushed_by else "parts"
+            message = (
+                f"{self.simulator}: joint {rest.joint!r} moved {rest.share:.1%} of its range by "
+                f"itself, without gravity and springs: {who} overlap and push each other"
+            )
+            share = round(rest.share, DECIMALS)
+            limit = self.config.drift_soft
+            yield graded(
+                grave,
+                "pushed_at_rest",
+                message,
+                **subject,
+                value=share,
+                unit="of range",
+                limit=limit,
+            )
         where = f"joint {rest.joint!r} was left alone at its lower limit"
-        yield _energy(rest.energy, rest.energy_height, where, simulator, config, rest.joint, parts)
+        yield from self._energy(rest.energy, rest.energy_height, where, subject)
 
+    def fall(self, fall: Fall, *, known: bool) -> Iterator[Finding]:
+        """Check the object that was left alone under its own weight.
 
-def _fall_findings(
-    fall: Fall, simulator: str, config: MotionConfig, *, known: bool
-) -> Iterator[Finding]:
-    if not fall.finite:
+        Args:
+            fall: what it did.
+            known: whether energy from nowhere was told before.
+        """
+        if not fall.finite:
+            message = (
+                f"{self.simulator}: the object went to infinity or NaN "
+                "while left alone under its own weight"
+            )
+            yield error("not_finite", message, simulator=self.simulator)
+        elif not known:
+            where = "the object was left alone under its own weight"
+            subject: Concerned = {"simulator": self.simulator}
+            yield from self._energy(fall.energy, fall.energy_height, where, subject)
+
+    def opened(self, fallen: FallMotion) -> Iterator[Finding]:
+        """Check how far a joint opened by its own weight."""
+        if fallen.share > self.config.fall_soft:
+            message = (
+                f"{self.simulator}: joint {fallen.joint!r} opens by its own weight, by "
+                f"{fallen.moved:.4g} {self._unit(fallen.joint)} or {fallen.share:.1%} of its range "
+                f"in {self.config.rest_s:g} s: nothing holds it closed"
+            )
+            share = round(fallen.share, DECIMALS)
+            limit = self.config.fall_soft
+            subject = self.subject(fallen.joint)
+            yield warning(
+                "opens_by_itself", message, **subject, value=share, unit="of range", limit=limit
+            )
+
+    def _energy(
+        self, energy: float, height: float, where: str, subject: Concerned
+    ) -> Iterator[Finding]:
+        """Check energy from nowhere [J], and how high it would lift the moving parts [m]."""
+        config = self.config
+        if not (energy > config.energy_floor_j and height > config.energy_soft_m):
+            return
+        allowed = max(config.energy_floor_j, config.energy_soft_m * energy / height)
         message = (
-            f"{simulator}: the object went to infinity or NaN while left alone under its own weight"
+            f"{self.simulator}: {energy:.4g} J came from nowhere while {where}, "
+            f"enough to lift the moving parts by {height:.3g} m; at most {allowed:.4g} J "
+            f"({config.energy_soft_m:g} m) may: contacts push parts apart like springs"
         )
-        yield error("not_finite", message, simulator=simulator)
-    elif not known and _made_up(fall.energy, fall.energy_height, config):
-        yield _energy(
-            fall.energy,
-            fall.energy_height,
-            "the object was left alone under its own weight",
-            simulator,
-            config,
-        )
-
-
-def _opened(
-    fallen: FallMotion, parts: tuple[str, ...], unit: str, simulator: str, config: MotionConfig
-) -> Iterator[Finding]:
-    if fallen.share > config.fall_soft:
-        message = (
-            f"{simulator}: joint {fallen.joint!r} opens by its own weight, "
-            f"by {fallen.moved:.4g} {unit} or {fallen.share:.1%} of its range in "
-            f"{config.rest_s:g} s: nothing holds it closed"
-        )
-        share = round(fallen.share, DECIMALS)
-        yield warning(
-            "opens_by_itself",
-            message,
-            simulator=simulator,
-            joint=fallen.joint,
-            parts=parts,
-            value=share,
-            unit="of range",
-            limit=config.fall_soft,
-        )
-
-
-def _made_up(energy: float, height: float, config: MotionConfig) -> bool:
-    return energy > config.energy_floor_j and height > config.energy_soft_m
-
-
-def _energy(
-    energy: float,
-    height: float,
-    where: str,
-    simulator: str,
-    config: MotionConfig,
-    joint: str | None = None,
-    parts: tuple[str, ...] = (),
-) -> Finding:
-    severity = Severity.ERROR if height > config.energy_hard_m else Severity.WARNING
-    allowed = max(config.energy_floor_j, config.energy_soft_m * energy / height)
-    message = (
-        f"{simulator}: {energy:.4g} J came from nowhere while {where}, "
-        f"enough to lift the moving parts by {height:.3g} m; at most {allowed:.4g} J "
-        f"({config.energy_soft_m:g} m) may: contacts push parts apart like springs"
-    )
-    number = round(energy, DECIMALS)
-    limit = round(allowed, DECIMALS)
-    return Finding("energy_grows", severity, message, simulator, joint, parts, number, "J", limit)
+        grave = height > config.energy_hard_m
+        number = round(energy, DECIMALS)
+        limit = round(allowed, DECIMALS)
+        yield graded(grave, "energy_grows", message, **subject, value=number, unit="J", limit=limit)
 
 
 def _stuck(motion: JointMotion, unit: str) -> str:
@@ -242,14 +240,11 @@ def _stuck(motion: JointMotion, unit: str) -> str:
 
 
 def _blocker(motion: JointMotion) -> str:
-    words = ""
+    words = "; nothing presses on the parts that it moves"
     if motion.blocked_by is not None:
         one, two = motion.blocked_by
-        words += f"; {one!r} presses on {two!r}"
-    else:
-        words += "; nothing presses on the parts that it moves"
-    words += "".join(f"; it pushes joint {name!r}" for name in _leant_on(motion))
-    return words
+        words = f"; {one!r} presses on {two!r}"
+    return words + "".join(f"; it pushes joint {name!r}" for name in _leant_on(motion))
 
 
 def _leant_on(motion: JointMotion) -> tuple[str, ...]:

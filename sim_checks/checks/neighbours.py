@@ -16,14 +16,14 @@ import numpy.typing as npt
 
 from ..config import PenetrationConfig
 from ..description import FloatArray, JointLine
+from ..geometry.coupled_path import swept_boxes
 from ..geometry.looks import LookBudget, TooManyLooks
+from ..geometry.placing import box_around
 from ..geometry.solids import Solids
 from .joint_sweep import JointCourse, Rest, clear_until
 from .pairs import Pairs
 from .penetration_study import BothOpen, Neighbours, PairKind, PairSweep, PartPair
 
-#: Intervals in which the room that a joint sweeps is boxed in before anything finer is asked.
-BOXED_STEPS = 32
 #: Values of a joint, from a little open to upper, at each of which the other is swept.
 GRID = 4
 #: How often the grid's step is halved around the deepest contact.
@@ -150,7 +150,7 @@ def _near(solids: Solids, rest: Rest) -> Iterator[tuple[JointLine, JointLine]]:
     around = np.full((len(joints), 2, 3), np.nan)
     for index, joint in enumerate(joints):
         if joint.name in swept:
-            around[index] = _around(swept[joint.name])
+            around[index] = box_around([swept[joint.name]])
     for index, first in enumerate(joints):
         # What is around all of it is compared first: most pairs of joints are far apart.
         low, high = around[index]
@@ -175,24 +175,17 @@ def _swept(solids: Solids, rest: Rest, joints: list[JointLine]) -> Mapping[str, 
     poses = solids.place(rest.lower)
     boxes: dict[str, FloatArray] = {}
     for joint in joints:
-        places = np.linspace(0.0, rest.upper[joint.name] - rest.lower[joint.name], BOXED_STEPS + 1)
+        length = rest.upper[joint.name] - rest.lower[joint.name]
         stands, *groups = solids.groups(joint)
         found = []
         for group in groups:
             if group.solids:
-                points = np.vstack(
-                    [solids.items[index].collider.hull.vertices for index in group.solids]
-                )
-                path = solids.seen(group, stands, poses, float(places[-1]))
-                found.append(path.orbit(points).swept_bounds(places))
+                hulls = [solids.items[index].collider.hull for index in group.solids]
+                points = np.vstack([hull.vertices for hull in hulls])
+                found.append(swept_boxes(solids.seen(group, stands, poses, length), points))
         if found:
             boxes[joint.name] = np.vstack(found)
     return boxes
-
-
-def _around(boxes: FloatArray) -> FloatArray:
-    """Return the lowest and highest corner of boxes [m], shape [box_count, 2, 3] -> [2, 3]."""
-    return np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
 
 
 def _meet(swept: FloatArray, boxes: FloatArray) -> bool:

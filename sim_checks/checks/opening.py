@@ -70,21 +70,18 @@ class _OpeningOrder:
     def judged(self, name: str) -> JointSweep:
         """Return one joint, once all is settled."""
         first = self._swept(name, CLOSED)
-        course = self.courses[name]
-        if not self._failing(first):
+        failing = self._failing(first)
+        if not failing:
             return first
         if name in self.needs:
             ordered = tuple(other for other in self.needs if other in self.needs[name])
-            return replace(
-                first, needs_open=ordered, alternative=self._swept(name, self.needs[name])
-            )
-        worst = max(self._failing(first), key=lambda pair: pair.excess)
+            alternative = self._swept(name, self.needs[name])
+            return replace(first, needs_open=ordered, alternative=alternative)
+        worst = max(failing, key=lambda pair: pair.excess)
         # Pairs that are clear on the whole way are clear on a part of it.
-        course = replace(course, only=frozenset(pair.parts for pair in self._failing(first)))
-        waits = self._between(self._failing(first)) - {name, *self.needs}
-        return replace(
-            first, clear_until=clear_until(course, worst), waits_for=tuple(sorted(waits))
-        )
+        course = replace(self.courses[name], only=frozenset(pair.parts for pair in failing))
+        waits = tuple(sorted(self._between(failing) - {name, *self.needs}))
+        return replace(first, clear_until=clear_until(course, worst), waits_for=waits)
 
     def _swept(self, name: str, opened: Names) -> JointSweep:
         if (name, opened) not in self.swept:
@@ -123,7 +120,7 @@ class _OpeningOrder:
         yield frozenset(self.needs)
 
     def _failing(self, sweep: JointSweep) -> list[PairSweep]:
-        allowed = self.courses[sweep.joint].config.excess_m
+        allowed = self.courses[sweep.joint.name].config.excess_m
         return [
             pair
             for pair in sweep.pairs

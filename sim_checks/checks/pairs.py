@@ -29,11 +29,8 @@ class Pairs:
         links = frozenset((self.solids.items[first].link, self.solids.items[second].link))
         if links in self.excluded:
             return PairKind.EXCLUDED
-        return (
-            PairKind.HINGE
-            if (min(first, second), max(first, second)) in self.knuckles
-            else PairKind.PLAIN
-        )
+        pair = min(first, second), max(first, second)
+        return PairKind.HINGE if pair in self.knuckles else PairKind.PLAIN
 
     def parts(self, first: int, second: int) -> PartPair:
         """Return the two parts, lower index first."""
@@ -67,16 +64,10 @@ class Pairs:
         if located and depth >= 0.0:
             region = contact_region(a.collider.hull, b.collider.hull)
             point = tuple(float(x) for x in region.mean(axis=0)) if len(region) else None
-        return Contact(
-            (a.part, b.part),
-            (a.link, b.link),
-            (a.shape, b.shape),
-            depth,
-            point,
-            kind,
-            (first, second),
-            pose,
-        )
+        parts = a.part, b.part
+        links = a.link, b.link
+        shapes = a.shape, b.shape
+        return Contact(parts, links, shapes, depth, point, kind, (first, second), pose)
 
     def worst(
         self, standings: Iterable[SolidPair], pose: Mapping[str, float]

@@ -16,6 +16,7 @@ from ..config import PenetrationConfig, WorkConfig
 from ..description import Description, FloatArray
 from ..geometry.kinematics import build_tree, free_ranges
 from ..geometry.looks import LookBudget, TooManyLooks
+from ..geometry.path import joint_path
 from ..geometry.solids import SolidPair, Solids
 from .combinations import combination_values
 from .diagnosis import Diagnosis
@@ -110,7 +111,7 @@ def _knuckles(
             continue
         first, second = sorted((part_of[joint.parent], part_of[joint.child]))
         overlaps = overlapping.get((first, second), [])
-        path = pairs.solids.path(joint, poses, 0.0)
+        path = joint_path(joint, poses[joint.child], 0.0)
         found |= knuckles(pairs.solids, overlaps, path, part_of[joint.child], config)
     return frozenset(found)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 from ..measurements import (
@@ -15,11 +16,6 @@ from ..measurements import (
 from .penetration_study import Contact, JointSweep, PairSweep, PenetrationStudy
 
 
-def unit_of(kind: str) -> str:
-    """Return the unit of a joint's values."""
-    return "m" if kind == "prismatic" else "rad"
-
-
 def mm(metres: float) -> float:
     """Round to a tenth of a micrometre [mm], so that a last bit does not change a report."""
     return round(metres * 1000.0, 4) + 0.0
@@ -27,13 +23,12 @@ def mm(metres: float) -> float:
 
 def _contact(contact: Contact) -> dict[str, Any]:
     """Return the fields of a :class:`MeasuredContact`."""
+    point = contact.point
     return {
         "links": contact.links,
         "shapes": contact.shapes,
         "depth_mm": mm(contact.depth),
-        "point_m": None
-        if contact.point is None
-        else tuple(round(x, 6) + 0.0 for x in contact.point),
+        "point_m": None if point is None else tuple(round(x, 6) + 0.0 for x in point),
         "kind": str(contact.kind),
         "visual_mm": None if contact.visual is None else mm(contact.visual),
         "cause": None if contact.cause is None else str(contact.cause),
@@ -59,10 +54,10 @@ def _measured_joint(sweep: JointSweep) -> MeasuredJoint:
     )
     alternative = sweep.alternative
     return MeasuredJoint(
-        joint=sweep.joint,
+        joint=sweep.joint.name,
         lower=round(sweep.lower, 6),
         upper=round(sweep.upper, 6),
-        unit=unit_of(sweep.kind),
+        unit=sweep.joint.unit,
         excess_mm=mm(max(0.0, sweep.excess)),
         clearance_mm=0.0 if touching else mm(min(gaps)) if gaps else None,
         visual_clearance_mm=None if visual is None else mm(max(0.0, visual)),
@@ -77,22 +72,23 @@ def _measured_joint(sweep: JointSweep) -> MeasuredJoint:
 
 def measured(study: PenetrationStudy) -> MeasuredPenetration:
     """Return a study's figures as the report states them."""
-    zero = study.zero
+
+    def contacts(found: Iterable[Contact]) -> tuple[MeasuredContact, ...]:
+        return tuple(MeasuredContact(**_contact(each)) for each in found)
+
     return MeasuredPenetration(
         diagonal_m=round(study.diagonal, 6),
         hulls=study.hulls,
         parts=study.parts,
-        rest=tuple(MeasuredContact(**_contact(contact)) for contact in study.rest),
-        zero=None
-        if zero is None
-        else tuple(MeasuredContact(**_contact(contact)) for contact in zero),
+        rest=contacts(study.rest),
+        zero=None if study.zero is None else contacts(study.zero),
         joints=tuple(_measured_joint(sweep) for sweep in study.sweeps),
         neighbours=tuple(
             MeasuredNeighbour(
                 **_pair(item.pair),
                 joint=item.joint.name,
                 open=item.other.name,
-                unit=unit_of(item.joint.kind),
+                unit=item.joint.unit,
                 open_at=round(item.other_at, 6),
             )
             for item in study.neighbours.met

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence, Set
 from dataclasses import replace
 
 from ..config import PenetrationConfig
-from ..report import Finding, Severity
+from ..report import Finding
 from .cause import CLAUSES
-from .penetration_figures import measured, mm, unit_of
+from .penetration_figures import measured, mm
 from .penetration_study import (
     BothOpen,
     Contact,
@@ -18,7 +18,16 @@ from .penetration_study import (
     PartPair,
     PenetrationStudy,
 )
-from .result import CheckResult, note
+from .result import CheckResult, graded, note
+
+#: Of pairs that may overlap: how that is told, and why it may.
+EXEMPT = {
+    PairKind.HINGE: ("hinge_overlap", ", but this is the knuckle of their hinge"),
+    PairKind.EXCLUDED: (
+        "excluded_penetration",
+        ", but the file excludes this pair from contact",
+    ),
+}
 
 
 def report(study: PenetrationStudy, config: PenetrationConfig) -> CheckResult:
@@ -50,8 +59,7 @@ def told_parts(sweeps: Sequence[JointSweep], config: PenetrationConfig) -> froze
     )
 
 
-def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> list[Finding]:
-    findings = []
+def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> Iterator[Finding]:
     at_rest = {contact.parts: contact.depth for contact in study.rest}
     poses = [("with every joint at lower", study.rest), ("with every joint at 0", study.zero or ())]
     for pose, contacts in poses:
@@ -62,85 +70,56 @@ def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> list[F
             )
             if contact.depth <= config.rest_m or repeated:
                 continue
-            code, severity = _judged("rest_penetration", contact)
+            code, why = EXEMPT.get(contact.kind, ("rest_penetration", ""))
             a, b = contact.links
             message = (
                 f"{a} and {b} overlap by {mm(contact.depth):.2f} mm "
-                f"{pose}{_near(contact)}; at most {mm(config.rest_m):g} mm is allowed{_why(code)}"
+                f"{pose}{_near(contact)}; at most {mm(config.rest_m):g} mm is allowed{why}"
             )
-            value = mm(contact.depth)
-            limit = mm(config.rest_m)
-            findings.append(_finding(code, severity, message, contact, value, limit))
-    return findings
+            grave = contact.kind is PairKind.PLAIN
+            yield _finding(grave, code, message, contact, contact.depth, config.rest_m)
 
 
-def _judged(code: str, contact: Contact) -> tuple[str, Severity]:
-    if contact.kind is PairKind.HINGE:
-        return "hinge_overlap", Severity.WARNING
-    if contact.kind is PairKind.EXCLUDED:
-        return "excluded_penetration", Severity.WARNING
-    return code, Severity.ERROR
-
-
-def _why(code: str) -> str:
-    if code == "hinge_overlap":
-        return ", but this is the knuckle of their hinge"
-    return (
-        ", but the file excludes this pair from contact" if code == "excluded_penetration" else ""
-    )
-
-
-def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> list[Finding]:
-    findings = []
-    unit = unit_of(sweep.kind)
-    limit = mm(config.excess_m)
+def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> Iterator[Finding]:
+    joint = sweep.joint.name
+    unit = sweep.joint.unit
     for pair in sweep.pairs:
-        a, b = pair.contact.links
         if pair.excess <= config.excess_m:
             continue
-        code, severity = _judged("sweep_penetration", pair.contact)
-        if severity is Severity.ERROR and sweep.alternative is not None:
-            code = "joint_dependency"
-            severity = Severity.WARNING
+        a, b = pair.contact.links
+        depth = mm(pair.excess)
+        grave = pair.contact.kind is PairKind.PLAIN
+        code, why = EXEMPT.get(pair.contact.kind, ("sweep_penetration", ""))
         message = (
-            f"as {sweep.joint} moves, {a} and {b} penetrate {mm(pair.excess):.2f} mm deeper than "
+            f"as {joint} moves, {a} and {b} penetrate {depth:.2f} mm deeper than "
             f"at rest, worst at {pair.at:.4g} {unit}{_near(pair.contact)}; "
-            f"at most {limit:g} mm is allowed{_why(code)}"
+            f"at most {mm(config.excess_m):g} mm is allowed{why}"
         )
-        if severity is Severity.ERROR and sweep.waits_for:
-            message += f"; {' and '.join(sweep.waits_for)} would have to make way, but never opens"
-        if code == "joint_dependency":
+        if grave and sweep.alternative is not None:
+            grave = False
+            code = "joint_dependency"
             message = (
-                f"{sweep.joint} is blocked while the other joints are at lower: "
-                f"{a} and {b} would penetrate {mm(pair.excess):.2f} mm at {pair.at:.4g} {unit}; "
+                f"{joint} is blocked while the other joints are at lower: "
+                f"{a} and {b} would penetrate {depth:.2f} mm at {pair.at:.4g} {unit}; "
                 f"with {' and '.join(sweep.needs_open)} open its way is free"
             )
-        findings.append(
-            _finding(code, severity, message, pair.contact, mm(pair.excess), limit, sweep.joint)
-        )
-    return findings
+        elif grave and sweep.waits_for:
+            message += f"; {' and '.join(sweep.waits_for)} would have to make way, but never opens"
+        found = _finding(grave, code, message, pair.contact, pair.excess, config.excess_m)
+        yield replace(found, joint=joint)
 
 
 def _finding(
-    code: str,
-    severity: Severity,
-    message: str,
-    contact: Contact,
-    value: float,
-    limit: float,
-    joint: str | None = None,
+    grave: bool, code: str, message: str, contact: Contact, depth: float, most: float
 ) -> Finding:
+    """Return what there is to say of a contact that is deeper than the most allowed [m]."""
     clause = "" if contact.cause is None else f"; {CLAUSES[contact.cause]}"
-    return Finding(
-        code,
-        severity,
-        message + clause,
-        joint=joint,
-        parts=contact.links,
-        value=value,
-        unit="mm",
-        limit=limit,
-        cause=None if contact.cause is None else str(contact.cause),
+    cause = None if contact.cause is None else str(contact.cause)
+    parts = contact.links
+    value = mm(depth)
+    limit = mm(most)
+    return graded(
+        grave, code, message + clause, parts=parts, value=value, unit="mm", limit=limit, cause=cause
     )
 
 
@@ -149,31 +128,26 @@ def _both_open(item: BothOpen, config: PenetrationConfig) -> Finding:
     pair = item.pair
     joint = item.joint.name
     other = item.other.name
-    unit = unit_of(item.joint.kind)
-    stands = f"{other} at {item.other_at:.4g} {unit_of(item.other.kind)}"
+    unit = item.joint.unit
+    stands = f"{other} at {item.other_at:.4g} {item.other.unit}"
     a, b = pair.contact.links
     depth = f"{a} and {b} penetrate {mm(pair.excess):.2f} mm deeper than at rest"
     if item.obstructed:
+        code = "joint_obstructed"
         message = (
             f"{joint} cannot reach its range once {other} is a little open: with {stands} it is "
             f"free until {item.free_until:.4g} {unit}, and {depth} at {pair.at:.4g} {unit}"
             f"{_near(pair.contact)}; end its range there, or make room between the parts"
         )
     else:
+        code = "joints_collide"
         message = (
             f"with {joint} at {pair.at:.4g} {unit} and {stands}, {depth}{_near(pair.contact)}; "
             f"open one at a time, or end the range of either earlier: {joint} is free until "
             f"{item.free_until:.4g} {unit} there"
         )
-    code, severity = (
-        ("joint_obstructed", Severity.ERROR)
-        if item.obstructed
-        else ("joints_collide", Severity.WARNING)
-    )
-    value = mm(pair.excess)
-    limit = mm(config.excess_m)
-    found = _finding(code, severity, message, pair.contact, value, limit, joint)
-    return replace(found, joints=(joint, other))
+    found = _finding(item.obstructed, code, message, pair.contact, pair.excess, config.excess_m)
+    return replace(found, joint=joint, joints=(joint, other))
 
 
 def _left_out(neighbours: Neighbours, config: PenetrationConfig) -> Iterator[Finding]:
@@ -190,8 +164,7 @@ def _left_out(neighbours: Neighbours, config: PenetrationConfig) -> Iterator[Fin
 
 def _combination_findings(
     study: PenetrationStudy, config: PenetrationConfig, told: Set[PartPair]
-) -> list[Finding]:
-    findings = []
+) -> Iterator[Finding]:
     for combination in study.combinations:
         contact = combination.contact
         excess = combination.excess
@@ -201,13 +174,8 @@ def _combination_findings(
         a, b = contact.links
         pose = ", ".join(f"{name}={value:.3g}" for name, value in combination.values.items())
         message = f"{a} and {b} penetrate {mm(excess):.2f} mm deeper than at rest when {pose}"
-        limit = mm(config.excess_m)
-        findings.append(
-            _finding(
-                "combination_penetration", Severity.WARNING, message, contact, mm(excess), limit
-            )
-        )
-    return findings
+        code = "combination_penetration"
+        yield _finding(False, code, message, contact, excess, config.excess_m)
 
 
 def _near(contact: Contact) -> str:

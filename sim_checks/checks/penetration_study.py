@@ -76,7 +76,7 @@ class JointSweep:
     """One joint over its whole range.
 
     Attributes:
-        joint, kind: name and kind.
+        joint: which moves.
         lower, upper: the range swept [rad] or [m].
         pairs: pairs of parts that come near each other.
         looks: exact evaluations that it took to be certain.
@@ -89,8 +89,7 @@ class JointSweep:
         clear_until: how far a joint that never opens goes from lower before it fails [rad] or [m].
     """
 
-    joint: str
-    kind: str
+    joint: JointLine
     lower: float
     upper: float
     pairs: tuple[PairSweep, ...]

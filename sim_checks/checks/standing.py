@@ -20,7 +20,7 @@ from scipy.spatial import ConvexHull, QhullError
 from ..config import StandingConfig
 from ..description import DescribedShape, Description, FloatArray, JointLine, Link
 from ..geometry.hull import FlatHull, convex_hull
-from ..geometry.kinematics import NotATree, Poser, Tree, build_tree, free_ranges, unit_axis
+from ..geometry.kinematics import Poser, Tree, find_tree, free_ranges, unit_axis
 from ..report import Finding
 from .result import CheckResult, warning
 
@@ -175,10 +175,8 @@ def check_standing(description: Description, config: StandingConfig) -> CheckRes
         margin [mm], the lean that topples it [deg] and the pull that tips it where the joint sticks
         or ends [N], joint by joint; ``None`` where there is nothing to say.
     """
-    try:
-        tree = build_tree(description)
-    except NotATree:
-        # The lint says so.
+    tree = find_tree(description)
+    if tree is None:
         return CheckResult()
     solid = [link for link in description.links if link.collisions]
     unweighed = [link.name for link in description.links if not _weighed(link)]
@@ -309,13 +307,10 @@ def _pulled(rows: list[dict[str, Any]], config: StandingConfig) -> Iterator[Find
             f"{worst['tipping_force_n']:.1f} N, "
             f"want it to withstand {config.hand_force_n:g} N or be fastened{others}"
         )
+        force = worst["tipping_force_n"]
+        most = config.hand_force_n
         yield warning(
-            "topples_when_pulled",
-            message,
-            joint=worst["joint"],
-            value=worst["tipping_force_n"],
-            unit="N",
-            limit=config.hand_force_n,
+            "topples_when_pulled", message, joint=worst["joint"], value=force, unit="N", limit=most
         )
 
 
@@ -336,7 +331,7 @@ def _corners(shapes: tuple[DescribedShape, ...]) -> FloatArray:
     """Return corners of the shapes' convex hull [m]: no other point of them can be lowest."""
     if not shapes:
         return np.zeros((0, 3))
-    points: FloatArray = np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes])
+    points: FloatArray = np.vstack([shape.corners for shape in shapes])
     try:
         return convex_hull(points).vertices
     except FlatHull:
@@ -358,8 +353,7 @@ def _edges(points: FloatArray, thinnest: float) -> FloatArray | None:
         equations = ConvexHull(points).equations
     except QhullError:
         return None
-    lines: FloatArray = np.column_stack([equations[:, :2], -equations[:, 2]])
-    return lines
+    return np.column_stack([equations[:, :2], -equations[:, 2]])
 
 
 def _farthest(points: FloatArray, distances: FloatArray) -> FloatArray:

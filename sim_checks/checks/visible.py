@@ -13,6 +13,7 @@ from ..description import Description, FloatArray, Link
 from ..geometry.depth import contact_region
 from ..geometry.gaps import visible_gap
 from ..geometry.loose import strayed
+from ..geometry.placing import joined
 from ..geometry.surfaces import SurfaceMeeting, VisibleSurface, patches
 from .joint_sweep import Rest
 from .pairs import Pairs
@@ -94,15 +95,6 @@ class Visible:
 
 def _surface(links: Sequence[Link], at_zero: Mapping[str, FloatArray]) -> VisibleSurface | None:
     """Return one part's surface in its first link's frame."""
-    vertices = []
-    faces = []
-    count = 0
-    for link in links:
-        in_part = np.linalg.inv(at_zero[links[0].name]) @ at_zero[link.name]
-        for shape in link.visuals:
-            vertices.append(shape.vertices @ in_part[:3, :3].T + in_part[:3, 3])
-            faces.append(shape.faces + count)
-            count += len(shape.vertices)
-    if not faces or sum(map(len, faces)) == 0:
-        return None
-    return VisibleSurface(np.vstack(vertices), np.vstack(faces))
+    to_part = np.linalg.inv(at_zero[links[0].name])
+    mesh = joined((shape, to_part @ at_zero[link.name]) for link in links for shape in link.visuals)
+    return None if mesh is None else VisibleSurface(*mesh)

@@ -83,12 +83,9 @@ class Collider:
                 reach = float(overlap_along(self.hull, other.hull, direction[None])[0])
                 # The gap is believed only as far as the hulls' own corners confirm it.
                 if reach < 0.0 and -reach > 0.5 * distance:
-                    sure = distance + reach <= TRUSTED_SHARE * distance
-                    return (
-                        HullOverlap(reach, direction)
-                        if sure
-                        else widest_gap(self.hull, other.hull, direction)
-                    )
+                    if distance + reach <= TRUSTED_SHARE * distance:
+                        return HullOverlap(reach, direction)
+                    return widest_gap(self.hull, other.hull, direction)
         return overlap(self.hull, other.hull)
 
 

@@ -15,6 +15,9 @@ import numpy as np
 from ..description import FloatArray
 from .path import Path, boxed
 
+#: Intervals in which all that moves is boxed in before anything finer is asked.
+BOXED_STEPS = 32
+
 
 @dataclass(frozen=True)
 class CoupledPath:
@@ -49,8 +52,7 @@ class CoupledPath:
 
     def unturned(self, vector: FloatArray, at: float) -> FloatArray:
         """Turn a world direction at ``at`` back to 0, as if fixed to the moving body."""
-        back: FloatArray = self.pose(at)[:3, :3].T @ vector
-        return back
+        return self.pose(at)[:3, :3].T @ vector
 
     def orbit(self, points: FloatArray) -> CoupledOrbit:
         """Return how points [m] travel that are at their places at 0; shape [point_count, 3]."""
@@ -125,10 +127,14 @@ class CoupledOrbit:
 
     def _heights(self, direction: FloatArray, at: FloatArray) -> FloatArray:
         poses = self.path.poses(at)
-        heights: FloatArray = (direction @ poses[:, :3, :3]) @ self.start.T + (
-            poses[:, :3, 3] @ direction
-        )[:, None]
-        return heights
+        return (direction @ poses[:, :3, :3]) @ self.start.T + (poses[:, :3, 3] @ direction)[
+            :, None
+        ]
 
 
 AnyPath = Path | CoupledPath
+
+
+def swept_boxes(path: AnyPath, points: FloatArray) -> FloatArray:
+    """Return boxes around all that points [m] sweep, by interval of the path, [interval, 2, 3]."""
+    return path.orbit(points).swept_bounds(np.linspace(0.0, path.length, BOXED_STEPS + 1))

@@ -33,6 +33,15 @@ def sound_chains(mimics: Mapping[str, Mimic | None]) -> dict[str, Mimic]:
     return {name: mimic for name, mimic in sound.items() if name not in lost}
 
 
+def leaders(name: str, mimics: Mapping[str, Mimic]) -> tuple[str, ...]:
+    """Return whom a joint follows, the nearest first; none for a free one."""
+    found: list[str] = []
+    while name in mimics:
+        name = mimics[name].leader
+        found.append(name)
+    return tuple(found)
+
+
 def whole_chain(name: str, sound: Mapping[str, Mimic], leader: str | None = None) -> Mimic:
     """Return a chain of followers as one: the joint at its head, with factor and offset.
 

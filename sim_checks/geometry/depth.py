@@ -207,10 +207,7 @@ def _arcs_cross(first: FloatArray, second: FloatArray) -> np.ndarray:
     d_side = across_first @ d.T
     a_side = a @ across_second.T
     b_side = b @ across_second.T
-    crossing: np.ndarray = (
-        (c_side * d_side < 0.0) & (a_side * b_side < 0.0) & (c_side * b_side > 0.0)
-    )
-    return crossing
+    return (c_side * d_side < 0.0) & (a_side * b_side < 0.0) & (c_side * b_side > 0.0)
 
 
 def _verified(

@@ -58,9 +58,11 @@ def visible_gap(
     """
     one, other = patches(first, second, poses, meeting)
     if one is None or other is None:
-        swallowed = (
-            one is not None and _inside(second, poses[1], _corners(one, meeting)).any()
-        ) or (other is not None and _inside(first, poses[0], _corners(other, meeting)).any())
+        held = ((one, second, poses[1]), (other, first, poses[0]))
+        swallowed = any(
+            inner is not None and _inside(outer, pose, _corners(inner, meeting)).any()
+            for inner, outer, pose in held
+        )
         return -meeting.depth if swallowed and meeting.depth > 0.0 else meeting.margin
     pairs = one.skin.touching(other.skin, MET_FACES)
     if len(pairs):
@@ -68,11 +70,9 @@ def visible_gap(
         zones = tuple(_zones(one, other, pairs, meeting)) or ((one, other),)
         out = max(_way_out(*zone, meeting) for zone in zones)
         # A pin whose end lies flush with a block touches it hardly, and yet is buried in it.
-        sunk = (
-            0.0
-            if out > 0.5 * meeting.depth
-            else max(_buried(one, other, meeting), _buried(other, one, meeting))
-        )
+        sunk = 0.0
+        if out <= 0.5 * meeting.depth:
+            sunk = max(_buried(one, other, meeting), _buried(other, one, meeting))
         return -max(out, min(sunk, meeting.depth))
     # A corner that only touches is buried by a rounding error.
     deepest = max(_buried(one, other, meeting), _buried(other, one, meeting))
@@ -94,6 +94,8 @@ def _zones(
     high = np.minimum(meeting.high, np.minimum(*(side.max(axis=1) for side in corners)))
     half = meeting.margin / 2.0
     way = max(0.0, meeting.depth) * meeting.direction
+    back = np.minimum(way, 0.0)
+    ahead = np.maximum(way, 0.0)
     low, high = np.minimum(low, high) - half, np.maximum(low, high) + half
     near = ((low[:, None] <= high[None]) & (low[None] <= high[:, None])).all(axis=2)
     labels = connected_components(near, directed=False)[1]
@@ -103,12 +105,8 @@ def _zones(
         below = low[rows].min(axis=0) - half
         above = high[rows].max(axis=0) + half
         # What of either lies deeper in the other comes by on the way out.
-        here = patch(
-            one.surface, one.pose, below + np.minimum(way, 0.0), above + np.maximum(way, 0.0)
-        )
-        there = patch(
-            other.surface, other.pose, below - np.maximum(way, 0.0), above - np.minimum(way, 0.0)
-        )
+        here = patch(one.surface, one.pose, below + back, above + ahead)
+        there = patch(other.surface, other.pose, below - ahead, above - back)
         if here is not None and there is not None:
             yield here, there
 
@@ -140,9 +138,10 @@ def _least_pull(one: Patch, other: Patch, direction: FloatArray, most: float, be
         return min(free, best)
     for _ in range(HALVINGS):
         middle = 0.5 * (meets + free)
-        meets, free = (
-            (middle, free) if _meets_after(one, other, middle * direction) else (meets, middle)
-        )
+        if _meets_after(one, other, middle * direction):
+            meets = middle
+        else:
+            free = middle
     return free
 
 
@@ -207,10 +206,9 @@ def _corners(inner: Patch, meeting: SurfaceMeeting) -> FloatArray:
 
     Beyond, the other's nearest face may not have been looked at.
     """
-    within = ((inner.vertices >= meeting.low - WELD) & (inner.vertices <= meeting.high + WELD)).all(
-        axis=1
-    )
-    corners = np.unique(inner.vertices[within], axis=0)
+    corners = inner.vertices
+    within = (corners >= meeting.low - WELD) & (corners <= meeting.high + WELD)
+    corners = np.unique(corners[within.all(axis=1)], axis=0)
     return corners[:: max(1, len(corners) // ASKED)][:ASKED]
 
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
 from ..description import Description, FloatArray, JointLine, Mimic, sensible
-from .coupling import common_range, sound_chains, whole_chain
+from .coupling import common_range, leaders, sound_chains, whole_chain
+from .placing import rigid
 
 MOVING_KINDS = ("revolute", "continuous", "prismatic")
 
@@ -51,7 +53,7 @@ class Tree:
     def _followers(self) -> Mapping[str, tuple[JointLine, ...]]:
         found: dict[str, tuple[JointLine, ...]] = {}
         for other in self.moving:
-            for leader in self._leaders(other.name):
+            for leader in leaders(other.name, self.mimics):
                 found[leader] = (*found.get(leader, ()), other)
         return found
 
@@ -69,13 +71,6 @@ class Tree:
     def completed(self, values: Mapping[str, float]) -> dict[str, float]:
         """Return values for every moving joint, followers included; file order."""
         return {joint.name: self.value_of(joint.name, values) for joint in self.moving}
-
-    def _leaders(self, name: str) -> tuple[str, ...]:
-        found: list[str] = []
-        while name in self.mimics:
-            name = self.mimics[name].leader
-            found.append(name)
-        return tuple(found)
 
     def link_poses(self, values: Mapping[str, float]) -> dict[str, FloatArray]:
         """Link frames in the root's frame, each of shape [4, 4].
@@ -158,6 +153,13 @@ def build_tree(description: Description) -> Tree:
     return Tree(roots[0], order, moving, _parts(names, roots[0], order), sound_mimics(description))
 
 
+def find_tree(description: Description) -> Tree | None:
+    """Return the tree of a description; ``None`` where its links form none, as the lint says."""
+    with suppress(NotATree):
+        return build_tree(description)
+    return None
+
+
 def sound_mimics(description: Description) -> dict[str, Mimic]:
     """Return follower -> mimic, where the chain of leaders ends at a joint that moves by itself.
 
@@ -195,13 +197,12 @@ def _parts(
 
 def joint_motion(joint: JointLine, value: float) -> FloatArray:
     """Return what the joint adds to its origin at ``value`` [rad] or [m]; shape [4, 4]."""
-    pose = np.eye(4)
     axis = unit_axis(joint)
     if joint.kind == "prismatic":
-        pose[:3, 3] = value * axis
-    elif joint.kind in ("revolute", "continuous"):
-        pose[:3, :3] = rotation_about(axis, value)
-    return pose
+        return rigid(np.eye(3), value * axis)
+    if joint.kind in MOVING_KINDS:
+        return rigid(rotation_about(axis, value), np.zeros(3))
+    return np.eye(4)
 
 
 def unit_axis(joint: JointLine) -> FloatArray:

@@ -51,17 +51,9 @@ def _side_strayed(
     poses = np.array([found[0].pose, found[1].pose])
     if visible_gap(surfaces[0], surfaces[1], poses, meeting) < -allowed:
         return False
-    return all(
-        _nearer(
-            own,
-            np.flatnonzero(own.pieces == piece),
-            remains,
-            other,
-            rest[[side, 1 - side]],
-            meeting.margin,
-        )
-        for piece in small
-    )
+    frames = rest[[side, 1 - side]]
+    pieces = (np.flatnonzero(own.pieces == piece) for piece in small)
+    return all(_nearer(own, rows, remains, other, frames, meeting.margin) for rows in pieces)
 
 
 def _small(surface: VisibleSurface, pieces: IntArray) -> IntArray:
@@ -90,9 +82,8 @@ def _nearer(
     gaps = []
     for surface, pose in ((remains, poses[0]), (other, poses[1])):
         beside = patch(surface, pose, low, high)
-        gaps.append(
-            margin
-            if loose is None or beside is None
-            else min(margin, loose.skin.distance(beside.skin))
-        )
+        gap = margin
+        if loose is not None and beside is not None:
+            gap = min(margin, loose.skin.distance(beside.skin))
+        gaps.append(gap)
     return gaps[1] < gaps[0]

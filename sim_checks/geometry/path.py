@@ -7,7 +7,8 @@ from functools import cached_property
 
 import numpy as np
 
-from ..description import FloatArray
+from ..description import FloatArray, JointLine
+from .kinematics import unit_axis
 
 
 @dataclass(frozen=True)
@@ -137,6 +138,18 @@ class Orbit:
         return boxed(points, margin)
 
 
+def joint_path(joint: JointLine, pose: FloatArray, length: float) -> Path:
+    """Return the way a joint by itself moves what hangs below it, from a posed value on.
+
+    Args:
+        joint: which moves.
+        pose: of the joint's child there, in the world, shape [4, 4].
+        length: how far it goes [rad] or [m].
+    """
+    # The axis is the same line in the child's frame at every value.
+    return Path(joint.kind != "prismatic", pose[:3, 3], pose[:3, :3] @ unit_axis(joint), length)
+
+
 def boxed(points: FloatArray, margin: FloatArray) -> FloatArray:
     """Return the boxes around points [m] at neighbouring places.
 
@@ -156,5 +169,4 @@ def boxed(points: FloatArray, margin: FloatArray) -> FloatArray:
 
 def bulge(radius: float, step: FloatArray) -> FloatArray:
     """Return how far a circling point can rise above the higher of a step's two ends [m]."""
-    rise: FloatArray = radius * (1.0 - np.cos(0.5 * np.minimum(step, 2.0 * np.pi)))
-    return rise
+    return radius * (1.0 - np.cos(0.5 * np.minimum(step, 2.0 * np.pi)))

@@ -10,11 +10,13 @@ import numpy as np
 from ..description import Description, FloatArray, JointLine
 from .collision import Collider
 from .coupled_path import AnyPath, CoupledPath
+from .coupling import leaders
 from .depth import HullOverlap
 from .hull import FlatHull, convex_hull
-from .kinematics import Poser, Tree, unit_axis
+from .kinematics import Poser, Tree
 from .looks import LookBudget
-from .path import Path
+from .path import joint_path
+from .placing import diagonal
 
 
 @dataclass(frozen=True)
@@ -104,12 +106,7 @@ class Solids:
 
     def diagonal(self) -> float:
         """Return the diagonal of the box around everything as placed [m]."""
-        boxes = self.bounds()
-        return (
-            float(np.linalg.norm(boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)))
-            if len(boxes)
-            else 0.0
-        )
+        return diagonal([self.bounds()]) if self.items else 0.0
 
     def standings(self, floor: float) -> Iterator[SolidPair]:
         """Yield pairs of solids of different parts closer than ``floor`` [m], in a fixed order.
@@ -129,13 +126,6 @@ class Solids:
             overlap = self.items[first].collider.stand(self.items[second].collider)
             if overlap.depth > -floor:
                 yield SolidPair(first, second, overlap)
-
-    def path(self, joint: JointLine, poses: Mapping[str, FloatArray], length: float) -> Path:
-        """Return the way a joint by itself moves what hangs below it, from the posed value on."""
-        frame = poses[joint.child]
-        # The axis is the same line in the child's frame at every value.
-        axis = frame[:3, :3] @ unit_axis(joint)
-        return Path(joint.kind != "prismatic", frame[:3, 3], axis, length)
 
     def groups(self, joint: JointLine) -> tuple[SolidGroup, ...]:
         """Return the solids grouped by how they move with ``joint`` and its followers.
@@ -189,7 +179,8 @@ class Solids:
         back = [(joint, -rate) for joint, rate in reversed(standing.ways[shared:])]
         steps = [*back, *moving.ways[shared:]]
         if len(steps) == 1 and steps[0][1] == 1.0:
-            return self.path(steps[0][0], poses, length)
+            joint = steps[0][0]
+            return joint_path(joint, poses[joint.child], length)
         return self._coupled(steps, poses, length)
 
     def way(self, group: SolidGroup, poses: Mapping[str, FloatArray], length: float) -> CoupledPath:
@@ -202,13 +193,13 @@ class Solids:
         poses: Mapping[str, FloatArray],
         length: float,
     ) -> CoupledPath:
-        lines = tuple((self.path(joint, poses, abs(rate) * length), rate) for joint, rate in steps)
-        return CoupledPath(lines, length)
+        paths = ((joint_path(j, poses[j.child], abs(rate) * length), rate) for j, rate in steps)
+        return CoupledPath(tuple(paths), length)
 
     def between(self, first: int, second: int) -> frozenset[str]:
         """Return the names of the free joints that move two parts against one another."""
         here, there = (self._above(part) for part in (first, second))
-        return frozenset(self._leader(name) for name in here ^ there)
+        return frozenset((name, *leaders(name, self.tree.mimics))[-1] for name in here ^ there)
 
     def _above(self, part: int) -> set[str]:
         """Return the names of the moving joints above a part."""
@@ -222,11 +213,6 @@ class Solids:
     def _rate(self, joint: JointLine, other: JointLine) -> float:
         start, end = (self.tree.value_of(other.name, {joint.name: value}) for value in (0.0, 1.0))
         return end - start
-
-    def _leader(self, name: str) -> str:
-        while name in self.tree.mimics:
-            name = self.tree.mimics[name].leader
-        return name
 
 
 def _steps(tree: Tree, part_of: Mapping[str, int]) -> tuple[tuple[int, int, JointLine], ...]:

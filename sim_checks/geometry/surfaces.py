@@ -11,6 +11,7 @@ from scipy.sparse.csgraph import connected_components
 
 from ..description import FloatArray, IntArray
 from .collision import Skin
+from .placing import box_corners
 
 #: Corners closer than this are one [m].
 WELD = 1e-6
@@ -68,8 +69,7 @@ class VisibleSurface:
         # lightning strike.
         keys = (np.round(self.vertices / WELD).astype(np.int64) * MIXING).sum(axis=1)
         _, merged = np.unique(keys, return_inverse=True)
-        faces: IntArray = merged.ravel()[self.faces].astype(np.int64)
-        return faces
+        return merged.ravel()[self.faces].astype(np.int64)
 
     @cached_property
     def pieces(self) -> IntArray:
@@ -126,9 +126,7 @@ def patch(
     surface: VisibleSurface, pose: FloatArray, low: FloatArray, high: FloatArray
 ) -> Patch | None:
     """Return the faces whose boxes reach into a box of the world [m]; ``None`` if there is none."""
-    ends = np.array(
-        [[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
-    )
+    ends = box_corners(np.array([low, high]))
     local = (ends - pose[:3, 3]) @ pose[:3, :3]
     below, above = surface.boxes
     rows = np.nonzero(((below <= local.max(axis=0)) & (above >= local.min(axis=0))).all(axis=1))[0]

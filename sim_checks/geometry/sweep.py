@@ -22,13 +22,12 @@ from .coupled_path import AnyPath, CoupledOrbit
 from .depth import HullOverlap
 from .looks import LookBudget
 from .path import Orbit
+from .placing import box_around, box_corners
 
 #: Intervals of the path in which what is far from everything is told.
 COARSE_STEPS = 8
 #: Far above what rounding does to a box, far below any gap that counts [m].
 ROUNDING = 1e-9
-#: Which end of a box each of its corners has along each axis, shape [8, 3].
-CORNERS = np.indices((2, 2, 2)).reshape(3, 8).T
 #: How far beyond the limit a worst may lie that is taken for one within it [m].
 LIMIT_CERTAINTY = 1e-7
 #: A search that takes this many times the looks to be certain of its side runs along the limit
@@ -146,8 +145,8 @@ class Sweep:
         close = _within(self._reached(), still, floor + ROUNDING)
         for index in np.flatnonzero(close.any(axis=1)).tolist():
             boxes = self._swept(index)
-            around = np.array([[boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)]])
-            close[index] = _within(around, still, floor)[0]
+            around = box_around([boxes])
+            close[index] = _within(around[None], still, floor)[0]
         return close
 
     def _reached(self) -> FloatArray:
@@ -156,16 +155,16 @@ class Sweep:
         Wider than these, but found for all hulls at once: most are far from everything.
         """
         boxes = np.array([collider.bounds for collider in self.moving]).reshape(-1, 2, 3)
-        corners = boxes[:, CORNERS, np.arange(3)].reshape(-1, 3)
+        corners = box_corners(boxes).reshape(-1, 3)
         at = np.linspace(0.0, self.path.length, COARSE_STEPS + 1)
         poses = self.path.poses(at)
         points = corners @ poses[:, :3, :3].transpose(0, 2, 1) + poses[:, None, :3, 3]
-        points = points.reshape(len(at), len(boxes), len(CORNERS), 3)
+        points = points.reshape(len(at), len(boxes), 8, 3)
         # Between two places a point leaves the straight line by an eighth of its acceleration times
         # the square of the step; the finer boxes add as much for theirs.
         steps = at[1] ** 2 + self.places[1] ** 2
         _, acceleration = self.path.limits(corners)
-        margin = steps / 8.0 * acceleration.reshape(len(boxes), len(CORNERS), 1).max(axis=1)
+        margin = steps / 8.0 * acceleration.reshape(len(boxes), 8, 1).max(axis=1)
         return np.stack(
             [points.min(axis=(0, 2)) - margin, points.max(axis=(0, 2)) + margin], axis=1
         )

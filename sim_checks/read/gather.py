@@ -14,7 +14,7 @@ from ..report import Finding, Severity
 from .copies import Copies
 from .document import find_file, is_file, parse_document
 from .gather_mjcf import copy_mjcf
-from .references import named_files
+from .references import named_files, urdf_references
 from .roots import ReadOptions, Roots
 from .srdf import SUFFIX as SRDF
 from .xacro import expand_xacro, is_xacro
@@ -61,7 +61,8 @@ def gather(path: Path, folder: Path, options: ReadOptions) -> Gathered:
         return Gathered(path)
     roots = Roots(path, options)
     copies = Copies(folder / (path.absolute().parent.name or "root"), roots)
-    target = copies.folder / (f"{_stem(path)}.urdf" if made else path.name)
+    stem = path.name.removesuffix(path.suffix).removesuffix(".urdf")
+    target = copies.folder / (f"{stem}.urdf" if made else path.name)
     if document.tag == "mujoco":
         copy_mjcf(path, document, copies, target)
     else:
@@ -70,10 +71,6 @@ def gather(path: Path, folder: Path, options: ReadOptions) -> Gathered:
     told = Finding("read_by_xacro", Severity.NOTE, f"{path.name} was expanded by xacro")
     findings = (*([told] if made else []), *([_told(path, roots)] if strays else []))
     return Gathered(target, (*included, *copies.originals), findings)
-
-
-def _stem(path: Path) -> str:
-    return path.name.removesuffix(path.suffix).removesuffix(".urdf")
 
 
 def _told(path: Path, roots: Roots) -> Finding:
@@ -85,14 +82,9 @@ def _told(path: Path, roots: Roots) -> Finding:
     return Finding("read_from_root", Severity.NOTE, words)
 
 
-def _references(document: ET.Element) -> list[ET.Element]:
-    """Return the elements of a URDF that name a file; a plugin names some program's library."""
-    return [item for item in document.iter() if item.get("filename") and item.tag != "plugin"]
-
-
 def _urdf_strays(path: Path, document: ET.Element) -> bool:
     """Return whether a URDF refers to what its folder alone does not explain."""
-    for element in _references(document):
+    for element in urdf_references(document):
         reference = element.get("filename", "")
         try:
             find_file(reference, path.parent)
@@ -113,7 +105,7 @@ def _mjcf_strays(path: Path, document: ET.Element) -> bool:
 
 
 def _copy_urdf(path: Path, document: ET.Element, copies: Copies, target: Path) -> None:
-    for element in _references(document):
+    for element in urdf_references(document):
         try:
             file = copies.roots.find(element.get("filename", ""))
         except DescriptionError as error:

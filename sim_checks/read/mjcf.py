@@ -20,6 +20,7 @@ from ..description import (
     Mimic,
 )
 from ..geometry.kinematics import rotation_about
+from ..geometry.placing import placed, rigid
 from .mjcf_model import MESH, CompiledGeom, CompiledJoint, CompiledModel, compile_model
 from .multiplied import refuse_multiplied
 from .primitives import box, capsule, cylinder, ellipsoid
@@ -151,8 +152,8 @@ class _Describer:
             file = Path(place).as_posix() if mesh.file else None
         else:
             return None
-        placed = vertices @ geom.pose[:3, :3].T + geom.pose[:3, 3]
-        return DescribedShape(geom.name or name, geom.shape, placed, faces, file)
+        vertices = placed(vertices, geom.pose)
+        return DescribedShape(geom.name or name, geom.shape, vertices, faces, file)
 
 
 def _line(name: str, kind: str, parent: str, child: str, origin: FloatArray) -> JointLine:
@@ -181,9 +182,7 @@ def _undo_reference(joint: CompiledJoint) -> FloatArray:
     """Return the way from the compiled pose, at the joint's reference, to the pose at value 0."""
     if joint.kind == "slide":
         return _translation(-joint.reference * joint.axis)
-    pose = np.eye(4)
-    pose[:3, :3] = rotation_about(joint.axis, -joint.reference)
-    return pose
+    return rigid(rotation_about(joint.axis, -joint.reference), np.zeros(3))
 
 
 #: Builders by MuJoCo's name of a shape; its sizes are half extents.
@@ -197,6 +196,4 @@ _PRIMITIVES: dict[str, Callable[[FloatArray], tuple[FloatArray, IntArray]]] = {
 
 
 def _translation(offset: FloatArray) -> FloatArray:
-    pose = np.eye(4)
-    pose[:3, 3] = offset
-    return pose
+    return rigid(np.eye(3), offset)

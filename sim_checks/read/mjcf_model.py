@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..description import DescriptionError, FloatArray, IntArray, LinkInertia
+from ..geometry.placing import rigid
 from .mjcf_lenient import compile_leniently
 from .multiplied import MOST
 from .native import COMPILER_BYTES, memory_bounded
@@ -192,10 +193,7 @@ def compile_model(path: Path, *, lenient: bool = False) -> CompiledModel:
     import mujoco  # the engine's own compiler is the only true reader of its format
 
     main = str(path.parent.resolve() / path.name)
-    # Its own way is a log file in whatever folder the program was started from.
-    mujoco.set_mju_user_warning(_say)
-    # It remembers meshes by their file's name and the second they were written in.
-    mujoco.mj_clearCache(mujoco.mj_getCache())
+    begin_compiling()
     try:
         with memory_bounded(COMPILER_BYTES):
             meant: tuple[str, ...] = ()
@@ -223,8 +221,14 @@ def compile_model(path: Path, *, lenient: bool = False) -> CompiledModel:
     )
 
 
-def _say(words: str) -> None:
-    os.write(2, f"MuJoCo: {words}\n".encode())
+def begin_compiling() -> None:
+    """Have MuJoCo say its warnings on standard error, and forget earlier files' meshes."""
+    import mujoco
+
+    # Its own way is a log file in whatever folder the program was started from.
+    mujoco.set_mju_user_warning(lambda words: os.write(2, f"MuJoCo: {words}\n".encode()))
+    # It remembers meshes by their file's name and the second they were written in.
+    mujoco.mj_clearCache(mujoco.mj_getCache())
 
 
 def _refuse_many(name: str, model: MjModel) -> None:
@@ -372,7 +376,4 @@ def _pose(position: FloatArray, quaternion: FloatArray) -> FloatArray:
     """Return the pose of a position [m] and a (w, x, y, z) unit quaternion; shape [4, 4]."""
     from scipy.spatial.transform import Rotation
 
-    pose = np.eye(4)
-    pose[:3, :3] = Rotation.from_quat(np.roll(quaternion, -1)).as_matrix()
-    pose[:3, 3] = position
-    return pose
+    return rigid(Rotation.from_quat(np.roll(quaternion, -1)).as_matrix(), position)

@@ -72,11 +72,9 @@ class MujocoModel:
             return [self.base / reference, document.parent / reference]
         own = self.settings("texturedir" if element.tag == "texture" else "meshdir")
         folders = [_plain(folder) for folder in (*own, *self.settings("assetdir"))] or [""]
-        names = (
-            [Path(reference).name, reference]
-            if "true" in self.settings("strippath")
-            else [reference]
-        )
+        names = [reference]
+        if "true" in self.settings("strippath"):
+            names.insert(0, Path(reference).name)
         bases = [self.base, document.parent]
         return [base / folder / name for name in names for folder in folders for base in bases]
 
@@ -220,6 +218,11 @@ def nested(inner: Path, chain: tuple[Path, ...]) -> tuple[Path, ...]:
     return chain
 
 
+def urdf_references(document: ET.Element) -> list[ET.Element]:
+    """Return the elements of a URDF that name a file; a plugin names some program's library."""
+    return [item for item in document.iter() if item.get("filename") and item.tag != "plugin"]
+
+
 def refuse_outside_urdf(path: Path, document: ET.Element) -> None:
     """Refuse a URDF that names a file outside its folder, even one that only an engine reads.
 
@@ -227,11 +230,8 @@ def refuse_outside_urdf(path: Path, document: ET.Element) -> None:
         DescriptionError: ``outside_folder``.
     """
     folder = path.parent.resolve()
-    for element in document.iter():
-        # A plugin is the name of a library of some other program.
-        reference = element.get("filename") if element.tag != "plugin" else None
-        if reference:
-            locate(reference, folder)
+    for element in urdf_references(document):
+        locate(element.get("filename", ""), folder)
     beside = path.with_suffix(".srdf")
     if beside.exists() and not inside(beside, folder):
         raise outside_error(beside.name, (beside,))

@@ -20,12 +20,13 @@ from ..description import (
     Mimic,
 )
 from ..geometry.kinematics import MOVING_KINDS
+from ..geometry.placing import placed
 from .document import find_file, parse_document
 from .meshes import read_mesh
 from .primitives import box, capsule, cylinder, ellipsoid
 from .references import refuse_outside_mesh, refuse_outside_urdf
 from .srdf import exempt_pairs
-from .urdf_elements import STRICT, number, read_mimic
+from .urdf_elements import STRICT, TENSOR, number, read_mimic
 
 #: Of all shapes of one file together.
 MAX_TRIANGLES = 20_000_000
@@ -84,12 +85,11 @@ def read_mimics(path: Path) -> dict[str, Mimic | None]:
     Raises:
         DescriptionError: for a follower that names no joint, or no number.
     """
-    moving = [
-        item for item in parse_document(path).findall("joint") if item.get("type") in MOVING_KINDS
-    ]
+    joints = parse_document(path).findall("joint")
     return {
         STRICT.name(item): read_mimic(item.find("mimic"), f"joint {item.get('name')!r}")
-        for item in moving
+        for item in joints
+        if item.get("type") in MOVING_KINDS
     }
 
 
@@ -107,15 +107,11 @@ def _inertia(element: ET.Element, link: str) -> LinkInertia | None:
     if mass is None or tensor is None:
         return None
     where = f"<inertial> of link {link!r}"
-    xx, xy, xz, yy, yz, zz = (
-        number(tensor, key, where, 0.0) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-    )
+    xx, xy, xz, yy, yz, zz = (number(tensor, key, where, 0.0) for key in TENSOR)
     pose = STRICT.origin(element, where)
     matrix = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    rotation = pose[:3, :3]
-    return LinkInertia(
-        number(mass, "value", where, 0.0), pose[:3, 3], rotation @ matrix @ rotation.T
-    )
+    turned = pose[:3, :3] @ matrix @ pose[:3, :3].T
+    return LinkInertia(number(mass, "value", where, 0.0), pose[:3, 3], turned)
 
 
 def _shape(element: ET.Element, link: str, shapes: _Shapes) -> DescribedShape:
@@ -134,6 +130,5 @@ def _shape(element: ET.Element, link: str, shapes: _Shapes) -> DescribedShape:
     else:
         vertices, faces = _PRIMITIVES[geometry.kind](*geometry.size)
     shapes.count(len(faces), where)
-    pose = STRICT.origin(element, where)
-    placed = vertices @ pose[:3, :3].T + pose[:3, 3]
-    return DescribedShape(element.get("name") or name, geometry.kind, placed, faces, file)
+    vertices = placed(vertices, STRICT.origin(element, where))
+    return DescribedShape(element.get("name") or name, geometry.kind, vertices, faces, file)

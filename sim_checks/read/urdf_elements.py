@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..description import ABSURD, DescriptionError, FloatArray, JointLine, Mimic, sensible
+from ..geometry.placing import rigid
 
 #: What a shape is sized by, and how many numbers that is.
 SIZES = {
@@ -16,6 +17,8 @@ SIZES = {
     "capsule": (("radius", 1), ("length", 1)),
     "sphere": (("radius", 1),),
 }
+#: The entries of an inertia tensor on and above its diagonal, row by row.
+TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 @dataclass(frozen=True)
@@ -57,7 +60,6 @@ class UrdfElements:
         name = self.name(element)
         where = f"joint {name!r}"
         kind = element.get("type", "")
-        axis = element.find("axis")
         lower, upper = self._limits(element.find("limit"), kind, where)
         line = JointLine(
             name=name,
@@ -65,9 +67,7 @@ class UrdfElements:
             parent=self._end(element, "parent", where),
             child=self._end(element, "child", where),
             origin=self.origin(element, where),
-            axis=np.array([1.0, 0.0, 0.0])
-            if axis is None
-            else self.vector(axis, "xyz", where, "1 0 0" if self.lenient else None),
+            axis=self._axis(element.find("axis"), where),
             lower=lower,
             upper=upper,
         )
@@ -87,6 +87,11 @@ class UrdfElements:
             raise DescriptionError("missing_element", f"{where}: no <{tag} link=...>")
         return link
 
+    def _axis(self, item: ET.Element | None, where: str) -> FloatArray:
+        if item is None:
+            return np.array([1.0, 0.0, 0.0])
+        return self.vector(item, "xyz", where, "1 0 0" if self.lenient else None)
+
     def _limits(
         self, limit: ET.Element | None, kind: str, where: str
     ) -> tuple[float | None, float | None]:
@@ -100,11 +105,10 @@ class UrdfElements:
     def origin(self, element: ET.Element, where: str) -> FloatArray:
         """Return the pose in an element's ``<origin>``, shape [4, 4]."""
         item = element.find("origin")
-        pose = np.eye(4)
-        if item is not None:
-            pose[:3, :3] = rotation_from_rpy(self.vector(item, "rpy", where, "0 0 0"))
-            pose[:3, 3] = self.vector(item, "xyz", where, "0 0 0")
-        return pose
+        if item is None:
+            return np.eye(4)
+        turn = rotation_from_rpy(self.vector(item, "rpy", where, "0 0 0"))
+        return rigid(turn, self.vector(item, "xyz", where, "0 0 0"))
 
     def geometry(self, shape: ET.Element, where: str) -> UrdfGeometry | None:
         """Return the geometry of a ``<visual>`` or ``<collision>``; ``None`` where it has none.

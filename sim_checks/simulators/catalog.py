@@ -15,13 +15,8 @@ from .simulator import Simulator
 
 SIMULATORS: Mapping[str, Simulator] = MappingProxyType(
     {
-        engine.name: engine
-        for engine in (
-            SapienSimulator(),
-            MujocoSimulator(),
-            PybulletSimulator(),
-            NewtonSimulator(),
-        )
+        engine.name: engine()
+        for engine in (SapienSimulator, MujocoSimulator, PybulletSimulator, NewtonSimulator)
     }
 )
 """Every engine, in the order in which they are asked."""

@@ -9,11 +9,10 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray
-from .joints import Groups, Ranges, any_carried, companions, ranges, share
+from .joints import Groups, Ranges, any_carried, companions, pressing, ranges, share
 from .law import drive_law
 from .rest import Gain, let_go
 from .simulator import JointMotion, World
-from .touching import pressing
 
 #: How often the joints that make way are added to, because another link stands behind them.
 WIDENED = 3
@@ -45,13 +44,7 @@ def sweep(world: World, config: MotionConfig, apart: Groups = ()) -> tuple[Joint
 class _Order:
     """Which joints open, and which others must be open for it."""
 
-    def __init__(
-        self,
-        world: World,
-        span: Ranges,
-        config: MotionConfig,
-        apart: Groups,
-    ) -> None:
+    def __init__(self, world: World, span: Ranges, config: MotionConfig, apart: Groups) -> None:
         self._world = world
         self._span = span
         self._config = config
@@ -89,9 +82,8 @@ class _Order:
         together = [i for i in indices if len(companions(self._world, i)) == 1]
         if len(together) < 2:
             return
-        for i, motion in zip(
-            together, drive(self._world, together, self._span, CLOSED, self._config), strict=True
-        ):
+        motions = drive(self._world, together, self._span, CLOSED, self._config)
+        for i, motion in zip(together, motions, strict=True):
             if is_plain(motion, self._config):
                 self._driven[i, CLOSED] = motion
 
@@ -126,13 +118,10 @@ class _Order:
     def _in_the_way(self, motion: JointMotion) -> Joints:
         world = self._world
         if motion.blocked_by is None:
-            return frozenset(
-                i for i, joint in enumerate(world.joints) if joint.name == motion.pushed
-            )
+            return frozenset(i for i in range(len(world.joints)) if self._leans(motion, i))
         one, two = motion.blocked_by
-        return frozenset(
-            i for i, carried in enumerate(world.carried) if (one in carried) != (two in carried)
-        )
+        carried = enumerate(world.carried)
+        return frozenset(i for i, links in carried if (one in links) != (two in links))
 
     def _all(self, index: int) -> Iterator[Joints]:
         """Yield all needed joints at once: the hardest contact need not be the obstacle."""
@@ -191,7 +180,8 @@ def drive(
     for track in tracks:
         track.weight_closed = track.opening(balance)
     turned = False
-    for time in _times(config, world.time_step):
+    for step in range(1, round(2.0 * turning_point / world.time_step) + 1):
+        time = step * world.time_step
         goal[indices], speed[indices], acceleration[indices] = _ramp(
             time, span.lower[indices], span.travel[indices], config
         )
@@ -217,14 +207,9 @@ def drive(
     }
     gain = let_go(world, config) if all(track.finite for track in tracks) else Gain()
     return tuple(
-        track.motion(world, opened, float(law.bound[i]), stopped.get(i), gain)
+        track.motion(opened, float(law.bound[i]), stopped.get(i), gain)
         for i, track in zip(indices, tracks, strict=True)
     )
-
-
-def _times(config: MotionConfig, time_step: float) -> list[float]:
-    total = 2.0 * (config.ramp_s + config.hold_s)
-    return [i * time_step for i in range(1, round(total / time_step) + 1)]
 
 
 def _ramp(
@@ -251,6 +236,7 @@ class _DriveTrack:
         span: Ranges,
         config: MotionConfig,
     ) -> None:
+        self._world = world
         self._start = start
         self._index = index
         self._config = config
@@ -280,10 +266,8 @@ class _DriveTrack:
     @property
     def arrived(self) -> bool:
         """Return whether it opened, and closed again."""
-        return (
-            self.reached >= self._config.reach_fraction
-            and self.returned <= self._config.return_fraction
-        )
+        there = self.reached >= self._config.reach_fraction
+        return there and self.returned <= self._config.return_fraction
 
     def opening(self, forces: FloatArray) -> float:
         """Return what opens the joint, of these forces [N m] or [N]."""
@@ -314,19 +298,15 @@ class _DriveTrack:
         return True
 
     def motion(
-        self,
-        world: World,
-        opened: Joints,
-        bound: float,
-        blocked_by: tuple[str, str] | None,
-        gain: Gain,
+        self, opened: Joints, bound: float, blocked_by: tuple[str, str] | None, gain: Gain
     ) -> JointMotion:
         """Return all of it."""
         shares = np.array([share(m, s) for m, s in zip(self._moved, self._sizes, strict=True)])
         shares[self._together] = 0.0
         most = int(np.argmax(shares))
+        names = [joint.name for joint in self._world.joints]
         return JointMotion(
-            joint=world.joints[self._index].name,
+            joint=names[self._index],
             reached=self.reached,
             returned=self.returned,
             overshoot=max(0.0, self._highest - 1.0, -self._lowest) * abs(self._travel),
@@ -334,8 +314,8 @@ class _DriveTrack:
             peak_speed=self._fastest,
             finite=self.finite and gain.finite,
             range=abs(self._travel),
-            needs_open=tuple(world.joints[other].name for other in sorted(opened)),
-            pushed=world.joints[most].name if shares[most] > 0.0 else None,
+            needs_open=tuple(names[other] for other in sorted(opened)),
+            pushed=names[most] if shares[most] > 0.0 else None,
             blocked_by=blocked_by,
             stuck_at=None if self.arrived else self._at,
             opening_force=self._force,

@@ -9,10 +9,9 @@ import numpy as np
 from ..config import MotionConfig
 from ..description import FloatArray
 from .drive import arrived
-from .joints import Groups, Ranges, companions, ranges
+from .joints import Groups, Ranges, companions, pressing, ranges
 from .rest import left_alone
 from .simulator import HoldMotion, JointMotion, World
-from .touching import pressing
 
 #: Shares of the range at which a joint is left alone, in from the limits.
 SHARES = (0.25, 0.5, 0.75)

@@ -1,4 +1,4 @@
-"""What rest, fall and drive ask of a world's joints: ends, couplings, and the mass each carries."""
+"""What rest, fall and drive ask of a world's joints: ends, couplings, contacts, and masses."""
 
 from __future__ import annotations
 
@@ -49,11 +49,8 @@ def ranges(world: World) -> Ranges:
     doors of which one follows the other backwards would begin with one of them open.
     """
     ends = {joint.name: _ends(joint) for joint in world.joints}
-    limits = {
-        joint.name: (joint.lower, joint.upper)
-        for joint in world.joints
-        if joint.lower < joint.upper
-    }
+    limited = [joint for joint in world.joints if joint.lower < joint.upper]
+    limits = {joint.name: (joint.lower, joint.upper) for joint in limited}
     sound = sound_chains({joint.name: joint.mimic for joint in world.joints})
     led: dict[str, dict[str, Mimic]] = {}
     for name in sound:
@@ -61,11 +58,8 @@ def ranges(world: World) -> Ranges:
         led.setdefault(whole.leader, {})[name] = whole
     for leader, wholes in led.items():
         lower, upper = ends[leader]
-        common = common_range(
-            (lower, upper),
-            [(whole, limits[name]) for name, whole in wholes.items() if name in limits],
-        )
-        ends[leader] = common if common is not None else (lower, lower)
+        followers = [(whole, limits[name]) for name, whole in wholes.items() if name in limits]
+        ends[leader] = common_range((lower, upper), followers) or (lower, lower)
         for name, whole in wholes.items():
             lower, upper = (whole.multiplier * end + whole.offset for end in ends[leader])
             ends[name] = lower, upper
@@ -88,6 +82,25 @@ def companions(world: World, index: int) -> frozenset[int]:
     for _ in pairs:
         found |= {name for pair in pairs if pair & found for name in pair}
     return frozenset(i for i, joint in enumerate(world.joints) if joint.name in found)
+
+
+def pressing(world: World, index: int) -> tuple[str, str] | None:
+    """Return the hardest pressed pair of links across a joint.
+
+    Args:
+        world: after a step in which what presses pressed.
+        index: the joint; one link of the pair is moved by it, the other is not.
+
+    Returns:
+        Names in the order of the model's links; ``None`` if nothing presses.
+    """
+    moved = world.carried[index]
+    across = [
+        (touch.force, touch.depth, pair)
+        for pair, touch in world.contacts().items()
+        if touch.presses and (pair[0] in moved) != (pair[1] in moved)
+    ]
+    return max(across)[2] if across else None
 
 
 def any_carried(world: World) -> bool:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-import os
 import tempfile
 from collections.abc import Iterable
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +13,11 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray, Mimic
+from ..geometry.placing import rigid
+from ..read.mjcf_model import begin_compiling
 from ..read.read import format_of
 from ..read.srdf import exempt_pairs
-from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch
+from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, triple
 from .twin import write_twin
 
 WORLD = 0
@@ -43,10 +45,7 @@ class MujocoSimulator:
         """Load with the base fixed. Raises ValueError with the loader's own words."""
         import mujoco
 
-        # Its own way is a log file in whatever folder the program was started from.
-        mujoco.set_mju_user_warning(_say)
-        # It remembers meshes by their file's name and the second they were written in.
-        mujoco.mj_clearCache(mujoco.mj_getCache())
+        begin_compiling()
         is_urdf = format_of(path) == "urdf"
         with tempfile.TemporaryDirectory(prefix="twin-") as folder:
             source = write_twin(path, Path(folder), for_mujoco=True) if is_urdf else path
@@ -68,10 +67,6 @@ class MujocoSimulator:
         if config.parents_touch:
             model.opt.disableflags |= int(flags.mjDSBL_FILTERPARENT)
         return MujocoWorld(mujoco, model, parents_touch=config.parents_touch)
-
-
-def _say(words: str) -> None:
-    os.write(2, f"MuJoCo: {words}\n".encode())
 
 
 def _exempt(spec: Any, pairs: Iterable[frozenset[str]]) -> None:
@@ -111,9 +106,7 @@ class MujocoWorld:
         links = tuple(_link(model, mujoco, i) for i in range(model.nbody))
         # Without the flag MuJoCo keeps a link and a moving parent apart, but not a link and the
         # unmoved base.
-        rules = PairRules(
-            parents_touch, static_parent=True, others=True, excluded=_excluded(model, links)
-        )
+        rules = PairRules(parents_touch, static_parent=True, excluded=_excluded(model, links))
         self.model = LoadedModel(links, every, (), rules)
         self.time_step = float(model.opt.timestep)
         self.carried = tuple(_below(model, links, int(model.jnt_bodyid[i])) for i in self._ids)
@@ -158,9 +151,8 @@ class MujocoWorld:
     def balance(self) -> FloatArray:
         """Return the forces against gravity, velocity effects and springs, shape [joint_count]."""
         data = self._data
-        return np.array(
-            (data.qfrc_bias - data.qfrc_spring - data.qfrc_gravcomp)[self._dofs], np.float64
-        )
+        forces = data.qfrc_bias - data.qfrc_spring - data.qfrc_gravcomp
+        return np.array(forces[self._dofs], np.float64)
 
     def step(self, forces: FloatArray) -> None:
         """Make one time step with these joint forces; also updates contacts and biases."""
@@ -186,10 +178,7 @@ class MujocoWorld:
         """Link frames in world."""
         poses = {}
         for i, link in enumerate(self.model.links):
-            pose = np.eye(4)
-            pose[:3, :3] = self._data.xmat[i].reshape(3, 3)
-            pose[:3, 3] = self._data.xpos[i]
-            poses[link.name] = pose
+            poses[link.name] = rigid(self._data.xmat[i].reshape(3, 3), self._data.xpos[i])
         return poses
 
     def warnings(self) -> tuple[str, ...]:
@@ -221,8 +210,8 @@ def _link(model: Any, mujoco: Any, i: int) -> LoadedLink:
         model.geom_type[geoms], (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD)
     )
     static = int(model.body_weldid[i]) == WORLD
-    moments = _triple(sorted(model.body_inertia[i]))
-    center = _triple(model.body_ipos[i])
+    moments = triple(sorted(model.body_inertia[i]))
+    center = triple(model.body_ipos[i])
     friction = float(model.geom_friction[geoms[solid], 0].max()) if solid.any() else None
     name = _body_name(model, mujoco, i)
     mass = float(model.body_mass[i])
@@ -247,20 +236,16 @@ def _excluded(model: Any, links: tuple[LoadedLink, ...]) -> tuple[tuple[str, str
     # do.
     types = model.body_contype
     affinities = model.body_conaffinity
-    pairs = [
-        (a, b)
-        for k, a in enumerate(solid)
-        for b in solid[k + 1 :]
+    return tuple(
+        (links[a].name, links[b].name)
+        for a, b in combinations(solid, 2)
         if model.body_weldid[a] != model.body_weldid[b]
-    ]
-    apart = [
-        (a, b)
-        for a, b in pairs
-        if (a, b) in named
-        or (b, a) in named
-        or not (types[a] & affinities[b] or types[b] & affinities[a])
-    ]
-    return tuple((links[a].name, links[b].name) for a, b in apart)
+        and (
+            (a, b) in named
+            or (b, a) in named
+            or not (types[a] & affinities[b] or types[b] & affinities[a])
+        )
+    )
 
 
 def _mimic(model: Any, mujoco: Any, joint: int) -> Mimic | None:
@@ -277,15 +262,9 @@ def _mimic(model: Any, mujoco: Any, joint: int) -> Mimic | None:
             constant, linear = (float(number) for number in model.eq_data[i, :2])
             # The polynomial speaks of how far both joints are from their reference.
             here, there = (float(model.qpos0[int(model.jnt_qposadr[k])]) for k in (joint, leader))
-            return Mimic(
-                _joint_name(model, mujoco, leader), linear, here + constant - linear * there
-            )
+            offset = here + constant - linear * there
+            return Mimic(_joint_name(model, mujoco, leader), linear, offset)
     return None
-
-
-def _triple(values: Any) -> tuple[float, float, float]:
-    a, b, c = (float(v) for v in values)
-    return a, b, c
 
 
 def _body_name(model: Any, mujoco: Any, i: int) -> str:
@@ -306,8 +285,7 @@ def _joint(model: Any, mujoco: Any, i: int) -> LoadedJoint:
     dof = int(model.jnt_dofadr[i])
     damping = float(np.ravel(model.dof_damping[dof])[0])
     friction = float(model.dof_frictionloss[dof])
-    axis = _triple(model.jnt_axis[i]) if word in ("slide", "hinge") else None
-    joint = LoadedJoint(
-        _joint_name(model, mujoco, i), kind, lower, upper, damping, friction, axis=axis
-    )
-    return joint.following(_mimic(model, mujoco, i))
+    axis = triple(model.jnt_axis[i]) if word in ("slide", "hinge") else None
+    name = _joint_name(model, mujoco, i)
+    mimic = _mimic(model, mujoco, i)
+    return LoadedJoint(name, kind, lower, upper, damping, friction, axis, mimic)

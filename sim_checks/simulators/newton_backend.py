@@ -123,7 +123,6 @@ class NewtonWorld(MujocoWorld):
         rules = PairRules(
             moving_parent=False,
             static_parent=False,
-            others=True,
             excluded=tuple(pair for pair in apart if not _jointed(pair, links, model)),
         )
         self.model = replace(self.model, links=links, joints=joints, pairs=rules)
@@ -143,8 +142,10 @@ def _frictions(loaded: Any, solid: int) -> dict[int, list[float]]:
 
 
 def _named(joint: LoadedJoint, short: dict[str, str]) -> LoadedJoint:
-    leader = None if joint.follows is None else short.get(joint.follows, joint.follows)
-    return replace(joint, name=short.get(joint.name, joint.name), follows=leader)
+    mimic = joint.mimic
+    if mimic is not None:
+        mimic = replace(mimic, leader=short.get(mimic.leader, mimic.leader))
+    return replace(joint, name=short.get(joint.name, joint.name), mimic=mimic)
 
 
 def _jointed(pair: tuple[str, str], links: tuple[LoadedLink, ...], model: Any) -> bool:

@@ -94,11 +94,8 @@ def captured_lines(lines: list[str]) -> Iterator[None]:
             file.seek(0)
             text = file.read().decode("utf-8", "replace")
             found = (line.strip() for line in re.sub(BULLET_PREFIX, "\n", text).splitlines())
-            lines.extend(
-                list(dict.fromkeys(line for line in found if line and not _is_chatter(line)))[
-                    :MOST_LINES
-                ]
-            )
+            told = (line for line in found if line and not any(word in line for word in CHATTER))
+            lines.extend(list(dict.fromkeys(told))[:MOST_LINES])
 
 
 def _timeless(line: str, path: Path) -> str:
@@ -106,7 +103,3 @@ def _timeless(line: str, path: Path) -> str:
     line = re.sub(r"^\[\d{4}-\d\d-\d\d [^\]]*\]\s*", "", line)
     line = re.sub(r"[^\s\"'\[(]*/twin-[^/\s]+/", "", line)
     return line.replace(f"{path.parent.resolve()}/", "")
-
-
-def _is_chatter(line: str) -> bool:
-    return any(word in line for word in CHATTER)

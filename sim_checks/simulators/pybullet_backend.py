@@ -14,10 +14,11 @@ import numpy as np
 from ..config import MotionConfig
 from ..description import FloatArray, Mimic
 from ..geometry.coupling import sound_chains
+from ..geometry.placing import rigid
 from ..read.srdf import exempt_pairs
 from ..read.urdf import read_mimics
 from .pybullet_dynamics import Dynamics
-from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch
+from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, triple
 from .twin import write_twin
 
 BASE = -1
@@ -107,21 +108,18 @@ class PybulletWorld:
         self.time_step = config.time_step_s
         # One process opens many worlds, and a client keeps some 25 MB until it is told to go.
         self._end = weakref.finalize(self, _disconnect, pybullet, client)
-        infos = [self._info(i) for i in range(pybullet.getNumJoints(body, **self._client))]
+        count = pybullet.getNumJoints(body, **self._client)
+        infos = [pybullet.getJointInfo(body, i, **self._client) for i in range(count)]
         moving = [info for info in infos if info[2] != pybullet.JOINT_FIXED]
         self._ids = [info[0] for info in moving]
         self._names = {BASE: pybullet.getBodyInfo(body, **self._client)[0].decode()}
         self._names |= {info[0]: info[12].decode() for info in infos}
         self._parents = {info[0]: info[16] for info in infos}
-        free = [self._joint(info) for info in moving]
-        self.joints = tuple(
-            joint.following(mimics.get(joint.name), forced_by_judge=True) for joint in free
-        )
+        self.joints = tuple(self._joint(info, mimics) for info in moving)
         self._couple()
         rules = PairRules(
             config.parents_touch,
             static_parent=config.parents_touch,
-            others=True,
             excluded=self._let_pass(exempt),
         )
         self.model = LoadedModel(tuple(self._link(i) for i in self._names), self.joints, (), rules)
@@ -223,10 +221,7 @@ class PybulletWorld:
                 state = self._bullet.getLinkState(
                     self._body, i, computeForwardKinematics=1, **self._client
                 )
-                pose = np.eye(4)
-                pose[:3, :3] = np.reshape(self._bullet.getMatrixFromQuaternion(state[5]), (3, 3))
-                pose[:3, 3] = state[4]
-                poses[name] = pose
+                poses[name] = rigid(self._turn(state[5]), np.array(state[4]))
         return poses
 
     def warnings(self) -> tuple[str, ...]:
@@ -254,9 +249,9 @@ class PybulletWorld:
         """
         numbers = {joint.name: i for i, joint in zip(self._ids, self.joints, strict=True)}
         for joint in self.joints:
-            if joint.follows not in numbers:
+            if joint.mimic is None or joint.mimic.leader not in numbers:
                 continue
-            ends = (numbers[joint.name], self._body, numbers[joint.follows])
+            ends = (numbers[joint.name], self._body, numbers[joint.mimic.leader])
             nothing = [0.0, 0.0, 0.0]
             kind = self._bullet.JOINT_GEAR
             gear = self._bullet.createConstraint(
@@ -264,8 +259,8 @@ class PybulletWorld:
             )
             self._bullet.changeConstraint(
                 gear,
-                gearRatio=-joint.rate,
-                relativePositionTarget=joint.offset,
+                gearRatio=-joint.mimic.multiplier,
+                relativePositionTarget=joint.mimic.offset,
                 erp=GEAR_ERP,
                 maxForce=GEAR_FORCE,
                 **self._client,
@@ -276,17 +271,12 @@ class PybulletWorld:
             link = self._parents[link]
         return link == joint
 
-    def _info(self, i: int) -> Any:
-        return self._bullet.getJointInfo(self._body, i, **self._client)
-
     def _states(self) -> FloatArray:
         """Return positions and velocities, shape [2, joint_count]; read once a step."""
         if self._state is None:
-            states = (
-                self._bullet.getJointStates(self._body, self._ids, **self._client)
-                if self._ids
-                else ()
-            )
+            states: Any = ()
+            if self._ids:
+                states = self._bullet.getJointStates(self._body, self._ids, **self._client)
             self._state = np.array([[state[k] for state in states] for k in (0, 1)], np.float64)
         return self._state
 
@@ -296,17 +286,30 @@ class PybulletWorld:
         friction = float(dynamics[1]) if shapes else None
         if i == BASE:
             return LoadedLink(self._names[i], 0.0, shapes, None, static=True, friction=friction)
-        a, b, c = sorted(float(m) for m in dynamics[2])
-        x, y, z = (float(v) for v in dynamics[3])
-        return LoadedLink(
-            self._names[i], float(dynamics[0]), shapes, (a, b, c), (x, y, z), friction=friction
-        )
+        mass = float(dynamics[0])
+        moments = triple(sorted(dynamics[2]))
+        center = triple(dynamics[3])
+        return LoadedLink(self._names[i], mass, shapes, moments, center, friction=friction)
 
-    def _joint(self, info: Any) -> LoadedJoint:
-        turn = self._bullet.getDynamicsInfo(self._body, info[0], **self._client)[4]
-        return _joint(
-            info, self._bullet, np.reshape(self._bullet.getMatrixFromQuaternion(turn), (3, 3))
-        )
+    def _turn(self, quaternion: Any) -> FloatArray:
+        return np.reshape(self._bullet.getMatrixFromQuaternion(quaternion), (3, 3))
+
+    def _joint(self, info: Any, mimics: Mapping[str, Mimic]) -> LoadedJoint:
+        bullet = self._bullet
+        words = {bullet.JOINT_REVOLUTE: "revolute", bullet.JOINT_PRISMATIC: "prismatic"}
+        name = info[1].decode()
+        kind = words.get(info[2], f"type {info[2]}")
+        lower, upper, damping, friction = (float(info[i]) for i in (8, 9, 6, 7))
+        if lower > upper:
+            lower = -math.inf
+            upper = math.inf
+            kind = "continuous" if kind == "revolute" else kind
+        # Bullet holds the axis in the principal frame of the link, here given by its turn.
+        inertial = self._turn(bullet.getDynamicsInfo(self._body, info[0], **self._client)[4])
+        axis = triple(inertial @ np.array(info[13])) if info[2] in words else None
+        mimic = mimics.get(name)
+        forced = mimic is not None
+        return LoadedJoint(name, kind, lower, upper, damping, friction, axis, mimic, forced)
 
 
 def _disconnect(pybullet: Any, client: int) -> None:
@@ -314,20 +317,3 @@ def _disconnect(pybullet: Any, client: int) -> None:
         contactBreakingThreshold=BULLETS_OWN_BREAKING_M, physicsClientId=client
     )
     pybullet.disconnect(client)
-
-
-def _joint(info: Any, pybullet: Any, inertial: FloatArray) -> LoadedJoint:
-    words = {pybullet.JOINT_REVOLUTE: "revolute", pybullet.JOINT_PRISMATIC: "prismatic"}
-    kind = words.get(info[2], f"type {info[2]}")
-    lower = float(info[8])
-    upper = float(info[9])
-    if lower > upper:
-        lower = -math.inf
-        upper = math.inf
-        kind = "continuous" if kind == "revolute" else kind
-    # Bullet holds the axis in the link's principal frame, here given by its turn in the link's own.
-    x, y, z = (float(v) for v in inertial @ np.array(info[13]))
-    axis = (x, y, z) if info[2] in words else None
-    return LoadedJoint(
-        info[1].decode(), kind, lower, upper, float(info[6]), float(info[7]), axis=axis
-    )

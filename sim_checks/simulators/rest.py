@@ -9,9 +9,16 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray
-from .joints import carried_masses, height, moving_mass, ranges, share, uncoupled
+from .joints import (
+    carried_masses,
+    height,
+    moving_mass,
+    pressing,
+    ranges,
+    share,
+    uncoupled,
+)
 from .simulator import Fall, FallMotion, RestMotion, World
-from .touching import pressing
 
 #: A joint without a range stands still below this [rad/s] or [m/s].
 STILL = 1e-6

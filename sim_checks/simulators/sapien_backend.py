@@ -7,6 +7,7 @@ import tempfile
 import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray, Mimic
-from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch
+from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, triple
 from .twin import write_twin
 
 GRAVITY = 9.81
@@ -174,14 +175,9 @@ class SapienWorld:
         found: dict[tuple[str, str], Touch] = {}
         for contact in self._scene.get_contacts():
             a, b = sorted((body.entity.name for body in contact.bodies), key=order.__getitem__)
-            impulse = float(
-                np.linalg.norm(
-                    sum(np.asarray(point.impulse, np.float64) for point in contact.points)
-                )
-            )
-            touch = Touch(
-                impulse / self.time_step, max(-float(point.separation) for point in contact.points)
-            )
+            impulse = sum(np.asarray(point.impulse, np.float64) for point in contact.points)
+            depth = max(-float(point.separation) for point in contact.points)
+            touch = Touch(float(np.linalg.norm(impulse)) / self.time_step, depth)
             found[a, b] = found[a, b] + touch if (a, b) in found else touch
         return found
 
@@ -244,9 +240,8 @@ def _mimics(articulation: Any, records: Any) -> dict[str, Mimic]:
             articulation.find_joint_by_name(name) for name in (record.joint, record.mimic)
         )
         if follower.parent_link in (leader.child_link, leader.parent_link):
-            found[record.joint] = Mimic(
-                record.mimic, float(record.multiplier), float(record.offset)
-            )
+            numbers = float(record.multiplier), float(record.offset)
+            found[record.joint] = Mimic(record.mimic, *numbers)
     return found
 
 
@@ -258,28 +253,26 @@ def _articulation_model(
             link.name,
             float(link.mass),
             len(link.collision_shapes),
-            _sorted(link.inertia),
-            _triple(link.cmass_local_pose.p),
+            triple(sorted(link.inertia)),
+            triple(link.cmass_local_pose.p),
             friction=_friction(link),
         )
         for link in articulation.links
     )
-    joints = tuple(
-        _joint(joint).following(mimics.get(joint.name), forced_by_judge=joint.name in forced)
-        for joint in articulation.active_joints
-    )
-    rules = PairRules(
-        moving_parent=False, static_parent=False, others=True, excluded=_excluded(articulation)
-    )
+    joints = tuple(_joint(joint, mimics, forced) for joint in articulation.active_joints)
+    rules = PairRules(moving_parent=False, static_parent=False, excluded=_excluded(articulation))
     return LoadedModel(links, joints, (), rules)
 
 
-def _joint(joint: Any) -> LoadedJoint:
+def _joint(joint: Any, mimics: Mapping[str, Mimic], forced: frozenset[str]) -> LoadedJoint:
     lower, upper = (float(limit) for limit in joint.limit[0])
     # The joint's frame has its x along the axis.
-    axis = _triple(_matrix(joint.pose_in_child)[:3, 0]) if joint.type in KINDS else None
+    axis = triple(_matrix(joint.pose_in_child)[:3, 0]) if joint.type in KINDS else None
     kind = KINDS.get(joint.type, joint.type)
-    return LoadedJoint(joint.name, kind, lower, upper, float(joint.damping), None, axis=axis)
+    damping = float(joint.damping)
+    mimic = mimics.get(joint.name)
+    by_judge = mimic is not None and joint.name in forced
+    return LoadedJoint(joint.name, kind, lower, upper, damping, None, axis, mimic, by_judge)
 
 
 def _names(link: Any) -> Iterator[str]:
@@ -300,7 +293,7 @@ def _excluded(articulation: Any) -> tuple[tuple[str, str], ...]:
         for link in articulation.links
         if link.collision_shapes
     ]
-    pairs = [(a, b) for i, a in enumerate(links) for b in links[i + 1 :]]
+    pairs = combinations(links, 2)
     return tuple((a.name, b.name) for (a, one), (b, two) in pairs if not _groups_touch(one, two))
 
 
@@ -309,15 +302,6 @@ def _groups_touch(one: Any, two: Any) -> bool:
     if (one[3] & 0xFFFF) == (two[3] & 0xFFFF) and one[2] & two[2]:
         return False
     return bool(one[0] & two[1] or one[1] & two[0])
-
-
-def _sorted(moments: Any) -> tuple[float, float, float]:
-    return _triple(sorted(moments))
-
-
-def _triple(values: Any) -> tuple[float, float, float]:
-    a, b, c = (float(v) for v in values)
-    return a, b, c
 
 
 def _vector(values: Any) -> FloatArray:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -12,6 +12,13 @@ from ..description import FloatArray, Mimic
 
 JointValues = Mapping[str, float]
 """Joint name to value [rad] or [m]."""
+Triple = tuple[float, float, float]
+
+
+def triple(values: Iterable[float]) -> Triple:
+    """Return three numbers as Python's own."""
+    a, b, c = (float(v) for v in values)
+    return a, b, c
 
 
 @dataclass(frozen=True)
@@ -32,8 +39,8 @@ class LoadedLink:
     name: str
     mass: float
     shapes: int
-    moments: tuple[float, float, float] | None
-    center: tuple[float, float, float] | None = None
+    moments: Triple | None
+    center: Triple | None = None
     static: bool = False
     friction: float | None = None
 
@@ -49,11 +56,9 @@ class LoadedJoint:
         lower, upper: [rad] or [m]; infinite where it has none.
         damping: [N m s/rad] or [N s/m]; ``None`` if the engine has no such property.
         friction: [N m] or [N], as enforced; ``None`` if the engine has no such property.
-        follows: the joint that this one is forced to move with (``<mimic>``, MJCF's joint
-            equality).
         axis: unit vector in the child link's frame; ``None`` for a joint without one axis.
-        rate, offset: where it is forced to be: ``rate`` times the value of that joint, plus
-            ``offset`` [rad] or [m].
+        mimic: the joint that this one is forced to move with, and how (``<mimic>``, MJCF's joint
+            equality); ``None`` for a free one.
         forced_by_judge: the engine itself lets it move freely, it is forced here by means of the
             engine.
     """
@@ -64,45 +69,32 @@ class LoadedJoint:
     upper: float
     damping: float | None
     friction: float | None
-    follows: str | None = None
-    axis: tuple[float, float, float] | None = None
-    rate: float = 1.0
-    offset: float = 0.0
+    axis: Triple | None = None
+    mimic: Mimic | None = None
     forced_by_judge: bool = False
 
     @property
-    def mimic(self) -> Mimic | None:
-        """Return what it is forced to follow, and how."""
-        return None if self.follows is None else Mimic(self.follows, self.rate, self.offset)
-
-    def following(self, mimic: Mimic | None, *, forced_by_judge: bool = False) -> LoadedJoint:
-        """Return the same joint, forced to follow another."""
-        if mimic is None:
-            return self
-        rate = mimic.multiplier
-        offset = mimic.offset
-        return replace(
-            self, follows=mimic.leader, rate=rate, offset=offset, forced_by_judge=forced_by_judge
-        )
+    def follows(self) -> str | None:
+        """Return the joint that it is forced to move with."""
+        return None if self.mimic is None else self.mimic.leader
 
 
 @dataclass(frozen=True)
 class PairRules:
     """Which links the engine lets touch, as loaded.
 
+    All touch that no joint joins: siblings, and links further apart, also across a fixed joint.
+
     Attributes:
         moving_parent: whether a link touches the link it is jointed to, where that link moves
             itself.
         static_parent: the same where that link belongs to the unmoved base.
-        others: whether all other links touch: siblings, and links further apart, also across a
-            fixed joint.
         excluded: pairs that would touch by these rules, and that the file or the files beside it
             exempt.
     """
 
     moving_parent: bool
     static_parent: bool
-    others: bool
     excluded: tuple[tuple[str, str], ...] = ()
 
     def words(self) -> dict[str, Any]:
@@ -111,7 +103,7 @@ class PairRules:
         return {
             "link_and_moving_parent": yes_no[self.moving_parent],
             "link_and_unmoved_parent": yes_no[self.static_parent],
-            "siblings_and_further": yes_no[self.others],
+            "siblings_and_further": "touch",
             "excluded": [list(pair) for pair in self.excluded],
         }
 

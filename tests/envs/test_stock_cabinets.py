@@ -1,6 +1,7 @@
 """ManiSkill's own cabinet tasks run on a registry's assets."""
 
 import sys
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -66,6 +67,34 @@ def test_the_front_faces_the_stock_robot_and_an_opened_drawer_is_the_stock_succe
     env.cabinet.set_qpos(values)
     env.cabinet.set_qvel(values * 0)
     assert bool(env.evaluate()["success"])
+    env.close()
+
+
+def test_a_joint_follows_another_at_the_ratio_of_its_file(household, monkeypatch):
+    from asset_factory.envs.stock import RegistryCabinets, described
+
+    def coupled(asset):
+        robot = described(asset)
+        movable = [each for each in robot.iter("joint") if each.get("type") != "fixed"]
+        leader = movable[0].get("name")
+        ElementTree.SubElement(movable[1], "mimic", joint=leader, multiplier="0.5", offset="0")
+        names.extend(each.get("name") for each in movable[:2])
+        return robot
+
+    names = []
+    monkeypatch.setattr(RegistryCabinets, "described", staticmethod(coupled))
+    import torch
+
+    env = drawers(household, asset="cabinet")
+    env.reset(seed=0)
+    order = [joint.name for joint in env._cabinets[0].active_joints]
+    together = [order.index(name) for name in names]
+    values = env._cabinets[0].get_qpos()
+    values[0, together] = torch.tensor([0.2, 0.1])
+    env.cabinet.set_qpos(values)
+    for _ in range(5):
+        env.step(0.0 * env.action_space.sample())
+    assert env._cabinets[0].get_qpos()[0, together].tolist() == pytest.approx([0.2, 0.1], abs=2e-3)
     env.close()
 
 

@@ -32,9 +32,7 @@ def faithful(description: Description) -> Observation:
     for line in description.joints:
         x, y, z = unit_axis(line).tolist()
         numbers = (line.lower or 0.0, line.upper or 0.0, line.damping, line.friction)
-        joints.append(
-            LoadedJoint(line.name, line.kind, *numbers, axis=(x, y, z)).following(line.mimic)
-        )
+        joints.append(LoadedJoint(line.name, line.kind, *numbers, (x, y, z), line.mimic))
     tree = build_tree(description)
     values = tree.completed(
         {"slide": 0.1} if description.joints[-1].mimic else {"slide": 0.1, "hinge": 0.7}

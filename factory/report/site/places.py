@@ -10,7 +10,6 @@ from asset_factory.sim_checks import Finding
 from asset_factory.sim_checks.measurements import (
     MeasuredContact,
     MeasuredJoint,
-    MeasuredPenetration,
     penetrations,
 )
 
@@ -55,15 +54,7 @@ class Places:
         self._upper = {joint.name: joint.upper for joint in scene.movable}
         self._range = {joint.name: (joint.lower, joint.upper) for joint in scene.movable}
         self._unit = {joint.name: "m" if joint.slides else "rad" for joint in scene.movable}
-        self._measured = self._read(measurements)
-
-    @staticmethod
-    def _read(measurements: Mapping[str, Any]) -> tuple[MeasuredPenetration, ...]:
-        try:
-            return penetrations(measurements)
-        except (KeyError, TypeError, AttributeError):
-            # A report of another version; its words remain.
-            return ()
+        self._measured = penetrations(measurements)
 
     def of(self, finding: Finding) -> Fault | None:
         """Return where a finding is; ``None`` where nothing is known of that."""

@@ -9,7 +9,9 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ...description import DescriptionError, FloatArray, LinkInertia
+from ...geometry.placing import placed
 from ..native import READER_BYTES, memory_bounded
+from ..urdf_elements import TENSOR
 from .bodies import WORLD, PhysicsBody
 from .joints import PhysicsJoint
 from .layers import require_inside
@@ -102,9 +104,8 @@ class _Urdf:
         parent = joint.bodies[1 - child]
         if parent not in self._names:
             return
-        kind = joint.kind
-        if kind == "revolute" and None in (joint.lower, joint.upper):
-            kind = "continuous"
+        endless = joint.kind == "revolute" and None in (joint.lower, joint.upper)
+        kind = "continuous" if endless else joint.kind
         element = ElementTree.SubElement(root, "joint", name=joint.name, type=kind)
         ElementTree.SubElement(element, "parent", link=self._names[parent])
         ElementTree.SubElement(element, "child", link=self._names[joint.bodies[child]])
@@ -123,14 +124,8 @@ class _Urdf:
             words = {"joint": joint.mimic.leader, "multiplier": rate, "offset": offset}
             ElementTree.SubElement(element, "mimic", words)
         if joint.lower is not None and joint.upper is not None:
-            ElementTree.SubElement(
-                element,
-                "limit",
-                lower=f"{joint.lower:.9g}",
-                upper=f"{joint.upper:.9g}",
-                effort="1000",
-                velocity="10",
-            )
+            limits = {"lower": f"{joint.lower:.9g}", "upper": f"{joint.upper:.9g}"}
+            ElementTree.SubElement(element, "limit", limits, effort="1000", velocity="10")
 
 
 def _hung(stage: PhysicsStage) -> list[tuple[PhysicsJoint, int]]:
@@ -168,21 +163,13 @@ def _write_inertia(link: ElementTree.Element, inertia: LinkInertia, back: FloatA
     tensor = back[:3, :3] @ inertia.tensor @ back[:3, :3].T
     ElementTree.SubElement(element, "origin", xyz=_text(center))
     ElementTree.SubElement(element, "mass", value=f"{inertia.mass:.9g}")
-    entries = {
-        "ixx": tensor[0, 0],
-        "ixy": tensor[0, 1],
-        "ixz": tensor[0, 2],
-        "iyy": tensor[1, 1],
-        "iyz": tensor[1, 2],
-        "izz": tensor[2, 2],
-    }
-    written = {name: f"{value:.9g}" for name, value in entries.items()}
+    entries = zip(TENSOR, tensor[np.triu_indices(3)], strict=True)
+    written = {name: f"{value:.9g}" for name, value in entries}
     ElementTree.SubElement(element, "inertia", written)
 
 
 def _write_obj(file: Path, surface: PhysicsSurface, back: FloatArray) -> None:
-    vertices = surface.vertices @ back[:3, :3].T + back[:3, 3]
-    lines = [f"v {_text(vertex)}" for vertex in vertices]
+    lines = [f"v {_text(vertex)}" for vertex in placed(surface.vertices, back)]
     lines += [f"f {a} {b} {c}" for a, b, c in (surface.faces + 1).tolist()]
     file.write_text("\n".join(lines) + "\n")
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...description import DescriptionError, FloatArray, LinkInertia
+from ...geometry.placing import rigid
 
 #: Everything that is part of no rigid body, and what a joint without a body holds on to.
 WORLD = "/"
@@ -56,7 +57,5 @@ def split_scale(pose: FloatArray) -> tuple[FloatArray, FloatArray]:
     if not (np.isfinite(pose).all() and (scale > 0.0).all()):
         raise DescriptionError("not_finite", "a body's place is not finite, or its scale is 0")
     u, _, v = np.linalg.svd(pose[:3, :3] / scale)
-    rigid = np.eye(4)
-    rigid[:3, :3] = u @ np.diag([1.0, 1.0, float(np.sign(np.linalg.det(u @ v)))]) @ v
-    rigid[:3, 3] = pose[:3, 3]
-    return rigid, scale
+    turn = u @ np.diag([1.0, 1.0, float(np.sign(np.linalg.det(u @ v)))]) @ v
+    return rigid(turn, pose[:3, 3]), scale

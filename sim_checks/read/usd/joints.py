@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ...description import FloatArray, Mimic
+from ...description import DescriptionError, FloatArray, Mimic
 from .bodies import WORLD, PhysicsBody, rotation_of, split_scale
 from .prims import AXES, joint_kind
 
@@ -48,6 +48,28 @@ class PhysicsJoint:
     mimic: Mimic | None = None
 
 
+def require_ends(prim: Any) -> None:
+    """Refuse a joint that names a body which no prim is; one that names none holds the world.
+
+    Raises:
+        DescriptionError: ``missing_element``.
+    """
+    for relation in joint_ends(prim):
+        for target in relation.GetForwardedTargets():
+            if not prim.GetStage().GetPrimAtPath(target):
+                which = relation.GetName().removeprefix("physics:")
+                message = f"joint {prim.GetName()!r}: its {which} names {target}, which is no prim"
+                raise DescriptionError("missing_element", message)
+
+
+def joint_ends(prim: Any) -> tuple[Any, Any]:
+    """Return the relationships by which a joint names its ``body0`` and ``body1``."""
+    from pxr import UsdPhysics
+
+    joint = UsdPhysics.Joint(prim)
+    return joint.GetBody0Rel(), joint.GetBody1Rel()
+
+
 def read_joint(prim: Any, bodies: dict[str, PhysicsBody], pose_of: PoseOf) -> PhysicsJoint:
     """Return one joint.
 
@@ -59,8 +81,7 @@ def read_joint(prim: Any, bodies: dict[str, PhysicsBody], pose_of: PoseOf) -> Ph
     from pxr import UsdPhysics
 
     joint = UsdPhysics.Joint(prim)
-    first, one = _end(joint.GetBody0Rel(), bodies, pose_of)
-    second, other = _end(joint.GetBody1Rel(), bodies, pose_of)
+    (first, one), (second, other) = (_end(each, bodies, pose_of) for each in joint_ends(prim))
     place = joint.GetLocalPos1Attr()
     turn = joint.GetLocalRot1Attr()
     frames = (

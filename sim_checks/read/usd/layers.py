@@ -102,11 +102,9 @@ def _identifier(reference: str, layer: Any) -> str:
         raise _outside(reference)
     found = str(Sdf.ComputeAssetPathRelativeToLayer(layer, path))
     # What is not beside the layer would be looked for elsewhere: here it is only missed.
-    return (
-        found
-        if Path(found).is_absolute() or not layer.realPath
-        else str(Path(layer.realPath).parent / found)
-    )
+    if Path(found).is_absolute() or not layer.realPath:
+        return found
+    return str(Path(layer.realPath).parent / found)
 
 
 def _own_file(identifier: str, root: Path) -> Path:

@@ -11,11 +11,7 @@ from ...description import DescriptionError
 from .multiplied import MOST_PRIMS
 
 #: Directions that joints' axes are named by.
-AXES = {
-    "X": np.array([1.0, 0.0, 0.0]),
-    "Y": np.array([0.0, 1.0, 0.0]),
-    "Z": np.array([0.0, 0.0, 1.0]),
-}
+AXES = dict(zip("XYZ", np.eye(3), strict=True))
 
 
 def list_prims(stage: Any, name: str) -> list[Any]:

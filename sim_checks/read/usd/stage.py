@@ -14,7 +14,7 @@ from ...description import DescriptionError, FloatArray, LinkInertia
 from ..native import READER_BYTES, memory_bounded
 from ..urdf import MAX_TRIANGLES
 from .bodies import WORLD, PhysicsBody, rotation_of, split_scale
-from .joints import PhysicsJoint, read_joint
+from .joints import PhysicsJoint, joint_ends, read_joint, require_ends
 from .prims import is_joint_in_use, is_on, is_rigid_body, is_shown, list_prims
 from .refusing import refusing
 from .shapes import PhysicsSurface, read_triangles
@@ -62,8 +62,8 @@ def read_stage(path: Path, *, lenient: bool = False) -> PhysicsStage:
             take what the joints hold for bodies.
 
     Raises:
-        DescriptionError: ``invalid_number``, ``not_finite``, ``unreadable_mesh``, ``too_large``,
-            or ``unreadable`` whatever the library makes of the file.
+        DescriptionError: ``invalid_number``, ``missing_element``, ``not_finite``,
+            ``unreadable_mesh``, ``too_large``, or ``unreadable`` whatever the library makes of it.
     """
     with refusing(path.name, path.resolve().parent), memory_bounded(READER_BYTES):
         return _Reader(path, lenient=lenient).read()
@@ -93,6 +93,9 @@ class _Reader:
         from pxr import UsdPhysics
 
         joints = [prim for prim in self._prims if is_joint_in_use(prim)]
+        if not self._lenient:
+            for prim in joints:
+                require_ends(prim)
         bodies = {WORLD: PhysicsBody(WORLD, np.eye(4), np.full(3, self._metres))}
         for prim in self._body_prims(joints):
             path = str(prim.GetPath())
@@ -114,13 +117,10 @@ class _Reader:
         return np.asarray(self._world @ own)
 
     def _body_prims(self, joints: list[Any]) -> list[Any]:
-        from pxr import UsdPhysics
-
         rigid = [prim for prim in self._prims if is_rigid_body(prim)]
         if rigid or not self._lenient:
             return rigid
-        ends = (UsdPhysics.Joint(prim) for prim in joints)
-        relations = (rel for joint in ends for rel in (joint.GetBody0Rel(), joint.GetBody1Rel()))
+        relations = (relation for prim in joints for relation in joint_ends(prim))
         held = {str(target) for rel in relations for target in rel.GetForwardedTargets()}
         return [prim for prim in self._prims if str(prim.GetPath()) in held - {WORLD}]
 

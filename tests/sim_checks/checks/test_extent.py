@@ -6,13 +6,13 @@ import pytest
 from box_world import cabinet, write_urdf
 from many_joints import chain, keyboard
 
+from asset_factory.sim_checks import run_checks
 from asset_factory.sim_checks.checks.extent import oversized, undriven
 from asset_factory.sim_checks.checks.in_simulator import judge_in_simulator
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import CheckConfig, PenetrationConfig, WorkConfig
 from asset_factory.sim_checks.judge import examine_here
 from asset_factory.sim_checks.report import Report, Status
-from asset_factory.sim_checks.run import run_checks
 
 PLENTY = WorkConfig()
 BOXES = ((0.0, "shell"), (0.3, "drawer"))

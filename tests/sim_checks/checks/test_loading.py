@@ -63,7 +63,7 @@ def test_one_shape_of_many_that_is_dropped_is_named_too(description, held, codes
         ({"axis": (1.0, 0.0, 0.0)}, "axis_mismatch"),
         ({"axis": (-1.0, 0.001, 0.0)}, "axis_mismatch"),
         ({"axis": (0.0, 0.0, 0.0)}, "axis_mismatch"),
-        ({"follows": "hinge"}, "mimic_mismatch"),
+        ({"mimic": Mimic("hinge")}, "mimic_mismatch"),
     ],
 )
 def test_each_lie_about_a_joint_is_named(description, changes, code):
@@ -194,7 +194,7 @@ def test_a_joint_that_follows_by_no_number_follows_nothing(description, mimic):
     joints = tuple(replace(x, mimic=mimic) if x.name == "slide" else x for x in description.joints)
     broken = replace(description, joints=joints)
     assert sound_mimics(broken) == {}
-    assert found(broken, with_joint(faithful(description), "slide", follows="hinge")) == []
+    assert found(broken, with_joint(faithful(description), "slide", mimic=Mimic("hinge"))) == []
     assert all(np.isfinite(list(sample.values())).all() for sample in pose_samples(broken))
 
 

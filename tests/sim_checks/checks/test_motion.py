@@ -11,7 +11,7 @@ from sliders import CONFIG, Sliders
 
 from asset_factory.sim_checks.checks.motion import check_motion
 from asset_factory.sim_checks.config import CheckConfig
-from asset_factory.sim_checks.description import Description
+from asset_factory.sim_checks.description import Description, Mimic
 from asset_factory.sim_checks.simulators.drive import sweep
 from asset_factory.sim_checks.simulators.rest import fall, let_go, rest
 from asset_factory.sim_checks.simulators.simulator import (
@@ -221,7 +221,7 @@ def test_of_joints_that_move_together_one_that_opens_speaks_for_all():
             super().step(np.full(2, forces[1]))
 
     world = Coupled([2.0, 2.0])
-    world.joints = (world.joints[0], replace(world.joints[1], follows="j0"))
+    world.joints = (world.joints[0], replace(world.joints[1], mimic=Mimic("j0")))
     motion = only(world)
     assert (motion.joint, motion.reached > 0.99, motion.others_moved) == ("j1", True, 0.0)
     assert rest(world, CONFIG) == ()

@@ -85,7 +85,7 @@ def test_what_is_said_to_touch_is_seen_to_press(tmp_path, engine, kind, parents_
     assert bool(pressing) == {
         "static_parent": rules.static_parent,
         "moving_parent": rules.moving_parent,
-    }.get(kind, rules.others)
+    }.get(kind, True)
     assert rules.excluded == ()
 
 

@@ -232,7 +232,9 @@ def test_whoever_moves_together_begins_and_ends_together_within_all_limits(rates
     world = Sliders([1.0, 1.0, 1.0])
     free = [replace(joint, lower=lower) for joint in world.joints]
     mimics = [None, *(Mimic(f"j{i}", rates[i], offsets[i]) for i in (0, 1))]
-    world.joints = tuple(joint.following(mimic) for joint, mimic in zip(free, mimics, strict=True))
+    world.joints = tuple(
+        replace(joint, mimic=mimic) for joint, mimic in zip(free, mimics, strict=True)
+    )
     span = ranges(world)
     for end in (span.lower, span.upper):
         assert end[1] == pytest.approx(rates[0] * end[0] + offsets[0])
@@ -248,7 +250,7 @@ class Mirrored(Sliders):
     def __init__(self, wall=np.inf):
         super().__init__([2.0, 2.0])
         one, two = self.joints
-        self.joints = (one, two.following(Mimic("j0", -1.0, 0.3)))
+        self.joints = (one, replace(two, mimic=Mimic("j0", -1.0, 0.3)))
         self.wall = wall
 
     def step(self, forces):

@@ -141,6 +141,15 @@ def test_an_asset_that_leads_out_of_its_folder_or_is_none_is_refused(tmp_path):
         assert caught.value.code == code
 
 
+@pytest.mark.parametrize("end", ["body0", "body1"])
+def test_a_joint_that_holds_what_is_not_there_is_named_with_it(end, tmp_path):
+    ends = {"body0": "/obj/base", "body1": "/obj/door", end: "/obj/gone"}
+    hinge = usda.joint("hinge", "Revolute", *ends.values(), usda.HINGE)
+    path = usda.write(tmp_path, usda.stage(usda.BASE + usda.DOOR + hinge))
+    with pytest.raises(DescriptionError, match=f"joint 'hinge': its {end} names /obj/gone"):
+        read(path, tmp_path / "urdf")
+
+
 def test_the_judge_says_of_usd_what_it_says_of_the_same_urdf(tmp_path):
     export_bundle(cabinet(), PROVENANCE, tmp_path, formats=("urdf", "usd"))
     with Judge() as judge:

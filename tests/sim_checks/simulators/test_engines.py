@@ -3,11 +3,11 @@
 import pytest
 from small_cabinet import PARTS, codes, judge, motion_of, write_lid, write_mjcf, write_urdf
 
+from asset_factory.sim_checks import run_checks
 from asset_factory.sim_checks.checks.in_simulator import judge_in_simulator
 from asset_factory.sim_checks.config import CheckConfig
 from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.report import Severity
-from asset_factory.sim_checks.run import run_checks
 from asset_factory.sim_checks.simulators.catalog import installed
 
 #: In the way of the drawer after 0.1 m of 0.3 m.

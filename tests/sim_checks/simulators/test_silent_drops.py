@@ -10,6 +10,7 @@ from small_cabinet import write_urdf
 from asset_factory.sim_checks.checks.agreement import pose_samples
 from asset_factory.sim_checks.checks.loading import check_loading
 from asset_factory.sim_checks.config import CheckConfig, MotionConfig
+from asset_factory.sim_checks.description import Mimic
 from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.simulators.catalog import simulator
 from asset_factory.sim_checks.simulators.simulator import LoadedJoint, Observation, PoseSample
@@ -21,6 +22,8 @@ END = 'upper="1.57" effort="50" velocity="2"/></joint>'
 MIMIC = {
     END: END.replace("</joint>", '<mimic joint="slide" multiplier="5" offset="0.01"/></joint>')
 }
+OTHER_RATE = Mimic("slide", 0.2, 0.01)
+NO_OFFSET = Mimic("slide", 5.0)
 
 
 def joint(name, **told):
@@ -70,11 +73,11 @@ DYNAMICS = {LIMIT: f'{LIMIT}<dynamics damping="2" friction="3"/>'}
         ),
         ("scale applied", {}, scaled, "limit_mismatch"),
         ("scale applied", {}, scaled, "mass_mismatch"),
-        ("mimic dropped", MIMIC, joint("hinge", follows=None), "mimic_ignored"),
+        ("mimic dropped", MIMIC, joint("hinge", mimic=None), "mimic_ignored"),
         ("mimic by the judge alone", MIMIC, joint("hinge", forced_by_judge=True), "mimic_ignored"),
-        ("mimic at another rate", MIMIC, joint("hinge", rate=0.2), "mimic_mismatch"),
-        ("mimic without offset", MIMIC, joint("hinge", offset=0.0), "mimic_mismatch"),
-        ("mimic of another", MIMIC, joint("hinge", follows="hinge"), "mimic_mismatch"),
+        ("mimic at another rate", MIMIC, joint("hinge", mimic=OTHER_RATE), "mimic_mismatch"),
+        ("mimic without offset", MIMIC, joint("hinge", mimic=NO_OFFSET), "mimic_mismatch"),
+        ("mimic of another", MIMIC, joint("hinge", mimic=Mimic("hinge")), "mimic_mismatch"),
     ],
 )
 def test_what_the_engine_made_of_it(tmp_path, drop, changes, lie, code):

@@ -1,0 +1,74 @@
+"""Rigid poses, points that they move, and boxes: lowest and highest corner [m], shape [2, 3]."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from ..description import DescribedShape, FloatArray, IntArray
+
+#: Which end of a box each of its corners has along each axis, shape [8, 3].
+ENDS = np.indices((2, 2, 2)).reshape(3, 8).T
+
+
+def rigid(rotation: FloatArray, position: FloatArray) -> FloatArray:
+    """Return the pose of a rotation, shape [3, 3], and a position [m], shape [3]; shape [4, 4]."""
+    pose = np.eye(4)
+    pose[:3, :3] = rotation
+    pose[:3, 3] = position
+    return pose
+
+
+def placed(points: FloatArray, pose: FloatArray) -> FloatArray:
+    """Return points [m], shape [point_count, 3], moved by a pose, shape [4, 4]."""
+    return points @ pose[:3, :3].T + pose[:3, 3]
+
+
+def box_around(groups: Iterable[FloatArray]) -> FloatArray:
+    """Return the box around groups of points or of boxes [m], shape [..., 3] each -> [2, 3]."""
+    points = np.vstack([np.reshape(group, (-1, 3)) for group in groups])
+    return np.array([points.min(axis=0), points.max(axis=0)])
+
+
+def box_corners(boxes: FloatArray) -> FloatArray:
+    """Return the corners of boxes, shape [..., 2, 3] -> [..., 8, 3]."""
+    return boxes[..., ENDS, np.arange(3)]
+
+
+def box_gap(first: FloatArray, second: FloatArray) -> float:
+    """Return the distance between the boxes around two sets of points [m]; 0 if they meet."""
+    apart = np.maximum(
+        first.min(axis=0) - second.max(axis=0), second.min(axis=0) - first.max(axis=0)
+    )
+    return float(np.linalg.norm(np.maximum(0.0, apart)))
+
+
+def diagonal(groups: Iterable[FloatArray]) -> float:
+    """Return the diagonal of the box around groups of points [m]; 0 where there is none."""
+    every = list(groups)
+    return float(np.linalg.norm(np.ptp(box_around(every), axis=0))) if every else 0.0
+
+
+def shape_corners(shapes: Iterable[DescribedShape]) -> FloatArray:
+    """Return the corners of the boxes around shapes [m], shape [8 * shape_count, 3]."""
+    boxes = [box_around([shape.vertices]) for shape in shapes if len(shape.vertices)]
+    return box_corners(np.reshape(boxes, (-1, 2, 3))).reshape(-1, 3)
+
+
+def joined(
+    shapes: Iterable[tuple[DescribedShape, FloatArray]],
+) -> tuple[FloatArray, IntArray] | None:
+    """Return corners [m] and faces of shapes as one mesh; ``None`` where none has a face.
+
+    Args:
+        shapes: each with the pose that it is put at, shape [4, 4].
+    """
+    vertices = []
+    faces = []
+    count = 0
+    for shape, pose in shapes:
+        vertices.append(placed(shape.vertices, pose))
+        faces.append(shape.faces + count)
+        count += len(shape.vertices)
+    return (np.vstack(vertices), np.vstack(faces)) if any(map(len, faces)) else None
