@@ -99,7 +99,8 @@ def captured_lines(lines: list[str]) -> Iterator[None]:
 
 
 def _timeless(line: str, path: Path) -> str:
-    """Return the line without clock, temporary folder and machine."""
+    """Return the line without clock, temporary folder, place in the code and machine."""
+    line = re.sub(r"^\S+\.py:\d+: ", "", line)
     line = re.sub(r"^\[\d{4}-\d\d-\d\d [^\]]*\]\s*", "", line)
     line = re.sub(r"[^\s\"'\[(]*/twin-[^/\s]+/", "", line)
     return line.replace(f"{path.parent.resolve()}/", "")

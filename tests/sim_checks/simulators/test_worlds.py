@@ -321,3 +321,17 @@ def test_a_joint_of_a_chain_is_driven_without_shaking_the_others(tmp_path, engin
     result = judged(written(tmp_path, chain(10)), engine)
     assert [finding for finding in result.findings if finding.severity is Severity.ERROR] == []
     assert max(row["others_moved"] for row in result.measurements["joints"]) < 0.01
+
+
+def test_what_a_loader_says_is_told_without_places_in_the_code(tmp_path):
+    pytest.importorskip("mujoco", reason="mujoco is not installed")
+    written(tmp_path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\n"
+            "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2/1 3 4\n", "a.obj")  # fmt: skip
+    geom = '<asset><mesh name="a" file="a.obj"/></asset><worldbody><body><geom type="mesh"'
+    joint = '<joint name="slide" type="slide" range="0 1" limited="true"/></body></worldbody>'
+    path = written(tmp_path, f'<mujoco>{geom} mesh="a"/>{joint}</mujoco>', "object.xml")
+    # In a process of its own, where a warning is no error.
+    observed = run_isolated(observe, "mujoco", path, CONFIG, (), limits=Limits(wall_s=60.0))
+    said = observed.unwrap().model.warnings
+    assert said
+    assert all(".py:" not in line and str(tmp_path) not in line for line in said)
