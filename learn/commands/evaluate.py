@@ -161,7 +161,10 @@ def _require_sound(command: Evaluate) -> None:
 
 
 def _requests(command: Evaluate) -> tuple[Request, ...]:
-    requests = _of_set(command)
+    from ..evaluate.cases import in_settings
+
+    objects = [replace(each, fused=command.fused) for each in _objects(command)]
+    requests = in_settings(objects, command.pose, command.yaw)
     if command.category:
         known = sorted({request.category for request in requests})
         unknown = [name for name in command.category if name not in known]
@@ -173,12 +176,10 @@ def _requests(command: Evaluate) -> tuple[Request, ...]:
         requests = tuple(request for request in requests if request.category in command.category)
     if not requests:
         raise ConfigError("no object is left to evaluate; want another list or half")
-    if command.fused:
-        requests = tuple(request.as_fused() for request in requests)
     return requests[: command.limit]
 
 
-def _of_set(command: Evaluate) -> tuple[Request, ...]:
+def _objects(command: Evaluate) -> tuple[Request, ...]:
     from ..evaluate.cases import folder_requests, procedural_requests, real_requests, skin_requests
     from ..evaluate.listing import read_list
 
@@ -186,13 +187,13 @@ def _of_set(command: Evaluate) -> tuple[Request, ...]:
         from ..objects import CATEGORIES
 
         seeds = range(command.first_seed, command.first_seed + command.seeds)
-        return procedural_requests(CATEGORIES, seeds, command.pose, command.yaw)
+        return procedural_requests(CATEGORIES, seeds)
     if command.kind == "folder":
-        return folder_requests(command.data, command.pose, command.yaw)
+        return folder_requests(command.data)
     if command.kind == "skins":
-        return skin_requests(command.data, command.pose, command.yaw)
+        return skin_requests(command.data)
     half = None if command.half == "both" else command.half
-    return real_requests(command.data, read_list(command.listed), half, command.pose, command.yaw)
+    return real_requests(command.data, read_list(command.listed), half)
 
 
 def _methods(command: Evaluate) -> tuple[Method, ...]:
@@ -256,4 +257,4 @@ def _write_meshes(folder: Path, requests: Sequence[Request], cache: Path | None)
     folder.mkdir(parents=True, exist_ok=True)
     for request in requests:
         case = make_case(request, None if cache is None else Store(cache))
-        write_obj(folder / f"{case.name}.obj", case.articulation.mesh)
+        write_obj(folder / f"{request.name}.obj", case.mesh)

@@ -21,7 +21,7 @@ from asset_factory.sim_checks.processes.isolation import (
     preload,
 )
 
-from .cases import Case, Request, make_case
+from .cases import Request, make_case
 from .methods import Method
 from .physical import physical
 from .published.cloud import POINTS, cloud_of
@@ -81,23 +81,23 @@ def score_trial(trial: Trial) -> Score:
         InputRejected: the method has no answer.
         ConfigError: the case's file is another one, or the method's checkpoint cannot be used.
     """
-    case = _case(trial)
-    answer = trial.method.seeded(trial.repeat).answer(case.articulation.mesh, case.name)
-    return _scored(trial, case, answer)
+    truth = _truth(trial)
+    answer = trial.method.seeded(trial.repeat).answer(truth.mesh, trial.request.name)
+    return _scored(trial, truth, answer)
 
 
 def score_naively(trial: Trial) -> Score:
     """Return the score of the answer that nothing moves."""
-    case = _case(trial)
-    return _scored(trial, case, RigidArticulator().articulate(case.articulation.mesh))
+    truth = _truth(trial)
+    return _scored(trial, truth, RigidArticulator().articulate(truth.mesh))
 
 
-def _case(trial: Trial) -> Case:
+def _truth(trial: Trial) -> Articulation:
     return make_case(trial.request, None if trial.kept is None else Store(trial.kept))
 
 
-def _scored(trial: Trial, case: Case, answer: Articulation) -> Score:
-    truth = on_mesh(case.articulation, answer.mesh)
+def _scored(trial: Trial, truth: Articulation, answer: Articulation) -> Score:
+    truth = on_mesh(truth, answer.mesh)
     if trial.convention == "physical":
         return physical(truth, answer)
     true = cloud_of(truth, 0, trial.points)

@@ -47,17 +47,8 @@ def write_state(path: Path, state: State) -> None:
     """Write a checkpoint such that the file is always the old one or the new one, complete."""
     import torch
 
-    stored = {
-        "format": _FORMAT,
-        "step": state.step,
-        "weights": state.weights,
-        "mean": state.mean,
-        "optimiser": state.optimiser,
-        "best": None if state.best is None else list(state.best),
-        "recipe": state.recipe,
-        "data": state.data,
-        "seconds": state.seconds,
-    }
+    best = None if state.best is None else list(state.best)
+    stored = {"format": _FORMAT, **vars(state), "best": best}
     with writing(path, lasting=True) as stream:
         torch.save(stored, stream)
 
@@ -72,19 +63,12 @@ def read_state(path: Path) -> State:
 
     try:
         stored = torch.load(path, map_location="cpu", weights_only=True)
-        if stored["format"] != _FORMAT:
-            raise ConfigError(f"{path}: a checkpoint of format {stored['format']}, want {_FORMAT}")
-        best = stored["best"]
-        return State(
-            step=int(stored["step"]),
-            weights=stored["weights"],
-            mean=stored["mean"],
-            optimiser=stored["optimiser"],
-            best=None if best is None else (float(best[0]), int(best[1])),
-            recipe=stored["recipe"],
-            data=stored["data"],
-            seconds=float(stored["seconds"]),
-        )
+        if (found := stored.pop("format")) != _FORMAT:
+            raise ConfigError(f"{path}: a checkpoint of format {found}, want {_FORMAT}")
+        if (best := stored["best"]) is not None:
+            stored["best"] = float(best[0]), int(best[1])
+        numbers = {"step": int(stored["step"]), "seconds": float(stored["seconds"])}
+        return State(**stored | numbers)
     except FileNotFoundError as error:
         raise ConfigError(f"{path}: no such file; there is no run to go on with") from error
     except ConfigError:
