@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from concurrent.futures import ThreadPoolExecutor, as_completed
-from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
-from queue import SimpleQueue
 
 from asset_factory.factory.articulate.rigid import RigidArticulator
 from asset_factory.factory.articulation import Articulation
@@ -21,6 +18,7 @@ from asset_factory.sim_checks.processes.isolation import (
     preload,
 )
 
+from ..children import ask_children
 from .cases import Request, make_case
 from .methods import Method
 from .physical import physical
@@ -106,7 +104,7 @@ def _scored(trial: Trial, truth: Articulation, answer: Articulation) -> Score:
 
 
 def run_trials(trials: Iterable[Trial], workers: int, limits: Limits) -> Iterator[Row]:
-    """Yield every trial in a child process that may crash or hang; rows as they come.
+    """Return the rows of trials as they come, each made in a child that may crash or hang.
 
     Args:
         trials: any number.
@@ -117,22 +115,8 @@ def run_trials(trials: Iterable[Trial], workers: int, limits: Limits) -> Iterato
         ConfigError: as :func:`score_trial`; that is nobody's failure but a wrong request.
     """
     preload(COMMON_MODULES)
-    with ExitStack() as stack, ThreadPoolExecutor(workers, thread_name_prefix="trial") as pool:
-        free: SimpleQueue[WarmChild] = SimpleQueue()
-        for _ in range(workers):
-            free.put(stack.enter_context(WarmChild(resident_bytes=RESIDENT_BYTES)))
-        pending = [pool.submit(_with_child, free, trial, limits) for trial in trials]
-        try:
-            for future in as_completed(pending):
-                yield future.result()
-        finally:
-            for future in pending:
-                future.cancel()
 
-
-def _with_child(free: SimpleQueue[WarmChild], trial: Trial, limits: Limits) -> Row:
-    child = free.get()
-    try:
+    def ask(child: WarmChild, trial: Trial) -> Row:
         outcome = child.call(score_trial, trial, limits=limits)
         if outcome.failure is None:
             return Row(trial, outcome.value)
@@ -142,8 +126,8 @@ def _with_child(free: SimpleQueue[WarmChild], trial: Trial, limits: Limits) -> R
             return Row(trial, None, _reason(outcome))
         instead = child.call(score_naively, trial, limits=limits)
         return Row(trial, instead.value, _reason(outcome))
-    finally:
-        free.put(child)
+
+    return ask_children(ask, trials, workers, RESIDENT_BYTES)
 
 
 def _reason(outcome: Outcome[Score]) -> str:
