@@ -10,22 +10,10 @@ from pathlib import Path
 from asset_factory.factory.runtime.store import digest_bytes, digest_file
 
 #: Looks change no geometry; datasets are mostly made of them.
-LOOKS = frozenset(
-    {
-        ".png",
-        ".jpg",
-        ".jpeg",
-        ".bmp",
-        ".tga",
-        ".tif",
-        ".tiff",
-        ".gif",
-        ".webp",
-        ".exr",
-        ".hdr",
-        ".mdl",
-    }
-)
+LOOKS = frozenset({
+    ".png", ".jpg", ".jpeg", ".bmp", ".tga", ".tif", ".tiff", ".gif", ".webp", ".exr", ".hdr",
+    ".mdl",
+})  # fmt: skip
 
 
 @dataclass(frozen=True)

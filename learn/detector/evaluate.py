@@ -99,8 +99,3 @@ def _excused(part: Found, table: FloatArray) -> bool:
             if inner >= 0.5 * float(np.prod(part.box[2:] - part.box[:2])):
                 return True
     return False
-
-
-def printed(figures: dict[str, Any]) -> str:
-    """Return figures as lines."""
-    return "\n".join(f"{name}: {value}" for name, value in figures.items())

@@ -163,35 +163,30 @@ def _rows(entry: Mapping[str, Any], front: Side) -> list[_Row]:
         way = WAYS.index(PanelWay.OTHER)
     elif abs(axis[2]) > 0.9:
         sort = Sort.DOOR
-        way = _edge(entry, side, hinges)
+        mirrored = float(side.frame[0].sum()) < 0.0
+        edges = (PanelWay.RIGHT, PanelWay.LEFT) if mirrored else (PanelWay.LEFT, PanelWay.RIGHT)
+        way = _edge(hinges, AXES[int(np.argmax(np.abs(side.frame[0])))], entry["box"][::2], edges)
     else:
         sort = Sort.FLAP
-        way = _upright_edge(entry, hinges)
+        way = _edge(hinges, "z", entry["box"][1::2], (PanelWay.BOTTOM, PanelWay.TOP))
     return [(SIDES.index(side), _on(side, entry), sort, way, False)]
 
 
-def _upright_edge(entry: Mapping[str, Any], hinges: Sequence[Mapping[str, float]]) -> int:
-    """Return the number of the edge at which a flap is hinged."""
-    middle = (entry["box"][1] + entry["box"][3]) / 2.0
-    low = {spot["z"] < middle for spot in hinges if "z" in spot}
+def _edge(
+    hinges: Sequence[Mapping[str, float]],
+    letter: str,
+    ends: Sequence[float],
+    edges: tuple[PanelWay, PanelWay],
+) -> int:
+    """Return the number of the edge, of the lower and the higher one along an axis, of a hinge."""
+    low = {spot[letter] < sum(ends) / 2.0 for spot in hinges if letter in spot}
     if len(low) != 1:
         return EITHER
-    return WAYS.index(PanelWay.BOTTOM if low.pop() else PanelWay.TOP)
+    return WAYS.index(edges[0] if low.pop() else edges[1])
 
 
 def _ignored(entry: Mapping[str, Any], sides: Sequence[Side]) -> list[_Row]:
     return [(SIDES.index(each), _on(each, entry), Sort.OTHER, EITHER, True) for each in sides]
-
-
-def _edge(entry: Mapping[str, Any], side: Side, hinges: Sequence[Mapping[str, float]]) -> int:
-    """Return the number of the edge at which a door is hinged as seen on its side."""
-    letter = AXES[int(np.argmax(np.abs(side.frame[0])))]
-    u0, _, u1, _ = entry["box"]
-    left = {spot[letter] < (u0 + u1) / 2.0 for spot in hinges if letter in spot}
-    if len(left) != 1:
-        return EITHER
-    mirrored = float(side.frame[0].sum()) < 0.0
-    return WAYS.index(PanelWay.LEFT if next(iter(left)) != mirrored else PanelWay.RIGHT)
 
 
 def _lid_rows(

@@ -24,7 +24,7 @@ from asset_factory.factory.models.detector.kinds import KINDS
 from asset_factory.factory.models.detector.network import Detector
 from asset_factory.factory.runtime.terminal import say
 
-from .evaluate import evaluate, printed
+from .evaluate import evaluate
 from .kinds import kind_number
 from .looks import show
 from .pack import Packed, read_pack, read_textures
@@ -89,7 +89,7 @@ def train(options: Any) -> None:
     makers.stop()
     _keep(kept, options.out)
     figures = evaluate(kept, held_out)
-    say(printed(figures))
+    say("\n".join(f"{name}: {value}" for name, value in figures.items()))
     seen = {"steps": steps, "batch": options.batch, "made": made.made}
     (options.out / "figures.json").write_text(json.dumps(figures | seen, indent=1))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import zipfile
 import zlib
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from io import BytesIO
 from pathlib import Path
@@ -179,6 +180,23 @@ def _motions(chains: dict[int, tuple[Joint, ...]], parent: dict[int, int]) -> di
     }
 
 
+def parents_first(parents: Sequence[int]) -> list[int]:
+    """Return the parts ordered so that each comes after what it hangs on.
+
+    Raises:
+        ValueError: some hang on one another in a circle.
+    """
+    placed: list[int] = []
+    waiting = list(range(len(parents)))
+    while waiting:
+        ready = [part for part in waiting if parents[part] < 0 or parents[part] in placed]
+        if not ready:
+            raise ValueError(f"parents {parents}: part {waiting[0]} does not hang on the root")
+        placed += ready
+        waiting = [part for part in waiting if part not in ready]
+    return placed
+
+
 def _moving_parts(articulation: Articulation) -> tuple[dict[int, tuple[Joint, ...]], list[int]]:
     """Return the joints of each moving part, and every part's representative."""
     group = list(range(len(articulation.parts)))
@@ -269,13 +287,6 @@ def _check(sampled: SampledObject) -> None:
 def _check_tree(parents: list[int], motion: list[int]) -> None:
     if parents[0] != -1 or not all(0 <= parent < len(parents) for parent in parents[1:]):
         raise ValueError(f"parents {parents}: want -1 for the first part alone")
-    for part in range(1, len(parents)):
-        steps = 0
-        above = part
-        while above > 0 and steps <= len(parents):
-            steps = steps + 1
-            above = parents[above]
-        if above > 0:
-            raise ValueError(f"parents {parents}: part {part} does not hang on the root")
+    parents_first(parents)
     if not all(kind in tuple(MotionClass) for kind in motion):
         raise ValueError(f"motion {motion}: want {', '.join(f'{kind:d}' for kind in MotionClass)}")

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import torch  # noqa: TID253 - this module is only imported to train
+
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.weights.checkpoint import load_tensors, open_checkpoint
 from asset_factory.factory.runtime.store import writing
@@ -45,8 +47,6 @@ class State:
 
 def write_state(path: Path, state: State) -> None:
     """Write a checkpoint such that the file is always the old one or the new one, complete."""
-    import torch
-
     best = None if state.best is None else list(state.best)
     stored = {"format": _FORMAT, **vars(state), "best": best}
     with writing(path, lasting=True) as stream:
@@ -59,8 +59,6 @@ def read_state(path: Path) -> State:
     Raises:
         ConfigError: no such file, or not a checkpoint of a training.
     """
-    import torch
-
     try:
         stored = torch.load(path, map_location="cpu", weights_only=True)
         if (found := stored.pop("format")) != _FORMAT:

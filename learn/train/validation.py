@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
+import torch  # noqa: TID253 - this module is only imported to train
 from scipy.optimize import linear_sum_assignment
 
 from asset_factory.factory.mesh import IntArray
@@ -47,8 +48,6 @@ class Scores:
 
 def validate(network: Any, samples: Sequence[Sample], config: TrainConfig, device: str) -> Scores:
     """Score a network; it is left in the mode it was in."""
-    import torch
-
     training = network.training
     network.eval()
     found = _Sums()

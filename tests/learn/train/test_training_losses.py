@@ -19,7 +19,6 @@ from asset_factory.learn.train.losses import (
     NAMES,
     Answers,
     Counts,
-    LossSettings,
     count,
     forward,
     losses,
@@ -28,6 +27,7 @@ from asset_factory.learn.train.losses import (
     total,
 )
 from asset_factory.learn.train.matching import arranged_columns, assignment_costs, match
+from asset_factory.learn.train.settings import LossSettings
 
 ORIGINAL = {
     "mask": "point_mask_loss",
