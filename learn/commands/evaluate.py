@@ -86,12 +86,7 @@ class Evaluate:
 
 
 def run(command: Evaluate) -> int:
-    """Evaluate; returns the exit code."""
-    return Exit.OK if evaluate(command) else Exit.UNJUDGED
-
-
-def evaluate(command: Evaluate) -> bool:
-    """Evaluate, write, print; returns whether all cases are scored.
+    """Evaluate, write, print; returns the exit code.
 
     Raises:
         ConfigError: wrong usage, and what would be right.
@@ -101,30 +96,28 @@ def evaluate(command: Evaluate) -> bool:
     from asset_factory.sim_checks.processes.isolation import Limits
 
     from ..evaluate.files import write_results
-    from ..evaluate.trial import Trial, run_trials, trials_of
+    from ..evaluate.trial import Trial, run_trials
     from .evaluation_printing import followed, print_summary
 
     _require_sound(command)
     requests = _requests(command)
     if command.meshes is not None:
         _write_meshes(command.meshes, requests, command.cache)
-        return True
+        return Exit.OK
     methods = _methods(command)
     require_writable(command.output, "--output")
     settings = _settings(command, len(requests))
-    template = Trial(
-        requests[0],
-        methods[0],
-        convention=command.convention,
-        points=command.points,
-        kept=command.cache,
-    )
-    trials = trials_of(requests, methods, command.repeats, template)
+    trials = [
+        Trial(request, method, repeat, command.convention, command.points, command.cache)
+        for method in methods
+        for request in requests
+        for repeat in range(command.repeats if method.is_random else 1)
+    ]
     limits = Limits(wall_s=command.timeout, memory_bytes=BuildConfig().asset_memory_bytes)
     rows = followed(run_trials(trials, command.workers, limits), len(trials))
     data = write_results(command.output, rows, settings)
     print_summary(data, command.output)
-    return all(row.score is not None for row in rows)
+    return Exit.OK if all(row.score is not None for row in rows) else Exit.UNJUDGED
 
 
 def _require_sound(command: Evaluate) -> None:

@@ -11,7 +11,7 @@ from asset_factory.factory.articulation import Articulation, rotation_about
 from asset_factory.factory.errors import AssetFactoryError, InputRejected
 from asset_factory.factory.geometry.posing import UP, turned
 
-from ..samples.sampled_object import SampledObject, sampled_from, write_sampled
+from ..samples.sampled_object import SampledObject, require_parts, sampled_from, write_sampled
 from .catalog import source
 from .item import SourceItem
 from .refusal import ItemRefusal
@@ -59,14 +59,7 @@ def sampled_item(kind: str, item: SourceItem, settings: SourceSettings, seed: in
         sampled = replace(read if not quarters else turned_sampled(read, yaw), name=item.name)
     else:
         sampled = _drawn(read if not quarters else turned(read, yaw), kind, item, settings, seed)
-    if len(sampled.parents) > settings.max_parts:
-        count = len(sampled.parents)
-        raise InputRejected(
-            "too_many_parts",
-            f"{item.name}: has {count} parts, want at most {settings.max_parts}",
-            value=count,
-            limit=settings.max_parts,
-        )
+    require_parts(item.name, len(sampled.parents), settings.max_parts)
     return sampled
 
 

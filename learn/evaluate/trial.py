@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from asset_factory.factory.articulate.rigid import RigidArticulator
@@ -136,24 +136,4 @@ def _reason(outcome: Outcome[Score]) -> str:
         f"{error.code}: {error}"
         if isinstance(error, InputRejected)
         else f"{outcome.failure}: {outcome.detail}"
-    )
-
-
-def trials_of(
-    requests: Iterable[Request], methods: Iterable[Method], repeats: int, template: Trial
-) -> tuple[Trial, ...]:
-    """Return all combinations; methods that are not random are asked once.
-
-    Args:
-        requests: the cases.
-        methods: who is asked.
-        repeats: how often each random method is asked, each time with another seed.
-        template: whose convention, points and folder are taken.
-    """
-    requests = tuple(requests)
-    return tuple(
-        replace(template, request=request, method=method, repeat=repeat)
-        for method in methods
-        for request in requests
-        for repeat in range(repeats if method.is_random else 1)
     )

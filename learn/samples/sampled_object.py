@@ -116,18 +116,7 @@ def sampled_from(
             ``zero_size``.
     """
     chains, group = _moving_parts(articulation)
-    if not chains:
-        raise InputRejected(
-            "no_movable_joint", f"{name}: nothing moves; want a joint to learn from", value=0.0
-        )
-    if len(chains) >= MOST_PARTS:
-        count = len(chains) + 1
-        raise InputRejected(
-            "too_many_parts",
-            f"{name}: has {count} parts, want at most {MOST_PARTS}",
-            value=count,
-            limit=MOST_PARTS,
-        )
+    require_parts(name, 1 + len(chains))
     number = {0: 0} | {part: index for index, part in enumerate(chains, start=1)}
     of_part = np.array([number.get(group[part], 0) for part in range(len(group))])
     surface = Surface.of(articulation.mesh.vertices, articulation.mesh.faces)
@@ -145,6 +134,20 @@ def sampled_from(
             chains, {part: number[group[chain[0].parent]] for part, chain in chains.items()}
         ),
     )
+
+
+def require_parts(name: str, count: int, most: int = MOST_PARTS) -> None:
+    """Refuse an object of too few or too many parts to learn from.
+
+    Raises:
+        InputRejected: ``no_movable_joint``, ``too_many_parts``.
+    """
+    if count < 2:
+        message = f"{name}: nothing moves; want a joint to learn from"
+        raise InputRejected("no_movable_joint", message, value=0.0)
+    if count > most:
+        message = f"{name}: has {count} parts, want at most {most}"
+        raise InputRejected("too_many_parts", message, value=count, limit=most)
 
 
 def _motions(chains: dict[int, tuple[Joint, ...]], parent: dict[int, int]) -> dict[str, Any]:
