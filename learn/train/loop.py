@@ -104,13 +104,13 @@ class _Run:
         config = self._config
         group = self._group
         if state is not None:
-            self._trainer.restore(state, self._output / LAST)
+            self._trainer.descent.restore(state, self._output / LAST)
             self._best = state.best
             self._seconds = state.seconds
         elif start is not None:
             weights = read_weights(start)
             fill(self._trainer.network, weights, start)
-            self._trainer.start_from(weights)
+            self._trainer.descent.mean.load(weights)
             if group.first:
                 # Resumed before its first checkpoint, a run would otherwise begin with random
                 # weights.
@@ -197,7 +197,7 @@ class _Run:
 
     def _save(self, step: int) -> None:
         half = self._config.half
-        weights = self._trainer.mean.weights
+        weights = self._trainer.descent.mean.weights
         kept = {name: each.half() if half else each.float() for name, each in weights.items()}
         # The checkpoint last: cut off in between, the run goes on from the one before and writes
         # both again.
@@ -206,7 +206,8 @@ class _Run:
 
     def _state(self, step: int) -> State:
         seconds = self._seconds + time.monotonic() - self._since
-        return self._trainer.state(step, self._best, self._recipe, self._data, seconds)
+        descent = self._trainer.descent
+        return descent.state(step, self._recipe, self._best, self._data, seconds)
 
     def _about(self, step: int) -> dict[str, str]:
         config = self._config
