@@ -186,11 +186,10 @@ class _Run:
             self._trainer.mean_network, self._held_out, self._config, self._group.device
         )
         self._scores = scores
-        self._table.add([(step, list(scores.to_dict().values()))])
-        watch.say(
-            f"step {step}  held out: "
-            f"{', '.join(f'{name} {v:.3f}' for name, v in scores.to_dict().items())}"
-        )
+        figures = asdict(scores)
+        self._table.add([(step, list(figures.values()))])
+        said = ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
+        watch.say(f"step {step}  held out: {said}")
         if self._best is None or scores.part_iou > self._best[0]:
             self._best = (scores.part_iou, step)
             write_state(self._output / BEST, self._state(step))
@@ -241,7 +240,7 @@ class _Run:
             "processes": self._group.world,
             "device": self._group.device,
             "held_out_examples": len(self._held_out),
-            "held_out": None if self._scores is None else self._scores.to_dict(),
+            "held_out": None if self._scores is None else asdict(self._scores),
             "best": None
             if self._best is None
             else {"part_iou": self._best[0], "step": self._best[1]},

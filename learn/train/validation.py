@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -40,10 +40,6 @@ class Scores:
     class_accuracy: float
     revolute_angle: float
     prismatic_angle: float
-
-    def to_dict(self) -> dict[str, float]:
-        """Return the figures as plain numbers."""
-        return {name: float(value) for name, value in asdict(self).items()}
 
 
 def validate(network: Any, samples: Sequence[Sample], config: TrainConfig, device: str) -> Scores:
