@@ -209,11 +209,13 @@ def _methods(command: Evaluate) -> tuple[Method, ...]:
 
 def _settings(command: Evaluate, cases: int) -> dict[str, Any]:
     """Return what the numbers depend on; nothing of this machine."""
+    from ..evaluate.listing import list_text
+
     told: dict[str, Any] = {"set": command.kind, "cases": cases, "convention": command.convention}
     told |= {name: list(getattr(command, name)) for name in ("pose", "yaw", "method", "category")}
     told |= {"repeats": command.repeats, "timeout_s": command.timeout}
     if command.kind == "real":
-        told |= {"half": command.half, "list": _list_digest(command.listed)}
+        told |= {"half": command.half, "list": digest_bytes(list_text(command.listed).encode())}
     if command.fused:
         told |= {"fused": True}
     if command.kind == "procedural":
@@ -226,12 +228,6 @@ def _settings(command: Evaluate, cases: int) -> dict[str, Any]:
         if getattr(command, name) and {"auto", "particulate"} & set(command.method):
             told |= {name: _weights(getattr(command, name))}
     return told
-
-
-def _list_digest(path: Path | None) -> str:
-    from ..evaluate.listing import list_text
-
-    return digest_bytes(list_text(path).encode())
 
 
 def _weights(checkpoint: str) -> dict[str, str]:

@@ -89,15 +89,13 @@ def real_objects(folder: Path, held_out: bool | None = None) -> Iterator[RealObj
         if front is None:
             continue
         mesh = load(folder / row["file"], IntakeConfig()).mesh
-        rows_of = _unknown() if row["opens"] == "yes" else []
+        opens = row["opens"] == "yes"
+        unknown = [(view, WHOLE, Sort.OTHER, EITHER, True) for view in range(len(SIDES))]
+        rows_of: list[_Row] = unknown if opens else []
         if name in labels:
             rows_of = _labelled(labels, name, front)
-        sides = LabelledSides(
-            look_at(mesh),
-            np.zeros((len(SIDES), CANVAS, CANVAS), np.uint8),
-            _on_canvas(rows_of, mesh),
-        )
-        opens = row["opens"] == "yes"
+        part = np.zeros((len(SIDES), CANVAS, CANVAS), np.uint8)
+        sides = LabelledSides(look_at(mesh), part, _on_canvas(rows_of, mesh))
         yield RealObject(name, row["kind"], opens, SIDES.index(front), mesh, sides)
 
 
@@ -114,15 +112,10 @@ def _front(text: str) -> Side | None:
     return side_facing(direction)
 
 
-def _unknown() -> list[_Row]:
-    return [(view, WHOLE, Sort.OTHER, EITHER, True) for view in range(len(SIDES))]
-
-
 def _labelled(labels: Mapping[str, Any], name: str, front: Side) -> list[_Row]:
     rows = [row for entry in labels[name] for row in _rows(entry, front)]
     for entry in labels.get(f"{name}:optional", []):
-        for side in _sides_of(entry["plane"]):
-            rows.append((SIDES.index(side), _on(side, entry), Sort.OTHER, EITHER, True))
+        rows += _ignored(entry, _sides_of(entry["plane"]))
     return rows
 
 
