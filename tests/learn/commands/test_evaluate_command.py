@@ -27,16 +27,8 @@ def cabinets(tmp_path_factory):
 
 
 def evaluate(cabinets, output, *flags):
-    given = [
-        "evaluate",
-        "--data",
-        str(cabinets),
-        "--list",
-        str(cabinets / "list.csv"),
-        "--half",
-        "both",
-    ]
-    return run([*given, "--output", str(output), *flags])
+    given = ["evaluate", "--data", str(cabinets), "--list", str(cabinets / "list.csv")]
+    return run([*given, "--half", "both", "--output", str(output), *flags])
 
 
 def load(output):
@@ -45,10 +37,8 @@ def load(output):
 
 def test_the_same_evaluation_leaves_the_same_bytes(cabinets, tmp_path, capsys):
     for name, workers in (("first", "1"), ("second", "2")):
-        assert (
-            evaluate(cabinets, tmp_path / name, "--pose", "closed", "open", "--workers", workers)
-            == 0
-        )
+        flags = ("--pose", "closed", "open", "--workers", workers)
+        assert evaluate(cabinets, tmp_path / name, *flags) == 0
     for file in ("evaluation.json", "cases.csv"):
         assert (tmp_path / "first" / file).read_bytes() == (tmp_path / "second" / file).read_bytes()
     assert str(tmp_path) not in (tmp_path / "first" / "evaluation.json").read_text()
@@ -96,10 +86,8 @@ def write_truth(truth, path):
     for joint in truth.joints:
         if joint.turns:
             fields["is_part_revolute"][joint.child] = True
-            fields["revolute_plucker"][joint.child] = [
-                *joint.axis,
-                *np.cross(joint.axis, joint.origin),
-            ]
+            moment = np.cross(joint.axis, joint.origin)
+            fields["revolute_plucker"][joint.child] = [*joint.axis, *moment]
             fields["revolute_range"][joint.child] = joint.lower, joint.upper
         else:
             fields["is_part_prismatic"][joint.child] = True
@@ -125,11 +113,8 @@ def test_predictions_are_read_from_files_and_missing_ones_are_scored_as_naive(
     assert lost["failure"].startswith("missing_file: ")
     assert lost["values"] == lines["naive", "made__two__two--closed-front"]["values"]
     assert "missing_file" in capsys.readouterr().err
-    overall = {
-        entry["method"]: entry
-        for entry in load(tmp_path / "out")["summary"]
-        if entry["by"] == "overall"
-    }
+    summary = load(tmp_path / "out")["summary"]
+    overall = {each["method"]: each for each in summary if each["by"] == "overall"}
     assert overall["predictions"]["failures"] == 1
 
 
@@ -145,20 +130,9 @@ def test_meshes_are_written_in_the_order_that_predictions_speak_of(cabinets, tmp
 
 
 def test_the_published_conventions_and_procedural_objects(tmp_path):
-    flags = (
-        "--set",
-        "procedural",
-        "--category",
-        "cabinet",
-        "--seeds",
-        "1",
-        "--convention",
-        "release",
-    )
-    assert (
-        run(["evaluate", "--output", str(tmp_path), *flags, "--points", "500", "--method", "naive"])
-        == 0
-    )
+    asked = "--set procedural --category cabinet --seeds 1 --convention release --points 500"
+    flags = [*asked.split(), "--method", "naive"]
+    assert run(["evaluate", "--output", str(tmp_path), *flags]) == 0
     data = load(tmp_path)
     assert data["settings"]["points"] == 500
     assert -1.0 <= data["summary"][0]["values"]["articulated_giou"] <= 1.0
