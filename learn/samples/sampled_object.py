@@ -31,6 +31,10 @@ MOST_BYTES = 512 * 1024 * 1024
 """Of a sampled object's arrays; a thousandth is usual."""
 _MOST_COMPONENTS = 10_000_000
 _TEXTS = ("name", "category", "source")
+_TYPES: dict[str, Any] = {
+    "part_ids": np.int16, "components": np.int32, "sharp": np.bool_, "endless": np.bool_,
+    "parents": np.int16, "motion": np.int16,
+}  # fmt: skip
 _DAMAGED = (zipfile.BadZipFile, zlib.error)
 
 
@@ -75,16 +79,9 @@ class SampledObject:
     slide: FloatArray
 
     def __post_init__(self) -> None:
-        kinds = {
-            "part_ids": np.int16,
-            "components": np.int32,
-            "sharp": np.bool_,
-            "endless": np.bool_,
-        }
-        kinds |= {"parents": np.int16, "motion": np.int16}
         for each in fields(self):
             if each.name not in _TEXTS:
-                dtype = kinds.get(each.name, np.float32)
+                dtype = _TYPES.get(each.name, np.float32)
                 object.__setattr__(self, each.name, read_only(getattr(self, each.name), dtype))
         _check(self)
 
