@@ -90,10 +90,11 @@ def real_objects(folder: Path, held_out: bool | None = None) -> Iterator[RealObj
             continue
         mesh = load(folder / row["file"], IntakeConfig()).mesh
         opens = row["opens"] == "yes"
-        unknown = [(view, WHOLE, Sort.OTHER, EITHER, True) for view in range(len(SIDES))]
-        rows_of: list[_Row] = unknown if opens else []
+        rows_of: list[_Row] = []
         if name in labels:
             rows_of = _labelled(labels, name, front)
+        elif opens:
+            rows_of = [(view, WHOLE, Sort.OTHER, EITHER, True) for view in range(len(SIDES))]
         part = np.zeros((len(SIDES), CANVAS, CANVAS), np.uint8)
         sides = LabelledSides(look_at(mesh), part, _on_canvas(rows_of, mesh))
         yield RealObject(name, row["kind"], opens, SIDES.index(front), mesh, sides)
