@@ -17,7 +17,7 @@ R = TypeVar("R")
 def ask_children(
     ask: Callable[[WarmChild, T], R], things: Iterable[T], workers: int, resident_bytes: int
 ) -> Iterator[R]:
-    """Yield what comes of every thing, as it comes; an exception of one ends them all.
+    """Yield the answers about things as they come; an exception of one ends them all.
 
     Args:
         ask: one child about one thing; called in a thread.
