@@ -2,8 +2,7 @@
 
 ``CACHE/<kind>-<settings>/<key>.npz`` is an object, ``<key>.json`` beside it the reason why there
 is none, and ``<dataset>.json`` the report of the last pass. The key is a digest of the object's
-name and files, the settings and the
-versions: an altered object has another one.
+name and files; the folder's, of the settings and the code.
 """
 
 from __future__ import annotations

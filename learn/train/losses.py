@@ -99,7 +99,7 @@ def targets_of(batch: Batch, settings: LossSettings) -> LossTargets:
 
 @dataclass(frozen=True)
 class Counts:
-    """How many of each there are in a step, all its parts together."""
+    """How many of each a step has, all its parts together; last the fields of LossTargets."""
 
     points: float
     auxiliary: float
@@ -120,17 +120,10 @@ class Counts:
 
 def count(batch: Batch, targets: LossTargets, settings: LossSettings) -> list[float]:
     """Return the fields of :class:`Counts` for one micro-batch; those of a step are their sums."""
-    found: list[float] = []
-    for each in fields(Counts):
-        if each.name == "points":
-            found.append(float(batch.part_ids.numel()))
-        elif each.name == "auxiliary":
-            found.append(
-                float(len(batch) * math.ceil(batch.part_ids.shape[1] / settings.auxiliary_points))
-            )
-        else:
-            found.append(float(getattr(targets, each.name).sum()))
-    return found
+    points = batch.part_ids.shape[1]
+    auxiliary = math.ceil(points / settings.auxiliary_points)
+    rows = [float(getattr(targets, each.name).sum()) for each in fields(LossTargets)]
+    return [float(len(batch) * points), float(len(batch) * auxiliary), *rows]
 
 
 @dataclass(frozen=True)
