@@ -38,7 +38,7 @@ def release(true: ScoredCloud, predicted: ScoredCloud, seed: int = 0) -> Score:
         counts twice.
     """
     matching = matched(true, predicted)
-    rest = compared(true, predicted, (true.points, predicted.points), matching, "")
+    rest = compared(true, predicted, (true.points, predicted.points), matching)
     states = per_state(true, predicted, matching, np.random.default_rng(seed))
     mean = {}
     for name in rest:
@@ -55,7 +55,7 @@ def per_state(
     """Return the metrics in each of ``STATES``."""
     states = []
     for share in STATES:
-        scores = compared(true, predicted, (true.at(share), predicted.at(share)), matching, "")
+        scores = compared(true, predicted, (true.at(share), predicted.at(share)), matching)
         if share > 0.0:
             there, back = solid_giou(true, predicted, matching, share, rng)
             scores["giou"] = matching.scored(there, back, PENALTIES["giou"])
