@@ -10,12 +10,7 @@ import trimesh
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.display.gltf import Y_UP
 from asset_factory.factory.mesh import Material, Mesh
-from asset_factory.learn.objects.export import (
-    FileFrame,
-    write_annotation,
-    write_glb,
-    write_sidecar,
-)
+from asset_factory.learn.objects.export import write_annotation, write_glb, write_sidecar
 
 UNIT_BOX = trimesh.creation.box(bounds=((0, 0, 0), (1, 1, 1)))
 BOARD_M = 0.018
@@ -76,8 +71,8 @@ def write_meshes(folder: Path, count: int, first: int = 0) -> None:
     for seed in range(first, first + count):
         made = small_cabinet(seed)
         name = f"cabinet_{seed:05d}"
-        write_glb(made.mesh, FileFrame(Y_UP), folder / f"{name}.glb")
-        write_annotation(made, FileFrame(Y_UP), folder / f"{name}.pred.npz")
+        write_glb(made.mesh, Y_UP, folder / f"{name}.glb")
+        write_annotation(made, Y_UP, folder / f"{name}.pred.npz")
         values = {
             "scale": 1.0,
             "annotation": f"{name}.pred.npz",

@@ -86,12 +86,7 @@ class Evaluate:
 
 
 def run(command: Evaluate) -> int:
-    """Evaluate; returns the exit code."""
-    return Exit.OK if evaluate(command) else Exit.UNJUDGED
-
-
-def evaluate(command: Evaluate) -> bool:
-    """Evaluate, write, print; returns whether all cases are scored.
+    """Evaluate, write, print; returns the exit code.
 
     Raises:
         ConfigError: wrong usage, and what would be right.
@@ -101,30 +96,28 @@ def evaluate(command: Evaluate) -> bool:
     from asset_factory.sim_checks.processes.isolation import Limits
 
     from ..evaluate.files import write_results
-    from ..evaluate.trial import Trial, run_trials, trials_of
+    from ..evaluate.trial import Trial, run_trials
     from .evaluation_printing import followed, print_summary
 
     _require_sound(command)
     requests = _requests(command)
     if command.meshes is not None:
         _write_meshes(command.meshes, requests, command.cache)
-        return True
+        return Exit.OK
     methods = _methods(command)
     require_writable(command.output, "--output")
     settings = _settings(command, len(requests))
-    template = Trial(
-        requests[0],
-        methods[0],
-        convention=command.convention,
-        points=command.points,
-        kept=command.cache,
-    )
-    trials = trials_of(requests, methods, command.repeats, template)
+    trials = [
+        Trial(request, method, repeat, command.convention, command.points, command.cache)
+        for method in methods
+        for request in requests
+        for repeat in range(command.repeats if method.is_random else 1)
+    ]
     limits = Limits(wall_s=command.timeout, memory_bytes=BuildConfig().asset_memory_bytes)
     rows = followed(run_trials(trials, command.workers, limits), len(trials))
     data = write_results(command.output, rows, settings)
     print_summary(data, command.output)
-    return all(row.score is not None for row in rows)
+    return Exit.OK if all(row.score is not None for row in rows) else Exit.UNJUDGED
 
 
 def _require_sound(command: Evaluate) -> None:
@@ -161,7 +154,10 @@ def _require_sound(command: Evaluate) -> None:
 
 
 def _requests(command: Evaluate) -> tuple[Request, ...]:
-    requests = _of_set(command)
+    from ..evaluate.cases import in_settings
+
+    objects = [replace(each, fused=command.fused) for each in _objects(command)]
+    requests = in_settings(objects, command.pose, command.yaw)
     if command.category:
         known = sorted({request.category for request in requests})
         unknown = [name for name in command.category if name not in known]
@@ -173,12 +169,10 @@ def _requests(command: Evaluate) -> tuple[Request, ...]:
         requests = tuple(request for request in requests if request.category in command.category)
     if not requests:
         raise ConfigError("no object is left to evaluate; want another list or half")
-    if command.fused:
-        requests = tuple(request.as_fused() for request in requests)
     return requests[: command.limit]
 
 
-def _of_set(command: Evaluate) -> tuple[Request, ...]:
+def _objects(command: Evaluate) -> tuple[Request, ...]:
     from ..evaluate.cases import folder_requests, procedural_requests, real_requests, skin_requests
     from ..evaluate.listing import read_list
 
@@ -186,13 +180,13 @@ def _of_set(command: Evaluate) -> tuple[Request, ...]:
         from ..objects import CATEGORIES
 
         seeds = range(command.first_seed, command.first_seed + command.seeds)
-        return procedural_requests(CATEGORIES, seeds, command.pose, command.yaw)
+        return procedural_requests(CATEGORIES, seeds)
     if command.kind == "folder":
-        return folder_requests(command.data, command.pose, command.yaw)
+        return folder_requests(command.data)
     if command.kind == "skins":
-        return skin_requests(command.data, command.pose, command.yaw)
+        return skin_requests(command.data)
     half = None if command.half == "both" else command.half
-    return real_requests(command.data, read_list(command.listed), half, command.pose, command.yaw)
+    return real_requests(command.data, read_list(command.listed), half)
 
 
 def _methods(command: Evaluate) -> tuple[Method, ...]:
@@ -215,11 +209,13 @@ def _methods(command: Evaluate) -> tuple[Method, ...]:
 
 def _settings(command: Evaluate, cases: int) -> dict[str, Any]:
     """Return what the numbers depend on; nothing of this machine."""
+    from ..evaluate.listing import list_text
+
     told: dict[str, Any] = {"set": command.kind, "cases": cases, "convention": command.convention}
     told |= {name: list(getattr(command, name)) for name in ("pose", "yaw", "method", "category")}
     told |= {"repeats": command.repeats, "timeout_s": command.timeout}
     if command.kind == "real":
-        told |= {"half": command.half, "list": _list_digest(command.listed)}
+        told |= {"half": command.half, "list": digest_bytes(list_text(command.listed).encode())}
     if command.fused:
         told |= {"fused": True}
     if command.kind == "procedural":
@@ -232,12 +228,6 @@ def _settings(command: Evaluate, cases: int) -> dict[str, Any]:
         if getattr(command, name) and {"auto", "particulate"} & set(command.method):
             told |= {name: _weights(getattr(command, name))}
     return told
-
-
-def _list_digest(path: Path | None) -> str:
-    from ..evaluate.listing import list_text
-
-    return digest_bytes(list_text(path).encode())
 
 
 def _weights(checkpoint: str) -> dict[str, str]:
@@ -256,4 +246,4 @@ def _write_meshes(folder: Path, requests: Sequence[Request], cache: Path | None)
     folder.mkdir(parents=True, exist_ok=True)
     for request in requests:
         case = make_case(request, None if cache is None else Store(cache))
-        write_obj(folder / f"{case.name}.obj", case.articulation.mesh)
+        write_obj(folder / f"{request.name}.obj", case.mesh)

@@ -95,7 +95,7 @@ def train(command: Train) -> bool:
     try:
         return run_training(
             config, recipe, command.output, resume=command.resume, start=command.start
-        ).finished
+        )
     except OSError as error:
         begun = (command.output / "config.toml").is_file()
         more = "; what was stored before is whole, and --resume goes on" if begun else ""

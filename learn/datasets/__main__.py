@@ -53,48 +53,23 @@ def _parser() -> argparse.ArgumentParser:
         prog="sources", description="Bring a dataset into the cache of sampled objects."
     )
     kinds = "; ".join(f"{kind}: {known.wants}" for kind, known in SOURCES.items())
-    parser.add_argument("--kind", required=True, choices=list(SOURCES), help=kinds)
-    parser.add_argument("--path", required=True, type=Path, help="the dataset's folder")
-    parser.add_argument(
-        "--cache",
-        type=Path,
-        default=Path("out/.cache/sampled objects"),
-        help="where sampled objects are kept",
-    )
-    parser.add_argument(
-        "--split", type=Path, help="a file with the names of the objects wanted, one per line"
-    )
-    parser.add_argument(
-        "--points",
-        type=int,
-        default=SourceSettings.points,
-        help="of the surface, per sampled object",
-    )
-    parser.add_argument(
-        "--max-parts",
-        type=int,
-        default=SourceSettings.max_parts,
-        help="pass over objects with more",
-    )
-    parser.add_argument(
-        "--front", choices=["auto", *FRONTS], default="auto", help="where the objects' fronts look"
-    )
-    parser.add_argument(
-        "--wall", type=float, default=SourceSettings.wall_s, help="longest for one object [s]"
-    )
-    parser.add_argument("--workers", type=int, help="processes at once")
-    parser.add_argument(
-        "--write-split",
-        type=Path,
-        metavar="STEM",
-        help="write STEM.train.txt, STEM.held_out.txt; no more",
-    )
-    parser.add_argument(
-        "--held-out",
-        type=float,
-        default=0.1,
-        help="share of the objects that --write-split holds out",
-    )
+    add = parser.add_argument
+    default = SourceSettings()
+    add("--kind", required=True, choices=list(SOURCES), help=kinds)
+    add("--path", required=True, type=Path, help="the dataset's folder")
+    kept = Path("out/.cache/sampled objects")
+    add("--cache", type=Path, default=kept, help="where sampled objects are kept")
+    add("--split", type=Path, help="a file with the names of the objects wanted, one per line")
+    add("--points", type=int, default=default.points, help="of the surface, per sampled object")
+    add("--max-parts", type=int, default=default.max_parts, help="pass over objects with more")
+    fronts = ["auto", *FRONTS]
+    add("--front", choices=fronts, default="auto", help="where the objects' fronts look")
+    add("--wall", type=float, default=default.wall_s, help="longest for one object [s]")
+    add("--workers", type=int, help="processes at once")
+    names = "write STEM.train.txt, STEM.held_out.txt; no more"
+    add("--write-split", type=Path, metavar="STEM", help=names)
+    share = "share of the objects that --write-split holds out"
+    add("--held-out", type=float, default=0.1, help=share)
     return parser
 
 

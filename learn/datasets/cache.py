@@ -2,18 +2,15 @@
 
 ``CACHE/<kind>-<settings>/<key>.npz`` is an object, ``<key>.json`` beside it the reason why there
 is none, and ``<dataset>.json`` the report of the last pass. The key is a digest of the object's
-name and files, the settings and the
-versions: an altered object has another one.
+name and files; the folder's, of the settings and the code.
 """
 
 from __future__ import annotations
 
 import importlib.util
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
-from threading import Lock, local
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.intake.naming import safe_name
@@ -21,6 +18,7 @@ from asset_factory.factory.runtime.code import code_digest
 from asset_factory.factory.runtime.store import stage_key
 from asset_factory.sim_checks.processes.isolation import WarmChild, preload, processors
 
+from ..children import ask_children
 from .catalog import source
 from .item import SourceItem
 from .making import make_sampled
@@ -79,23 +77,33 @@ def prepare(
     chosen = settings or SourceSettings()
     found = find_all(kind, path)
     items = found if split is None else _named(found, split)
-    there = [importlib.util.find_spec(module) is not None for module in source(kind).modules]
-    digest = stage_key("sampled", code_digest(__name__), kind, chosen.decisive, there)[-16:]
+    can = [importlib.util.find_spec(module) is not None for module in source(kind).modules]
+    digest = stage_key("sampled", code_digest(__name__), kind, chosen.decisive, can)[-16:]
     folder = cache / f"{kind}-{digest}"
     folder.mkdir(parents=True, exist_ok=True)
-    outcomes = _Pass(kind, folder, chosen, len(items), on_progress).over(
-        items, workers or processors()
-    )
+    there_before = set(folder.glob("*.npz"))
+    outcomes: dict[SourceItem, Path | ItemRefusal] = {}
+
+    def ask(child: WarmChild, item: SourceItem) -> tuple[SourceItem, Path | ItemRefusal]:
+        return item, _found_or_made(child, kind, item, chosen, folder)
+
+    preload(COMMON_MODULES)
+    for item, outcome in ask_children(ask, items, workers or processors(), LARGE_CHILD):
+        outcomes[item] = outcome
+        if on_progress is not None:
+            on_progress(len(outcomes), len(items))
+    read: dict[str, Path] = {}
     skipped: dict[str, dict[str, str]] = {}
-    for item, outcome in zip(items, outcomes, strict=True):
-        if outcome.refusal is not None:
-            skipped.setdefault(outcome.refusal.reason, {})[item.name] = outcome.refusal.message
-    read = {
-        item.name: o.path for item, o in zip(items, outcomes, strict=True) if o.path is not None
-    }
+    for item in items:
+        outcome = outcomes[item]
+        if isinstance(outcome, Path):
+            read[item.name] = outcome
+        else:
+            skipped.setdefault(outcome.reason, {})[item.name] = outcome.message
     said = folder / f"{safe_name(Path(path.resolve().name + '.json'))}.json"
     gone = tuple(sorted(set(names_read(said)) - {item.name for item in found}))
-    report = SourceReport(kind, tuple(read), skipped, sum(o.is_new for o in outcomes), gone)
+    made = len(set(read.values()) - there_before)
+    report = SourceReport(kind, tuple(read), skipped, made, gone)
     report.write(said)
     return Prepared(tuple(read.values()), report)
 
@@ -122,84 +130,25 @@ def _named(items: tuple[SourceItem, ...], split: Path) -> tuple[SourceItem, ...]
     return chosen
 
 
-@dataclass(frozen=True)
-class _Outcome:
-    """Of one object: its sampled object's file, or why there is none."""
-
-    path: Path | None
-    refusal: ItemRefusal | None = None
-    is_new: bool = False
-
-
-class _Pass:
-    """One pass over a dataset's objects, several at once, each thread with a child of its own."""
-
-    def __init__(
-        self,
-        kind: str,
-        folder: Path,
-        settings: SourceSettings,
-        count: int,
-        on_progress: Callable[[int, int], None] | None,
-    ) -> None:
-        self._kind = kind
-        self._folder = folder
-        self._settings = settings
-        self._count = count
-        self._done = 0
-        self._on_progress = on_progress
-        self._own = local()
-        self._children: list[WarmChild] = []
-        self._lock = Lock()
-
-    def over(self, items: tuple[SourceItem, ...], workers: int) -> list[_Outcome]:
-        """Return what became of every object, in their order."""
-        preload(COMMON_MODULES)
-        try:
-            with ThreadPoolExecutor(max_workers=workers, thread_name_prefix="source") as pool:
-                return list(pool.map(self._one, items))
-        finally:
-            for child in self._children:
-                child.close()
-
-    def _one(self, item: SourceItem) -> _Outcome:
-        outcome = self._found_or_made(item)
-        with self._lock:
-            self._done += 1
-            if self._on_progress is not None:
-                self._on_progress(self._done, self._count)
-        return outcome
-
-    def _found_or_made(self, item: SourceItem) -> _Outcome:
-        try:
-            key = stage_key("sampled", item.name, item.category, item.digest())
-        except OSError as error:
-            return _Outcome(
-                None,
-                ItemRefusal("unreadable", f"{item.name}: {error.strerror or type(error).__name__}"),
-            )
-        path = self._folder / f"{key}.npz"
-        refused = self._folder / f"{key}.json"
-        if path.exists():
-            return _Outcome(path)
-        kept = read_refusal(refused)
-        if kept is not None:
-            return _Outcome(None, kept)
-        limits = self._settings.limits
-        made = self._child().call(
-            make_sampled, self._kind, item, self._settings, key, path, limits=limits
-        )
-        if made.failure is not None:
-            return _Outcome(None, ItemRefusal(made.failure, f"{item.name}: {made.detail}"))
-        if made.value is not None:
-            write_refusal(refused, made.value)
-            return _Outcome(None, made.value)
-        return _Outcome(path, is_new=True)
-
-    def _child(self) -> WarmChild:
-        if not hasattr(self._own, "child"):
-            self._own.child = WarmChild(resident_bytes=LARGE_CHILD)
-            with self._lock:
-                self._children.append(self._own.child)
-        child: WarmChild = self._own.child
-        return child
+def _found_or_made(
+    child: WarmChild, kind: str, item: SourceItem, settings: SourceSettings, folder: Path
+) -> Path | ItemRefusal:
+    """Return the file of an object's sampled object, or why there is none."""
+    try:
+        key = stage_key("sampled", item.name, item.category, item.digest())
+    except OSError as error:
+        said = f"{item.name}: {error.strerror or type(error).__name__}"
+        return ItemRefusal("unreadable", said)
+    path = folder / f"{key}.npz"
+    refused = folder / f"{key}.json"
+    if path.exists():
+        return path
+    kept = read_refusal(refused)
+    if kept is not None:
+        return kept
+    made = child.call(make_sampled, kind, item, settings, key, path, limits=settings.limits)
+    if made.failure is not None:
+        return ItemRefusal(made.failure, f"{item.name}: {made.detail}")
+    if made.value is not None:
+        write_refusal(refused, made.value)
+    return made.value or path

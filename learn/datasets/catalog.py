@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from types import MappingProxyType
 
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.errors import ConfigError
@@ -41,36 +40,26 @@ class SourceKind:
     modules: tuple[str, ...] = ()
 
 
-SOURCES = MappingProxyType(
-    {
-        "description": SourceKind(
-            find_descriptions,
-            read_description,
-            "a folder with a URDF or an MJCF each",
-            modules=("mujoco",),
-        ),
-        "partnet": SourceKind(
-            find_partnet,
-            read_description,
-            "PartNet-Mobility folders (mobility.urdf, meta.json)",
-            "-x",
-        ),
-        "predictions": SourceKind(
-            find_predictions, read_prediction_item, "meshes with a pred.npz beside them"
-        ),
-        "particulate": SourceKind(
-            find_published,
-            read_published,
-            "the release's preprocessed folders (original.obj, meta.npz...) or point caches",
-        ),
-        "registry": SourceKind(
-            find_registered, read_description, "an output folder of factory build"
-        ),
-        "usd": SourceKind(
-            find_usd, read_usd, "a folder with a USD asset of rigid bodies and physics joints each"
-        ),
-    }
-)
+SOURCES: Mapping[str, SourceKind] = {
+    "description": SourceKind(
+        find_descriptions, read_description, "a folder with a URDF or an MJCF each",
+        modules=("mujoco",),
+    ),
+    "partnet": SourceKind(
+        find_partnet, read_description, "PartNet-Mobility folders (mobility.urdf, meta.json)", "-x"
+    ),
+    "predictions": SourceKind(
+        find_predictions, read_prediction_item, "meshes with a pred.npz beside them"
+    ),
+    "particulate": SourceKind(
+        find_published, read_published,
+        "the release's preprocessed folders (original.obj, meta.npz...) or point caches",
+    ),
+    "registry": SourceKind(find_registered, read_description, "an output folder of factory build"),
+    "usd": SourceKind(
+        find_usd, read_usd, "a folder with a USD asset of rigid bodies and physics joints each"
+    ),
+}  # fmt: skip
 
 
 def source(kind: str) -> SourceKind:

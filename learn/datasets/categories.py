@@ -22,17 +22,14 @@ def categories_of(root: Path) -> Callable[[str], str]:
     sizes writes them: ``fridge`` for a refrigerator.
     """
     listed = _listed(root / INVENTORY)
+    above = root.resolve().parts[1:]
 
     def category(name: str) -> str:
-        stated = in_inventory(name)
-        return normalised(stated) if stated else ""
-
-    def in_inventory(name: str) -> str:
         parts = PurePosixPath(name).parts
-        for known in (name, *(PurePosixPath(*tail).as_posix() for tail in _tails(root, parts))):
-            if known in listed:
-                return listed[known]
-        return prefix_of(parts[-1] if parts else name)
+        paths = [PurePosixPath(*above[start:], *parts).as_posix() for start in range(len(above))]
+        known = next((path for path in (name, *paths[::-1]) if path in listed), None)
+        stated = listed[known] if known else prefix_of(parts[-1] if parts else name)
+        return normalised(stated) if stated else ""
 
     return category
 
@@ -41,11 +38,6 @@ def prefix_of(name: str) -> str:
     """Return the words before a number: ``wall_cabinet`` of ``wall_cabinet_07``; may be empty."""
     match = re.match(r"[A-Za-z]+(?:[_-][A-Za-z]+)*", name)
     return match.group().lower().replace("-", "_") if match else ""
-
-
-def _tails(root: Path, parts: tuple[str, ...]) -> list[tuple[str, ...]]:
-    above = root.resolve().parts[1:]
-    return [(*above[-count:], *parts) for count in range(1, len(above) + 1)]
 
 
 def _listed(path: Path) -> dict[str, str]:

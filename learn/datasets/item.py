@@ -3,29 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from asset_factory.factory.runtime.store import digest_bytes, digest_file
 
 #: Looks change no geometry; datasets are mostly made of them.
-LOOKS = frozenset(
-    {
-        ".png",
-        ".jpg",
-        ".jpeg",
-        ".bmp",
-        ".tga",
-        ".tif",
-        ".tiff",
-        ".gif",
-        ".webp",
-        ".exr",
-        ".hdr",
-        ".mdl",
-    }
-)
+LOOKS = frozenset({
+    ".png", ".jpg", ".jpeg", ".bmp", ".tga", ".tif", ".tiff", ".gif", ".webp", ".exr", ".hdr",
+    ".mdl",
+})  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -72,12 +60,7 @@ def find_items(
         mains: which of a folder's files could be an object's main file, best first.
         category: of an object, by its name.
     """
-    return tuple(sorted(_found(root, mains, category), key=lambda item: item.name))
-
-
-def _found(
-    root: Path, mains: Callable[[Sequence[Path]], Sequence[Path]], category: Callable[[str], str]
-) -> Iterator[SourceItem]:
+    items: list[SourceItem] = []
     real = root.resolve()
     for current, subfolders, names in os.walk(root):
         here = Path(current)
@@ -89,7 +72,8 @@ def _found(
         flat = here == root
         for main in found if flat else found[:1]:
             name = main.stem if flat else here.relative_to(root).as_posix()
-            yield SourceItem(name, category(name), main, files_below(here, real))
+            items.append(SourceItem(name, category(name), main, files_below(here, real)))
+    return tuple(sorted(items, key=lambda item: item.name))
 
 
 def _regular(folder: Path, names: Sequence[str], real_root: Path) -> list[Path]:

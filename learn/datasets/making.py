@@ -7,16 +7,18 @@ from pathlib import Path
 
 import numpy as np
 
-from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.articulation import Articulation, rotation_about
 from asset_factory.factory.errors import AssetFactoryError, InputRejected
-from asset_factory.factory.geometry.posing import turned
+from asset_factory.factory.geometry.posing import UP, turned
 
-from ..samples.sampled_object import SampledObject, sampled_from, write_sampled
+from ..samples.sampled_object import SampledObject, require_parts, sampled_from, write_sampled
 from .catalog import source
 from .item import SourceItem
 from .refusal import ItemRefusal
 from .settings import FRONTS, SourceSettings
-from .turning import turned_sampled
+
+#: What readers of a broken file trip over.
+TRIPPED = (OSError, MemoryError, ValueError, ArithmeticError, LookupError, RuntimeError)
 
 
 def make_sampled(
@@ -39,15 +41,7 @@ def make_sampled(
         return ItemRefusal(
             "missing_file", f"{item.name}: {Path(str(error.filename)).name} is not there"
         )
-    except (
-        OSError,
-        MemoryError,
-        AssetFactoryError,
-        ValueError,
-        ArithmeticError,
-        LookupError,
-        RuntimeError,
-    ) as error:
+    except (AssetFactoryError, *TRIPPED) as error:
         # Whatever a reader trips over is a fault of the object's: it costs that object, never the
         # run.
         return ItemRefusal("unreadable", f"{item.name}: {type(error).__name__}: {error}"[:400])
@@ -65,15 +59,21 @@ def sampled_item(kind: str, item: SourceItem, settings: SourceSettings, seed: in
         sampled = replace(read if not quarters else turned_sampled(read, yaw), name=item.name)
     else:
         sampled = _drawn(read if not quarters else turned(read, yaw), kind, item, settings, seed)
-    if len(sampled.parents) > settings.max_parts:
-        count = len(sampled.parents)
-        raise InputRejected(
-            "too_many_parts",
-            f"{item.name}: has {count} parts, want at most {settings.max_parts}",
-            value=count,
-            limit=settings.max_parts,
-        )
+    require_parts(item.name, len(sampled.parents), settings.max_parts)
     return sampled
+
+
+def turned_sampled(sampled: SampledObject, yaw: float) -> SampledObject:
+    """Turn an object and its joints about the vertical through the origin by ``yaw`` [rad]."""
+    turn = rotation_about(UP, yaw).T
+    return replace(
+        sampled,
+        points=sampled.points @ turn,
+        normals=sampled.normals @ turn,
+        axis=sampled.axis @ turn,
+        origin=sampled.origin @ turn,
+        slide_direction=sampled.slide_direction @ turn,
+    )
 
 
 def _drawn(

@@ -7,7 +7,7 @@ import numpy as np
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.mesh import FloatArray, IntArray
 
-from ..samples.sampled_object import MOST_PARTS, SampledObject
+from ..samples.sampled_object import SampledObject, require_parts
 from .item import SourceItem
 from .plucker import FULL_TURN, Arrays, arrays_of
 from .settings import SourceSettings
@@ -42,13 +42,7 @@ def sampled_from_points(item: SourceItem, settings: SourceSettings) -> SampledOb
     parents, order = _tree(stored, count, item.main.name)
     turns, slides = (np.asarray(lines[:, i : i + 3].any(axis=1)) for i in (0, 6))
     kept = [bone for bone in order if parents[bone] < 0 or turns[bone] or slides[bone]]
-    if len(kept) < 2:
-        raise InputRejected(
-            "no_movable_joint", f"{item.name}: nothing moves; want a joint to learn from", value=0.0
-        )
-    if len(kept) > MOST_PARTS:
-        message = f"{item.name}: has {len(kept)} parts, want at most {MOST_PARTS}"
-        raise InputRejected("too_many_parts", message, value=len(kept), limit=MOST_PARTS)
+    require_parts(item.name, len(kept))
     number = np.zeros(count, dtype=np.int64)
     for bone in order:
         number[bone] = kept.index(bone) if bone in kept else number[parents[bone]]

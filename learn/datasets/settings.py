@@ -62,14 +62,5 @@ class SourceSettings:
     @property
     def decisive(self) -> dict[str, int | str]:
         """Return the settings that decide the output, for the key: patience and memory do not."""
-        # Left out where it is not asked for: what was read before stays known.
-        skin = {"skin": True} if self.skin else {}
-        return {
-            **skin,
-            "points": self.points,
-            "max_parts": self.max_parts,
-            "front": self.front,
-            "max_bytes": self.max_bytes,
-            "max_faces": self.max_faces,
-            "seed": self.seed,
-        }
+        free = ("wall_s", "memory_bytes")
+        return {name: value for name, value in vars(self).items() if name not in free}

@@ -21,11 +21,6 @@ FLOORS = (0.3, 0.4, 0.5, 0.6, 0.7)
 
 def evaluate(network: Any, pool: Pool) -> dict[str, Any]:
     """Return by floor how many true parts are found and how many others are told."""
-    with torch.no_grad():
-        return _figures(network, pool)
-
-
-def _figures(network: Any, pool: Pool) -> dict[str, Any]:
     figures: dict[str, Any] = {}
     counts = {floor: np.zeros((OPENING, 4), np.int64) for floor in FLOORS}
     still = dict.fromkeys(FLOORS, 0)
@@ -33,7 +28,8 @@ def _figures(network: Any, pool: Pool) -> dict[str, Any]:
     for number in range(pool.made):
         batch, whole = pool.take(torch.tensor([number], device=pool.device))
         cues = cues_of(batch.color.flatten(0, 1), batch.depth.flatten(0, 1))[None]
-        answers = network(cues)
+        with torch.no_grad():
+            answers = network(cues)
         table = batch.table[0].cpu().numpy()
         table = table[table[:, 0] >= 0]
         fronts += int(answers.front.argmax() == whole[0, 2]) * int(whole[0, 1])
@@ -99,8 +95,3 @@ def _excused(part: Found, table: FloatArray) -> bool:
             if inner >= 0.5 * float(np.prod(part.box[2:] - part.box[:2])):
                 return True
     return False
-
-
-def printed(figures: dict[str, Any]) -> str:
-    """Return figures as lines."""
-    return "\n".join(f"{name}: {value}" for name, value in figures.items())

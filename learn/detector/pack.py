@@ -26,7 +26,7 @@ from asset_factory.factory.runtime.terminal import say
 from ..datasets.objects import described
 from .kinds import kind_number
 from .real import is_held_out, real_objects
-from .sides import LabelledSides, labelled_sides
+from .sides import LabelledSides, WholeTruth, labelled_sides
 
 #: Depths of real objects are kept in this many steps of the canvas's.
 COARSE = 4
@@ -39,22 +39,14 @@ class Packed:
     """One object as learning takes it.
 
     Attributes:
-        name: of its file.
-        kind: by number.
-        opens: whether anything does.
-        front: number of the side that is its front.
+        truth: about it as a whole.
         held_out: not trained on.
-        real: an artist's surface, not ours.
         color, depth, part: see :class:`~asset_factory.learn.detector.looks.ObjectBatch`.
         table: of moving parts, [n, 10].
     """
 
-    name: str
-    kind: int
-    opens: bool
-    front: int
+    truth: WholeTruth
     held_out: bool
-    real: bool
     color: npt.NDArray[np.uint8]
     depth: npt.NDArray[np.int16]
     part: npt.NDArray[np.uint8]
@@ -129,12 +121,15 @@ def read_pack(path: Path) -> Iterator[Packed]:
             depth = np.cumsum(steps.reshape(shape), axis=2, dtype=np.int32)
             part = np.frombuffer(lzma.decompress(pack.read(f"{folder}/part")), np.uint8)
             table = np.frombuffer(pack.read(f"{folder}/table"), np.float32).reshape(-1, 10)
+            held_out = note.pop("held_out")
             yield Packed(
-                folder, note["kind"], note["opens"], note["front"], note["held_out"], note["real"],
+                WholeTruth(**note),
+                held_out,
                 color.reshape(*shape, 3),
                 np.where(depth < 0, NOTHING, depth * COARSE).astype(np.int16),
-                part.reshape(shape), table,
-            )  # fmt: skip
+                part.reshape(shape),
+                table,
+            )
 
 
 def read_textures(path: Path) -> npt.NDArray[np.uint8]:

@@ -89,15 +89,14 @@ def real_objects(folder: Path, held_out: bool | None = None) -> Iterator[RealObj
         if front is None:
             continue
         mesh = load(folder / row["file"], IntakeConfig()).mesh
-        rows_of = _unknown() if row["opens"] == "yes" else []
+        opens = row["opens"] == "yes"
+        rows_of: list[_Row] = []
         if name in labels:
             rows_of = _labelled(labels, name, front)
-        sides = LabelledSides(
-            look_at(mesh),
-            np.zeros((len(SIDES), CANVAS, CANVAS), np.uint8),
-            _on_canvas(rows_of, mesh),
-        )
-        opens = row["opens"] == "yes"
+        elif opens:
+            rows_of = [(view, WHOLE, Sort.OTHER, EITHER, True) for view in range(len(SIDES))]
+        part = np.zeros((len(SIDES), CANVAS, CANVAS), np.uint8)
+        sides = LabelledSides(look_at(mesh), part, _on_canvas(rows_of, mesh))
         yield RealObject(name, row["kind"], opens, SIDES.index(front), mesh, sides)
 
 
@@ -114,15 +113,10 @@ def _front(text: str) -> Side | None:
     return side_facing(direction)
 
 
-def _unknown() -> list[_Row]:
-    return [(view, WHOLE, Sort.OTHER, EITHER, True) for view in range(len(SIDES))]
-
-
 def _labelled(labels: Mapping[str, Any], name: str, front: Side) -> list[_Row]:
     rows = [row for entry in labels[name] for row in _rows(entry, front)]
     for entry in labels.get(f"{name}:optional", []):
-        for side in _sides_of(entry["plane"]):
-            rows.append((SIDES.index(side), _on(side, entry), Sort.OTHER, EITHER, True))
+        rows += _ignored(entry, _sides_of(entry["plane"]))
     return rows
 
 
@@ -163,35 +157,30 @@ def _rows(entry: Mapping[str, Any], front: Side) -> list[_Row]:
         way = WAYS.index(PanelWay.OTHER)
     elif abs(axis[2]) > 0.9:
         sort = Sort.DOOR
-        way = _edge(entry, side, hinges)
+        mirrored = float(side.frame[0].sum()) < 0.0
+        edges = (PanelWay.RIGHT, PanelWay.LEFT) if mirrored else (PanelWay.LEFT, PanelWay.RIGHT)
+        way = _edge(hinges, AXES[int(np.argmax(np.abs(side.frame[0])))], entry["box"][::2], edges)
     else:
         sort = Sort.FLAP
-        way = _upright_edge(entry, hinges)
+        way = _edge(hinges, "z", entry["box"][1::2], (PanelWay.BOTTOM, PanelWay.TOP))
     return [(SIDES.index(side), _on(side, entry), sort, way, False)]
 
 
-def _upright_edge(entry: Mapping[str, Any], hinges: Sequence[Mapping[str, float]]) -> int:
-    """Return the number of the edge at which a flap is hinged."""
-    middle = (entry["box"][1] + entry["box"][3]) / 2.0
-    low = {spot["z"] < middle for spot in hinges if "z" in spot}
+def _edge(
+    hinges: Sequence[Mapping[str, float]],
+    letter: str,
+    ends: Sequence[float],
+    edges: tuple[PanelWay, PanelWay],
+) -> int:
+    """Return the number of the edge, of the lower and the higher one along an axis, of a hinge."""
+    low = {spot[letter] < sum(ends) / 2.0 for spot in hinges if letter in spot}
     if len(low) != 1:
         return EITHER
-    return WAYS.index(PanelWay.BOTTOM if low.pop() else PanelWay.TOP)
+    return WAYS.index(edges[0] if low.pop() else edges[1])
 
 
 def _ignored(entry: Mapping[str, Any], sides: Sequence[Side]) -> list[_Row]:
     return [(SIDES.index(each), _on(each, entry), Sort.OTHER, EITHER, True) for each in sides]
-
-
-def _edge(entry: Mapping[str, Any], side: Side, hinges: Sequence[Mapping[str, float]]) -> int:
-    """Return the number of the edge at which a door is hinged as seen on its side."""
-    letter = AXES[int(np.argmax(np.abs(side.frame[0])))]
-    u0, _, u1, _ = entry["box"]
-    left = {spot[letter] < (u0 + u1) / 2.0 for spot in hinges if letter in spot}
-    if len(left) != 1:
-        return EITHER
-    mirrored = float(side.frame[0].sum()) < 0.0
-    return WAYS.index(PanelWay.LEFT if next(iter(left)) != mirrored else PanelWay.RIGHT)
 
 
 def _lid_rows(

@@ -98,6 +98,23 @@ class LabelledSides:
     instances: Instances
 
 
+@dataclass(frozen=True)
+class WholeTruth:
+    """The truth about one object as a whole.
+
+    Attributes:
+        kind: by number.
+        opens: whether anything does.
+        front: number of the side that is its front.
+        real: an artist's surface, not ours.
+    """
+
+    kind: int
+    opens: bool
+    front: int
+    real: bool
+
+
 _Pictures = tuple[Canvases, npt.NDArray[np.uint8], dict[Side, Raster]]
 
 

@@ -202,16 +202,9 @@ def _bed(a: Assembly) -> None:
     stand(a, a.pick("feet", "tapered"), x, y, low, any_color(a))
 
 
+#: By name: ``still_shelf`` and so on.
 _MAKERS: Mapping[str, Callable[[Assembly], None]] = {
-    "still_shelf": _shelf,
-    "still_table": _table,
-    "still_chair": _chair,
-    "still_sofa": _sofa,
-    "still_crate": _crate,
-    "still_screen": _screen,
-    "still_pot": _pot,
-    "still_barrel": _barrel,
-    "still_heap": _heap,
-    "still_bed": _bed,
+    f"still{maker.__name__}": maker
+    for maker in (_shelf, _table, _chair, _sofa, _crate, _screen, _pot, _barrel, _heap, _bed)
 }
 STILL = tuple(_MAKERS)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from multiprocessing import get_context
 from multiprocessing.shared_memory import SharedMemory
 from queue import Empty
@@ -14,6 +13,7 @@ import torch  # noqa: TID253 - this module is only imported to train
 from asset_factory.factory.models.detector.canvas import CANVAS, OPENING, SIDES
 
 from .looks import ObjectBatch
+from .sides import WholeTruth
 
 #: Rows of a table; objects with more are left out.
 MOST = 48
@@ -24,16 +24,6 @@ _PART = int(np.prod(_SHAPE))
 _BYTES = _COLOR + _DEPTH + _PART
 #: Objects that wait between the workers and the pool.
 SLOTS = 96
-
-
-@dataclass(frozen=True)
-class WholeTruth:
-    """The truth about one object as a whole."""
-
-    kind: int
-    opens: bool
-    front: int
-    real: bool
 
 
 class Pool:

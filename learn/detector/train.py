@@ -24,11 +24,11 @@ from asset_factory.factory.models.detector.kinds import KINDS
 from asset_factory.factory.models.detector.network import Detector
 from asset_factory.factory.runtime.terminal import say
 
-from .evaluate import evaluate, printed
+from .evaluate import evaluate
 from .kinds import kind_number
 from .looks import show
 from .pack import Packed, read_pack, read_textures
-from .stream import Makers, Pool, WholeTruth, joined
+from .stream import Makers, Pool, joined
 from .targets import loss_of, targets_of
 
 #: Rates of learning: of what was trained before, and of the rest.
@@ -89,7 +89,7 @@ def train(options: Any) -> None:
     makers.stop()
     _keep(kept, options.out)
     figures = evaluate(kept, held_out)
-    say(printed(figures))
+    say("\n".join(f"{name}: {value}" for name, value in figures.items()))
     seen = {"steps": steps, "batch": options.batch, "made": made.made}
     (options.out / "figures.json").write_text(json.dumps(figures | seen, indent=1))
 
@@ -172,14 +172,13 @@ def _packed(path: Path, device: Any) -> tuple[Pool, Pool, Pool]:
     packed = list(read_pack(path))
     pools = []
     for chosen in (
-        [each for each in packed if each.real and not each.held_out],
-        [each for each in packed if not each.real],
+        [each for each in packed if each.truth.real and not each.held_out],
+        [each for each in packed if not each.truth.real],
         [each for each in packed if each.held_out],
     ):
         pool = Pool(len(chosen), device)
         for each in chosen:
-            truth = WholeTruth(each.kind, each.opens, each.front, each.real)
-            pool.add(each.color, each.depth, each.part, _seen_through(each), truth)
+            pool.add(each.color, each.depth, each.part, _seen_through(each), each.truth)
         pools.append(pool)
     return pools[0], pools[1], pools[2]
 
@@ -187,7 +186,7 @@ def _packed(path: Path, device: Any) -> tuple[Pool, Pool, Pool]:
 def _seen_through(packed: Packed) -> Any:
     """Return an object's table; a door is seen from behind, too, where nothing is asked."""
     table = packed.table
-    if packed.kind != kind_number("door"):
+    if packed.truth.kind != kind_number("door"):
         return table
     behind = table[table[:, 0] < 4].copy()
     behind[:, 0] = (behind[:, 0] + 2) % 4

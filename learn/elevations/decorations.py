@@ -62,29 +62,21 @@ class Decorations:
     @classmethod
     def drawn(cls, rng: np.random.Generator) -> Decorations:
         """Return some generator's taste."""
+
+        def draw(low: float, high: float) -> float:
+            return float(rng.uniform(low, high))
+
         planked, strapped, plated, grained = rng.random(4) < (PLANKED, STRAPPED, PLATED, GRAINED)
-        margin = float(rng.uniform(0.05, 0.3))
+        margin = draw(0.05, 0.3)
         count = int(rng.integers(1, 5)) if strapped else 0
         return cls(
-            planks=(
-                float(rng.uniform(12.0, 60.0)) if planked else 0.0,
-                float(rng.uniform(0.0, 1.5)),
-                float(rng.uniform(0.4, 1.0)),
-            ),
+            planks=(draw(12.0, 60.0) if planked else 0.0, draw(0.0, 1.5), draw(0.4, 1.0)),
             straps=tuple(float(each) for each in np.linspace(margin, 1.0 - margin, count)),
-            band=(
-                float(rng.uniform(1.0, 8.0)),
-                float(rng.uniform(-0.5, 3.0)),
-                float(rng.uniform(0.3, 1.3)),
-            ),
+            band=(draw(1.0, 8.0), draw(-0.5, 3.0), draw(0.3, 1.3)),
             level=bool(rng.random() < 0.5),
             overall=bool(rng.random() < OVERALL),
-            plates=(
-                int(rng.integers(1, 7)) if plated else 0,
-                float(rng.uniform(-1.0, 1.5)),
-                float(rng.uniform(0.5, 1.4)),
-            ),
-            grain=float(rng.uniform(0.02, 0.12)) if grained else 0.0,
+            plates=(int(rng.integers(1, 7)) if plated else 0, draw(-1.0, 1.5), draw(0.5, 1.4)),
+            grain=draw(0.02, 0.12) if grained else 0.0,
         )
 
     def on(self, part: IntArray, rng: np.random.Generator) -> Decoration:

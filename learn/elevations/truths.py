@@ -38,15 +38,21 @@ class TruePanel:
     way: OpensBy | None
 
 
+def lids_of(articulation: Articulation, top: Picture) -> list[int]:
+    """Return the parts that move and cover most of the view from above."""
+    least = OVER * int(top.relief.seen.sum())
+    moving = (joint.child for joint in articulation.movable_joints)
+    return [part for part in moving if (top.part == part).sum() >= least]
+
+
 def truth_of(articulation: Articulation, pictures: dict[Side, Picture]) -> tuple[TruePanel, ...]:
-    """Return the panels of an object at rest; what covers most of its top is a lid and no panel."""
+    """Return the panels of an object at rest; a lid is no panel."""
+    lids = lids_of(articulation, pictures[Side.TOP])
     panels: list[TruePanel] = []
-    for joint in articulation.joints:
-        if joint.kind is JointKind.FIXED:
+    for joint in articulation.movable_joints:
+        if joint.child in lids:
             continue
         counts = {side: int((each.part == joint.child).sum()) for side, each in pictures.items()}
-        if counts[Side.TOP] >= OVER * int(pictures[Side.TOP].relief.seen.sum()):
-            continue
         side = max((each for each in _AROUND if each in pictures), key=lambda each: counts[each])
         panel = _panel(pictures[side], joint)
         if panel is not None:

@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 
 from asset_factory.factory.articulate.seams.sight import CUES, GRID, SQUARE, cues_of
-from asset_factory.factory.articulation import Articulation, JointKind
+from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray
 from asset_factory.factory.part import OpensBy
 from asset_factory.factory.views.raster import Side
 
 from .pictures import Picture, pictures_of
-from .truths import OVER, TruePanel, truth_of
+from .truths import TruePanel, lids_of, truth_of
 
 #: Labels of pixels: nothing, what stays, panels from ``FIRST_PANEL`` on, what belongs to a lid.
 FIXED = 1
@@ -68,7 +68,7 @@ def views_of(articulation: Articulation, rng: np.random.Generator) -> tuple[Side
         sides.append(_AROUND[int(rng.integers(len(_AROUND)))])
     pictures = pictures_of(articulation, rng, (*sides, Side.TOP))
     truth = truth_of(articulation, pictures)
-    lids = _lids(articulation, pictures[Side.TOP])
+    lids = lids_of(articulation, pictures[Side.TOP])
     return tuple(
         _view(pictures[side], [each for each in truth if each.side is side], lids) for side in sides
     )
@@ -95,16 +95,6 @@ def read_views(path: Path) -> tuple[SideView, ...]:
             )
             for number in range(len(kept.files) // 3)
         )
-
-
-def _lids(articulation: Articulation, top: Picture) -> list[int]:
-    """Return the parts that cover most of the view from above."""
-    whole = int(top.relief.seen.sum())
-    return [
-        joint.child
-        for joint in articulation.joints
-        if joint.kind is not JointKind.FIXED and (top.part == joint.child).sum() >= OVER * whole
-    ]
 
 
 def _view(picture: Picture, panels: Sequence[TruePanel], lids: Sequence[int]) -> SideView:

@@ -23,13 +23,14 @@ class Bodies:
         articulation: whose parts they are.
         parts: index of each body's part, ascending, shape [body_count].
         labels: body of each face, shape [face_count].
-        joints: movable joints between each body and the next body towards the root, the root's side
-            first.
+        parents: the next body towards the root of each, -1 where there is none.
+        joints: movable joints between each body and that one, the root's side first.
     """
 
     articulation: Articulation
     parts: IntArray
     labels: IntArray
+    parents: tuple[int, ...]
     joints: tuple[tuple[Joint, ...], ...]
 
     def __post_init__(self) -> None:
@@ -91,6 +92,8 @@ class Bodies:
 def bodies_of(articulation: Articulation) -> Bodies:
     """Return the bodies of an articulation, root first, parents before children."""
     parts = [index for index, part in enumerate(articulation.parts) if len(part.faces)]
+    chains = [_chain(articulation, part) for part in parts]
+    number = {part: body for body, part in enumerate(parts)}
     labels = np.zeros(len(articulation.mesh.faces), dtype=np.int64)
     for body, part in enumerate(parts):
         labels[articulation.parts[part].faces] = body
@@ -98,12 +101,16 @@ def bodies_of(articulation: Articulation) -> Bodies:
         articulation,
         np.array(parts, np.int64),
         labels,
-        tuple(_own(articulation, part) for part in parts),
+        tuple(
+            -1 if above == part else number.get(above, -1)
+            for part, (above, _) in zip(parts, chains, strict=True)
+        ),
+        tuple(joints for _, joints in chains),
     )
 
 
-def _own(articulation: Articulation, part: int) -> tuple[Joint, ...]:
-    """Return the movable joints up to the next part with faces."""
+def _chain(articulation: Articulation, part: int) -> tuple[int, tuple[Joint, ...]]:
+    """Return the next part with faces towards the root, or the root, and movable joints to it."""
     found: list[Joint] = []
     while (joint := articulation.parent_joint(part)) is not None:
         if joint.movable:
@@ -111,7 +118,7 @@ def _own(articulation: Articulation, part: int) -> tuple[Joint, ...]:
         part = joint.parent
         if len(articulation.parts[part].faces):
             break
-    return tuple(found)
+    return part, tuple(found)
 
 
 def value_at(joint: Joint, share: float) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
@@ -32,33 +32,12 @@ CELLS = 200
 
 
 @dataclass(frozen=True)
-class Case:
-    """One object in one pose, turned one way.
-
-    Attributes:
-        name: unique among cases; a file's name without suffix.
-        source: where the object is from.
-        category: what it is.
-        articulation: the truth, over the one mesh that articulators are shown.
-        pose: ``closed`` or ``open``.
-        yaw: ``front`` or ``random``.
-    """
-
-    name: str
-    source: str
-    category: str
-    articulation: Articulation
-    pose: str = "closed"
-    yaw: str = "front"
-
-
-@dataclass(frozen=True)
 class Request:
     """What to make a case of: small, so that another process can make it.
 
     Attributes:
-        name: of the case.
-        source: where the object is from.
+        object: its name, unique among objects.
+        source: where it is from.
         category: what it is.
         pose: ``closed``: every joint at its closed end; ``open``: every joint anywhere in its
             range.
@@ -72,42 +51,51 @@ class Request:
             nothing is seen of are gone.
     """
 
-    name: str
+    object: str
     source: str
     category: str
-    pose: str
-    yaw: str
+    pose: str = "closed"
+    yaw: str = "front"
     file: Path | None = None
     digest: str = ""
-    front_yaw: float | None = None
+    front_yaw: float | None = 0.0
     seed: int = 0
     fused: bool = False
 
-    def as_fused(self) -> Request:
-        """Return the same object as image-to-3D tools would give it."""
-        return replace(self, name=f"{self.name}-fused", fused=True)
+    @property
+    def name(self) -> str:
+        """Return the case's name, unique among cases; a file's name without suffix."""
+        return f"{self.object}--{self.pose}-{self.yaw}" + ("-fused" if self.fused else "")
 
 
-def real_requests(
-    root: Path,
-    objects: Sequence[Listed],
-    half: str | None,
-    poses: Sequence[str],
-    yaws: Sequence[str],
+def in_settings(
+    objects: Sequence[Request], poses: Sequence[str], yaws: Sequence[str]
 ) -> tuple[Request, ...]:
-    """Return every object of a list in every pose and yaw asked for.
+    """Return every object in every pose of ``POSES`` and yaw of ``YAWS`` asked for.
+
+    Raises:
+        ConfigError: no such pose or yaw.
+    """
+    for what, given, known in (("pose", poses, POSES), ("yaw", yaws, YAWS)):
+        wrong = [name for name in given if name not in known]
+        if wrong:
+            raise ConfigError(f"no {what} {wrong[0]!r}; there are {', '.join(known)}")
+    return tuple(
+        replace(each, pose=pose, yaw=yaw) for each, pose, yaw in product(objects, poses, yaws)
+    )
+
+
+def real_requests(root: Path, objects: Sequence[Listed], half: str | None) -> tuple[Request, ...]:
+    """Return the objects of a list.
 
     Args:
         root: the folder of data that the list's paths start from.
         objects: as :func:`~asset_factory.learn.evaluate.listing.read_list` gives them.
         half: ``develop``, ``report``, or ``None`` for both.
-        poses: of ``POSES``.
-        yaws: of ``YAWS``.
 
     Raises:
-        ConfigError: no such pose or yaw, or an object is not there.
+        ConfigError: an object is not there.
     """
-    _require_known(poses, yaws)
     chosen = [listed for listed in objects if half in (None, listed.half)]
     for listed in chosen:
         if not (root / listed.path).is_file():
@@ -117,53 +105,31 @@ def real_requests(
             )
     return tuple(
         Request(
-            name=f"{listed.name}--{pose}-{yaw}",
+            object=listed.name,
             source=listed.source,
             category=listed.category,
-            pose=pose,
-            yaw=yaw,
             file=root / listed.path,
             digest=listed.digest,
             front_yaw=listed.front_yaw,
         )
-        for listed, pose, yaw in product(chosen, poses, yaws)
+        for listed in chosen
     )
 
 
-def procedural_requests(
-    categories: Sequence[str],
-    seeds: Sequence[int],
-    poses: Sequence[str] = ("closed",),
-    yaws: Sequence[str] = ("front",),
-) -> tuple[Request, ...]:
-    """Return the procedural objects, one per category, seed, pose and yaw.
-
-    Raises ConfigError for an unknown pose or yaw.
-    """
-    _require_known(poses, yaws)
+def procedural_requests(categories: Sequence[str], seeds: Sequence[int]) -> tuple[Request, ...]:
+    """Return the procedural objects, one per category and seed."""
     return tuple(
-        Request(
-            f"{category}_{seed}--{pose}-{yaw}",
-            "procedural",
-            category,
-            pose,
-            yaw,
-            front_yaw=0.0,
-            seed=seed,
-        )
-        for category, seed, pose, yaw in product(categories, seeds, poses, yaws)
+        Request(f"{category}_{seed}", "procedural", category, seed=seed)
+        for category, seed in product(categories, seeds)
     )
 
 
-def folder_requests(
-    folder: Path, poses: Sequence[str] = ("closed",), yaws: Sequence[str] = ("front",)
-) -> tuple[Request, ...]:
+def folder_requests(folder: Path) -> tuple[Request, ...]:
     """Return every URDF, MJCF and annotated mesh of a folder; fronts look along -Y.
 
     Raises:
-        ConfigError: there is none, or no such pose or yaw.
+        ConfigError: there is none.
     """
-    _require_known(poses, yaws)
     config = IntakeConfig()
     found = [
         path
@@ -177,29 +143,23 @@ def folder_requests(
         )
     return tuple(
         Request(
-            name=f"{_plain(path.relative_to(folder))}--{pose}-{yaw}",
+            object=path.relative_to(folder).with_suffix("").as_posix().replace("/", "__"),
             source=folder.resolve().name,
             category=guess_category(path.stem, path.parent.name) or "unknown",
-            pose=pose,
-            yaw=yaw,
             file=path,
-            front_yaw=0.0,
         )
-        for path, pose, yaw in product(found, poses, yaws)
+        for path in found
     )
 
 
-def skin_requests(
-    folder: Path, poses: Sequence[str] = ("closed",), yaws: Sequence[str] = ("front",)
-) -> tuple[Request, ...]:
+def skin_requests(folder: Path) -> tuple[Request, ...]:
     """Return every annotated mesh in a folder that is one skin; fronts look along -Y.
 
     Raises ConfigError as :func:`folder_requests`.
     """
-    found = folder_requests(folder, poses, yaws)
     skins = tuple(
         replace(request, source="skins")
-        for request in found
+        for request in folder_requests(folder)
         if request.file is not None and not is_description(request.file)
     )
     if not skins:
@@ -207,19 +167,8 @@ def skin_requests(
     return skins
 
 
-def _plain(path: Path) -> str:
-    return path.with_suffix("").as_posix().replace("/", "__")
-
-
-def _require_known(poses: Sequence[str], yaws: Sequence[str]) -> None:
-    for what, given, known in (("pose", poses, POSES), ("yaw", yaws, YAWS)):
-        wrong = [name for name in given if name not in known]
-        if wrong:
-            raise ConfigError(f"no {what} {wrong[0]!r}; there are {', '.join(known)}")
-
-
-def make_case(request: Request, store: Store | None = None) -> Case:
-    """Read or generate an object, pose it, turn it, and melt it into one mesh.
+def make_case(request: Request, store: Store | None = None) -> Articulation:
+    """Return the truth about an object, posed, turned and melted into one mesh.
 
     Args:
         request: which object, and how.
@@ -239,21 +188,7 @@ def make_case(request: Request, store: Store | None = None) -> Case:
         whole = turned(whole, float(np.radians(request.front_yaw)))
     if request.fused:
         whole = _fused(whole, int(_rng(request, "skin").integers(2**31)))
-    truth = merged(whole, _rng(request, "order"))
-    return Case(request.name, request.source, request.category, truth, request.pose, request.yaw)
-
-
-def cases(
-    root: Path,
-    objects: Sequence[Listed],
-    half: str | None = "develop",
-    poses: Sequence[str] = ("closed",),
-    yaws: Sequence[str] = ("front",),
-    store: Store | None = None,
-) -> Iterator[Case]:
-    """Yield the cases of a list; errors as for :func:`real_requests`, :func:`make_case`."""
-    for request in real_requests(root, objects, half, poses, yaws):
-        yield make_case(request, store)
+    return merged(whole, _rng(request, "order"))
 
 
 def _original(request: Request, store: Store | None) -> Articulation:
@@ -290,7 +225,7 @@ def _rng(request: Request, purpose: str) -> np.random.Generator:
     parts = {"pose": (), "skin": (), "yaw": (request.pose,), "order": (request.pose, request.yaw)}[
         purpose
     ]
-    text = "/".join((request.name.rpartition("--")[0], purpose, *parts))
+    text = "/".join((request.object, purpose, *parts))
     return np.random.default_rng(
         int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "little")
     )

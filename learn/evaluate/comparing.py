@@ -33,17 +33,15 @@ def compared(rows: Iterable[Row]) -> list[dict[str, Any]]:
             figures.setdefault((name, method), {}).setdefault(row.trial.request.name, []).extend(
                 values
             )
-    found = []
+    found: list[dict[str, Any]] = []
     for one, other in combinations(methods, 2):
         for name in COMPARED:
             ours = figures[name, one]
             theirs = figures[name, other]
             shared = [case for case in ours if ours[case] and theirs.get(case)]
             if shared:
-                means = [
-                    rounded(np.mean([np.mean(each[case]) for case in shared]))
-                    for each in (ours, theirs)
-                ]
-                found.append({"figure": name, "one": one, "other": other, "objects": len(shared)})
-                found[-1] |= {"one_mean": means[0], "other_mean": means[1]}
+                entry = {"figure": name, "one": one, "other": other, "objects": len(shared)}
+                for who, each in (("one_mean", ours), ("other_mean", theirs)):
+                    entry[who] = rounded(np.mean([np.mean(each[case]) for case in shared]))
+                found.append(entry)
     return found

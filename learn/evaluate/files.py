@@ -14,6 +14,7 @@ from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.runtime.store import write_json, write_whole
 
 from .comparing import compared
+from .score import Score
 from .summary import in_order, rounded, summarised
 from .trial import Row
 
@@ -44,7 +45,7 @@ def write_results(folder: Path, rows: Sequence[Row], settings: dict[str, Any]) -
 
 def _line(row: Row) -> dict[str, Any]:
     request = row.trial.request
-    score = row.score
+    score = row.score or Score({})
     return {
         "method": row.trial.method.name,
         "case": request.name,
@@ -54,12 +55,8 @@ def _line(row: Row) -> dict[str, Any]:
         "pose": request.pose,
         "yaw": request.yaw,
         "failure": row.failure,
-        "values": {}
-        if score is None
-        else {name: rounded(value) for name, value in score.values.items()},
-        "parts": {}
-        if score is None
-        else {n: [rounded(v) for v in values] for n, values in score.pooled.items()},
+        "values": {name: rounded(value) for name, value in score.values.items()},
+        "parts": {n: [rounded(v) for v in values] for n, values in score.pooled.items()},
     }
 
 

@@ -206,12 +206,9 @@ def _with_aligned_turns(true: Bodies, predicted: Bodies, pairing: Pairing) -> Bo
     for real, guess in pairing.pairs:
         ours = true.turn(real)
         theirs = predicted.turn(guess)
-        endless = (
-            ours is not None
-            and theirs is not None
-            and ours.kind is theirs.kind is JointKind.CONTINUOUS
-        )
-        if endless and ours is not None and theirs is not None and ours.axis @ theirs.axis < 0.0:
+        if ours is None or theirs is None:
+            continue
+        if ours.kind is theirs.kind is JointKind.CONTINUOUS and ours.axis @ theirs.axis < 0.0:
             flipped.add(theirs.name)
     if not flipped:
         return predicted

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from types import MappingProxyType
 
 
 @dataclass(frozen=True)
@@ -21,13 +20,7 @@ class Score:
     pooled: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        object.__setattr__(
-            self, "values", MappingProxyType({k: float(v) for k, v in self.values.items()})
-        )
-        pooled = {name: tuple(float(v) for v in values) for name, values in self.pooled.items()}
-        object.__setattr__(self, "pooled", MappingProxyType(pooled))
-
-    def __reduce__(
-        self,
-    ) -> tuple[type[Score], tuple[dict[str, float], dict[str, tuple[float, ...]]]]:
-        return Score, (dict(self.values), dict(self.pooled))
+        values = {name: float(value) for name, value in self.values.items()}
+        pooled = {name: tuple(float(v) for v in each) for name, each in self.pooled.items()}
+        object.__setattr__(self, "values", values)
+        object.__setattr__(self, "pooled", pooled)

@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from concurrent.futures import ThreadPoolExecutor, as_completed
-from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
-from queue import SimpleQueue
 
 from asset_factory.factory.articulate.rigid import RigidArticulator
 from asset_factory.factory.articulation import Articulation
@@ -21,7 +18,8 @@ from asset_factory.sim_checks.processes.isolation import (
     preload,
 )
 
-from .cases import Case, Request, make_case
+from ..children import ask_children
+from .cases import Request, make_case
 from .methods import Method
 from .physical import physical
 from .published.cloud import POINTS, cloud_of
@@ -81,23 +79,23 @@ def score_trial(trial: Trial) -> Score:
         InputRejected: the method has no answer.
         ConfigError: the case's file is another one, or the method's checkpoint cannot be used.
     """
-    case = _case(trial)
-    answer = trial.method.seeded(trial.repeat).answer(case.articulation.mesh, case.name)
-    return _scored(trial, case, answer)
+    truth = _truth(trial)
+    answer = trial.method.seeded(trial.repeat).answer(truth.mesh, trial.request.name)
+    return _scored(trial, truth, answer)
 
 
 def score_naively(trial: Trial) -> Score:
     """Return the score of the answer that nothing moves."""
-    case = _case(trial)
-    return _scored(trial, case, RigidArticulator().articulate(case.articulation.mesh))
+    truth = _truth(trial)
+    return _scored(trial, truth, RigidArticulator().articulate(truth.mesh))
 
 
-def _case(trial: Trial) -> Case:
+def _truth(trial: Trial) -> Articulation:
     return make_case(trial.request, None if trial.kept is None else Store(trial.kept))
 
 
-def _scored(trial: Trial, case: Case, answer: Articulation) -> Score:
-    truth = on_mesh(case.articulation, answer.mesh)
+def _scored(trial: Trial, truth: Articulation, answer: Articulation) -> Score:
+    truth = on_mesh(truth, answer.mesh)
     if trial.convention == "physical":
         return physical(truth, answer)
     true = cloud_of(truth, 0, trial.points)
@@ -106,7 +104,7 @@ def _scored(trial: Trial, case: Case, answer: Articulation) -> Score:
 
 
 def run_trials(trials: Iterable[Trial], workers: int, limits: Limits) -> Iterator[Row]:
-    """Yield every trial in a child process that may crash or hang; rows as they come.
+    """Return the rows of trials as they come, each made in a child that may crash or hang.
 
     Args:
         trials: any number.
@@ -117,22 +115,8 @@ def run_trials(trials: Iterable[Trial], workers: int, limits: Limits) -> Iterato
         ConfigError: as :func:`score_trial`; that is nobody's failure but a wrong request.
     """
     preload(COMMON_MODULES)
-    with ExitStack() as stack, ThreadPoolExecutor(workers, thread_name_prefix="trial") as pool:
-        free: SimpleQueue[WarmChild] = SimpleQueue()
-        for _ in range(workers):
-            free.put(stack.enter_context(WarmChild(resident_bytes=RESIDENT_BYTES)))
-        pending = [pool.submit(_with_child, free, trial, limits) for trial in trials]
-        try:
-            for future in as_completed(pending):
-                yield future.result()
-        finally:
-            for future in pending:
-                future.cancel()
 
-
-def _with_child(free: SimpleQueue[WarmChild], trial: Trial, limits: Limits) -> Row:
-    child = free.get()
-    try:
+    def ask(child: WarmChild, trial: Trial) -> Row:
         outcome = child.call(score_trial, trial, limits=limits)
         if outcome.failure is None:
             return Row(trial, outcome.value)
@@ -142,8 +126,8 @@ def _with_child(free: SimpleQueue[WarmChild], trial: Trial, limits: Limits) -> R
             return Row(trial, None, _reason(outcome))
         instead = child.call(score_naively, trial, limits=limits)
         return Row(trial, instead.value, _reason(outcome))
-    finally:
-        free.put(child)
+
+    return ask_children(ask, trials, workers, RESIDENT_BYTES)
 
 
 def _reason(outcome: Outcome[Score]) -> str:
@@ -152,24 +136,4 @@ def _reason(outcome: Outcome[Score]) -> str:
         f"{error.code}: {error}"
         if isinstance(error, InputRejected)
         else f"{outcome.failure}: {outcome.detail}"
-    )
-
-
-def trials_of(
-    requests: Iterable[Request], methods: Iterable[Method], repeats: int, template: Trial
-) -> tuple[Trial, ...]:
-    """Return all combinations; methods that are not random are asked once.
-
-    Args:
-        requests: the cases.
-        methods: who is asked.
-        repeats: how often each random method is asked, each time with another seed.
-        template: whose convention, points and folder are taken.
-    """
-    requests = tuple(requests)
-    return tuple(
-        replace(template, request=request, method=method, repeat=repeat)
-        for method in methods
-        for request in requests
-        for repeat in range(repeats if method.is_random else 1)
     )

@@ -19,6 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.models.shipped import Arrays
 from asset_factory.factory.runtime.terminal import complain, say
 
 from ..datasets.objects import described, generated
@@ -57,7 +58,8 @@ def _sides(asked: Asked) -> Fit:
         "A picture network: of one side of an object it tells which pixels open, where what opens "
         "ends, and how it opens. `factory/articulate/seams/sight.py` asks it."
     )
-    return Fit(arrays, {}, what, data, f"on one file in 25, not learned from: {figures}")
+    figures = f"on one file in 25, not learned from: {figures}"
+    return Fit(Arrays(asked.output, arrays, {}), what, data, figures)
 
 
 def _rectangles(asked: Asked) -> Fit:
@@ -71,7 +73,7 @@ def _rectangles(asked: Asked) -> Fit:
         "`factory/articulate/seams/learned.py` asks them."
     )
     figures = f"of four fifths of the objects on the last fifth: {report(rows, asked.seed)}"
-    return Fit(stored.arrays, stored.metadata, what, f"{asked.objects} generated objects", figures)
+    return Fit(stored, what, f"{asked.objects} generated objects", figures)
 
 
 def _motions(asked: Asked) -> Fit:
@@ -89,7 +91,7 @@ def _motions(asked: Asked) -> Fit:
         "`factory/articulate/evidence` asks them."
     )
     data = f"{len(samples)} parts of {len({each.name for each in samples})} objects"
-    return Fit(stored.arrays, stored.metadata, what, data, report(stored, samples))
+    return Fit(stored, what, data, report(stored, samples))
 
 
 def _trust(asked: Asked) -> Fit:
@@ -98,22 +100,27 @@ def _trust(asked: Asked) -> Fit:
     from asset_factory.factory.config import AutoConfig, ParticulateConfig
     from asset_factory.factory.models.perceptron import linear
 
-    from .trust import TrustData, fit_trust
+    from .trust import described_turned, fit_trust, procedural, tried
 
     articulator = load_auto(
         ParticulateConfig(), AutoConfig(), Trust(linear(np.zeros(len(SIGNS))), 0.5)
     )
-    names = [read_split(each) for each in asked.split]
-    folders = tuple(zip(asked.data, names, strict=True))
-    seeds = range(asked.seed, asked.seed + asked.seeds)
-    found = fit_trust(articulator, TrustData(seeds, folders), asked.least)
+    objects = chain(
+        procedural(range(asked.seed, asked.seed + asked.seeds)),
+        *(
+            described_turned(folder, read_split(split))
+            for folder, split in zip(asked.data, asked.split, strict=True)
+        ),
+    )
+    trials = list(tried(articulator, objects))
+    stored = fit_trust(articulator, trials, asked.least)
+    right = np.concatenate([trial.right for trial in trials])
     what = (
         "A logistic model of what speaks for a part that may move, and the probability below "
         "which it stays fixed. `factory/articulate/auto/trust.py` asks it."
     )
-    data = f"{len(found.right)} proposals for {found.objects} objects"
-    figures = f"{found.right.mean():.2f} of the proposals are right"
-    return Fit(found.stored.arrays, found.stored.metadata, what, data, figures)
+    data = f"{len(right)} proposals for {len(trials)} objects"
+    return Fit(stored, what, data, f"{right.mean():.2f} of the proposals are right")
 
 
 def _agreement(asked: Asked) -> Fit:
@@ -131,7 +138,7 @@ def _agreement(asked: Asked) -> Fit:
         "and one that only the detector sees. `factory/articulate/detected` asks them."
     )
     data = f"the meshes of {asked.real.name} that the detector did not learn from"
-    return Fit(stored.arrays, stored.metadata, what, data, report(rated))
+    return Fit(stored, what, data, report(rated))
 
 
 def _parser() -> argparse.ArgumentParser:

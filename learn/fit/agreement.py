@@ -53,8 +53,8 @@ def rate_parts(guess: Articulator, objects: Iterable[RealObject]) -> Rated:
         truth = each.sides.instances
         for part in seen_parts(detection.parts(LEAST_SCORE), each.mesh.extents):
             support = max(support_of_box(found, detection.dense) for found in part.found)
-            views = [SIDES.index(found.side) for found in part.found]
-            right = _right(views, [found.box for found in part.found], truth)
+            boxes = [(SIDES.index(found.side), found.box) for found in part.found]
+            right = _right(boxes, truth)
             if right is not None:
                 rated.alone.append((support, float(right)))
         try:
@@ -67,8 +67,7 @@ def rate_parts(guess: Articulator, objects: Iterable[RealObject]) -> Rated:
             shown = cells.support(joint.child, detection.dense)
             if part_.kind not in ASKED or shown is None:
                 continue
-            boxes = list(_boxes(cells, joint.child))
-            right = _right([view for view, _ in boxes], [box for _, box in boxes], truth)
+            right = _right(_boxes(cells, joint.child), truth)
             if right is not None:
                 rated.proposed.append((shown, part_.confidence or 0.0, float(right)))
     return rated
@@ -104,9 +103,9 @@ def _boxes(cells: CellParts, part: int) -> Iterator[tuple[int, FloatArray]]:
             yield view, np.array(ends) * float(STRIDE)
 
 
-def _right(views: Sequence[int], boxes: Sequence[FloatArray], truth: Instances) -> bool | None:
-    """Tell whether a part is a true one; ``None`` where nothing is known."""
-    for view, box in zip(views, boxes, strict=True):
+def _right(boxes: Iterable[tuple[int, FloatArray]], truth: Instances) -> bool | None:
+    """Tell whether a part in these boxes of sides is a true one; ``None``: nothing is known."""
+    for view, box in boxes:
         here = truth.view == view
         known = here & ~truth.ignored
         if known.any() and float(overlaps(box, truth.box[known]).max()) >= SAME_PART:

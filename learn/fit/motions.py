@@ -50,7 +50,7 @@ MOST_CANDIDATES = 56
 LEAST_WORTH = 1e-4
 
 
-def fit_motions(samples: Sequence[MotionSample], steps: int = 250) -> Arrays:
+def fit_motions(samples: Sequence[MotionSample], steps: int) -> Arrays:
     """Fit everything to the same motion samples.
 
     Args:
@@ -60,24 +60,18 @@ def fit_motions(samples: Sequence[MotionSample], steps: int = 250) -> Arrays:
     Raises:
         ConfigError: nothing turns, or nothing slides, among the motion samples.
     """
-    guided = fit_rating(samples, steps)
-    blind = fit_rating([motion_sample.unguided() for motion_sample in samples], steps)
-    turns, slides = (fit_usual(samples, slides, steps) for slides in (False, True))
-    return networks_stored(
-        {
-            "guided": guided.network,
-            "blind": blind.network,
-            "turn_range": turns.network,
-            "slide_range": slides.network,
-        },
-        INPUTS,
-        {
-            "guided.sure": np.array(guided.sure),
-            "blind.sure": np.array(blind.sure),
-            "turn_range.values": turns.values,
-            "slide_range.values": slides.values,
-        },
-    )
+    ratings = {
+        "guided": fit_rating(samples, steps),
+        "blind": fit_rating([motion_sample.unguided() for motion_sample in samples], steps),
+    }
+    usual = {
+        "turn_range": fit_usual(samples, False, steps),
+        "slide_range": fit_usual(samples, True, steps),
+    }
+    others = {f"{name}.sure": np.array(each.sure) for name, each in ratings.items()}
+    others |= {f"{name}.values": each.values for name, each in usual.items()}
+    networks = {name: each.network for name, each in (ratings | usual).items()}
+    return networks_stored(networks, INPUTS, others)
 
 
 def measured(objects: Iterable[tuple[str, Articulation]]) -> Iterator[MotionSample]:
@@ -97,7 +91,7 @@ def report(stored: Arrays, samples: Sequence[MotionSample]) -> str:
     return f"motions right of those learned from: {', '.join(shares)}"
 
 
-def fit_rating(samples: Sequence[MotionSample], steps: int = 250) -> Rating:
+def fit_rating(samples: Sequence[MotionSample], steps: int) -> Rating:
     """Return the weights by listwise logistic regression; confidence by two-fold cross-fitting."""
     folds: tuple[list[MotionSample], list[MotionSample]] = ([], [])
     for motion_sample in samples:
@@ -116,7 +110,7 @@ def fit_rating(samples: Sequence[MotionSample], steps: int = 250) -> Rating:
     return Rating(_weights(samples, steps), _calibrated(said, right))
 
 
-def fit_usual(samples: Sequence[MotionSample], slides: bool, steps: int = 250) -> Usual:
+def fit_usual(samples: Sequence[MotionSample], slides: bool, steps: int) -> Usual:
     """Return the shares of belief over steps of range, by logistic regression.
 
     Raises:
@@ -128,9 +122,8 @@ def fit_usual(samples: Sequence[MotionSample], slides: bool, steps: int = 250) -
         if x.setting is not None and x.setting.slides == slides and x.range > 0.0
     ]
     if not known:
-        raise ConfigError(
-            f"motions: nothing {'slides' if slides else 'turns'} among what is to be learned from"
-        )
+        what = "slides" if slides else "turns"
+        raise ConfigError(f"motions: nothing {what} among what is to be learned from")
     numbers = np.array([setting.numbers for _, setting in known])
     ranges = np.array([motion_sample.range for motion_sample, _ in known])
     grid = SLIDE_STEPS if slides else TURN_STEPS
@@ -153,16 +146,12 @@ def fit_usual(samples: Sequence[MotionSample], slides: bool, steps: int = 250) -
 def _weights(samples: Sequence[MotionSample], steps: int) -> Perceptron:
     """Return the network that scores the candidates of every part, by a listwise loss."""
     teaching = [_telling(motion_sample) for motion_sample in samples]
-    numbers = np.concatenate(
-        [x.numbers[rows] for x, rows in zip(samples, teaching, strict=True)]
-    ).astype(np.float32)
+    taught = list(zip(samples, teaching, strict=True))
+    numbers = np.concatenate([x.numbers[rows] for x, rows in taught]).astype(np.float32)
+    worth = np.concatenate([x.worth[rows] for x, rows in taught]) + LEAST_WORTH
     counts = np.array([len(rows) for rows in teaching])
     owner = np.repeat(np.arange(len(samples)), counts)
     starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
-    worth = (
-        np.concatenate([x.worth[rows] for x, rows in zip(samples, teaching, strict=True)])
-        + LEAST_WORTH
-    )
     weights = _weights_of(samples)
 
     def loss(scores: FloatArray) -> tuple[float, FloatArray]:

@@ -16,7 +16,7 @@ from asset_factory.factory.runtime.terminal import say
 
 from ..elevations.network import PictureNetwork
 from ..elevations.views import UNKNOWN, SideView, read_views
-from ..train.checkpoints import State, read_state, write_state
+from ..train.checkpoints import read_state, write_state
 from ..train.descent import Descent
 
 Tensor = Any
@@ -65,7 +65,10 @@ def fit_sides(folder: Path, state: Path, rounds: int, seed: int) -> tuple[Arrays
     learned = [file for place, file in enumerate(files) if place % HELD_OUT]
     done = step = 0
     if state.is_file():
-        done, step = _restored(descent, read_state(state))
+        stored = read_state(state)
+        descent.restore(stored, state)
+        done = int(stored.recipe)
+        step = stored.step
     for number in range(done, rounds):
         rng = np.random.default_rng([seed, number])
         fall = 0.5 * (1.0 + math.cos(math.pi * number / rounds))
@@ -76,34 +79,13 @@ def fit_sides(folder: Path, state: Path, rounds: int, seed: int) -> tuple[Arrays
             descent.step(step, RATE * fall * min(1.0, (step + 1) / WARM_UP))
             step += 1
         say(f"round {number + 1}, of views held out: {report(network, held_out)}")
-        write_state(state, _state(descent, number + 1, step))
+        write_state(state, descent.state(step, str(number + 1)))
     network.load_state_dict(descent.mean.weights)
     # Their own normalisations are not the mean of those on the way.
     some = [Path(file) for file in learned[:ROUND]]
     torch.optim.swa_utils.update_bn((cues for cues, _, _ in _batches(some, None)), network)
     figures = report(network, held_out)
     return {name: each.astype(np.float16) for name, each in network.folded().items()}, figures
-
-
-def _state(descent: Descent, rounds: int, steps: int) -> State:
-    return State(
-        step=steps,
-        weights=descent.network.state_dict(),
-        mean=descent.mean.weights,
-        optimiser=descent.optimiser.state_dict(),
-        best=None,
-        recipe=str(rounds),
-        data="",
-        seconds=0.0,
-    )
-
-
-def _restored(descent: Descent, state: State) -> tuple[int, int]:
-    """Return the rounds and steps that are done, everything else as it was after them."""
-    descent.network.load_state_dict(state.weights)
-    descent.mean.load(state.mean)
-    descent.optimiser.load_state_dict(state.optimiser)
-    return int(state.recipe), state.step
 
 
 def report(network: PictureNetwork, files: Sequence[Path]) -> str:

@@ -56,38 +56,6 @@ class TrustTrial:
     right: FloatArray
 
 
-@dataclass(frozen=True)
-class TrustData:
-    """Objects of known truth.
-
-    Attributes:
-        seeds: of procedural objects, one of each kind.
-        described: folders of descriptions, and the names of the objects in each to use.
-    """
-
-    seeds: Sequence[int]
-    described: Sequence[tuple[Path, Collection[str]]] = ()
-
-    def procedural(self) -> Iterator[Articulation]:
-        """Yield the procedural ones."""
-        return procedural(self.seeds)
-
-
-@dataclass(frozen=True)
-class TrustFit:
-    """The fitted weights.
-
-    Attributes:
-        stored: the model, and ``least``.
-        objects: how many were fitted to.
-        right: whether each of their proposals is, shape [proposal_count].
-    """
-
-    stored: Arrays
-    objects: int
-    right: FloatArray
-
-
 def procedural(seeds: Iterable[int]) -> Iterator[Articulation]:
     """Yield objects of every kind and character that training never sees, turned about z."""
     for seed in seeds:
@@ -117,29 +85,21 @@ def tried(articulator: AutoArticulator, objects: Iterable[Articulation]) -> Iter
             continue
         areas = face_areas(truth.mesh)
         proposals = articulator.proposals(truth.mesh, areas)
-        yield TrustTrial(
-            truth,
-            proposals,
-            np.array([is_right(each, truth, areas) for each in proposals], dtype=np.float64),
-        )
+        right = np.array([is_right(each, truth, areas) for each in proposals], dtype=np.float64)
+        yield TrustTrial(truth, proposals, right)
 
 
 def is_right(proposal: Proposal, truth: Articulation, areas: FloatArray) -> bool:
     """Return whether there is such a part that moves so, whichever way round and however far."""
-    best = 0.0
-    joint = None
-    for candidate in truth.movable_joints:
+
+    def overlap(joint: Joint) -> float:
         faces = np.zeros(len(areas), dtype=np.bool_)
-        faces[truth.parts[candidate.child].faces] = True
-        overlap = shared(proposal.faces, faces, areas)
-        if overlap > best:
-            best = overlap
-            joint = candidate
-    return (
-        joint is not None
-        and best > SAME_PART
-        and _moves_alike(proposal, joint, float(truth.mesh.extents.max()))
-    )
+        faces[truth.parts[joint.child].faces] = True
+        return shared(proposal.faces, faces, areas)
+
+    joint = max(truth.movable_joints, key=overlap)
+    size = float(truth.mesh.extents.max())
+    return overlap(joint) > SAME_PART and _moves_alike(proposal, joint, size)
 
 
 def _moves_alike(proposal: Proposal, joint: Joint, size: float) -> bool:
@@ -180,22 +140,17 @@ def best_threshold(
     return float(LEAST[np.flatnonzero(np.array(scores) >= max(scores) - NEARLY)[-1]])
 
 
-def fit_trust(articulator: AutoArticulator, data: TrustData, least: float | None) -> TrustFit:
+def fit_trust(
+    articulator: AutoArticulator, trials: Sequence[TrustTrial], least: float | None
+) -> Arrays:
     """Fit the trust in every source of proposals.
 
     Args:
-        articulator: who proposes.
-        data: objects of known truth.
+        articulator: who proposed.
+        trials: objects with what it proposed.
         least: the probability to ask for; ``None``: it is looked for.
     """
-    trials = list(tried(articulator, data.procedural()))
-    for folder, names in data.described:
-        trials += tried(articulator, described_turned(folder, names))
     network = fit_signs(trials)
     if least is None:
         least = best_threshold(articulator, trials, network)
-    return TrustFit(
-        networks_stored({NAME: network}, {NAME: SIGNS}, {"least": np.array([least])}),
-        len(trials),
-        np.concatenate([trial.right for trial in trials]),
-    )
+    return networks_stored({NAME: network}, {NAME: SIGNS}, {"least": np.array([least])})

@@ -6,9 +6,6 @@ import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
-
-import numpy.typing as npt
 
 from asset_factory.factory.mesh import FloatArray
 from asset_factory.factory.models.perceptron import Perceptron, inputs_of
@@ -25,15 +22,13 @@ class Fit:
     """A fit, and the text of its card.
 
     Attributes:
-        arrays: by name.
-        metadata: what the file says about itself.
+        stored: arrays by name, and what the file says about itself.
         what: what the weights are, and what asks them; a sentence or two.
         data: that they learned from.
         figures: how well they do, and on what.
     """
 
-    arrays: Mapping[str, npt.NDArray[Any]]
-    metadata: Mapping[str, str]
+    stored: Arrays
     what: str
     data: str
     figures: str
@@ -66,7 +61,7 @@ def write_fit(path: Path, fit: Fit, arguments: Sequence[str], seed: int) -> None
         arguments: of :data:`COMMAND` that made them.
         seed: of all chance.
     """
-    write_arrays(path, fit.arrays, fit.metadata)
+    write_arrays(path, fit.stored.arrays, fit.stored.metadata)
     rows = {
         "made by": f"`{COMMAND} {shlex.join(arguments)}`",
         "seed": str(seed),

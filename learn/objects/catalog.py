@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Callable
 
 import numpy as np
 
@@ -31,10 +30,7 @@ from .kinds import (
     tables,
     vessels,
 )
-from .kit.assembly import Assembly
-
-#: Describes one object of a kind, by adding to an empty assembly.
-Maker = Callable[[Assembly], None]
+from .kit.assembly import Assembly, Maker
 
 #: One entry per file of kinds; a file's ``MAKERS`` names what it makes.
 _FILES = (

@@ -1,10 +1,13 @@
-"""Objects as files: GLB, OBJ with MTL, sidecar and annotation. Same object, same bytes."""
+"""Objects as files: GLB, OBJ with MTL, sidecar and annotation. Same object, same bytes.
+
+The frame of a file is the rotation and uniform scale from the object frame [m] to its own frame and
+units, shape [4, 4].
+"""
 
 from __future__ import annotations
 
 import json
 import zipfile
-from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -14,36 +17,15 @@ import numpy.typing as npt
 
 from asset_factory.factory.articulation import Articulation, JointKind
 from asset_factory.factory.display.gltf import DECIMALS, Buffer, gltf_materials, primitive
-from asset_factory.factory.mesh import FloatArray, IntArray, Mesh
+from asset_factory.factory.mesh import FloatArray, Mesh
 
 _ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 
 
-@dataclass(frozen=True)
-class FileFrame:
-    """From the object frame [m] to the frame and units of a file: ``file = matrix @ object``.
-
-    Attributes:
-        matrix: rotation and uniform scale, shape [4, 4].
-    """
-
-    matrix: FloatArray
-
-    @property
-    def scale(self) -> float:
-        """Return file units per metre."""
-        return float(np.cbrt(np.linalg.det(self.matrix[:3, :3])))
-
-
-def written_order(mesh: Mesh) -> IntArray:
-    """Return the faces in the order files hold them, material by material, shape [face_count]."""
-    return np.argsort(mesh.face_material, kind="stable")
-
-
-def write_glb(mesh: Mesh, frame: FileFrame, path: Path) -> None:
+def write_glb(mesh: Mesh, frame: FloatArray, path: Path) -> None:
     """Write one node, a primitive per material, images embedded, colours linear."""
     buffer = Buffer()
-    placed = mesh.transformed(frame.matrix)
+    placed = mesh.transformed(frame)
     primitives = [
         {
             **primitive(buffer, placed, np.flatnonzero(mesh.face_material == index)),
@@ -65,7 +47,7 @@ def write_glb(mesh: Mesh, frame: FileFrame, path: Path) -> None:
     path.write_bytes(buffer.glb(document))
 
 
-def write_obj(mesh: Mesh, frame: FileFrame, path: Path) -> None:
+def write_obj(mesh: Mesh, frame: FloatArray, path: Path) -> None:
     """Write an OBJ and, beside it, an MTL of the same stem; plain colours only.
 
     Raises:
@@ -74,7 +56,7 @@ def write_obj(mesh: Mesh, frame: FileFrame, path: Path) -> None:
     if any(m.texture is not None for m in mesh.materials):
         raise ValueError(f"{path.name}: a material has a texture, which only a GLB carries")
     lines = [f"mtllib {path.stem}.mtl"]
-    placed = np.round(mesh.transformed(frame.matrix).vertices, DECIMALS) + 0.0
+    placed = np.round(mesh.transformed(frame).vertices, DECIMALS) + 0.0
     lines += [f"v {x:.6g} {y:.6g} {z:.6g}" for x, y, z in placed]
     for index, material in enumerate(mesh.materials):
         lines.append(f"usemtl {material.name}")
@@ -93,7 +75,7 @@ def write_sidecar(path: Path, values: dict[str, str | float]) -> None:
     path.write_text("\n".join(lines) + "\n", encoding="utf-8", newline="\n")
 
 
-def write_annotation(articulation: Articulation, frame: FileFrame, path: Path) -> None:
+def write_annotation(articulation: Articulation, frame: FloatArray, path: Path) -> None:
     """Write ``pred.npz``, in the frame, units and face order of the mesh file beside it.
 
     A part on a carrier, a part without faces, is one part that turns and slides.
@@ -107,6 +89,8 @@ def write_annotation(articulation: Articulation, frame: FileFrame, path: Path) -
         ValueError: a carrier does not carry exactly one part, or not by the other kind of joint.
     """
     number, carried = _numbers(articulation)
+    turn = frame[:3, :3]
+    scale = float(np.cbrt(np.linalg.det(turn)))
     count = len(set(number))
     label = np.zeros(len(articulation.mesh.faces), dtype=np.int32)
     for index, part in enumerate(articulation.parts):
@@ -122,18 +106,19 @@ def write_annotation(articulation: Articulation, frame: FileFrame, path: Path) -
     slide_range = np.zeros((count, 2))
     for joint in articulation.movable_joints:
         child = number[joint.child]
-        direction = frame.matrix[:3, :3] @ joint.axis / frame.scale
+        direction = turn @ joint.axis / scale
         if joint.kind is JointKind.PRISMATIC:
             slides[child] = True
             axis[child] = direction
-            slide_range[child] = np.array([joint.lower, joint.upper]) * frame.scale
+            slide_range[child] = np.array([joint.lower, joint.upper]) * scale
         else:
-            point = frame.matrix[:3, :3] @ joint.origin + frame.matrix[:3, 3]
+            point = turn @ joint.origin + frame[:3, 3]
             turns[child] = True
             plucker[child] = np.concatenate([direction, np.cross(direction, point)])
             turn_range[child] = joint.lower, joint.upper
     arrays: dict[str, npt.NDArray[Any]] = {
-        "face_part_ids": label[written_order(articulation.mesh)],
+        # Files hold the faces material by material.
+        "face_part_ids": label[np.argsort(articulation.mesh.face_material, kind="stable")],
         "motion_hierarchy": np.array(edges, dtype=np.int64).reshape(-1, 2),
         "is_part_revolute": turns,
         "is_part_prismatic": slides,

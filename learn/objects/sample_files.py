@@ -15,7 +15,7 @@ from asset_factory.factory.export.text import vector, xml_text
 from asset_factory.factory.geometry.posing import posed
 
 from ..surfaces.labelled import plain
-from .export import FileFrame, write_annotation, write_glb, write_obj, write_sidecar
+from .export import write_annotation, write_glb, write_obj, write_sidecar
 
 #: What the motors of any piece of furniture stay below, [N m] or [N], and [rad/s] or [m/s]; a URDF
 #: must say something.
@@ -45,9 +45,8 @@ def write_sample(
     """
     shown = posed(articulation, values or {})
     (folder / "links").mkdir(parents=True, exist_ok=True)
-    frame = FileFrame(Y_UP)
-    write_glb(shown.mesh, frame, folder / "object.glb")
-    write_annotation(shown, frame, folder / "pred.npz")
+    write_glb(shown.mesh, Y_UP, folder / "object.glb")
+    write_annotation(shown, Y_UP, folder / "pred.npz")
     write_sidecar(
         folder / "object.toml", {"scale": 1.0, "annotation": "pred.npz", "license": LICENSE}
     )
@@ -69,7 +68,7 @@ def _write_link(articulation: Articulation, index: int, folder: Path) -> str:
     shift = np.eye(4)
     shift[:3, 3] = -articulation.link_frame(index)
     file = f"links/{articulation.parts[index].name}.obj"
-    write_obj(mesh, FileFrame(shift), folder / file)
+    write_obj(mesh, shift, folder / file)
     return file
 
 

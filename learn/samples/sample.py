@@ -11,7 +11,7 @@ from asset_factory.factory.mesh import Float32Array, FloatArray, IntArray
 from asset_factory.factory.models.particulate.components import component_features
 from asset_factory.factory.models.particulate.prediction import MotionClass
 
-from .sampled_object import SampledObject
+from .sampled_object import SampledObject, parents_first
 
 QUARTER = np.pi / 2.0
 
@@ -191,7 +191,7 @@ def _moved(sampled: SampledObject, body: _Body, turns: FloatArray, slides: Float
     axis = body.axis.copy()
     origin = body.origin.copy()
     slide = body.slide.copy()
-    for part in _parents_first(sampled.parents):
+    for part in parents_first(sampled.parents.tolist()):
         parent = sampled.parents[part]
         if parent < 0:
             continue
@@ -272,19 +272,6 @@ def _components(
     loose = rng.random(count) < 0.3
     target[loose] = rng.integers(0, max(1, count // 4), int(loose.sum()))
     return np.asarray(target[sampled.components])
-
-
-def _parents_first(parents: IntArray) -> list[int]:
-    """Return the parts ordered so that each comes after what it hangs on."""
-    placed: list[int] = []
-    waiting = list(range(len(parents)))
-    while waiting:
-        ready = [part for part in waiting if parents[part] < 0 or int(parents[part]) in placed]
-        if not ready:
-            raise ValueError(f"parents {parents.tolist()}: hang on one another in a circle")
-        placed += ready
-        waiting = [part for part in waiting if part not in ready]
-    return placed
 
 
 def _unit(vectors: FloatArray) -> FloatArray:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import zipfile
 import zlib
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from io import BytesIO
 from pathlib import Path
@@ -30,6 +31,10 @@ MOST_BYTES = 512 * 1024 * 1024
 """Of a sampled object's arrays; a thousandth is usual."""
 _MOST_COMPONENTS = 10_000_000
 _TEXTS = ("name", "category", "source")
+_TYPES: dict[str, Any] = {
+    "part_ids": np.int16, "components": np.int32, "sharp": np.bool_, "endless": np.bool_,
+    "parents": np.int16, "motion": np.int16,
+}  # fmt: skip
 _DAMAGED = (zipfile.BadZipFile, zlib.error)
 
 
@@ -74,16 +79,9 @@ class SampledObject:
     slide: FloatArray
 
     def __post_init__(self) -> None:
-        kinds = {
-            "part_ids": np.int16,
-            "components": np.int32,
-            "sharp": np.bool_,
-            "endless": np.bool_,
-        }
-        kinds |= {"parents": np.int16, "motion": np.int16}
         for each in fields(self):
             if each.name not in _TEXTS:
-                dtype = kinds.get(each.name, np.float32)
+                dtype = _TYPES.get(each.name, np.float32)
                 object.__setattr__(self, each.name, read_only(getattr(self, each.name), dtype))
         _check(self)
 
@@ -115,18 +113,7 @@ def sampled_from(
             ``zero_size``.
     """
     chains, group = _moving_parts(articulation)
-    if not chains:
-        raise InputRejected(
-            "no_movable_joint", f"{name}: nothing moves; want a joint to learn from", value=0.0
-        )
-    if len(chains) >= MOST_PARTS:
-        count = len(chains) + 1
-        raise InputRejected(
-            "too_many_parts",
-            f"{name}: has {count} parts, want at most {MOST_PARTS}",
-            value=count,
-            limit=MOST_PARTS,
-        )
+    require_parts(name, 1 + len(chains))
     number = {0: 0} | {part: index for index, part in enumerate(chains, start=1)}
     of_part = np.array([number.get(group[part], 0) for part in range(len(group))])
     surface = Surface.of(articulation.mesh.vertices, articulation.mesh.faces)
@@ -144,6 +131,20 @@ def sampled_from(
             chains, {part: number[group[chain[0].parent]] for part, chain in chains.items()}
         ),
     )
+
+
+def require_parts(name: str, count: int, most: int = MOST_PARTS) -> None:
+    """Refuse an object of too few or too many parts to learn from.
+
+    Raises:
+        InputRejected: ``no_movable_joint``, ``too_many_parts``.
+    """
+    if count < 2:
+        message = f"{name}: nothing moves; want a joint to learn from"
+        raise InputRejected("no_movable_joint", message, value=0.0)
+    if count > most:
+        message = f"{name}: has {count} parts, want at most {most}"
+        raise InputRejected("too_many_parts", message, value=count, limit=most)
 
 
 def _motions(chains: dict[int, tuple[Joint, ...]], parent: dict[int, int]) -> dict[str, Any]:
@@ -177,6 +178,23 @@ def _motions(chains: dict[int, tuple[Joint, ...]], parent: dict[int, int]) -> di
         "slide_direction": slide_direction,
         "slide": slide,
     }
+
+
+def parents_first(parents: Sequence[int]) -> list[int]:
+    """Return the parts ordered so that each comes after what it hangs on.
+
+    Raises:
+        ValueError: some hang on one another in a circle.
+    """
+    placed: list[int] = []
+    waiting = list(range(len(parents)))
+    while waiting:
+        ready = [part for part in waiting if parents[part] < 0 or parents[part] in placed]
+        if not ready:
+            raise ValueError(f"parents {parents}: part {waiting[0]} does not hang on the root")
+        placed += ready
+        waiting = [part for part in waiting if part not in ready]
+    return placed
 
 
 def _moving_parts(articulation: Articulation) -> tuple[dict[int, tuple[Joint, ...]], list[int]]:
@@ -269,13 +287,6 @@ def _check(sampled: SampledObject) -> None:
 def _check_tree(parents: list[int], motion: list[int]) -> None:
     if parents[0] != -1 or not all(0 <= parent < len(parents) for parent in parents[1:]):
         raise ValueError(f"parents {parents}: want -1 for the first part alone")
-    for part in range(1, len(parents)):
-        steps = 0
-        above = part
-        while above > 0 and steps <= len(parents):
-            steps = steps + 1
-            above = parents[above]
-        if above > 0:
-            raise ValueError(f"parents {parents}: part {part} does not hang on the root")
+    parents_first(parents)
     if not all(kind in tuple(MotionClass) for kind in motion):
         raise ValueError(f"motion {motion}: want {', '.join(f'{kind:d}' for kind in MotionClass)}")

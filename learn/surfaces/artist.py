@@ -40,7 +40,7 @@ def _spaced(mesh: Labelled, rng: np.random.Generator) -> Labelled:
 def _merged(mesh: Labelled, rng: np.random.Generator) -> Labelled:
     """Return the solids of most parts united; in one object of ten all parts are one skin."""
     if rng.random() < 0.1:
-        return all_united(mesh, rng)
+        return all_united(mesh)
     return parts_united(mesh, rng, float(rng.choice([0.4, 0.7, 1.0])))
 
 

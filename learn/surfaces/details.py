@@ -28,12 +28,12 @@ _QUAD = np.array([(0, 1, 2), (0, 2, 3)], dtype=np.int64)
 _CORNERS = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
 
 
-def lettered(mesh: Labelled, rng: np.random.Generator, lines: int = 3) -> Labelled:
-    """Add lines of small quads before, beside or on top of large boxes, of the same part."""
+def lettered(mesh: Labelled, rng: np.random.Generator) -> Labelled:
+    """Add a few lines of small quads before, beside or on top of large boxes, of the same part."""
     low, high = mesh.boxes()
     boxes = boxes_among(mesh)
     added = [mesh]
-    for _ in range(int(rng.integers(1, lines + 1)) if boxes.any() else 0):
+    for _ in range(int(rng.integers(1, 4)) if boxes.any() else 0):
         axis = 1 if rng.random() < 0.8 else int(rng.choice([0, 2]))
         plane = [k for k in range(3) if k != axis]
         weight = np.prod((high - low)[:, plane], axis=1) * boxes

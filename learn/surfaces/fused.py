@@ -226,10 +226,9 @@ def _smoothed(vertices: FloatArray, faces: IntArray, share: float) -> FloatArray
     return np.asarray(vertices + share * (total / np.maximum(count, 1) - vertices))
 
 
-def _bumps(
-    points: FloatArray, rng: np.random.Generator, length: float, waves: int = 6
-) -> FloatArray:
+def _bumps(points: FloatArray, rng: np.random.Generator, length: float) -> FloatArray:
     """Smooth noise of about unit size, waves 1 to 3 ``length`` long [m], shape [point_count]."""
+    waves = 6
     directions = rng.normal(size=(3, waves))
     lengths = rng.uniform(length, 3.0 * length, waves)
     directions *= 2.0 * np.pi / (np.linalg.norm(directions, axis=0) * lengths)

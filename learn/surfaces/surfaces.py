@@ -168,16 +168,14 @@ def without_sides(mesh: Labelled, rng: np.random.Generator) -> Labelled:
     return mesh.without((back & (which != 1)) | (under & (which != 0)))
 
 
-def flattened(
-    mesh: Labelled, rng: np.random.Generator, share: float = 0.4, thickest: float = 0.03
-) -> Labelled:
+def flattened(mesh: Labelled, rng: np.random.Generator, share: float) -> Labelled:
     """Return a share of the thin pieces as a single sheet, one side of the two; edges are dropped.
 
-    Thin means at most ``thickest`` [m], and less on a small object.
+    Thin means at most 3 cm, and less on a small object.
     """
     low, high = mesh.boxes()
     thin, wide, _ = np.sort(high - low, axis=1).T
-    chosen = (thin < min(thickest, 0.06 * mesh.longest)) & (wide > 3.0 * thin)
+    chosen = (thin < min(0.03, 0.06 * mesh.longest)) & (wide > 3.0 * thin)
     chosen &= some(rng, mesh.piece_count, share)
     across = (high - low).argmin(axis=1)
     # A front is seen from the front.

@@ -19,13 +19,9 @@ def parts_united(mesh: Labelled, rng: np.random.Generator, share: float = 0.85) 
     return joined([mesh.chosen(~chosen), *united])
 
 
-def all_united(mesh: Labelled, rng: np.random.Generator, reach: float = 0.004) -> Labelled:
-    """Unite all parts in one surface: pieces grow by ``reach`` [m] until gaps close.
-
-    It grows less on a small object. Nothing is drawn; every pass takes a generator.
-    """
-    del rng
-    return _united(grown(mesh, min(reach, 0.01 * mesh.longest)))
+def all_united(mesh: Labelled) -> Labelled:
+    """Unite all parts in one surface; pieces grow by 4 mm or less until gaps close."""
+    return _united(grown(mesh, min(0.004, 0.01 * mesh.longest)))
 
 
 def grown(mesh: Labelled, reach: float) -> Labelled:

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import torch  # noqa: TID253 - this module is only imported to train
+
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.weights.checkpoint import load_tensors, open_checkpoint
 from asset_factory.factory.runtime.store import writing
@@ -45,19 +47,8 @@ class State:
 
 def write_state(path: Path, state: State) -> None:
     """Write a checkpoint such that the file is always the old one or the new one, complete."""
-    import torch
-
-    stored = {
-        "format": _FORMAT,
-        "step": state.step,
-        "weights": state.weights,
-        "mean": state.mean,
-        "optimiser": state.optimiser,
-        "best": None if state.best is None else list(state.best),
-        "recipe": state.recipe,
-        "data": state.data,
-        "seconds": state.seconds,
-    }
+    best = None if state.best is None else list(state.best)
+    stored = {"format": _FORMAT, **vars(state), "best": best}
     with writing(path, lasting=True) as stream:
         torch.save(stored, stream)
 
@@ -68,23 +59,14 @@ def read_state(path: Path) -> State:
     Raises:
         ConfigError: no such file, or not a checkpoint of a training.
     """
-    import torch
-
     try:
         stored = torch.load(path, map_location="cpu", weights_only=True)
-        if stored["format"] != _FORMAT:
-            raise ConfigError(f"{path}: a checkpoint of format {stored['format']}, want {_FORMAT}")
-        best = stored["best"]
-        return State(
-            step=int(stored["step"]),
-            weights=stored["weights"],
-            mean=stored["mean"],
-            optimiser=stored["optimiser"],
-            best=None if best is None else (float(best[0]), int(best[1])),
-            recipe=stored["recipe"],
-            data=stored["data"],
-            seconds=float(stored["seconds"]),
-        )
+        if (found := stored.pop("format")) != _FORMAT:
+            raise ConfigError(f"{path}: a checkpoint of format {found}, want {_FORMAT}")
+        if (best := stored["best"]) is not None:
+            stored["best"] = float(best[0]), int(best[1])
+        numbers = {"step": int(stored["step"]), "seconds": float(stored["seconds"])}
+        return State(**stored | numbers)
     except FileNotFoundError as error:
         raise ConfigError(f"{path}: no such file; there is no run to go on with") from error
     except ConfigError:

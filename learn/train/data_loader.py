@@ -7,7 +7,6 @@ import signal
 from collections.abc import Callable, Sequence
 from queue import Empty, Queue
 from threading import Thread
-from types import TracebackType
 from typing import Any
 
 from asset_factory.factory.errors import ConfigError
@@ -63,12 +62,7 @@ class DataLoader:
     def __enter__(self) -> DataLoader:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         for worker in self._workers:
             worker.stop()
 

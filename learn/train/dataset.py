@@ -193,7 +193,7 @@ class Dataset:
                 refused = str(error)
                 continue
             if len(sampled.parents) <= config.network.max_parts:
-                return draw(sampled, rng, config.draw_at(step))
+                return draw(sampled, rng, config.training_draw)
             refused = (
                 f"{sampled.name}: has {len(sampled.parents)} parts, "
                 f"want at most {config.network.max_parts}"

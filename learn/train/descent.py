@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Any
 
 import torch  # noqa: TID253 - this module is only imported to train
 
 from asset_factory.factory.errors import ConfigError
 
+from .checkpoints import State, fill
 from .ema import RunningMean
 
 Tensor = Any
@@ -32,6 +34,33 @@ class Descent:
         self.mean = RunningMean(network, ema)
         self._clip = clip or math.inf
         self._missed = 0
+
+    def state(
+        self,
+        step: int,
+        recipe: str,
+        best: tuple[float, int] | None = None,
+        data: str = "",
+        seconds: float = 0.0,
+    ) -> State:
+        """Return everything there is after ``step`` steps."""
+        weights = self.network.state_dict()
+        optimiser = self.optimiser.state_dict()
+        return State(step, weights, self.mean.weights, optimiser, best, recipe, data, seconds)
+
+    def restore(self, state: State, path: Path) -> None:
+        """Go back to a stored state.
+
+        Raises:
+            ConfigError: it is another network's; says that of the file at ``path``.
+        """
+        for weights in (state.mean, state.weights):
+            fill(self.network, weights, path)
+        self.mean.load(state.mean)
+        try:
+            self.optimiser.load_state_dict(state.optimiser)
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            raise ConfigError(f"{path}: its optimiser's state does not fit: {error}") from error
 
     def step(self, step: int, rate: float) -> Tensor:
         """Move the weights along the gradients, unless those are not finite; returns their norm.

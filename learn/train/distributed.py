@@ -8,6 +8,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
+import torch  # noqa: TID253 - this module is only imported to train
+
 Tensor = Any
 
 
@@ -32,8 +34,6 @@ class ProcessGroup:
 
     def sums(self, numbers: Sequence[float]) -> list[float]:
         """Return sums over the processes."""
-        import torch
-
         if self.world == 1:
             return list(numbers)
         tensor = torch.tensor(numbers, dtype=torch.float64, device=self.device)
@@ -42,8 +42,6 @@ class ProcessGroup:
 
     def add_gradients(self, parameters: Sequence[Tensor]) -> None:
         """Replace every gradient by its sum over the processes; losses share the step's mean."""
-        import torch
-
         if self.world == 1:
             return
         for each in parameters:
@@ -52,15 +50,12 @@ class ProcessGroup:
         gradients = [each.grad for each in parameters]
         flat = torch.cat([gradient.flatten() for gradient in gradients])
         torch.distributed.all_reduce(flat)
-        at = 0
-        for gradient in gradients:
-            gradient.copy_(flat[at : at + gradient.numel()].view_as(gradient))
-            at += gradient.numel()
+        sums = flat.split([gradient.numel() for gradient in gradients])
+        for gradient, summed in zip(gradients, sums, strict=True):
+            gradient.copy_(summed.view_as(gradient))
 
     def add(self, tensor: Tensor) -> Tensor:
         """Return a tensor's sum over the processes."""
-        import torch
-
         if self.world > 1:
             torch.distributed.all_reduce(tensor)
         return tensor
@@ -76,8 +71,6 @@ class ProcessGroup:
 
     def wait(self) -> None:
         """Wait until every process is here."""
-        import torch
-
         if self.world > 1:
             torch.distributed.barrier()
 
@@ -89,8 +82,6 @@ def joined(device: str) -> Iterator[ProcessGroup]:
     Args:
         device: as in ``RunSettings``.
     """
-    import torch
-
     world = int(os.environ.get("WORLD_SIZE", "1"))
     rank = int(os.environ.get("RANK", "0"))
     local = int(os.environ.get("LOCAL_RANK", "0"))

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import torch  # noqa: TID253 - this module is only imported to train
+
 Tensor = Any
 
 
@@ -24,8 +26,6 @@ class RunningMean:
 
     def update(self, network: Any, step: int) -> None:
         """Take in the weights after a step, counted from 0."""
-        import torch
-
         decay = min(self.decay, (1.0 + step) / (10.0 + step))
         now = network.state_dict()
         whole = [name for name, each in self.weights.items() if not each.is_floating_point()]

@@ -8,7 +8,7 @@ import signal
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
@@ -42,31 +42,14 @@ _FREE = ("run", "held_out", "validation")
 """Settings that may change when a run goes on: they do not change what it learns."""
 
 
-@dataclass(frozen=True)
-class RunOutcome:
-    """How a run ended.
-
-    Attributes:
-        output: its folder.
-        step: steps done.
-        finished: whether those are all; otherwise it was asked to stop and can go on.
-        scores: the last ones on held-out examples; ``None`` without any.
-    """
-
-    output: Path
-    step: int
-    finished: bool
-    scores: Scores | None
-
-
 def run_training(
     config: TrainConfig,
     recipe: str,
     output: Path,
     *,
-    resume: bool = False,
-    start: Path | None = None,
-) -> RunOutcome:
+    resume: bool,
+    start: Path | None,
+) -> bool:
     """Train a network, and leave everything about it in a folder.
 
     Args:
@@ -76,6 +59,9 @@ def run_training(
             recipe.
         resume: go on with the run that is there.
         start: weights to begin with, for a run on other data.
+
+    Returns:
+        Whether all steps are done; otherwise it was asked to stop and can go on.
 
     Raises:
         ConfigError: the folder holds a run and ``resume`` is not asked for, or the other way round;
@@ -114,17 +100,17 @@ class _Run:
         self._seconds = 0.0
         self._since = time.monotonic()
 
-    def go(self, state: State | None, start: Path | None) -> RunOutcome:
+    def go(self, state: State | None, start: Path | None) -> bool:
         config = self._config
         group = self._group
         if state is not None:
-            self._trainer.restore(state, self._output / LAST)
+            self._trainer.descent.restore(state, self._output / LAST)
             self._best = state.best
             self._seconds = state.seconds
         elif start is not None:
             weights = read_weights(start)
             fill(self._trainer.network, weights, start)
-            self._trainer.start_from(weights)
+            self._trainer.descent.mean.load(weights)
             if group.first:
                 # Resumed before its first checkpoint, a run would otherwise begin with random
                 # weights.
@@ -148,21 +134,19 @@ class _Run:
                     "the data are not those that this run began with: "
                     "its curve will not repeat exactly"
                 )
-            step = first
-            stopped = False
-            if first < steps:
-                step, stopped = self._steps(first, watch)
-            if not stopped and group.first:
+            finished = first >= steps or self._steps(first, watch)
+            if finished and group.first:
                 self._finish(watch)
         group.wait()
-        return RunOutcome(self._output, step, not stopped, self._scores)
+        return finished
 
-    def _steps(self, first: int, watch: Watch) -> tuple[int, bool]:
-        """Run steps until the last or until stopped; returns how many are done, and if stopped."""
+    def _steps(self, first: int, watch: Watch) -> bool:
+        """Run steps until the last or until stopped; returns whether the last is done."""
         config = self._config
         group = self._group
         pending: list[tuple[int, Any]] = []
-        with _asked_to_stop() as asked, self._feed(first, watch) as loader:
+        loading = DataLoader(config, self._pools, first, group.rank, group.world, watch.say)
+        with _asked_to_stop() as asked, loading as loader:
             for step in range(first, config.schedule.steps):
                 began = time.monotonic()
                 batch = loader.batch(step)
@@ -185,13 +169,8 @@ class _Run:
                     self._save(done)
                 if stop and not last:
                     watch.say(f"stopped after step {done}; --resume goes on")
-                    return done, True
-        return config.schedule.steps, False
-
-    def _feed(self, first: int, watch: Watch) -> DataLoader:
-        return DataLoader(
-            self._config, self._pools, first, self._group.rank, self._group.world, watch.say
-        )
+                    return False
+        return True
 
     def _log(self, pending: list[tuple[int, Any]], watch: Watch) -> None:
         values = self._group.add(torch.stack([each for _, each in pending])).tolist()
@@ -207,18 +186,17 @@ class _Run:
             self._trainer.mean_network, self._held_out, self._config, self._group.device
         )
         self._scores = scores
-        self._table.add([(step, list(scores.to_dict().values()))])
-        watch.say(
-            f"step {step}  held out: "
-            f"{', '.join(f'{name} {v:.3f}' for name, v in scores.to_dict().items())}"
-        )
+        figures = asdict(scores)
+        self._table.add([(step, list(figures.values()))])
+        said = ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
+        watch.say(f"step {step}  held out: {said}")
         if self._best is None or scores.part_iou > self._best[0]:
             self._best = (scores.part_iou, step)
             write_state(self._output / BEST, self._state(step))
 
     def _save(self, step: int) -> None:
         half = self._config.half
-        weights = self._trainer.mean.weights
+        weights = self._trainer.descent.mean.weights
         kept = {name: each.half() if half else each.float() for name, each in weights.items()}
         # The checkpoint last: cut off in between, the run goes on from the one before and writes
         # both again.
@@ -227,7 +205,8 @@ class _Run:
 
     def _state(self, step: int) -> State:
         seconds = self._seconds + time.monotonic() - self._since
-        return self._trainer.state(step, self._best, self._recipe, self._data, seconds)
+        descent = self._trainer.descent
+        return descent.state(step, self._recipe, self._best, self._data, seconds)
 
     def _about(self, step: int) -> dict[str, str]:
         config = self._config
@@ -261,7 +240,7 @@ class _Run:
             "processes": self._group.world,
             "device": self._group.device,
             "held_out_examples": len(self._held_out),
-            "held_out": None if self._scores is None else self._scores.to_dict(),
+            "held_out": None if self._scores is None else asdict(self._scores),
             "best": None
             if self._best is None
             else {"part_iou": self._best[0], "step": self._best[1]},

@@ -11,10 +11,14 @@ import math
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
+import torch  # noqa: TID253 - this module is only imported to train
+from torch.nn import functional  # noqa: TID253
+
 from asset_factory.factory.models.network.shape import AxisForm
 
 from ..samples.batches import Batch
 from .matching import arranged, arranged_columns, match
+from .settings import LossSettings
 
 Tensor = Any
 NAMES = (
@@ -34,57 +38,8 @@ _SYMMETRIC = 0.02
 """A range whose middle is this near to 0, as a share of its width, reads the same both ways."""
 
 
-@dataclass(frozen=True)
-class LossSettings:
-    """Weights of the losses, and what they apply to; the paper's where it names them.
-
-    It names neither Dice nor auxiliary losses.
-
-    Attributes:
-        mask: cross-entropy of each point's part.
-        dice: soft overlap of points and parts.
-        hierarchy: binary cross-entropy of who is whose parent.
-        motion: cross-entropy of the motion class.
-        revolute_direction, prismatic_direction: distance of directions, not normalised.
-        revolute_range, prismatic_range: distance of limits.
-        closest_points: distance of the nearest points on the axes; of a network that says axes by
-            their moments, distance of those.
-        auxiliary: cross-entropy of each point's part after every block but the last.
-        auxiliary_points: one in so many points takes part in it.
-        root_first: the base always answers to query 0.
-        sign_free: where a range reads the same from both ends, the opposite direction is as good.
-        unseen_parts: parts of which no point was drawn teach too.
-        upright_axes: every axis of rotation is taught by the one of its two directions whose
-            largest coordinate is positive, and its limits to suit: the same joint. Which way a door
-            opens is then for the limits alone to say; where it cannot be told, a direction would be
-            torn between two opposite ones, and learnt as neither.
-    """
-
-    mask: float = 1.0
-    dice: float = 0.0
-    hierarchy: float = 1.0
-    motion: float = 1.0
-    revolute_direction: float = 1.0
-    prismatic_direction: float = 1.0
-    revolute_range: float = 0.1
-    prismatic_range: float = 1.0
-    closest_points: float = 1.0
-    auxiliary: float = 0.0
-    auxiliary_points: int = 4
-    root_first: bool = False
-    sign_free: bool = False
-    unseen_parts: bool = True
-    upright_axes: bool = False
-
-    def weight(self, name: str) -> float:
-        """Return the weight of one of ``NAMES``."""
-        return float(getattr(self, name))
-
-
 def taught(batch: Batch, settings: LossSettings) -> Batch:
     """Return a batch of tensors with its axes of rotation as the settings want them taught."""
-    import torch
-
     if not settings.upright_axes:
         return batch
     direction = batch.revolute_direction
@@ -123,8 +78,6 @@ class LossTargets:
 
 def targets_of(batch: Batch, settings: LossSettings) -> LossTargets:
     """Return what of a batch of tensors the losses apply to."""
-    import torch
-
     numbers = torch.arange(batch.parts, device=batch.parents.device)
     parts = numbers < batch.counts[:, None]
     if not settings.unseen_parts:
@@ -146,7 +99,7 @@ def targets_of(batch: Batch, settings: LossSettings) -> LossTargets:
 
 @dataclass(frozen=True)
 class Counts:
-    """How many of each there are in a step, all its parts together."""
+    """How many of each a step has, all its parts together; last the fields of LossTargets."""
 
     points: float
     auxiliary: float
@@ -167,17 +120,10 @@ class Counts:
 
 def count(batch: Batch, targets: LossTargets, settings: LossSettings) -> list[float]:
     """Return the fields of :class:`Counts` for one micro-batch; those of a step are their sums."""
-    found: list[float] = []
-    for each in fields(Counts):
-        if each.name == "points":
-            found.append(float(batch.part_ids.numel()))
-        elif each.name == "auxiliary":
-            found.append(
-                float(len(batch) * math.ceil(batch.part_ids.shape[1] / settings.auxiliary_points))
-            )
-        else:
-            found.append(float(getattr(targets, each.name).sum()))
-    return found
+    points = batch.part_ids.shape[1]
+    auxiliary = math.ceil(points / settings.auxiliary_points)
+    rows = [float(getattr(targets, each.name).sum()) for each in fields(LossTargets)]
+    return [float(len(batch) * points), float(len(batch) * auxiliary), *rows]
 
 
 @dataclass(frozen=True)
@@ -231,9 +177,6 @@ def losses(
 
     A loss that applies to nothing is 0, and so is its gradient.
     """
-    import torch
-    from torch.nn import functional
-
     parts = answers.parts
     masks = arranged_columns(answers.mask_logits, answers.queries).float()
     found = {"mask": _cross_entropy(masks, batch.part_ids) / counts.points}
@@ -273,8 +216,6 @@ def total(found: dict[str, Tensor], settings: LossSettings) -> Tensor:
 
 
 def _cross_entropy(masks: Tensor, part_ids: Tensor) -> Tensor:
-    from torch.nn import functional
-
     return functional.cross_entropy(masks.flatten(0, 1), part_ids.flatten(), reduction="sum")
 
 
@@ -287,8 +228,6 @@ def _auxiliary(
 
 
 def _dice(masks: Tensor, batch: Batch, targets: LossTargets) -> Tensor:
-    from torch.nn import functional
-
     shares = masks.softmax(-1)
     true = functional.one_hot(batch.part_ids, masks.shape[-1]).to(shares.dtype)
     both = 2.0 * (shares * true).sum(1) + _DICE_EPS
@@ -297,8 +236,6 @@ def _dice(masks: Tensor, batch: Batch, targets: LossTargets) -> Tensor:
 
 def _direction_error(said: Tensor, true: Tensor, limits: Tensor, sign_free: bool) -> Tensor:
     """Return the mean distance per coordinate, shape [batch, parts]."""
-    import torch
-
     straight = (said.float() - true).abs().mean(-1)
     if not sign_free:
         return straight

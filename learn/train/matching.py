@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import torch  # noqa: TID253 - this module is only imported to train
 from scipy.optimize import linear_sum_assignment
+from torch.nn import functional  # noqa: TID253
 
 Tensor = Any
 
@@ -30,8 +32,6 @@ def match(
         of part ``k``, for ``k`` below the sample's count, and after those come the others in
         ascending order.
     """
-    import torch
-
     # In full precision: the sums over points are long.
     with torch.no_grad(), torch.autocast(mask_logits.device.type, enabled=False):
         # An answer that overflowed is matched anyhow: its loss is no number, which whoever takes
@@ -46,9 +46,6 @@ def match(
 
 def assignment_costs(mask_logits: Tensor, part_ids: Tensor) -> Tensor:
     """Return the cost of a part for a query, [batch, part, query]: minus log-probability."""
-    import torch
-    from torch.nn import functional
-
     log_shares = functional.log_softmax(mask_logits.float(), dim=-1)
     of_part = functional.one_hot(part_ids, mask_logits.shape[-1]).to(log_shares.dtype)
     return -torch.matmul(of_part.transpose(1, 2), log_shares)

@@ -9,7 +9,6 @@ from asset_factory.factory.models.network.shape import AxisForm, NetworkShape
 from asset_factory.factory.models.particulate.components import COMPONENT_FEATURES
 
 from ..samples.sample import DrawSettings
-from .losses import LossSettings
 from .schedule import ScheduleSettings
 
 KINDS = (
@@ -96,6 +95,53 @@ class NetworkSettings:
             features=COMPONENT_FEATURES if self.features == "components" else 0,
             axis_form=AxisForm(self.axes),
         )
+
+
+@dataclass(frozen=True)
+class LossSettings:
+    """Weights of the losses, and what they apply to; the paper's where it names them.
+
+    It names neither Dice nor auxiliary losses.
+
+    Attributes:
+        mask: cross-entropy of each point's part.
+        dice: soft overlap of points and parts.
+        hierarchy: binary cross-entropy of who is whose parent.
+        motion: cross-entropy of the motion class.
+        revolute_direction, prismatic_direction: distance of directions, not normalised.
+        revolute_range, prismatic_range: distance of limits.
+        closest_points: distance of the nearest points on the axes; of a network that says axes by
+            their moments, distance of those.
+        auxiliary: cross-entropy of each point's part after every block but the last.
+        auxiliary_points: one in so many points takes part in it.
+        root_first: the base always answers to query 0.
+        sign_free: where a range reads the same from both ends, the opposite direction is as good.
+        unseen_parts: parts of which no point was drawn teach too.
+        upright_axes: every axis of rotation is taught by the one of its two directions whose
+            largest coordinate is positive, and its limits to suit: the same joint. Which way a door
+            opens is then for the limits alone to say; where it cannot be told, a direction would be
+            torn between two opposite ones, and learnt as neither.
+    """
+
+    mask: float = 1.0
+    dice: float = 0.0
+    hierarchy: float = 1.0
+    motion: float = 1.0
+    revolute_direction: float = 1.0
+    prismatic_direction: float = 1.0
+    revolute_range: float = 0.1
+    prismatic_range: float = 1.0
+    closest_points: float = 1.0
+    auxiliary: float = 0.0
+    auxiliary_points: int = 4
+    root_first: bool = False
+    sign_free: bool = False
+    unseen_parts: bool = True
+    upright_axes: bool = False
+
+    def weight(self, name: str) -> float:
+        """Return the weight of one of ``NAMES``."""
+        return float(getattr(self, name))
 
 
 @dataclass(frozen=True)
@@ -200,14 +246,14 @@ class TrainConfig:
     validation: ValidationSettings = field(default_factory=ValidationSettings)
     run: RunSettings = field(default_factory=RunSettings)
 
-    def draw_at(self, step: int) -> DrawSettings:
-        """Return how the samples of a step are drawn."""
-        points = self.schedule.points_at(step, self.draw.points)
-        return replace(self.draw, points=points, components=self.network.features == "components")
+    @property
+    def training_draw(self) -> DrawSettings:
+        """Return how samples are drawn: with the features that the network wants."""
+        return replace(self.draw, components=self.network.features == "components")
 
     @property
     def validation_draw(self) -> DrawSettings:
         """Return how validation samples are drawn: as training's, but upright and whole."""
         return replace(
-            self.draw_at(0), points=self.validation.points, fused_share=0.0, merged_share=0.0
+            self.training_draw, points=self.validation.points, fused_share=0.0, merged_share=0.0
         )

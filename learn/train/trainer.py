@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,10 +15,8 @@ from asset_factory.factory.models.network.shape import FREQUENCIES
 from asset_factory.factory.models.network.transformer import PartArticulationTransformer
 
 from ..samples.batches import Batch
-from .checkpoints import State, fill
 from .descent import Descent
 from .distributed import ProcessGroup
-from .ema import RunningMean
 from .losses import NAMES, Counts, count, forward, losses, targets_of, taught, total
 from .settings import TrainConfig
 
@@ -48,11 +45,11 @@ class Trainer:
         self.network = network.to(group.device).train()
         settings = config.optimiser
         optimiser = _optimiser(self.network, config)
-        self._descent = Descent(self.network, optimiser, settings.clip, settings.ema)
+        self.descent = Descent(self.network, optimiser, settings.clip, settings.ema)
         with torch.device("meta"):
             self.mean_network = PartArticulationTransformer(config.network.shape)
         # It shares the running mean's tensors, so it always has the weights of the last step.
-        self.mean_network.load_state_dict(self.mean.weights, assign=True)
+        self.mean_network.load_state_dict(self.descent.mean.weights, assign=True)
         self.mean_network.requires_grad_(False).eval()
         if group.device.startswith("cuda"):
             torch.set_float32_matmul_precision("high")
@@ -60,52 +57,13 @@ class Trainer:
                 for block in self.network.blocks:
                     block.compile()
 
-    @property
-    def mean(self) -> RunningMean:
-        """Return the running mean of the weights."""
-        return self._descent.mean
-
-    def start_from(self, weights: dict[str, Tensor]) -> None:
-        """Begin with given weights instead of random ones."""
-        self.network.load_state_dict(weights)
-        self.mean.load(weights)
-
-    def state(
-        self, step: int, best: tuple[float, int] | None, recipe: str, data: str, seconds: float
-    ) -> State:
-        """Return everything there is after ``step`` steps."""
-        return State(
-            step=step,
-            weights=self.network.state_dict(),
-            mean=self.mean.weights,
-            optimiser=self._descent.optimiser.state_dict(),
-            best=best,
-            recipe=recipe,
-            data=data,
-            seconds=seconds,
-        )
-
-    def restore(self, state: State, path: Path) -> None:
-        """Go back to a stored state.
-
-        Raises:
-            ConfigError: it is another network's; says that of the file at ``path``.
-        """
-        for weights in (state.mean, state.weights):
-            fill(self.network, weights, path)
-        self.mean.load(state.mean)
-        try:
-            self._descent.optimiser.load_state_dict(state.optimiser)
-        except (ValueError, KeyError, TypeError, AttributeError) as error:
-            raise ConfigError(f"{path}: its optimiser's state does not fit: {error}") from error
-
     def require_finite(self, step: int) -> None:
         """See to it that no weights are kept that are not numbers.
 
         Raises:
             ConfigError: some are not.
         """
-        for weights in (self.network.state_dict(), self.mean.weights):
+        for weights in (self.network.state_dict(), self.descent.mean.weights):
             bad = [name for name, each in weights.items() if not bool(torch.isfinite(each).all())]
             if bad:
                 raise ConfigError(
@@ -141,7 +99,7 @@ class Trainer:
             [*(sum(column) for column in zip(*counted, strict=True)), float(stop)]
         )
         counts = Counts(*sums)
-        self._descent.optimiser.zero_grad(set_to_none=True)
+        self.descent.optimiser.zero_grad(set_to_none=True)
         values = torch.zeros(len(NAMES) + 1, device=group.device)
         for each in micro:
             with self._precision():
@@ -153,7 +111,7 @@ class Trainer:
             values += torch.stack([weighted.detach(), *(found[name].detach() for name in NAMES)])
         group.add_gradients(list(self.network.parameters()))
         rate = config.schedule.rate_at(step)
-        norm = self._descent.step(step, rate)
+        norm = self.descent.step(step, rate)
         last = [torch.full_like(norm, rate), norm] if group.first else [torch.zeros_like(norm)] * 2
         return torch.cat([values, torch.stack(last)]), stops > 0
 

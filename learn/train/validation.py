@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import torch  # noqa: TID253 - this module is only imported to train
 from scipy.optimize import linear_sum_assignment
 
 from asset_factory.factory.mesh import IntArray
 
-from ..samples.batches import Batch, collate
+from ..samples.batches import collate
 from ..samples.sample import Sample
 from .losses import NAMES, Counts, count, forward, losses, targets_of, taught
 from .matching import arranged_columns
@@ -40,69 +41,47 @@ class Scores:
     revolute_angle: float
     prismatic_angle: float
 
-    def to_dict(self) -> dict[str, float]:
-        """Return the figures as plain numbers."""
-        return {name: float(value) for name, value in asdict(self).items()}
-
 
 def validate(network: Any, samples: Sequence[Sample], config: TrainConfig, device: str) -> Scores:
     """Score a network; it is left in the mode it was in."""
-    import torch
-
     training = network.training
     network.eval()
-    found = _Sums()
-    with torch.no_grad():
-        for start in range(0, len(samples), config.validation.batch):
-            chunk = samples[start : start + config.validation.batch]
-            batch = collate(chunk, config.network.max_parts).to(device)
-            _add(found, network, taught(batch, config.loss), config)
-    network.train(training)
-    return found.scores()
-
-
-class _Sums:
-    def __init__(self) -> None:
-        self.loss: list[float] = []
-        self.samples = 0
-        self.right = 0
-        self.points = 0
-        self.ious: list[float] = []
-        self.classes: list[bool] = []
-        self.angles: dict[str, list[float]] = {"revolute": [], "prismatic": []}
-
-    def scores(self) -> Scores:
-        return Scores(
-            loss=sum(self.loss) / max(1, self.samples),
-            point_accuracy=self.right / max(1, self.points),
-            part_iou=_mean(self.ious),
-            class_accuracy=_mean(self.classes),
-            revolute_angle=_median(self.angles["revolute"]),
-            prismatic_angle=_median(self.angles["prismatic"]),
-        )
-
-
-def _add(sums: _Sums, network: Any, batch: Batch, config: TrainConfig) -> None:
     settings = config.loss
-    targets = targets_of(batch, settings)
-    answers, early = forward(network, batch, settings)
-    found = losses(
-        answers, early, batch, targets, Counts(*count(batch, targets, settings)), settings
+    loss = 0.0
+    right = points = 0
+    ious: list[float] = []
+    classes: list[bool] = []
+    angles: dict[str, list[float]] = {"revolute": [], "prismatic": []}
+    for start in range(0, len(samples), config.validation.batch):
+        chunk = samples[start : start + config.validation.batch]
+        batch = taught(collate(chunk, config.network.max_parts).to(device), settings)
+        targets = targets_of(batch, settings)
+        with torch.no_grad():
+            answers, early = forward(network, batch, settings)
+            counts = Counts(*count(batch, targets, settings))
+            found = losses(answers, early, batch, targets, counts, settings)
+        loss += len(batch) * sum(settings.weight(name) * float(found[name]) for name in NAMES)
+        labels = arranged_columns(answers.mask_logits, answers.queries).argmax(-1)
+        right += int((labels == batch.part_ids).sum())
+        points += batch.part_ids.numel()
+        kinds = answers.parts.motion_logits.argmax(-1) == batch.motion
+        classes += kinds[targets.parts].tolist()
+        for kind in angles:
+            rows = getattr(targets, f"{kind}_direction")
+            said = getattr(answers.parts, f"{kind}_direction")[rows].cpu().numpy()
+            true = getattr(batch, f"{kind}_direction")[rows].cpu().numpy()
+            angles[kind] += _angles(said, true)
+        for said, true in zip(labels.cpu().numpy(), batch.part_ids.cpu().numpy(), strict=True):
+            ious += part_ious(said, true)
+    network.train(training)
+    return Scores(
+        loss=loss / max(1, len(samples)),
+        point_accuracy=right / max(1, points),
+        part_iou=_mean(ious),
+        class_accuracy=_mean(classes),
+        revolute_angle=_median(angles["revolute"]),
+        prismatic_angle=_median(angles["prismatic"]),
     )
-    sums.loss.append(len(batch) * sum(settings.weight(name) * float(found[name]) for name in NAMES))
-    sums.samples += len(batch)
-    labels = arranged_columns(answers.mask_logits, answers.queries).argmax(-1)
-    sums.right += int((labels == batch.part_ids).sum())
-    sums.points += batch.part_ids.numel()
-    right = answers.parts.motion_logits.argmax(-1) == batch.motion
-    sums.classes += right[targets.parts].tolist()
-    for kind in sums.angles:
-        rows = getattr(targets, f"{kind}_direction")
-        said = getattr(answers.parts, f"{kind}_direction")[rows].cpu().numpy()
-        true = getattr(batch, f"{kind}_direction")[rows].cpu().numpy()
-        sums.angles[kind] += _angles(said, true)
-    for said, true in zip(labels.cpu().numpy(), batch.part_ids.cpu().numpy(), strict=True):
-        sums.ious += part_ious(said, true)
 
 
 def part_ious(said: IntArray, true: IntArray) -> list[float]:

@@ -30,7 +30,6 @@ unseen_parts = false
 steps = {steps}
 rate = 3e-3
 warm_up = 3
-late_points = 48
 
 [validation]
 objects = 4

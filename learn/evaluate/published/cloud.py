@@ -10,6 +10,7 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import FloatArray, IntArray, read_only
 
+from ...samples.sampled_object import parents_first
 from ..bodies import bodies_of
 
 #: Points per object, as in the release; the paper speaks of ten times as many.
@@ -65,7 +66,7 @@ class ScoredCloud:
             one_motion: a part that turns and slides only turns.
         """
         poses = np.tile(np.eye(4), (len(self.parents), 1, 1))
-        for part in _parents_first(self.parents):
+        for part in parents_first(self.parents):
             own = self.joints[part]
             if one_motion and any(joint.turns for joint in own):
                 own = tuple(joint for joint in own if joint.turns)
@@ -77,18 +78,6 @@ class ScoredCloud:
                 )
             poses[part] = pose
         return poses
-
-
-def _parents_first(parents: tuple[int, ...]) -> list[int]:
-    order: list[int] = []
-    waiting = list(range(len(parents)))
-    while waiting:
-        ready = [part for part in waiting if parents[part] < 0 or parents[part] in order]
-        if not ready:
-            raise ValueError(f"parents {parents}: want a tree, have a circle")
-        order += ready
-        waiting = [part for part in waiting if part not in ready]
-    return order
 
 
 def cloud_of(articulation: Articulation, seed: int, count: int = POINTS) -> ScoredCloud:
@@ -110,21 +99,12 @@ def cloud_of(articulation: Articulation, seed: int, count: int = POINTS) -> Scor
     u, v = np.where(u + v > 1.0, [1.0 - u, 1.0 - v], [u, v])
     a, b, c = (mesh.vertices[mesh.faces[faces, corner]] for corner in range(3))
     points = a + u[:, None] * (b - a) + v[:, None] * (c - a)
-    body_of_part = {int(part): body for body, part in enumerate(bodies.parts)}
     return ScoredCloud(
         points=(points - middle) / size,
         labels=bodies.labels[faces],
-        parents=tuple(_parent(articulation, int(part), body_of_part) for part in bodies.parts),
+        parents=bodies.parents,
         joints=tuple(tuple(_in_box(joint, size, middle) for joint in own) for own in bodies.joints),
     )
-
-
-def _parent(articulation: Articulation, part: int, body_of_part: dict[int, int]) -> int:
-    while (joint := articulation.parent_joint(part)) is not None:
-        part = joint.parent
-        if part in body_of_part:
-            return body_of_part[part]
-    return -1
 
 
 def _in_box(joint: Joint, size: float, middle: FloatArray) -> Joint:

@@ -20,6 +20,6 @@ def paper(true: ScoredCloud, predicted: ScoredCloud) -> Score:
         rest and with ``articulated_`` at the upper limits.
     """
     matching = matched(true, predicted)
-    rest = compared(true, predicted, (true.points, predicted.points), matching, "")
-    full = compared(true, predicted, (true.at(1.0), predicted.at(1.0)), matching, "articulated_")
-    return Score({**rest, **full})
+    rest = compared(true, predicted, (true.points, predicted.points), matching)
+    full = compared(true, predicted, (true.at(1.0), predicted.at(1.0)), matching)
+    return Score({**rest, **{f"articulated_{name}": value for name, value in full.items()}})

@@ -37,7 +37,16 @@ def release(true: ScoredCloud, predicted: ScoredCloud, seed: int = 0) -> Score:
         rest, with ``articulated_`` as means over the states, in which the later states' ``giou``
         counts twice.
     """
-    return Score(_values(true, predicted, matched(true, predicted), np.random.default_rng(seed)))
+    matching = matched(true, predicted)
+    rest = compared(true, predicted, (true.points, predicted.points), matching)
+    states = per_state(true, predicted, matching, np.random.default_rng(seed))
+    mean = {}
+    for name in rest:
+        values = [state[name] for state in states]
+        if name.startswith("giou"):
+            values += values[1:]
+        mean[f"articulated_{name}"] = float(np.mean(values))
+    return Score({**rest, **mean})
 
 
 def per_state(
@@ -46,27 +55,13 @@ def per_state(
     """Return the metrics in each of ``STATES``."""
     states = []
     for share in STATES:
-        scores = compared(true, predicted, (true.at(share), predicted.at(share)), matching, "")
+        scores = compared(true, predicted, (true.at(share), predicted.at(share)), matching)
         if share > 0.0:
             there, back = solid_giou(true, predicted, matching, share, rng)
             scores["giou"] = matching.scored(there, back, PENALTIES["giou"])
             scores["giou_matched"] = matching.scored(there, back, None)
         states.append(scores)
     return states
-
-
-def _values(
-    true: ScoredCloud, predicted: ScoredCloud, matching: Matching, rng: np.random.Generator
-) -> dict[str, float]:
-    rest = compared(true, predicted, (true.points, predicted.points), matching, "")
-    states = per_state(true, predicted, matching, rng)
-    mean = {}
-    for name in rest:
-        values = [state[name] for state in states]
-        if name.startswith("giou"):
-            values += values[1:]
-        mean[f"articulated_{name}"] = float(np.mean(values))
-    return {**rest, **mean}
 
 
 def solid_giou(

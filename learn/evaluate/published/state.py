@@ -17,7 +17,6 @@ def compared(
     predicted: ScoredCloud,
     at: tuple[FloatArray, FloatArray],
     matching: Matching,
-    prefix: str,
 ) -> dict[str, float]:
     """Return the agreement of boxes and points of matched parts.
 
@@ -26,7 +25,6 @@ def compared(
         predicted: the prediction.
         at: true and predicted points in this state.
         matching: of the parts at rest.
-        prefix: before each name.
 
     Returns:
         ``giou``, ``miou`` (of boxes along the axes), ``pc`` (Chamfer distance of parts), each also
@@ -43,8 +41,8 @@ def compared(
         "pc": matching.each(lambda i, j: chamfer(ours[i], theirs[j])),
     }
     penalties = {**PENALTIES, "pc": half_diagonal(predicted)}
-    scores = {f"{prefix}oc": chamfer(at[1], at[0])}
+    scores = {"oc": chamfer(at[1], at[0])}
     for name, of_pair in values.items():
-        scores[f"{prefix}{name}"] = matching.scored(of_pair, of_pair, penalties[name])
-        scores[f"{prefix}{name}_matched"] = matching.scored(of_pair, of_pair, None)
+        scores[name] = matching.scored(of_pair, of_pair, penalties[name])
+        scores[f"{name}_matched"] = matching.scored(of_pair, of_pair, None)
     return scores

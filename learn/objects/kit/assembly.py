@@ -25,6 +25,8 @@ BACK = (0.0, 1.0, 0.0)
 DOWN = (0.0, 0.0, -1.0)
 UP = (0.0, 0.0, 1.0)
 
+#: Three numbers, in whatever form.
+Vector = npt.ArrayLike
 #: A face on which something is built as if the face were the plane y = 0, seen from -Y: from there
 #: to the object, shape [4, 4].
 Place = FloatArray
@@ -126,8 +128,8 @@ class Assembly(Chance):
     def hinge(
         self,
         name: str,
-        axis: npt.ArrayLike,
-        at: npt.ArrayLike,
+        axis: Vector,
+        at: Vector,
         upper: float,
         lower: float = 0.0,
         slide: float = 0.0,
@@ -148,12 +150,7 @@ class Assembly(Chance):
         return part
 
     def spin(
-        self,
-        name: str,
-        axis: npt.ArrayLike,
-        at: npt.ArrayLike,
-        slide: float = 0.0,
-        **how: Unpack[Hanging],
+        self, name: str, axis: Vector, at: Vector, slide: float = 0.0, **how: Unpack[Hanging]
     ) -> PartDraft:
         """Add a part that turns without end, and slides along its axis by up to ``slide`` [m]."""
         part = self._hung(name, JointKind.CONTINUOUS, axis, at, **how)
@@ -163,12 +160,7 @@ class Assembly(Chance):
         return part
 
     def slider(
-        self,
-        name: str,
-        axis: npt.ArrayLike,
-        at: npt.ArrayLike,
-        upper: float,
-        **how: Unpack[Hanging],
+        self, name: str, axis: Vector, at: Vector, upper: float, **how: Unpack[Hanging]
     ) -> PartDraft:
         """Return a part that slides by up to ``upper`` [m]."""
         part = self._hung(name, JointKind.PRISMATIC, axis, at, **how)
@@ -178,8 +170,8 @@ class Assembly(Chance):
     def screw(
         self,
         name: str,
-        axis: npt.ArrayLike,
-        at: npt.ArrayLike,
+        axis: Vector,
+        at: Vector,
         reach: float,
         turns: float,
         **how: Unpack[Hanging],
@@ -193,8 +185,8 @@ class Assembly(Chance):
         self,
         name: str,
         kind: JointKind,
-        axis: npt.ArrayLike,
-        at: npt.ArrayLike,
+        axis: Vector,
+        at: Vector,
         on: PartDraft | None = None,
         look: Material | None = None,
         place: Place | None = None,

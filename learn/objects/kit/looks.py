@@ -22,8 +22,6 @@ BLUE = Material("blue", (0.13, 0.2, 0.36, 1.0))
 RED = Material("red", (0.5, 0.08, 0.06, 1.0))
 BRASS = Material("brass", (0.62, 0.45, 0.17, 1.0))
 
-#: Largest block of a deflate stream that is not compressed [bytes].
-STORED_BLOCK = 65535
 #: A texture repeats after this length [m].
 TEXTURE_PERIOD_M = 0.5
 
@@ -71,22 +69,17 @@ def png(pixels: npt.NDArray[np.uint8]) -> bytes:
     """Return an RGB image as a PNG file.
 
     The stream is stored, not compressed: compressors differ between machines, and the bytes must
-        not.
+    not.
 
     Args:
         pixels: top row first, shape [height, width, 3].
     """
     height, width = pixels.shape[:2]
     raw = b"".join(b"\0" + row.tobytes() for row in pixels)
-    blocks = [raw[i : i + STORED_BLOCK] for i in range(0, len(raw), STORED_BLOCK)]
-    stream = b"\x78\x01"
-    for i, block in enumerate(blocks):
-        stream += struct.pack("<BHH", i == len(blocks) - 1, len(block), len(block) ^ 0xFFFF) + block
-    stream += struct.pack(">I", zlib.adler32(raw))
     header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    chunks = ((b"IHDR", header), (b"IDAT", stream), (b"IEND", b""))
-    return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(kind, data) for kind, data in chunks)
-
-
-def _chunk(kind: bytes, data: bytes) -> bytes:
-    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    chunks = ((b"IHDR", header), (b"IDAT", zlib.compress(raw, 0)), (b"IEND", b""))
+    file = b"\x89PNG\r\n\x1a\n"
+    for kind, data in chunks:
+        check = struct.pack(">I", zlib.crc32(kind + data))
+        file += struct.pack(">I", len(data)) + kind + data + check
+    return file

@@ -54,7 +54,7 @@ def _raised(x: Span, y: Span, z: Span, width: float) -> list[Form]:
     return forms
 
 
-def _open_frame(x: Span, y: Span, z: Span, width: float) -> list[Form]:
+def _glazed(x: Span, y: Span, z: Span, width: float) -> list[Form]:
     return frame(x, y, z, width)
 
 
@@ -95,19 +95,13 @@ def _two_fields(x: Span, y: Span, z: Span, width: float) -> list[Form]:
     return [*_shaker(x, y, z, width), rail]
 
 
-#: Every style by its name.
+#: Every style by its name, that of its maker.
 STYLES: dict[str, PanelMaker] = {
-    "slab": _slab,
-    "bevel": _bevel,
-    "shaker": _shaker,
-    "raised": _raised,
-    "glazed": _open_frame,
-    "mullion": _mullion,
-    "louvre": _louvre,
-    "planks": _planks,
-    "bowed": _bowed,
-    "two_fields": _two_fields,
-}
+    maker.__name__.removeprefix("_"): maker
+    for maker in (
+        _slab, _bevel, _shaker, _raised, _glazed, _mullion, _louvre, _planks, _bowed, _two_fields,
+    )
+}  # fmt: skip
 #: Styles that one looks through, and those of them with a pane.
 OPEN_STYLES = ("glazed", "mullion", "louvre")
 PANES = ("glazed", "mullion")

@@ -30,20 +30,19 @@ def tyre(center: Point, radius: float, wide: float) -> tuple[Form, Form]:
 
 def wheel(
     a: Assembly, name: str, at: Point, radius: float, wide: float, metal: Material,
-    rim: Material = BLACK, on: PartDraft | None = None,
+    rim: Material = BLACK,
 ) -> PartDraft:  # fmt: skip
     """Return a wheel about an axis along x through ``at`` [m], that turns without end."""
-    part = a.spin(name, RIGHT, at, on=on, look=rim)
+    part = a.spin(name, RIGHT, at, look=rim)
     outside, hub = tyre(at, radius, wide)
     part.add(outside)
     part.add(hub, look=metal)
     return part
 
 
-def bracket(
-    x: float, y: float, radius: float, wide: float, top: float, thick: float = 0.003
-) -> list[Form]:
+def bracket(x: float, y: float, radius: float, wide: float, top: float) -> list[Form]:
     """Return two plates that hold a wheel at ``(x, y, radius)`` under ``top`` [m]."""
+    thick = 0.003
     plates = ends(about(wide / 2 + _HUB + PLAY + thick, x), thick)
     return [box(plate, about(0.3 * radius, y), (0.7 * radius, top)) for plate in plates]
 

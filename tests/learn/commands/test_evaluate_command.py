@@ -11,7 +11,7 @@ from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.learn.evaluate import trial as trials
-from asset_factory.learn.evaluate.cases import cases, folder_requests, procedural_requests
+from asset_factory.learn.evaluate.cases import make_case, procedural_requests, real_requests
 from asset_factory.learn.evaluate.listing import read_list
 from asset_factory.learn.evaluate.methods import Method
 from asset_factory.learn.evaluate.score import Score
@@ -27,16 +27,8 @@ def cabinets(tmp_path_factory):
 
 
 def evaluate(cabinets, output, *flags):
-    given = [
-        "evaluate",
-        "--data",
-        str(cabinets),
-        "--list",
-        str(cabinets / "list.csv"),
-        "--half",
-        "both",
-    ]
-    return run([*given, "--output", str(output), *flags])
+    given = ["evaluate", "--data", str(cabinets), "--list", str(cabinets / "list.csv")]
+    return run([*given, "--half", "both", "--output", str(output), *flags])
 
 
 def load(output):
@@ -45,10 +37,8 @@ def load(output):
 
 def test_the_same_evaluation_leaves_the_same_bytes(cabinets, tmp_path, capsys):
     for name, workers in (("first", "1"), ("second", "2")):
-        assert (
-            evaluate(cabinets, tmp_path / name, "--pose", "closed", "open", "--workers", workers)
-            == 0
-        )
+        flags = ("--pose", "closed", "open", "--workers", workers)
+        assert evaluate(cabinets, tmp_path / name, *flags) == 0
     for file in ("evaluation.json", "cases.csv"):
         assert (tmp_path / "first" / file).read_bytes() == (tmp_path / "second" / file).read_bytes()
     assert str(tmp_path) not in (tmp_path / "first" / "evaluation.json").read_text()
@@ -74,10 +64,15 @@ def test_an_output_that_cannot_be_written_is_refused_at_once(
     assert "--output: " in capsys.readouterr().err
 
 
-def write_truth(case, path):
+def first_of(cabinets):
+    """The name of the first case, and the truth about it."""
+    request, _ = real_requests(cabinets, read_list(cabinets / "list.csv"), None)
+    return request.name, make_case(request)
+
+
+def write_truth(truth, path):
     """The truth as the published model would write it."""
-    truth = case.articulation
-    count = len(case.articulation.parts)
+    count = len(truth.parts)
     fields = {
         "face_part_ids": face_parts(truth),
         "motion_hierarchy": np.array([[joint.parent, joint.child] for joint in truth.joints]),
@@ -91,10 +86,8 @@ def write_truth(case, path):
     for joint in truth.joints:
         if joint.turns:
             fields["is_part_revolute"][joint.child] = True
-            fields["revolute_plucker"][joint.child] = [
-                *joint.axis,
-                *np.cross(joint.axis, joint.origin),
-            ]
+            moment = np.cross(joint.axis, joint.origin)
+            fields["revolute_plucker"][joint.child] = [*joint.axis, *moment]
             fields["revolute_range"][joint.child] = joint.lower, joint.upper
         else:
             fields["is_part_prismatic"][joint.child] = True
@@ -106,10 +99,10 @@ def write_truth(case, path):
 def test_predictions_are_read_from_files_and_missing_ones_are_scored_as_naive(
     cabinets, tmp_path, capsys
 ):
-    first = next(cases(cabinets, read_list(cabinets / "list.csv"), None))
+    name, truth = first_of(cabinets)
     given = tmp_path / "given"
     given.mkdir()
-    write_truth(first, given / f"{first.name}.npz")
+    write_truth(truth, given / f"{name}.npz")
     flags = ("--method", "naive", "predictions", "--predictions", str(given))
     assert evaluate(cabinets, tmp_path / "out", *flags) == 0
     lines = {(line["method"], line["case"]): line for line in load(tmp_path / "out")["cases"]}
@@ -120,40 +113,26 @@ def test_predictions_are_read_from_files_and_missing_ones_are_scored_as_naive(
     assert lost["failure"].startswith("missing_file: ")
     assert lost["values"] == lines["naive", "made__two__two--closed-front"]["values"]
     assert "missing_file" in capsys.readouterr().err
-    overall = {
-        entry["method"]: entry
-        for entry in load(tmp_path / "out")["summary"]
-        if entry["by"] == "overall"
-    }
+    summary = load(tmp_path / "out")["summary"]
+    overall = {each["method"]: each for each in summary if each["by"] == "overall"}
     assert overall["predictions"]["failures"] == 1
 
 
 def test_meshes_are_written_in_the_order_that_predictions_speak_of(cabinets, tmp_path):
     assert evaluate(cabinets, tmp_path / "unused", "--meshes", str(tmp_path / "meshes")) == 0
-    first = next(cases(cabinets, read_list(cabinets / "list.csv"), None))
-    lines = (tmp_path / "meshes" / f"{first.name}.obj").read_text().split("\n")
+    name, truth = first_of(cabinets)
+    lines = (tmp_path / "meshes" / f"{name}.obj").read_text().split("\n")
     vertices = np.array([line.split()[1:] for line in lines if line.startswith("v ")], float)
     faces = np.array([line.split()[1:] for line in lines if line.startswith("f ")], int) - 1
-    assert np.array_equal(vertices, first.articulation.mesh.vertices)
-    assert np.array_equal(faces, first.articulation.mesh.faces)
+    assert np.array_equal(vertices, truth.mesh.vertices)
+    assert np.array_equal(faces, truth.mesh.faces)
     assert not (tmp_path / "unused").exists()
 
 
 def test_the_published_conventions_and_procedural_objects(tmp_path):
-    flags = (
-        "--set",
-        "procedural",
-        "--category",
-        "cabinet",
-        "--seeds",
-        "1",
-        "--convention",
-        "release",
-    )
-    assert (
-        run(["evaluate", "--output", str(tmp_path), *flags, "--points", "500", "--method", "naive"])
-        == 0
-    )
+    asked = "--set procedural --category cabinet --seeds 1 --convention release --points 500"
+    flags = [*asked.split(), "--method", "naive"]
+    assert run(["evaluate", "--output", str(tmp_path), *flags]) == 0
     data = load(tmp_path)
     assert data["settings"]["points"] == 500
     assert -1.0 <= data["summary"][0]["values"]["articulated_giou"] <= 1.0
@@ -230,7 +209,6 @@ def test_one_object_of_many_parts_does_not_outvote_the_others():
 
 
 def test_folders_are_evaluated_without_a_list(cabinets, tmp_path):
-    assert len(folder_requests(cabinets)) == 2
     code = run(["evaluate", "--set", "folder", "--data", str(cabinets), "--output", str(tmp_path)])
     assert code == 0
-    assert load(tmp_path)["settings"]["set"] == "folder"
+    assert (load(tmp_path)["settings"]["set"], load(tmp_path)["settings"]["cases"]) == ("folder", 2)

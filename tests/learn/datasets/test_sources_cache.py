@@ -15,8 +15,7 @@ from asset_factory.learn.datasets import SourceSettings, prepare
 from asset_factory.learn.datasets.__main__ import main
 from asset_factory.learn.datasets.description import find_descriptions
 from asset_factory.learn.datasets.fronts import front_advice
-from asset_factory.learn.datasets.making import sampled_item
-from asset_factory.learn.datasets.turning import turned_sampled
+from asset_factory.learn.datasets.making import sampled_item, turned_sampled
 from asset_factory.learn.samples.sampled_object import read_sampled
 
 SETTINGS = SourceSettings(points=64, wall_s=60.0)

@@ -17,7 +17,7 @@ from asset_factory.learn.datasets.partnet import find_partnet, words
 from asset_factory.learn.datasets.predictions import find_predictions, read_prediction_item
 from asset_factory.learn.datasets.settings import SourceSettings
 from asset_factory.learn.datasets.split import is_held_out
-from asset_factory.learn.objects.export import FileFrame, write_annotation, write_obj, write_sidecar
+from asset_factory.learn.objects.export import write_annotation, write_obj, write_sidecar
 
 
 def touch(path, text="<robot/>"):
@@ -114,7 +114,7 @@ def chest():
 def test_labels_beside_a_mesh(tmp_path, named):
     folder = tmp_path / "chest_1"
     folder.mkdir()
-    frame = FileFrame(np.eye(4))
+    frame = np.eye(4)
     write_obj(chest().mesh, frame, folder / "chest.obj")
     labels = {"sidecar": "truth.npz", "stem": "chest.pred.npz", "alone": "pred.npz"}[named]
     write_annotation(chest(), frame, folder / labels)
@@ -132,8 +132,8 @@ def test_labels_beside_a_mesh(tmp_path, named):
 
 def test_generated_meshes_in_one_folder_do_not_share_files(tmp_path):
     for name in ("chest_a", "chest_b"):
-        write_obj(chest().mesh, FileFrame(np.eye(4)), tmp_path / f"{name}.obj")
-        write_annotation(chest(), FileFrame(np.eye(4)), tmp_path / f"{name}.pred.npz")
+        write_obj(chest().mesh, np.eye(4), tmp_path / f"{name}.obj")
+        write_annotation(chest(), np.eye(4), tmp_path / f"{name}.pred.npz")
     items = find_predictions(tmp_path)
     assert [item.name for item in items] == ["chest_a", "chest_b"]
     assert {path.name for path in items[0].files} == {

@@ -8,7 +8,7 @@ import pytest
 from asset_factory.factory.models.detector.canvas import CANVAS, SIDES, SORTS, WAYS, PanelWay, Sort
 from asset_factory.learn.detector.drawn import drawn_sides
 from asset_factory.learn.detector.kinds import kind_number
-from asset_factory.learn.detector.sides import labelled_sides
+from asset_factory.learn.detector.sides import WholeTruth, labelled_sides
 from asset_factory.learn.detector.still import STILL, make_still
 from asset_factory.learn.objects import make_object
 
@@ -21,7 +21,7 @@ from asset_factory.factory.views.raster import Side  # noqa: E402
 from asset_factory.learn.detector.evaluate import compared  # noqa: E402
 from asset_factory.learn.detector.looks import show  # noqa: E402
 from asset_factory.learn.detector.pack import read_pack, read_textures, write_pack  # noqa: E402
-from asset_factory.learn.detector.stream import Pool, WholeTruth  # noqa: E402
+from asset_factory.learn.detector.stream import Pool  # noqa: E402
 from asset_factory.learn.detector.targets import loss_of, targets_of  # noqa: E402
 
 FRONT, TOP = 0, SIDES.index("top")
@@ -154,8 +154,7 @@ def test_a_pack_keeps_objects_and_labels(tmp_path):
     Image.new("RGB", (8, 8), (10, 200, 30)).save(textures / "green.jpg")
     write_pack(tmp_path / "pack.zip", real, None, textures)
     (packed,) = read_pack(tmp_path / "pack.zip")
-    assert packed.kind == kind_number("fridge")
-    assert packed.real
+    assert packed.truth == WholeTruth(kind_number("fridge"), True, FRONT, True)
     (row,) = packed.table
     assert SORTS[int(row[6])] is Sort.DOOR
     assert WAYS[int(row[7])] is PanelWay.LEFT

@@ -1,5 +1,6 @@
 import hashlib
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,10 +14,11 @@ from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.runtime.store import Store
 from asset_factory.learn.evaluate.bodies import bodies_of, face_centres
 from asset_factory.learn.evaluate.cases import (
-    cases,
     folder_requests,
+    in_settings,
     make_case,
     procedural_requests,
+    real_requests,
     skin_requests,
 )
 from asset_factory.learn.evaluate.listing import COLUMNS, HALVES, half_of, read_list
@@ -37,6 +39,11 @@ def same(first, second):
     return (
         arrays and np.array_equal(face_parts(first), face_parts(second)) and limits[0] == limits[1]
     )
+
+
+def cases(root, poses=("closed",), yaws=("front",), store=None):
+    objects = real_requests(root, read_list(root / "list.csv"), None)
+    return [make_case(request, store) for request in in_settings(objects, poses, yaws)]
 
 
 def test_the_packages_list_is_sound_and_halved_by_its_rule():
@@ -113,14 +120,13 @@ def test_vertices_are_welded_across_parts():
 
 
 def test_a_case_is_closed_with_its_front_towards_minus_y(tmp_path):
-    objects = read_list(write_cabinets(tmp_path))
-    found = list(cases(tmp_path, objects, None, ("closed",), ("front",)))
-    assert [case.name for case in found] == [
+    objects = real_requests(tmp_path, read_list(write_cabinets(tmp_path)), None)
+    assert [request.name for request in objects] == [
         "made__one__one--closed-front",
         "made__two__two--closed-front",
     ]
-    truth = found[0].articulation
-    assert found[0].category == "cabinet"
+    assert objects[0].category == "cabinet"
+    truth = make_case(objects[0])
     assert [joint.lower for joint in truth.joints] == [0.0, 0.0]
     bodies = bodies_of(truth)
     centres = face_centres(truth.mesh)
@@ -132,11 +138,8 @@ def test_a_case_is_closed_with_its_front_towards_minus_y(tmp_path):
 
 
 def test_open_cases_are_in_range_and_the_truth_still_fits_them(tmp_path):
-    objects = read_list(write_cabinets(tmp_path))
-    shut, wide = (
-        next(cases(tmp_path, objects, None, (pose,), ("random",))).articulation
-        for pose in ("closed", "open")
-    )
+    write_cabinets(tmp_path)
+    shut, wide = (cases(tmp_path, (pose,), ("random",))[0] for pose in ("closed", "open"))
     for before, after in zip(shut.joints, wide.joints, strict=True):
         assert after.lower < 0.0 < after.upper
         assert after.range == pytest.approx(before.range)
@@ -144,14 +147,11 @@ def test_open_cases_are_in_range_and_the_truth_still_fits_them(tmp_path):
 
 
 def test_a_case_is_the_same_again_with_and_without_what_was_kept(tmp_path):
-    objects = read_list(write_cabinets(tmp_path))
+    write_cabinets(tmp_path)
     store = Store(tmp_path / "kept")
     read, kept, anew = (
-        [
-            case.articulation
-            for case in cases(tmp_path, objects, None, ("closed", "open"), ("front", "random"), s)
-        ]
-        for s in (store, store, None)
+        cases(tmp_path, ("closed", "open"), ("front", "random"), each)
+        for each in (store, store, None)
     )
     assert len(read) == 8
     assert all(same(a, b) and same(a, c) for a, b, c in zip(read, kept, anew, strict=True))
@@ -164,23 +164,23 @@ def test_another_file_than_the_listed_one_is_refused(tmp_path):
     file = tmp_path / objects[0].path
     file.write_text(file.read_text() + "\n")
     with pytest.raises(ConfigError, match="want the file that was listed"):
-        next(cases(tmp_path, objects, None))
+        cases(tmp_path)
     file.unlink()
     with pytest.raises(ConfigError, match="no such file"):
-        next(cases(tmp_path, objects, None))
+        cases(tmp_path)
 
 
 def test_procedural_objects_are_cases_too():
     (request,) = procedural_requests(("cabinet",), (7,))
     case, again = (make_case(request) for _ in range(2))
-    assert (case.name, case.source) == ("cabinet_7--closed-front", "procedural")
-    assert same(case.articulation, again.articulation)
-    assert case.articulation.movable_joints
+    assert (request.name, request.source) == ("cabinet_7--closed-front", "procedural")
+    assert same(case, again)
+    assert case.movable_joints
 
 
 def test_unknown_poses_and_yaws_are_named(tmp_path):
     with pytest.raises(ConfigError, match="no pose 'ajar'; there are closed, open"):
-        procedural_requests(("cabinet",), (7,), poses=("ajar",))
+        in_settings(procedural_requests(("cabinet",), (7,)), ("ajar",), ("front",))
 
 
 def test_a_folder_of_objects_with_joints(tmp_path):
@@ -190,7 +190,7 @@ def test_a_folder_of_objects_with_joints(tmp_path):
         "made__one__one--closed-front",
         "made__two__two--closed-front",
     ]
-    assert len(make_case(requests[0]).articulation.movable_joints) == 2
+    assert len(make_case(requests[0]).movable_joints) == 2
     (tmp_path / "empty").mkdir()
     with pytest.raises(ConfigError, match="holds no URDF"):
         folder_requests(tmp_path / "empty")
@@ -200,25 +200,23 @@ def test_skins_are_the_annotated_meshes_of_a_folder(tmp_path):
     write_cabinets(tmp_path / "described")
     with pytest.raises(ConfigError, match="holds no mesh with an annotation"):
         skin_requests(tmp_path)
-    fused = make_case(procedural_requests(("fridge",), (3,))[0].as_fused()).articulation
+    fused = make_case(replace(procedural_requests(("fridge",), (3,))[0], fused=True))
     write_sample(fused, tmp_path / "fridge_3")
     # What lies with a description belongs to it.
     (tmp_path / "fridge_3" / "object.urdf").unlink()
     (request,) = skin_requests(tmp_path)
     assert (request.source, request.category) == ("skins", "fridge")
-    made = make_case(request).articulation
+    made = make_case(request)
     assert len(made.movable_joints) == len(fused.movable_joints)
 
 
 def test_a_fused_case_is_one_skin_whose_truth_is_the_objects_own():
     (request,) = procedural_requests(("fridge",), (3,))
-    plain = make_case(request)
-    fused = make_case(request.as_fused())
-    assert fused.name == f"{plain.name}-fused"
-    assert len(np.unique(connected_components(fused.articulation.mesh))) < 5
-    assert len(np.unique(connected_components(plain.articulation.mesh))) > 10
-    for one, other in zip(plain.articulation.joints, fused.articulation.joints, strict=False):
+    skin = replace(request, fused=True)
+    assert skin.name == f"{request.name}-fused"
+    plain, fused = make_case(request), make_case(skin)
+    assert len(np.unique(connected_components(fused.mesh))) < 5
+    assert len(np.unique(connected_components(plain.mesh))) > 10
+    for one, other in zip(plain.joints, fused.joints, strict=False):
         assert abs(one.axis @ other.axis) > 0.999
-    np.testing.assert_allclose(
-        fused.articulation.mesh.extents, plain.articulation.mesh.extents, rtol=0.1
-    )
+    np.testing.assert_allclose(fused.mesh.extents, plain.mesh.extents, rtol=0.1)

@@ -81,7 +81,7 @@ def test_objects_to_fit_on_are_the_same_every_time_and_none_of_the_trainings(tmp
 def test_what_was_fitted_comes_back(tmp_path):
     wanted = linear(np.arange(len(SIGNS), dtype=float))
     stored = networks_stored({NAME: wanted}, {NAME: SIGNS}, {"least": np.array([0.35])})
-    fit = Fit(stored.arrays, stored.metadata, "Trust.", "nothing", "none")
+    fit = Fit(stored, "Trust.", "nothing", "none")
     write_fit(tmp_path / "trust.safetensors", fit, ["trust", "trust.safetensors"], 0)
     trust = trust_of(load_arrays(tmp_path / "trust.safetensors"))
     assert trust.least == 0.35

@@ -125,7 +125,7 @@ def test_uniting_a_part_gives_one_closed_skin_of_the_same_volume():
 
 def test_uniting_everything_gives_one_component_of_several_parts():
     apart = ((1.003, 2.0), (0.0, 1.0), (0.0, 0.5))
-    mesh = all_united(solids(UNIT, apart), rng())
+    mesh = all_united(solids(UNIT, apart))
     assert component_count(mesh) == 1
     assert set(mesh.part) == {0, 1}
     assert component_count(parts_united(solids(UNIT, apart), rng(), share=1.0)) == 2

@@ -19,7 +19,6 @@ from asset_factory.learn.train.losses import (
     NAMES,
     Answers,
     Counts,
-    LossSettings,
     count,
     forward,
     losses,
@@ -28,6 +27,7 @@ from asset_factory.learn.train.losses import (
     total,
 )
 from asset_factory.learn.train.matching import arranged_columns, assignment_costs, match
+from asset_factory.learn.train.settings import LossSettings
 
 ORIGINAL = {
     "mask": "point_mask_loss",
@@ -127,33 +127,21 @@ def test_columns_follow_the_match():
 
 def test_nothing_that_moves_and_no_edge_teach_nothing_wrong(network):
     batch = boxes(2)
+    kinds = ("revolute", "prismatic")
+    moving = [f"{kind}_{what}" for kind in kinds for what in ("direction", "range")]
     still = replace(
         batch,
         part_ids=torch.zeros_like(batch.part_ids),
         counts=torch.ones_like(batch.counts),
         parents=torch.full_like(batch.parents, -1),
         motion=torch.zeros_like(batch.motion),
-        **{
-            name: torch.zeros_like(getattr(batch, name))
-            for name in (
-                "revolute_direction",
-                "revolute_range",
-                "prismatic_direction",
-                "prismatic_range",
-            )
-        },
+        **{name: torch.zeros_like(getattr(batch, name)) for name in moving},
     )
     settings = LossSettings(dice=1.0, auxiliary=1.0, sign_free=True)
     found = found_losses(network, still, settings)
     total(found, settings).backward()
     assert all(np.isfinite(found[name].item()) for name in NAMES)
-    for name in (
-        "revolute_direction",
-        "prismatic_direction",
-        "revolute_range",
-        "prismatic_range",
-        "closest_points",
-    ):
+    for name in (*moving, "closest_points"):
         assert found[name].item() == 0.0
     assert all(
         torch.isfinite(each.grad).all() for each in network.parameters() if each.grad is not None

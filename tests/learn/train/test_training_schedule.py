@@ -1,4 +1,4 @@
-"""Rates, points, running means, the start: closed forms."""
+"""Rates, running means, the start: closed forms."""
 
 import math
 
@@ -24,12 +24,6 @@ def test_the_rate_climbs_a_line_and_falls_half_a_cosine():
     assert schedule.rate_at(110) == pytest.approx(0.2)
     rates = [schedule.rate_at(step) for step in range(10, 111)]
     assert rates == sorted(rates, reverse=True)
-
-
-def test_the_last_steps_see_more_points():
-    schedule = ScheduleSettings(steps=8, late_points=1024, late_from=0.75)
-    assert [schedule.points_at(step, 256) for step in (0, 5, 6, 7)] == [256, 256, 1024, 1024]
-    assert ScheduleSettings(steps=8).points_at(7, 256) == 256
 
 
 def test_the_running_mean_forgets_the_start_and_then_is_slow():

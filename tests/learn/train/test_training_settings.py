@@ -17,7 +17,7 @@ def test_every_shipped_recipe_can_be_read():
 
 def test_the_papers_recipe_is_the_papers():
     config = load_train_config("paper")
-    assert (config.schedule.steps, config.batch, config.draw_at(0).points) == (100_000, 128, 2048)
+    assert (config.schedule.steps, config.batch, config.draw.points) == (100_000, 128, 2048)
     wanted = (0.5, (0.95, 1.05), 0.02)
     assert (config.draw.sharp_share, config.draw.scale, config.draw.shift) == wanted
     size = SIZES["B"]
@@ -32,8 +32,8 @@ def test_the_papers_recipe_is_the_papers():
 def test_components_bring_their_channels():
     config = parse_train_config(f'[network]\nfeatures = "components"\n{DATA}', "here")
     assert config.network.shape.features == 27
-    assert config.draw_at(0).components
-    assert not parse_train_config(DATA, "here").draw_at(0).components
+    assert config.training_draw.components
+    assert not parse_train_config(DATA, "here").training_draw.components
 
 
 @pytest.mark.parametrize(
