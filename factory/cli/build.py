@@ -241,7 +241,9 @@ def build_config(command: Build) -> BuildConfig:
     """Return the configuration that the flags ask for."""
     from ..intake.mirror import mirror_of
 
-    config = with_repairs(input_config(command.loading), command.repairs)
+    config = with_repairs(
+        input_config(command.loading, here=command.executor == "local"), command.repairs
+    )
     folders = (mirror_of(place, command.output).absolute() for place in command.input)
     given = (*(str(folder) for folder in folders if folder.is_dir()), *config.intake.given)
     interior = config.solids.interior and not command.no_interior

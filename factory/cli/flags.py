@@ -64,7 +64,7 @@ class RootFlags:
         try:
             parse_arguments(self.xacro_arg)
         except ValueError as error:
-            raise ConfigError(f"--xacro-arg: is {error}") from error
+            raise ConfigError(f"--xacro-arg: {error}") from error
         return self.xacro_arg
 
 
@@ -149,8 +149,13 @@ def wanted(registry: Registry, where: str, **defaults: str) -> Filters:
     return filters
 
 
-def input_config(flags: InputFlags) -> BuildConfig:
-    """Return the configuration that flags ask for. Raises ConfigError: a bad flag."""
+def input_config(flags: InputFlags, *, here: bool = True) -> BuildConfig:
+    """Return the configuration that flags ask for. Raises ConfigError: a bad flag.
+
+    Args:
+        flags: as given.
+        here: whether this machine does the work.
+    """
     from ..articulate.asking.endpoint import require_endpoint
     from ..articulate.settings import require_usable
     from ..intake.orientation import parse_up
@@ -177,7 +182,8 @@ def input_config(flags: InputFlags) -> BuildConfig:
     given: dict[str, Any] = {
         name: getattr(flags, name) for name in asked if getattr(flags, name) is not None
     }
-    particulate = on_device(replace(config.particulate, **{**given, **_published(flags)}))
+    particulate = replace(config.particulate, **{**given, **_published(flags)})
+    particulate = on_device(particulate, here=here)
     require_usable(particulate, needed=flags.articulator == "particulate")
     vlm = replace(config.vlm, url=flags.vlm_url or config.vlm.url)
     vlm = replace(vlm, model=flags.vlm_model or vlm.model)
@@ -187,13 +193,24 @@ def input_config(flags: InputFlags) -> BuildConfig:
     )
 
 
-def on_device(config: ParticulateConfig) -> ParticulateConfig:
-    """Return settings that name a device, not ``auto``. Raises ConfigError: no such device."""
-    from ..models.particulate.device import device_for
+def on_device(config: ParticulateConfig, *, here: bool = True) -> ParticulateConfig:
+    """Return settings that name a device, not ``auto``.
+
+    Args:
+        config: as given.
+        here: whether the device is one of this machine.
+
+    Raises:
+        ConfigError: no such device, or the network does not run on it.
+    """
+    from ..models.particulate.device import device_for, works
 
     if not re.fullmatch(r"auto|cpu|cuda(:\d+)?|mps", config.device):
         raise ConfigError(f"--device must be auto, cpu, cuda, cuda:N or mps, not {config.device!r}")
-    return replace(config, device=device_for(config.device))
+    device = device_for(config.device)
+    if here and not works(device):
+        raise ConfigError(f"--device: torch finds no {device} here that works; want auto or cpu")
+    return replace(config, device=device)
 
 
 def _published(flags: InputFlags) -> dict[str, str]:
@@ -303,6 +320,13 @@ def require_writable(folder: Path, flag: str) -> None:
         raise ConfigError(
             f"{flag}: {folder}: {error.strerror}; want a folder that can be written to"
         ) from error
+
+
+def require_file(path: Path, flag: str) -> None:
+    """Raise ConfigError naming the flag where no file can be written, before the work is done."""
+    if path.is_dir() or not path.parent.is_dir():
+        there = "is a folder" if path.is_dir() else f"there is no folder {path.parent}"
+        raise ConfigError(f"{flag}: {path}: {there}; want a file in a folder that is there")
 
 
 def require_maniskill(purpose: str, *modules: str) -> None:

@@ -98,6 +98,8 @@ def night_config(command: Nightly) -> NightConfig:
     )
     settings.require_possible(config)
     build = replace(config.build, simulators=simulators_named(config.sim))
-    build = replace(build, particulate=on_device(build.particulate))
+    build = replace(
+        build, particulate=on_device(build.particulate, here=config.executor == "local")
+    )
     config = replace(config, build=with_repairs(build, command.repairs))
     return settings.with_licenses(config)

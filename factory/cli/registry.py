@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -62,14 +63,19 @@ class Handing(OfPassed):
     """plain, or huggingface: with the tables and the front matter that its hub shows."""
 
     def files(self) -> Iterator[tuple[str, bytes]]:
-        """Yield paths and contents of what is handed on. Raises ConfigError: no such layout."""
+        """Yield paths and contents. Raises ConfigError: no such layout, or none of the assets."""
         from ..registry.export import LAYOUTS, contents
 
         if self.layout not in LAYOUTS:
             raise ConfigError(
                 f"--layout: no layout {self.layout!r}; there are {', '.join(LAYOUTS)}"
             )
-        return contents(Registry(self.output), self.entries(), self.layout)
+        entries = self.entries()
+        first = next(entries, None)
+        if first is None:
+            # A copy of nothing would be in the way of the next one, or remove all at a URL.
+            raise ConfigError(f"no assets with {self.where or 'status = passed'} to hand on")
+        return contents(Registry(self.output), chain((first,), entries), self.layout)
 
 
 @dataclass(frozen=True)
@@ -218,6 +224,10 @@ def _import(command: Import) -> int:
 
     if not command.max_gb > 0.0:
         raise ConfigError(f"--max-gb must be more than 0, not {command.max_gb:g}")
+    if not command.source.exists():
+        raise ConfigError(
+            f"{command.source}: no such file or folder; `factory registry export` writes one"
+        )
     registry = Registry(command.output, create=True)
     limits = ImportLimits(total_bytes=int(command.max_gb * _GB))
     imported = import_export(

@@ -12,7 +12,7 @@ from ..errors import ConfigError, Exit, InputRejected
 from ..registry import Registry
 from ..runtime.store import write_whole
 from ..runtime.terminal import say
-from .flags import in_own_process
+from .flags import in_own_process, require_file
 
 
 @dataclass(frozen=True)
@@ -49,6 +49,12 @@ def run(command: ViewFile) -> int:
     if command.output is not None and not file.exists():
         registry = Registry(command.output)
         file = registry.folder(registry.named(str(file)))
+    if not file.exists():
+        raise ConfigError(
+            f"{file}: no such file; want a URDF, an MJCF, a mesh, or --output of an id"
+        )
+    if command.save is not None:
+        require_file(command.save, "--save")
     html = _drawn(file, live=command.save is None)
     if html is None:
         return Exit.UNJUDGED
