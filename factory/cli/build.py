@@ -54,8 +54,7 @@ class Build:
     """
 
     input: tuple[str, ...]
-    """Mesh files (GLB, glTF, OBJ, PLY, STL, OFF), URDF, xacro, MJCF or USD files, or folders of
-    them; also by a URL that fsspec understands, such as s3://bucket/meshes."""
+    """Meshes (GLB, glTF, OBJ, PLY, STL, OFF), URDF, xacro, MJCF, USD, folders of them, or URLs."""
     output: Path
     """The registry's folder; made if it is not there."""
     sim: str = DEFAULT_SIMULATORS
@@ -73,13 +72,13 @@ class Build:
     retry_rejected: tuple[str, ...] = ()
     """Build again what was rejected or could not be validated for these reasons; 'any': for any."""
     repair: bool = False
-    """Compare the files of what is known with those published, and build again what is damaged."""
+    """Verify the files of known assets, and build damaged ones again."""
     executor: str = "local"
     """Where workers run: local, or ray."""
     ray_address: str = "local"
     """With --executor ray: 'auto' or host:port of a cluster that runs; 'local' starts one."""
     ray_exchange: str = ""
-    """With --executor ray: fsspec URL for assets of nodes that share no folder; inputs are sent."""
+    """With --executor ray: fsspec URL through which nodes without a shared folder send assets."""
     repairs: str | None = None
     """What may be repaired: none, geometry (collision geometry only), or all (joints too)."""
     no_interior: bool = False
@@ -93,7 +92,7 @@ class Build:
     strict: bool = False
     """Exit with 1 when anything was rejected."""
     loading: tyro.conf.OmitArgPrefixes[InputFlags] = field(default_factory=InputFlags)
-    """How inputs are loaded, and who says what moves."""
+    """How inputs are loaded and articulated."""
 
 
 def run(command: Build) -> int:

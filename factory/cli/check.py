@@ -63,12 +63,11 @@ class Check:
     srdf: Path | None = None
     """An SRDF whose exempt pairs hold for the one file checked; by default the one beside it."""
     roots: tyro.conf.OmitArgPrefixes[RootFlags] = field(default_factory=RootFlags)
-    """Where descriptions may read."""
+    """Which files descriptions may refer to."""
     format: str = "text"
-    """How to print it: text, as files are done, or json, sarif, junit, markdown or github, at the
-    end. FORMAT=FILE writes a file beside that; several are separated by commas."""
+    """text, json, sarif, junit, markdown or github; then, after a comma, FORMAT=FILE."""
     baseline: Path | None = None
-    """A file of known findings, which are left out but for JSON and fail nothing."""
+    """A file of known findings: they fail nothing, and only JSON shows them."""
     write_baseline: Path | None = None
     """Where to write all findings of this run as known; none of them fails it."""
     verbose: bool = False

@@ -18,7 +18,7 @@ USUAL_OUTPUT = Path("out")
 
 @dataclass(frozen=True)
 class Edit:
-    """Say on a page what opens on a mesh, look at it open, and build it.
+    """Draw on a page what opens on a mesh, see it open, and build it.
 
     What was found is drawn as boxes on pictures of the mesh's sides: move, add and delete them, and
     choose what they are. Build writes them beside the mesh, as NAME.parts.json, runs `factory
@@ -34,9 +34,9 @@ class Edit:
     sim: str = DEFAULT_SIMULATORS
     """Simulators that validate, separated by commas; 'all' is sapien,mujoco,pybullet."""
     port: int = 0
-    """Of the server; 0: any that is free."""
+    """Port of the page; 0: any that is free."""
     loading: tyro.conf.OmitArgPrefixes[InputFlags] = field(default_factory=InputFlags)
-    """How the mesh is loaded, and who guesses what moves."""
+    """How the mesh is loaded and articulated."""
 
 
 def run(command: Edit) -> int:

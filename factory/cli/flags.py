@@ -32,19 +32,22 @@ from ..runtime.terminal import complain
 
 DEFAULT_SIMULATORS = "sapien"
 T = TypeVar("T")
+#: An asset, and any number of them, as commands take them.
+AssetId = tyro.conf.Positional[Annotated[str, tyro.conf.arg(metavar="ID")]]
+_IDS = tyro.conf.arg(metavar="[ID ...]", help_behavior_hint="")
+AssetIds = tyro.conf.Positional[Annotated[tuple[str, ...], _IDS]]
 
 
 @dataclass(frozen=True)
 class RootFlags:
-    """Where descriptions may read, beside their own folder and the package that it lies in."""
+    """Which files descriptions may refer to, beside their own folder and its package."""
 
     root: Annotated[tuple[Path, ...], tyro.conf.UseAppendAction] = ()
-    """A folder that URDF and MJCF files may refer to, in which packages are looked for as well;
-    may be given again. So are the folders given as inputs, and those of ROS_PACKAGE_PATH."""
+    """A folder that URDF and MJCF may refer to, beside inputs and ROS_PACKAGE_PATH."""
     allow_outside: bool = False
     """Let descriptions refer to any file on this machine: only for those whose author you trust."""
     xacro_arg: Annotated[tuple[str, ...], tyro.conf.UseAppendAction] = ()
-    """An argument of xacro files, name:=value; may be given again."""
+    """An argument of xacro files, name:=value."""
 
     def folders(self) -> tuple[Path, ...]:
         """Return the roots. Raises ConfigError: one is no folder."""
@@ -70,26 +73,22 @@ class RootFlags:
 
 @dataclass(frozen=True)
 class InputFlags:
-    """How inputs are loaded, and who says what moves."""
+    """How inputs are loaded and articulated."""
 
     articulator: str = "auto"
-    """Who says what moves: auto, stated, annotated, geometric, seams, particulate, vlm or rigid."""
+    """Proposes joints: auto, stated, annotated, geometric, seams, particulate, vlm or rigid."""
     checkpoint: str | None = None
-    """Weights for particulate, which auto then asks alone: a file,
-    hf:owner/repository/file@commit, or paper: those published, which are fetched."""
+    """Weights of particulate: a file, hf:owner/repository/file@commit, or paper (as published)."""
     features: str | None = None
-    """Weights of its feature extractor, if it needs one: a file, or
-    hf:owner/repository/file@commit."""
+    """Weights of its feature extractor, if any: a file, or hf:owner/repository/file@commit."""
     points: int | None = None
     """Points that particulate labels per sample."""
     samples: int | None = None
     """Samples that particulate reads; the one that agrees most with the others is taken."""
     device: str | None = None
-    """Where the network runs: auto (a GPU where there is one), cpu, cuda, cuda:N or mps; as the
-    preset says by default, and that says auto."""
+    """Where networks run: auto (a GPU if there is one), cpu, cuda, cuda:N or mps."""
     vlm_url: str | None = None
-    """With --articulator vlm: an endpoint of OpenAI's chat-completions protocol, such as
-    http://localhost:8000/v1; pictures of inputs go there. Its key: ASSET_FACTORY_VLM_KEY."""
+    """With --articulator vlm: a chat-completions URL, .../v1; its key: ASSET_FACTORY_VLM_KEY."""
     vlm_model: str | None = None
     """The model's name there."""
     up: str = "auto"
@@ -99,7 +98,7 @@ class InputFlags:
     config: str = "default"
     """A preset (default, fast, lenient, strict) or a TOML file of differences from the defaults."""
     roots: tyro.conf.OmitArgPrefixes[RootFlags] = field(default_factory=RootFlags)
-    """Where descriptions may read."""
+    """Which files descriptions may refer to."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,9 +122,7 @@ class OfPassed(OfRegistry):
     """A command on some assets of a registry."""
 
     where: str = ""
-    """Which assets, such as "category = fridge and joints > 1"; those that passed, if no status is
-    said. There are status, category, reason, tag, split, solved, license, gpu_ready, name, parts,
-    joints and hulls."""
+    """Which assets, such as "category = fridge and joints > 1"; by default those that passed."""
 
     def entries(self) -> Iterator[Entry]:
         """Yield the assets that are wanted. Raises ConfigError for what no asset can be."""

@@ -21,7 +21,7 @@ from ..registry.split import SPLITS
 from ..registry.verify import verify
 from ..runtime.remote import is_url, shown
 from ..runtime.terminal import say
-from .flags import OfPassed, OfRegistry, Printed
+from .flags import AssetId, AssetIds, OfPassed, OfRegistry, Printed
 from .registry_printing import print_diff, print_problems, print_rebuilt, size
 
 _GB = 1e9
@@ -29,7 +29,7 @@ _GB = 1e9
 
 @dataclass(frozen=True)
 class Rebuild(OfRegistry):
-    """Make the database anew from the folders; also where it was deleted or is damaged."""
+    """Rebuild the database from the folders, where it was deleted or is damaged too."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Verify(Printed, OfRegistry):
     Exit codes: 0 all is as it was published; 1 something is not; 2 wrong usage.
     """
 
-    ids: Positional[tuple[str, ...]] = ()
+    ids: AssetIds = ()
     """Only these assets."""
 
 
@@ -97,12 +97,12 @@ class Sync(Handing):
     """
 
     url: Positional[str]
-    """Of a folder, as fsspec understands it: s3://, gs://, hf://, file://."""
+    """URL of a folder, as fsspec understands it: s3://, gs://, hf://, file://."""
 
 
 @dataclass(frozen=True)
 class Import:
-    """Take the assets of an export into a registry; all of it is checked before any of it is."""
+    """Import the assets of an export; all of them are checked before one is registered."""
 
     source: Positional[Path]
     """A folder, or a .tar or .tar.gz file, that `factory registry export` wrote."""
@@ -111,7 +111,7 @@ class Import:
     replace: bool = False
     """Let its assets take the place of others with the same ids."""
     trust: bool = False
-    """Answer builds of the same inputs with its assets; otherwise those are built anew."""
+    """Answer builds of the same inputs with its assets; otherwise those are built again."""
     max_gb: float = 200.0
     """Refuse an export of more than this [GB]."""
 
@@ -120,7 +120,7 @@ class Import:
 class Tag(OfRegistry):
     """Give an asset tags."""
 
-    id: Positional[str]
+    id: AssetId
     """As `factory list` prints it."""
     tags: Positional[tuple[str, ...]]
     """Letters, digits, and ._:- within."""
@@ -130,10 +130,10 @@ class Tag(OfRegistry):
 class Untag(OfRegistry):
     """Take tags from an asset; all of them if none is named."""
 
-    id: Positional[str]
+    id: AssetId
     """As `factory list` prints it."""
     tags: Positional[tuple[str, ...]] = ()
-    """Those that it has not are ignored."""
+    """Tags to take; those that it does not have are ignored."""
 
 
 @dataclass(frozen=True)
@@ -143,7 +143,7 @@ class SplitCommand(Printed, OfPassed):
 
 @dataclass(frozen=True)
 class RegistryCommand:
-    """Keep a registry whole, compare it, and take assets out of it and in."""
+    """Verify, rebuild, compare, export, import or tag a registry."""
 
     action: tyro.conf.OmitArgPrefixes[
         Annotated[Rebuild, tyro.conf.subcommand("rebuild", prefix_name=False)]

@@ -27,11 +27,11 @@ class ViewFile:
     file: Positional[Path]
     """A URDF, MJCF or mesh file, an asset's folder, or its id with --output."""
     output: Path | None = None
-    """The registry's folder of an id."""
+    """The registry's folder, for an id."""
     save: Path | None = None
     """Write the page to this file, and serve nothing."""
     port: int = 0
-    """Of the server; 0: any that is free."""
+    """Port of the page; 0: any that is free."""
 
 
 def run(command: ViewFile) -> int:

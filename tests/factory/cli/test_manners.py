@@ -59,6 +59,7 @@ def test_the_help_is_short_and_begins_with_the_first_hour(capsys):
         assert left.value.code == code
         told = capsys.readouterr().out.splitlines()
         assert len(told) < 40
+        assert [line for line in told if line.endswith("...")] == []
         first = [line.split()[0] for line in told[told.index("") :] if line.startswith("  ")]
         assert first[3:11] == ["build", "check", "view", "edit", "list", "show", "solve", "demos"]
         assert set(first[11:]) >= {"doctor", "remove", "gc", "train"}
