@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -111,8 +111,7 @@ def run(command: Build) -> int:
     stopped = 0
     try:
         with interruptible(partial(_wind_up, job)):
-            kept = _kept(job.run(), results)
-            console.follow(kept, len(inputs), job.under_way, quiet=command.quiet)
+            console.follow(job.run(), results, len(inputs), job.under_way, quiet=command.quiet)
     except KeyboardInterrupt as interruption:
         stopped = Exit.TERMINATED if isinstance(interruption, Terminated) else Exit.INTERRUPTED
     left = len(inputs) - len(results)
@@ -253,10 +252,3 @@ def build_config(command: Build) -> BuildConfig:
         formats=formats_asked(command.formats),
         solids=replace(config.solids, interior=interior),
     )
-
-
-def _kept(results: Iterable[Result], into: list[Result]) -> Iterator[Result]:
-    """Yield the same results, kept for the summary of a job that may be interrupted."""
-    for result in results:
-        into.append(result)
-        yield result

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Hashable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field, replace
@@ -28,7 +28,7 @@ from .check_formats import FORMATS, PAGE, total
 from .flags import (
     DEFAULT_SIMULATORS,
     RootFlags,
-    require_file,
+    require_files,
     simulators_named,
     workers_fitting,
 )
@@ -89,7 +89,7 @@ def run(command: Check) -> int:
         said = f"--srdf: {command.srdf} is {there}, for {len(files)} descriptions"
         raise ConfigError(f"{said}; want a file, for one description")
     form, written = _forms("json" if str(command.json) == "-" else command.format)
-    _require_files(command, written)
+    require_files(command.json, command.write_baseline, *written.values())
     reports: list[Report] = []
     new: list[tuple[str, Report]] = []
     seen: set[Hashable] = set()
@@ -138,14 +138,6 @@ def _forms(said: str) -> tuple[str, dict[str, Path]]:
             f"--format must be one of {', '.join(names)}, or FORMAT=FILE, not {said!r}"
         )
     return next(iter(printed), "text"), {form: Path(file) for form, file in written.items()}
-
-
-def _require_files(command: Check, written: Mapping[str, Path]) -> None:
-    """Raise ConfigError for a file that could not be written at the end."""
-    flags = {"--json": command.json, "--write-baseline": command.write_baseline}
-    for flag, file in (*flags.items(), *(("--format", file) for file in written.values())):
-        if file is not None and str(file) != "-":
-            require_file(file, flag)
 
 
 def _print_new(path: Path, report: Report, seen: set[Hashable], *, verbose: bool) -> list[Finding]:

@@ -117,7 +117,16 @@ def _settings(command: Demos) -> Settings:
     if command.robot == "fetch" and command.control_mode == "pd_ee_pose":
         raise ConfigError("--control-mode: Fetch has no 'pd_ee_pose'; want pd_ee_delta_pose")
     require_maniskill("demonstrations want", "h5py")
-    _require_observed(command.obs_mode)
+    from mani_skill.envs.utils.observations import parse_obs_mode_to_struct
+
+    try:
+        parse_obs_mode_to_struct(command.obs_mode)
+    except AssertionError as error:
+        # It would be told at the first episode.
+        raise ConfigError(
+            f"--obs-mode: no {command.obs_mode!r}; want state, state_dict, none, "
+            "or pictures such as rgb+depth"
+        ) from error
     return Settings(
         command.task,
         command.robot,
@@ -126,18 +135,6 @@ def _settings(command: Demos) -> Settings:
         command.tries,
         command.keep_failures,
     )
-
-
-def _require_observed(mode: str) -> None:
-    """Raise ConfigError for what ManiSkill cannot observe: it says so at the first episode."""
-    from mani_skill.envs.utils.observations import parse_obs_mode_to_struct
-
-    try:
-        parse_obs_mode_to_struct(mode)
-    except AssertionError as error:
-        raise ConfigError(
-            f"--obs-mode: no {mode!r}; want state, state_dict, none, or pictures such as rgb+depth"
-        ) from error
 
 
 def _wanted(command: Demos) -> list[RegisteredAsset]:

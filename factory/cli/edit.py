@@ -10,7 +10,14 @@ from tyro.conf import Positional
 
 from ..errors import ConfigError, Exit, InputRejected
 from ..runtime.terminal import say
-from .flags import DEFAULT_SIMULATORS, InputFlags, input_config, simulators_named
+from .flags import (
+    DEFAULT_SIMULATORS,
+    InputFlags,
+    RootFlags,
+    input_config,
+    require_page,
+    simulators_named,
+)
 
 #: Of a mesh, if no other is named.
 USUAL_OUTPUT = Path("out")
@@ -44,13 +51,8 @@ def run(command: Edit) -> int:
     from ..edit.builds import Builds
     from ..edit.editor import editing
     from ..edit.subject import subject_of
-    from ..jobs.pages import missing_library
 
-    if not 0 <= command.port < 2**16:
-        raise ConfigError(f"--port must be 0 to 65535, not {command.port}")
-    missing = missing_library()
-    if missing is not None:
-        raise ConfigError(missing)
+    require_page(command.port)
     simulators_named(command.sim)
     config = input_config(command.loading)
     subject = subject_of(command.input, command.output, USUAL_OUTPUT)
@@ -65,10 +67,16 @@ def run(command: Edit) -> int:
     return Exit.OK
 
 
-def _said(flags: InputFlags) -> list[str]:
+def _said(flags: InputFlags | RootFlags) -> list[str]:
     """Return flags as they are typed, those that differ from their defaults."""
-    values = {each.name: getattr(flags, each.name) for each in fields(flags)}
-    changed = {
-        name: value for name, value in values.items() if value != getattr(InputFlags(), name)
-    }
-    return [word for name, value in changed.items() for word in (f"--{name}", str(value))]
+    words: list[str] = []
+    for each in fields(flags):
+        value = getattr(flags, each.name)
+        flag = f"--{each.name.replace('_', '-')}"
+        if isinstance(value, RootFlags):
+            words += _said(value)
+        elif value is True:
+            words.append(flag)
+        elif value != each.default:
+            words += [f"{flag}={one}" for one in (value if isinstance(value, tuple) else [value])]
+    return words

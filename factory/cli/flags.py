@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from importlib import import_module
 from pathlib import Path
-from typing import Annotated, Any, Protocol, TypeVar
+from typing import Annotated, Any, TypeVar
 
 import tyro
 
@@ -92,7 +92,7 @@ class InputFlags:
     vlm_model: str | None = None
     """The model's name there."""
     up: str = "auto"
-    """Axis of the input that points up: x, y, z, -x, -y, -z, or auto (glTF: y; all others: z)."""
+    """Axis that points up: x, y, z, -x (as --up=-x), -y, -z, or auto (glTF: y; all others: z)."""
     height: float | None = None
     """Real height to scale every input to [m]."""
     config: str = "default"
@@ -147,11 +147,9 @@ def wanted(registry: Registry, where: str, **defaults: str) -> Filters:
 
 
 def input_config(flags: InputFlags, *, here: bool = True) -> BuildConfig:
-    """Return the configuration that flags ask for. Raises ConfigError: a bad flag.
+    """Return the configuration that flags ask for, of work ``here`` or on other machines.
 
-    Args:
-        flags: as given.
-        here: whether this machine does the work.
+    Raises ConfigError: a bad flag.
     """
     from ..articulate.asking.endpoint import require_endpoint
     from ..articulate.settings import require_usable
@@ -193,12 +191,7 @@ def input_config(flags: InputFlags, *, here: bool = True) -> BuildConfig:
 def on_device(config: ParticulateConfig, *, here: bool = True) -> ParticulateConfig:
     """Return settings that name a device, not ``auto``.
 
-    Args:
-        config: as given.
-        here: whether the device is one of this machine.
-
-    Raises:
-        ConfigError: no such device, or the network does not run on it.
+    Raises ConfigError: there is none of that name, or the network does not run on it ``here``.
     """
     from ..models.particulate.device import device_for, works
 
@@ -319,11 +312,11 @@ def require_writable(folder: Path, flag: str) -> None:
         ) from error
 
 
-def require_file(path: Path, flag: str) -> None:
-    """Raise ConfigError naming the flag where no file can be written, before the work is done."""
-    if path.is_dir() or not path.parent.is_dir():
-        there = "is a folder" if path.is_dir() else f"there is no folder {path.parent}"
-        raise ConfigError(f"{flag}: {path}: {there}; want a file in a folder that is there")
+def require_files(*paths: Path | None) -> None:
+    """Raise ConfigError for a file that could not be written after the work; ``-`` is none."""
+    for path in paths:
+        if path is not None and str(path) != "-" and (path.is_dir() or not path.parent.is_dir()):
+            raise ConfigError(f"{path}: cannot be written; want a file in a folder that is there")
 
 
 def require_maniskill(purpose: str, *modules: str) -> None:
@@ -336,19 +329,17 @@ def require_maniskill(purpose: str, *modules: str) -> None:
         raise ConfigError(f"{purpose} ManiSkill ({error}); {hint}") from error
 
 
-class Effort(Protocol):
-    """Flags of commands that have a robot try something."""
+def require_page(port: int) -> None:
+    """Raise ConfigError where no page can be served: no such port, or a library is missing."""
+    from ..jobs.pages import missing_library
 
-    @property
-    def seed(self) -> int:
-        """Return the seed of the first episode."""
-
-    @property
-    def timeout(self) -> float:
-        """Return the longest that one attempt may take [s]."""
+    if not 0 <= port < 2**16:
+        raise ConfigError(f"--port must be 0 to 65535, not {port}")
+    if (missing := missing_library()) is not None:
+        raise ConfigError(missing)
 
 
-def check_effort(command: Effort, counts: Sequence[str]) -> None:
+def check_effort(command: Any, counts: Sequence[str]) -> None:
     """Raise ConfigError unless flags in ``counts`` are at least 1, and seed and timeout valid."""
     for name in counts:
         if getattr(command, name) < 1:

@@ -1,4 +1,4 @@
-"""``factory list``, ``show`` and ``registry``: what a registry holds, keeps, exports, imports."""
+"""``factory registry``: what a registry holds, keeps, exports, imports."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ from ..errors import ConfigError, Exit, InputRejected
 from ..registry import Registry
 from ..runtime.store import write_whole
 from ..runtime.terminal import say
-from .flags import in_own_process, require_file
+from .flags import in_own_process, require_files, require_page
 
 
 @dataclass(frozen=True)
@@ -36,15 +36,10 @@ class ViewFile:
 
 def run(command: ViewFile) -> int:
     """Serve or save the page; returns the exit code."""
-    from ..jobs.pages import missing_library
     from ..report.site.dropped import MOST_BYTES, DroppedFiles
     from ..report.site.server import serve
 
-    if not 0 <= command.port < 2**16:
-        raise ConfigError(f"--port must be 0 to 65535, not {command.port}")
-    missing = missing_library()
-    if missing is not None:
-        raise ConfigError(missing)
+    require_page(command.port)
     file = command.file
     if command.output is not None and not file.exists():
         registry = Registry(command.output)
@@ -53,8 +48,7 @@ def run(command: ViewFile) -> int:
         raise ConfigError(
             f"{file}: no such file; want a URDF, an MJCF, a mesh, or --output of an id"
         )
-    if command.save is not None:
-        require_file(command.save, "--save")
+    require_files(command.save)
     html = _drawn(file, live=command.save is None)
     if html is None:
         return Exit.UNJUDGED
