@@ -15,6 +15,7 @@ from shown_registry import HIT, HOSTILE, POINT, bundle_in, make_registry
 from asset_factory.factory.display.made import scene_of
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.export.bundle import export_bundle
+from asset_factory.factory.report.site import site as drawing
 from asset_factory.factory.report.site.alone import page_of_file
 from asset_factory.factory.report.site.places import Places
 from asset_factory.factory.report.site.render import grid_html, list_html
@@ -275,3 +276,10 @@ def test_hostile_names_in_a_description_are_text(tmp_path):
     parsed = Page(page_of_file(file))
     assert parsed.handlers == []
     assert parsed.tags.count("img") == 0
+
+
+def test_a_page_follows_all_code_that_draws_it(monkeypatch):
+    seen = []
+    monkeypatch.setattr(drawing, "digest_file", lambda file: seen.append(file.name) or "")
+    drawing._code.__wrapped__()
+    assert {"loading.py", "pages.py", "told.py", "asset.html.j2"} <= set(seen)
