@@ -39,7 +39,7 @@ DATASET: Mapping[str, str] = {
     "too_many_parts": "more moving parts than the network can tell apart [parts]",
     "bad_sample": "a sample's file is damaged, or says what cannot be",
     "not_made": "the procedural generator failed at one object",
-    "nothing_seen": "nothing that moves is seen from outside, so that no one skin can be made",
+    "nothing_seen": "nothing that moves is seen from outside: no one-piece mesh can be made",
 }
 
 #: Said of an asset on the way; no reason to reject.

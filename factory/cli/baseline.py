@@ -47,7 +47,7 @@ def read_baseline(path: Path) -> frozenset[Hashable]:
             for each in data["findings"]
         )
     except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
-        why = error.strerror if isinstance(error, OSError) else repr(error)
+        why = error.strerror if isinstance(error, OSError) else "not written by factory check"
         raise ConfigError(
             f"{path}: no baseline ({why}); --write-baseline {path} writes one"
         ) from error

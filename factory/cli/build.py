@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -54,8 +54,7 @@ class Build:
     """
 
     input: tuple[str, ...]
-    """Mesh files (GLB, glTF, OBJ, PLY, STL, OFF), URDF, xacro, MJCF or USD files, or folders of
-    them; also by a URL that fsspec understands, such as s3://bucket/meshes."""
+    """Meshes (GLB, glTF, OBJ, PLY, STL, OFF), URDF, xacro, MJCF, USD, folders of them, or URLs."""
     output: Path
     """The registry's folder; made if it is not there."""
     sim: str = DEFAULT_SIMULATORS
@@ -73,13 +72,13 @@ class Build:
     retry_rejected: tuple[str, ...] = ()
     """Build again what was rejected or could not be validated for these reasons; 'any': for any."""
     repair: bool = False
-    """Compare the files of what is known with those published, and build again what is damaged."""
+    """Verify the files of known assets, and build damaged ones again."""
     executor: str = "local"
     """Where workers run: local, or ray."""
     ray_address: str = "local"
     """With --executor ray: 'auto' or host:port of a cluster that runs; 'local' starts one."""
     ray_exchange: str = ""
-    """With --executor ray: fsspec URL for assets of nodes that share no folder; inputs are sent."""
+    """With --executor ray: fsspec URL through which nodes without a shared folder send assets."""
     repairs: str | None = None
     """What may be repaired: none, geometry (collision geometry only), or all (joints too)."""
     no_interior: bool = False
@@ -93,7 +92,7 @@ class Build:
     strict: bool = False
     """Exit with 1 when anything was rejected."""
     loading: tyro.conf.OmitArgPrefixes[InputFlags] = field(default_factory=InputFlags)
-    """How inputs are loaded, and who says what moves."""
+    """How inputs are loaded and articulated."""
 
 
 def run(command: Build) -> int:
@@ -112,8 +111,7 @@ def run(command: Build) -> int:
     stopped = 0
     try:
         with interruptible(partial(_wind_up, job)):
-            kept = _kept(job.run(), results)
-            console.follow(kept, len(inputs), job.under_way, quiet=command.quiet)
+            console.follow(job.run(), results, len(inputs), job.under_way, quiet=command.quiet)
     except KeyboardInterrupt as interruption:
         stopped = Exit.TERMINATED if isinstance(interruption, Terminated) else Exit.INTERRUPTED
     left = len(inputs) - len(results)
@@ -241,7 +239,9 @@ def build_config(command: Build) -> BuildConfig:
     """Return the configuration that the flags ask for."""
     from ..intake.mirror import mirror_of
 
-    config = with_repairs(input_config(command.loading), command.repairs)
+    config = with_repairs(
+        input_config(command.loading, here=command.executor == "local"), command.repairs
+    )
     folders = (mirror_of(place, command.output).absolute() for place in command.input)
     given = (*(str(folder) for folder in folders if folder.is_dir()), *config.intake.given)
     interior = config.solids.interior and not command.no_interior
@@ -252,10 +252,3 @@ def build_config(command: Build) -> BuildConfig:
         formats=formats_asked(command.formats),
         solids=replace(config.solids, interior=interior),
     )
-
-
-def _kept(results: Iterable[Result], into: list[Result]) -> Iterator[Result]:
-    """Yield the same results, kept for the summary of a job that may be interrupted."""
-    for result in results:
-        into.append(result)
-        yield result

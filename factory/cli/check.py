@@ -25,7 +25,13 @@ from ..runtime.terminal import complain, printable, say
 from . import console
 from .baseline import read_baseline, without_known, write_baseline
 from .check_formats import FORMATS, PAGE, total
-from .flags import DEFAULT_SIMULATORS, RootFlags, simulators_named, workers_fitting
+from .flags import (
+    DEFAULT_SIMULATORS,
+    RootFlags,
+    require_files,
+    simulators_named,
+    workers_fitting,
+)
 
 if TYPE_CHECKING:
     from asset_factory.sim_checks.config import CheckConfig
@@ -57,12 +63,11 @@ class Check:
     srdf: Path | None = None
     """An SRDF whose exempt pairs hold for the one file checked; by default the one beside it."""
     roots: tyro.conf.OmitArgPrefixes[RootFlags] = field(default_factory=RootFlags)
-    """Where descriptions may read."""
+    """Which files descriptions may refer to."""
     format: str = "text"
-    """How to print it: text, as files are done, or json, sarif, junit, markdown or github, at the
-    end. FORMAT=FILE writes a file beside that; several are separated by commas."""
+    """text, json, sarif, junit, markdown or github; then, after a comma, FORMAT=FILE."""
     baseline: Path | None = None
-    """A file of known findings, which are left out but for JSON and fail nothing."""
+    """A file of known findings: they fail nothing, and only JSON shows them."""
     write_baseline: Path | None = None
     """Where to write all findings of this run as known; none of them fails it."""
     verbose: bool = False
@@ -84,6 +89,7 @@ def run(command: Check) -> int:
         said = f"--srdf: {command.srdf} is {there}, for {len(files)} descriptions"
         raise ConfigError(f"{said}; want a file, for one description")
     form, written = _forms("json" if str(command.json) == "-" else command.format)
+    require_files(command.json, command.write_baseline, *written.values())
     reports: list[Report] = []
     new: list[tuple[str, Report]] = []
     seen: set[Hashable] = set()

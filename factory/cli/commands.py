@@ -84,6 +84,8 @@ COMMANDS = (
 #: So many of them are for the first hour.
 FIRST = 8
 
+#: Flags that add to what was given before them.
+AGAIN = ("--root", "--xacro-arg")
 #: How every command is parsed.
 OPTIONS = (tyro.conf.FlagCreatePairsOff,)
 #: How values of flags that need not be given are read, and named in the help.
@@ -106,18 +108,27 @@ MORE = """
 def _optional(
     asked: tyro.constructors.PrimitiveTypeInfo,
 ) -> tyro.constructors.PrimitiveConstructorSpec[Any] | None:
-    """Read a value of a flag that may be left out; the word None is none of them."""
-    kinds = [kind for kind in get_args(asked.type) if kind is not type(None)]
-    if len(kinds) != 1 or len(get_args(asked.type)) != 2 or kinds[0] not in _NAMES:
+    """Read a number, or a value of a flag that may be left out; the word None is none of them."""
+    said = get_args(asked.type)
+    kinds = [kind for kind in said if kind is not type(None)] or [asked.type]
+    if len(kinds) != 1 or len(said) not in (0, 2) or kinds[0] not in _NAMES:
         return None
     (kind,) = kinds
     return tyro.constructors.PrimitiveConstructorSpec(
         nargs=1,
         metavar=_NAMES[kind],
-        instance_from_str=lambda words: kind(words[0]),
+        instance_from_str=lambda words: _read(kind, words[0]),
         is_instance=lambda value: value is None or isinstance(value, kind),
         str_from_instance=lambda value: ["unset" if value is None else str(value)],
     )
+
+
+def _read(kind: Callable[[str], Any], word: str) -> Any:
+    try:
+        return kind(word)
+    except ValueError as error:
+        wanted = "a whole number" if kind is int else "a number"
+        raise ValueError(f"must be {wanted}, not {word!r}") from error
 
 
 def short_help() -> str:
@@ -190,6 +201,6 @@ def parse(arguments: Sequence[str] | None = None) -> tuple[Command, Any]:
 
 
 def _said_twice(arguments: Sequence[str]) -> str:
-    """Return a flag that is there twice, if one is."""
+    """Return a flag that is there twice, if one is that holds its last value alone."""
     said = [each.split("=")[0] for each in arguments if each.startswith("--")]
-    return next((flag for flag in said if said.count(flag) > 1), "")
+    return next((flag for flag in said if said.count(flag) > 1 and flag not in AGAIN), "")

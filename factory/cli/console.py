@@ -49,11 +49,12 @@ LEAST_BESIDE = 52
 
 def follow(
     results: Iterable[Result],
+    collected: list[Result],
     total: int,
     under_way: Callable[[], tuple[UnderWay, ...]] = tuple,
     *,
     quiet: bool = False,
-) -> list[Result]:
+) -> None:
     """Collect results as they come, showing a progress bar on a terminal and plain lines elsewhere.
 
     What was known from before is counted, not told one by one; rate and time left are those of the
@@ -61,20 +62,21 @@ def follow(
 
     Args:
         results: as a job gives them.
+        collected: is given each, so that an interruption loses none.
         total: how many there will be.
         under_way: says what workers are at.
         quiet: show nothing.
     """
     console = Terminal(stderr=True, quiet=quiet)
-    return (
-        _follow_on_terminal(console, results, total, under_way)
-        if console.is_terminal
-        else _follow(console, results, total)
-    )
+    if console.is_terminal:
+        _follow_on_terminal(console, results, collected, total, under_way)
+    else:
+        _follow(console, results, collected, total)
 
 
-def _follow(console: Console, results: Iterable[Result], total: int) -> list[Result]:
-    collected: list[Result] = []
+def _follow(
+    console: Console, results: Iterable[Result], collected: list[Result], total: int
+) -> None:
     silent = True
     for result in results:
         collected.append(result)
@@ -87,7 +89,6 @@ def _follow(console: Console, results: Iterable[Result], total: int) -> list[Res
         console.print(line, markup=False, soft_wrap=True)
     if silent and collected:
         console.print(_known_sentence(len(collected), total), markup=False)
-    return collected
 
 
 class _Stages(ProgressColumn):
@@ -123,9 +124,10 @@ class _TimeLeft(ProgressColumn):
 def _follow_on_terminal(
     console: Console,
     results: Iterable[Result],
+    collected: list[Result],
     total: int,
     under_way: Callable[[], tuple[UnderWay, ...]],
-) -> list[Result]:
+) -> None:
     columns = (
         BarColumn(bar_width=20),
         MofNCompleteColumn(),
@@ -133,7 +135,6 @@ def _follow_on_terminal(
         _TimeLeft(),
         _Stages(under_way),
     )
-    collected: list[Result] = []
     with Progress(*columns, console=console) as progress:
         task = progress.add_task("building", total=total)
         for result in results:
@@ -145,7 +146,6 @@ def _follow_on_terminal(
             progress.update(task, advance=1)
             if result.entry.status is not Status.PASSED or result.replaced:
                 progress.console.print(f"{result.entry.status}: {_sentence(result)}", markup=False)
-    return collected
 
 
 @contextmanager

@@ -6,12 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from tyro.conf import Positional
-
 from ..errors import ConfigError, Exit
 from ..registry import Registry
 from ..runtime.terminal import say
-from .flags import check_effort, entries_where, require_maniskill, require_writable
+from .flags import AssetIds, check_effort, entries_where, require_maniskill, require_writable
 
 if TYPE_CHECKING:
     from asset_factory.envs.assets import RegisteredAsset
@@ -30,7 +28,7 @@ CONTROL_MODES = (
 
 @dataclass(frozen=True)
 class Demos:
-    """Write what a scripted robot does as demonstrations in ManiSkill's layout, for imitation.
+    """Record a scripted robot's demonstrations, in ManiSkill's layout.
 
     <to>/<asset>-<number>.h5 with its .json holds trajectories of one asset, and <to>/summary.json
     how many there are of each joint, and why not more. The same command again makes only the files
@@ -44,7 +42,7 @@ class Demos:
 
     to: Path
     """Folder of demonstrations."""
-    ids: Positional[tuple[str, ...]] = ()
+    ids: AssetIds = ()
     """Assets, as `factory list` prints them; all by default."""
     output: Path = Path("out")
     """The registry's folder; the demonstrations refer to it as it is written here."""
@@ -119,6 +117,16 @@ def _settings(command: Demos) -> Settings:
     if command.robot == "fetch" and command.control_mode == "pd_ee_pose":
         raise ConfigError("--control-mode: Fetch has no 'pd_ee_pose'; want pd_ee_delta_pose")
     require_maniskill("demonstrations want", "h5py")
+    from mani_skill.envs.utils.observations import parse_obs_mode_to_struct
+
+    try:
+        parse_obs_mode_to_struct(command.obs_mode)
+    except AssertionError as error:
+        # It would be told at the first episode.
+        raise ConfigError(
+            f"--obs-mode: no {command.obs_mode!r}; want state, state_dict, none, "
+            "or pictures such as rgb+depth"
+        ) from error
     return Settings(
         command.task,
         command.robot,

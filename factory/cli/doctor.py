@@ -26,7 +26,7 @@ class Doctor(Printed):
     """
 
     output: Path = Path()
-    """Where assets are to go."""
+    """Folder that assets are to go to, for its free space."""
 
 
 def run(command: Doctor) -> int:

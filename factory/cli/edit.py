@@ -10,7 +10,14 @@ from tyro.conf import Positional
 
 from ..errors import ConfigError, Exit, InputRejected
 from ..runtime.terminal import say
-from .flags import DEFAULT_SIMULATORS, InputFlags, input_config, simulators_named
+from .flags import (
+    DEFAULT_SIMULATORS,
+    InputFlags,
+    RootFlags,
+    input_config,
+    require_page,
+    simulators_named,
+)
 
 #: Of a mesh, if no other is named.
 USUAL_OUTPUT = Path("out")
@@ -18,7 +25,7 @@ USUAL_OUTPUT = Path("out")
 
 @dataclass(frozen=True)
 class Edit:
-    """Say on a page what opens on a mesh, look at it open, and build it.
+    """Draw on a page what opens on a mesh, see it open, and build it.
 
     What was found is drawn as boxes on pictures of the mesh's sides: move, add and delete them, and
     choose what they are. Build writes them beside the mesh, as NAME.parts.json, runs `factory
@@ -34,9 +41,9 @@ class Edit:
     sim: str = DEFAULT_SIMULATORS
     """Simulators that validate, separated by commas; 'all' is sapien,mujoco,pybullet."""
     port: int = 0
-    """Of the server; 0: any that is free."""
+    """Port of the page; 0: any that is free."""
     loading: tyro.conf.OmitArgPrefixes[InputFlags] = field(default_factory=InputFlags)
-    """How the mesh is loaded, and who guesses what moves."""
+    """How the mesh is loaded and articulated."""
 
 
 def run(command: Edit) -> int:
@@ -44,13 +51,8 @@ def run(command: Edit) -> int:
     from ..edit.builds import Builds
     from ..edit.editor import editing
     from ..edit.subject import subject_of
-    from ..jobs.pages import missing_library
 
-    if not 0 <= command.port < 2**16:
-        raise ConfigError(f"--port must be 0 to 65535, not {command.port}")
-    missing = missing_library()
-    if missing is not None:
-        raise ConfigError(missing)
+    require_page(command.port)
     simulators_named(command.sim)
     config = input_config(command.loading)
     subject = subject_of(command.input, command.output, USUAL_OUTPUT)
@@ -65,10 +67,16 @@ def run(command: Edit) -> int:
     return Exit.OK
 
 
-def _said(flags: InputFlags) -> list[str]:
+def _said(flags: InputFlags | RootFlags) -> list[str]:
     """Return flags as they are typed, those that differ from their defaults."""
-    values = {each.name: getattr(flags, each.name) for each in fields(flags)}
-    changed = {
-        name: value for name, value in values.items() if value != getattr(InputFlags(), name)
-    }
-    return [word for name, value in changed.items() for word in (f"--{name}", str(value))]
+    words: list[str] = []
+    for each in fields(flags):
+        value = getattr(flags, each.name)
+        flag = f"--{each.name.replace('_', '-')}"
+        if isinstance(value, RootFlags):
+            words += _said(value)
+        elif value is True:
+            words.append(flag)
+        elif value != each.default:
+            words += [f"{flag}={one}" for one in (value if isinstance(value, tuple) else [value])]
+    return words

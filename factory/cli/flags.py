@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from importlib import import_module
 from pathlib import Path
-from typing import Annotated, Any, Protocol, TypeVar
+from typing import Annotated, Any, TypeVar
 
 import tyro
 
@@ -32,19 +32,22 @@ from ..runtime.terminal import complain
 
 DEFAULT_SIMULATORS = "sapien"
 T = TypeVar("T")
+#: An asset, and any number of them, as commands take them.
+AssetId = tyro.conf.Positional[Annotated[str, tyro.conf.arg(metavar="ID")]]
+_IDS = tyro.conf.arg(metavar="[ID ...]", help_behavior_hint="")
+AssetIds = tyro.conf.Positional[Annotated[tuple[str, ...], _IDS]]
 
 
 @dataclass(frozen=True)
 class RootFlags:
-    """Where descriptions may read, beside their own folder and the package that it lies in."""
+    """Which files descriptions may refer to, beside their own folder and its package."""
 
     root: Annotated[tuple[Path, ...], tyro.conf.UseAppendAction] = ()
-    """A folder that URDF and MJCF files may refer to, in which packages are looked for as well;
-    may be given again. So are the folders given as inputs, and those of ROS_PACKAGE_PATH."""
+    """A folder that URDF and MJCF may refer to, beside inputs and ROS_PACKAGE_PATH."""
     allow_outside: bool = False
     """Let descriptions refer to any file on this machine: only for those whose author you trust."""
     xacro_arg: Annotated[tuple[str, ...], tyro.conf.UseAppendAction] = ()
-    """An argument of xacro files, name:=value; may be given again."""
+    """An argument of xacro files, name:=value."""
 
     def folders(self) -> tuple[Path, ...]:
         """Return the roots. Raises ConfigError: one is no folder."""
@@ -64,42 +67,38 @@ class RootFlags:
         try:
             parse_arguments(self.xacro_arg)
         except ValueError as error:
-            raise ConfigError(f"--xacro-arg: is {error}") from error
+            raise ConfigError(f"--xacro-arg: {error}") from error
         return self.xacro_arg
 
 
 @dataclass(frozen=True)
 class InputFlags:
-    """How inputs are loaded, and who says what moves."""
+    """How inputs are loaded and articulated."""
 
     articulator: str = "auto"
-    """Who says what moves: auto, stated, annotated, geometric, seams, particulate, vlm or rigid."""
+    """Proposes joints: auto, stated, annotated, geometric, seams, particulate, vlm or rigid."""
     checkpoint: str | None = None
-    """Weights for particulate, which auto then asks alone: a file,
-    hf:owner/repository/file@commit, or paper: those published, which are fetched."""
+    """Weights of particulate: a file, hf:owner/repository/file@commit, or paper (as published)."""
     features: str | None = None
-    """Weights of its feature extractor, if it needs one: a file, or
-    hf:owner/repository/file@commit."""
+    """Weights of its feature extractor, if any: a file, or hf:owner/repository/file@commit."""
     points: int | None = None
     """Points that particulate labels per sample."""
     samples: int | None = None
     """Samples that particulate reads; the one that agrees most with the others is taken."""
     device: str | None = None
-    """Where the network runs: auto (a GPU where there is one), cpu, cuda, cuda:N or mps; as the
-    preset says by default, and that says auto."""
+    """Where networks run: auto (a GPU if there is one), cpu, cuda, cuda:N or mps."""
     vlm_url: str | None = None
-    """With --articulator vlm: an endpoint of OpenAI's chat-completions protocol, such as
-    http://localhost:8000/v1; pictures of inputs go there. Its key: ASSET_FACTORY_VLM_KEY."""
+    """With --articulator vlm: a chat-completions URL, .../v1; its key: ASSET_FACTORY_VLM_KEY."""
     vlm_model: str | None = None
     """The model's name there."""
     up: str = "auto"
-    """Axis of the input that points up: x, y, z, -x, -y, -z, or auto (glTF: y; all others: z)."""
+    """Axis that points up: x, y, z, -x (as --up=-x), -y, -z, or auto (glTF: y; all others: z)."""
     height: float | None = None
     """Real height to scale every input to [m]."""
     config: str = "default"
     """A preset (default, fast, lenient, strict) or a TOML file of differences from the defaults."""
     roots: tyro.conf.OmitArgPrefixes[RootFlags] = field(default_factory=RootFlags)
-    """Where descriptions may read."""
+    """Which files descriptions may refer to."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,9 +122,7 @@ class OfPassed(OfRegistry):
     """A command on some assets of a registry."""
 
     where: str = ""
-    """Which assets, such as "category = fridge and joints > 1"; those that passed, if no status is
-    said. There are status, category, reason, tag, split, solved, license, gpu_ready, name, parts,
-    joints and hulls."""
+    """Which assets, such as "category = fridge and joints > 1"; by default those that passed."""
 
     def entries(self) -> Iterator[Entry]:
         """Yield the assets that are wanted. Raises ConfigError for what no asset can be."""
@@ -149,8 +146,11 @@ def wanted(registry: Registry, where: str, **defaults: str) -> Filters:
     return filters
 
 
-def input_config(flags: InputFlags) -> BuildConfig:
-    """Return the configuration that flags ask for. Raises ConfigError: a bad flag."""
+def input_config(flags: InputFlags, *, here: bool = True) -> BuildConfig:
+    """Return the configuration that flags ask for, of work ``here`` or on other machines.
+
+    Raises ConfigError: a bad flag.
+    """
     from ..articulate.asking.endpoint import require_endpoint
     from ..articulate.settings import require_usable
     from ..intake.orientation import parse_up
@@ -177,7 +177,8 @@ def input_config(flags: InputFlags) -> BuildConfig:
     given: dict[str, Any] = {
         name: getattr(flags, name) for name in asked if getattr(flags, name) is not None
     }
-    particulate = on_device(replace(config.particulate, **{**given, **_published(flags)}))
+    particulate = replace(config.particulate, **{**given, **_published(flags)})
+    particulate = on_device(particulate, here=here)
     require_usable(particulate, needed=flags.articulator == "particulate")
     vlm = replace(config.vlm, url=flags.vlm_url or config.vlm.url)
     vlm = replace(vlm, model=flags.vlm_model or vlm.model)
@@ -187,13 +188,19 @@ def input_config(flags: InputFlags) -> BuildConfig:
     )
 
 
-def on_device(config: ParticulateConfig) -> ParticulateConfig:
-    """Return settings that name a device, not ``auto``. Raises ConfigError: no such device."""
-    from ..models.particulate.device import device_for
+def on_device(config: ParticulateConfig, *, here: bool = True) -> ParticulateConfig:
+    """Return settings that name a device, not ``auto``.
+
+    Raises ConfigError: there is none of that name, or the network does not run on it ``here``.
+    """
+    from ..models.particulate.device import device_for, works
 
     if not re.fullmatch(r"auto|cpu|cuda(:\d+)?|mps", config.device):
         raise ConfigError(f"--device must be auto, cpu, cuda, cuda:N or mps, not {config.device!r}")
-    return replace(config, device=device_for(config.device))
+    device = device_for(config.device)
+    if here and not works(device):
+        raise ConfigError(f"--device: torch finds no {device} here that works; want auto or cpu")
+    return replace(config, device=device)
 
 
 def _published(flags: InputFlags) -> dict[str, str]:
@@ -305,6 +312,13 @@ def require_writable(folder: Path, flag: str) -> None:
         ) from error
 
 
+def require_files(*paths: Path | None) -> None:
+    """Raise ConfigError for a file that could not be written after the work; ``-`` is none."""
+    for path in paths:
+        if path is not None and str(path) != "-" and (path.is_dir() or not path.parent.is_dir()):
+            raise ConfigError(f"{path}: cannot be written; want a file in a folder that is there")
+
+
 def require_maniskill(purpose: str, *modules: str) -> None:
     """Raise ConfigError unless ManiSkill, and further modules, can be imported."""
     try:
@@ -315,19 +329,17 @@ def require_maniskill(purpose: str, *modules: str) -> None:
         raise ConfigError(f"{purpose} ManiSkill ({error}); {hint}") from error
 
 
-class Effort(Protocol):
-    """Flags of commands that have a robot try something."""
+def require_page(port: int) -> None:
+    """Raise ConfigError where no page can be served: no such port, or a library is missing."""
+    from ..jobs.pages import missing_library
 
-    @property
-    def seed(self) -> int:
-        """Return the seed of the first episode."""
-
-    @property
-    def timeout(self) -> float:
-        """Return the longest that one attempt may take [s]."""
+    if not 0 <= port < 2**16:
+        raise ConfigError(f"--port must be 0 to 65535, not {port}")
+    if (missing := missing_library()) is not None:
+        raise ConfigError(missing)
 
 
-def check_effort(command: Effort, counts: Sequence[str]) -> None:
+def check_effort(command: Any, counts: Sequence[str]) -> None:
     """Raise ConfigError unless flags in ``counts`` are at least 1, and seed and timeout valid."""
     for name in counts:
         if getattr(command, name) < 1:

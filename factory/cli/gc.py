@@ -17,7 +17,7 @@ _DAY_S = 86_400.0
 
 @dataclass(frozen=True)
 class Gc(OfRegistry):
-    """Remove what dead processes left, and cached results by age and size; say how many stay.
+    """Remove leftovers of dead processes, and cached results by age and size.
 
     Never what a running job holds: its staging folders are locked, and results of the last hour
     stay. A build keeps the cache below `cache_gb` of its settings by itself.
@@ -26,9 +26,9 @@ class Gc(OfRegistry):
     """
 
     older_than: float | None = None
-    """Cached results that nobody used for so many days go."""
+    """Remove cached results that were not used for so many days."""
     keep_gb: float | None = None
-    """So much of the cache may stay [GB]; the longest unused goes first."""
+    """Keep at most so much of the cache [GB]; the longest unused goes first."""
 
 
 def run(command: Gc) -> int:

@@ -28,10 +28,9 @@ class List(Printed, OfRegistry):
     after: str = ""
     """Go on after the row of this id."""
     superseded: bool = False
-    """Those instead whose input has become another asset, by a corrected sidecar."""
+    """List superseded assets: their input became another one by a corrected sidecar."""
     where: str = ""
-    """Which assets, such as "category = fridge and joints > 1"; of status, category, reason, tag,
-    split, solved, license, gpu_ready, name, parts, joints and hulls."""
+    """Which assets, such as "category = fridge and joints > 1"; all by default."""
 
 
 def run(command: List) -> int:

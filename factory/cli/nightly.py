@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Nightly:
-    """Verify and mend what is kept, build what is new, compare with nights before, and report.
+    """Verify and repair a registry, build new inputs, and compare with earlier nights.
 
     The page is <output>/nights/<name>/index.html. An interrupted night goes on with the next run.
     Exit codes, the first that applies: 2 wrong usage, or another night runs there;
@@ -28,8 +28,7 @@ class Nightly:
     """
 
     config: Path | None = None
-    """A TOML file, such as configs/nightly.toml; its relative paths start from its folder. Flags
-    win."""
+    """A TOML file, such as configs/nightly.toml; paths in it start from its folder. Flags win."""
     input: tuple[str, ...] = ()
     """Mesh, URDF and MJCF files, or folders of them; also by URLs that fsspec understands."""
     output: Path | None = None
@@ -49,7 +48,7 @@ class Nightly:
     limit: int | None = None
     """Inputs begun at most, those known from before not counted; 0: all."""
     name: str | None = None
-    """Of the night; by default the one that was interrupted, else the next number."""
+    """Name of the night; by default the one that was interrupted, else the next number."""
     no_report: bool = False
     """Leave the pages of the registry as they are; see `factory report`."""
     fresh: bool = False
@@ -98,6 +97,8 @@ def night_config(command: Nightly) -> NightConfig:
     )
     settings.require_possible(config)
     build = replace(config.build, simulators=simulators_named(config.sim))
-    build = replace(build, particulate=on_device(build.particulate))
+    build = replace(
+        build, particulate=on_device(build.particulate, here=config.executor == "local")
+    )
     config = replace(config, build=with_repairs(build, command.repairs))
     return settings.with_licenses(config)

@@ -17,7 +17,7 @@ from .flags import InputFlags, Printed, in_own_process, input_config
 
 @dataclass(frozen=True)
 class Predict(Printed):
-    """Say what moves in one input, and how, without making anything of it.
+    """Print the parts and joints proposed for one input; build nothing.
 
     Exit codes: 0 there is an answer; 1 the input was rejected; 3 no answer came; 2 wrong usage.
 
@@ -27,7 +27,7 @@ class Predict(Printed):
     input: Positional[Path]
     """A mesh file, a URDF or an MJCF file."""
     loading: tyro.conf.OmitArgPrefixes[InputFlags] = field(default_factory=InputFlags)
-    """How it is loaded, and who says what moves."""
+    """How it is loaded and articulated."""
 
 
 def run(command: Predict) -> int:

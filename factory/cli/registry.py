@@ -1,10 +1,11 @@
-"""``factory list``, ``show`` and ``registry``: what a registry holds, keeps, exports, imports."""
+"""``factory registry``: what a registry holds, keeps, exports, imports."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -20,7 +21,7 @@ from ..registry.split import SPLITS
 from ..registry.verify import verify
 from ..runtime.remote import is_url, shown
 from ..runtime.terminal import say
-from .flags import OfPassed, OfRegistry, Printed
+from .flags import AssetId, AssetIds, OfPassed, OfRegistry, Printed
 from .registry_printing import print_diff, print_problems, print_rebuilt, size
 
 _GB = 1e9
@@ -28,7 +29,7 @@ _GB = 1e9
 
 @dataclass(frozen=True)
 class Rebuild(OfRegistry):
-    """Make the database anew from the folders; also where it was deleted or is damaged."""
+    """Rebuild the database from the folders, where it was deleted or is damaged too."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,7 @@ class Verify(Printed, OfRegistry):
     Exit codes: 0 all is as it was published; 1 something is not; 2 wrong usage.
     """
 
-    ids: Positional[tuple[str, ...]] = ()
+    ids: AssetIds = ()
     """Only these assets."""
 
 
@@ -62,14 +63,19 @@ class Handing(OfPassed):
     """plain, or huggingface: with the tables and the front matter that its hub shows."""
 
     def files(self) -> Iterator[tuple[str, bytes]]:
-        """Yield paths and contents of what is handed on. Raises ConfigError: no such layout."""
+        """Yield paths and contents. Raises ConfigError: no such layout, or none of the assets."""
         from ..registry.export import LAYOUTS, contents
 
         if self.layout not in LAYOUTS:
             raise ConfigError(
                 f"--layout: no layout {self.layout!r}; there are {', '.join(LAYOUTS)}"
             )
-        return contents(Registry(self.output), self.entries(), self.layout)
+        entries = self.entries()
+        first = next(entries, None)
+        if first is None:
+            # A copy of nothing would be in the way of the next one, or remove all at a URL.
+            raise ConfigError(f"no assets with {self.where or 'status = passed'} to hand on")
+        return contents(Registry(self.output), chain((first,), entries), self.layout)
 
 
 @dataclass(frozen=True)
@@ -91,12 +97,12 @@ class Sync(Handing):
     """
 
     url: Positional[str]
-    """Of a folder, as fsspec understands it: s3://, gs://, hf://, file://."""
+    """URL of a folder, as fsspec understands it: s3://, gs://, hf://, file://."""
 
 
 @dataclass(frozen=True)
 class Import:
-    """Take the assets of an export into a registry; all of it is checked before any of it is."""
+    """Import the assets of an export; all of them are checked before one is registered."""
 
     source: Positional[Path]
     """A folder, or a .tar or .tar.gz file, that `factory registry export` wrote."""
@@ -105,7 +111,7 @@ class Import:
     replace: bool = False
     """Let its assets take the place of others with the same ids."""
     trust: bool = False
-    """Answer builds of the same inputs with its assets; otherwise those are built anew."""
+    """Answer builds of the same inputs with its assets; otherwise those are built again."""
     max_gb: float = 200.0
     """Refuse an export of more than this [GB]."""
 
@@ -114,7 +120,7 @@ class Import:
 class Tag(OfRegistry):
     """Give an asset tags."""
 
-    id: Positional[str]
+    id: AssetId
     """As `factory list` prints it."""
     tags: Positional[tuple[str, ...]]
     """Letters, digits, and ._:- within."""
@@ -124,10 +130,10 @@ class Tag(OfRegistry):
 class Untag(OfRegistry):
     """Take tags from an asset; all of them if none is named."""
 
-    id: Positional[str]
+    id: AssetId
     """As `factory list` prints it."""
     tags: Positional[tuple[str, ...]] = ()
-    """Those that it has not are ignored."""
+    """Tags to take; those that it does not have are ignored."""
 
 
 @dataclass(frozen=True)
@@ -137,7 +143,7 @@ class SplitCommand(Printed, OfPassed):
 
 @dataclass(frozen=True)
 class RegistryCommand:
-    """Keep a registry whole, compare it, and take assets out of it and in."""
+    """Verify, rebuild, compare, export, import or tag a registry."""
 
     action: tyro.conf.OmitArgPrefixes[
         Annotated[Rebuild, tyro.conf.subcommand("rebuild", prefix_name=False)]
@@ -218,6 +224,10 @@ def _import(command: Import) -> int:
 
     if not command.max_gb > 0.0:
         raise ConfigError(f"--max-gb must be more than 0, not {command.max_gb:g}")
+    if not command.source.exists():
+        raise ConfigError(
+            f"{command.source}: no such file or folder; `factory registry export` writes one"
+        )
     registry = Registry(command.output, create=True)
     limits = ImportLimits(total_bytes=int(command.max_gb * _GB))
     imported = import_export(

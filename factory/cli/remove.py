@@ -6,14 +6,12 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from tyro.conf import Positional
-
 from ..errors import ConfigError, Exit
 from ..registry import Registry
 from ..registry.placing import remove
 from ..runtime.layout import SUPERSEDED
 from ..runtime.terminal import say
-from .flags import OfRegistry, entries_where
+from .flags import AssetIds, OfRegistry, entries_where
 
 #: Ids that are listed before they go.
 LISTED = 20
@@ -29,10 +27,10 @@ class Remove(OfRegistry):
     Example: factory remove --where "status = rejected" --output out/
     """
 
-    ids: Positional[tuple[str, ...]] = ()
+    ids: AssetIds = ()
     """As `factory list` prints them."""
     where: str = ""
-    """Those instead that meet conditions, such as "category = fridge and joints > 1"."""
+    """Remove those that meet conditions, such as "category = fridge and joints > 1"."""
     yes: bool = False
     """Do not ask."""
 

@@ -5,13 +5,11 @@ from __future__ import annotations
 import json
 from dataclasses import asdict, dataclass
 
-from tyro.conf import Positional
-
 from ..errors import Exit
 from ..registry import Registry
 from ..runtime.layout import MANIFEST
 from ..runtime.terminal import say
-from .flags import OfRegistry, Printed
+from .flags import AssetId, OfRegistry, Printed
 
 
 @dataclass(frozen=True)
@@ -21,7 +19,7 @@ class Show(Printed, OfRegistry):
     Example: factory show fridge-264720b5fe --output out/
     """
 
-    id: Positional[str]
+    id: AssetId
     """As `factory list` prints it, or its beginning."""
 
 

@@ -7,12 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tyro.conf import Positional
-
 from ..errors import ConfigError, Exit, RegistryError
 from ..runtime.layout import SOLVING
 from ..runtime.terminal import complain, say
-from .flags import check_effort, require_maniskill
+from .flags import AssetIds, check_effort, require_maniskill
 
 if TYPE_CHECKING:
     from asset_factory.envs.assets import OpenableJoint, RegisteredAsset
@@ -34,7 +32,7 @@ class Solve:
     Example: factory solve --output out/ --seed 0
     """
 
-    ids: Positional[tuple[str, ...]] = ()
+    ids: AssetIds = ()
     """Assets, as `factory list` prints them, or their beginnings; all by default."""
     output: Path = Path("out")
     """The registry's folder."""
@@ -45,14 +43,13 @@ class Solve:
     workers: int = 1
     """Joints tried at once."""
     seed: int = 0
-    """Of the episodes: where the robot stands, within 2 cm, and how it plans."""
+    """Seed of the episodes: where the robot stands, within 2 cm, and how it plans."""
     tries: int = 4
     """Episodes per joint and robot, each with other grips."""
     timeout: float = 300.0
     """Longest that one joint may take a robot [s]."""
     video: bool = False
-    """Film solved joints, on any machine: <output>/solving/<id>-<joint>-<robot>.mp4, also on the
-    asset's page."""
+    """Film solved joints: <output>/solving/<id>-<joint>-<robot>.mp4, and on the asset's page."""
     strict: bool = False
     """Exit with 1 when some asset has no joint that was opened."""
 

@@ -12,7 +12,7 @@ from ..errors import ConfigError, Exit, InputRejected
 from ..registry import Registry
 from ..runtime.store import write_whole
 from ..runtime.terminal import say
-from .flags import in_own_process
+from .flags import in_own_process, require_files, require_page
 
 
 @dataclass(frozen=True)
@@ -27,28 +27,28 @@ class ViewFile:
     file: Positional[Path]
     """A URDF, MJCF or mesh file, an asset's folder, or its id with --output."""
     output: Path | None = None
-    """The registry's folder of an id."""
+    """The registry's folder, for an id."""
     save: Path | None = None
     """Write the page to this file, and serve nothing."""
     port: int = 0
-    """Of the server; 0: any that is free."""
+    """Port of the page; 0: any that is free."""
 
 
 def run(command: ViewFile) -> int:
     """Serve or save the page; returns the exit code."""
-    from ..jobs.pages import missing_library
     from ..report.site.dropped import MOST_BYTES, DroppedFiles
     from ..report.site.server import serve
 
-    if not 0 <= command.port < 2**16:
-        raise ConfigError(f"--port must be 0 to 65535, not {command.port}")
-    missing = missing_library()
-    if missing is not None:
-        raise ConfigError(missing)
+    require_page(command.port)
     file = command.file
     if command.output is not None and not file.exists():
         registry = Registry(command.output)
         file = registry.folder(registry.named(str(file)))
+    if not file.exists():
+        raise ConfigError(
+            f"{file}: no such file; want a URDF, an MJCF, a mesh, or --output of an id"
+        )
+    require_files(command.save)
     html = _drawn(file, live=command.save is None)
     if html is None:
         return Exit.UNJUDGED

@@ -33,7 +33,7 @@ class WeightsConvert:
 
 @dataclass(frozen=True)
 class WeightsCommand:
-    """Describe and convert checkpoints of the networks behind particulate."""
+    """Describe checkpoints of networks, or convert them to safetensors."""
 
     action: (
         Annotated[InfoCommand, tyro.conf.subcommand("info", prefix_name=False)]

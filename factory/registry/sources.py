@@ -36,7 +36,8 @@ def entries_of(path: Path) -> tuple[Entry, ...]:
         if path.is_file():
             return _from_archive(path)
     except (OSError, EOFError, tarfile.TarError) as error:
-        raise RegistryError(f"{path}: cannot be read ({error})") from error
+        why = error.strerror if isinstance(error, OSError) else "no whole archive"
+        raise RegistryError(f"{path}: cannot be read ({why})") from error
     raise RegistryError(f"{path}: neither a registry nor an export of one")
 
 

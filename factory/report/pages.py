@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 #: Colours, type and tables of every page.
 BASE_CSS = Path(__file__).parent / "site" / "static" / "base.css"
-_LONGEST = 600
+_LONGEST = 1200
 
 
 def environment(package: str, **known: object) -> Environment:

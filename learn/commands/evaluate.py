@@ -22,7 +22,7 @@ HALVES = ("develop", "report", "both")
 
 @dataclass(frozen=True)
 class Evaluate:
-    """Compare articulators' answers with the truth, on objects that come with their joints.
+    """Score articulators on objects whose joints are known.
 
     A method that gives no answer for a case is counted and scored as if it had said that nothing
     moves; what hangs is counted and not scored. Exit codes: 0 all cases are scored; 3 some case
@@ -34,15 +34,13 @@ class Evaluate:
     output: Path
     """Folder for evaluation.json and cases.csv; made if it is not there."""
     kind: Annotated[str, tyro.conf.arg(name="set")] = "real"
-    """real: the frozen list of real objects; procedural: generated; folder: any with joints;
-    skins: one-piece surfaces with the truth beside them."""
+    """real (a frozen list), procedural, folder (any with joints), or skins (one-piece meshes)."""
     data: Path | None = None
-    """real: root of the list's paths; folder: where URDF, MJCF and annotated meshes are; skins:
-    where annotated meshes are."""
+    """real: root of the list's paths; folder, skins: folder of the objects."""
     listed: Annotated[Path | None, tyro.conf.arg(name="list")] = None
     """real: another list than the package's own."""
     half: str = "develop"
-    """real: develop, to choose and tune on; report, to be looked at once at the end; both."""
+    """real: develop, to choose and tune on; report, held out for one last measurement; both."""
     category: tuple[str, ...] = ()
     """Only these; for procedural objects all by default."""
     seeds: int = 4
@@ -58,11 +56,11 @@ class Evaluate:
     predictions: Path | None = None
     """Folder of <case>.npz files in the published model's format, over meshes of --meshes."""
     fused: bool = False
-    """Make each object one closed skin with its seams engraved first, as image-to-3D tools do."""
+    """Fuse each object to one closed mesh with engraved seams, as image-to-3D tools make them."""
     meshes: Path | None = None
     """Write the cases' meshes there as <case>.obj and evaluate nothing."""
     convention: str = "physical"
-    """physical: area and motion of faces; paper, release: published metrics, as worded, coded."""
+    """physical (faces' areas and motion), or published metrics: paper (worded), release (coded)."""
     points: int = 100_000
     """paper, release: points per object."""
     checkpoint: str = "shipped"
@@ -74,15 +72,15 @@ class Evaluate:
     device: str = "auto"
     """Where the network runs: auto (a GPU where there is one), cpu, cuda, cuda:N or mps."""
     repeats: int = 1
-    """How often a method that samples is asked, each time with another seed; the spread is told."""
+    """How often a method that samples is asked, each time with another seed."""
     limit: int | None = None
     """Only the first so many cases."""
     workers: int = 1
     """Cases at once."""
     timeout: float = 300.0
-    """After which an answer hangs: it is stopped and not scored [s]."""
+    """Longest that one answer may take [s]; then it is stopped and not scored."""
     cache: Path | None = None
-    """Folder that keeps objects once read."""
+    """Folder that keeps objects that were read, for the next evaluation."""
 
 
 def run(command: Evaluate) -> int:

@@ -15,7 +15,7 @@ from asset_factory.factory.runtime.terminal import say
 
 @dataclass(frozen=True)
 class Train:
-    """Train the network of parts and joints, by a recipe.
+    """Train the network of parts and joints from a recipe.
 
     Under torchrun, several processes share the work. An interrupt or SIGTERM ends the run after a
     checkpoint.

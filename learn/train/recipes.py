@@ -47,7 +47,8 @@ def recipe_text(recipe: str) -> str:
         if recipe.endswith(".toml"):
             return Path(recipe).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise ConfigError(f"recipe {recipe!r}: {error}") from error
+        why = error.strerror if isinstance(error, OSError) else error
+        raise ConfigError(f"recipe {recipe!r}: {why}") from error
     raise ConfigError(
         f"no recipe {recipe!r}; there are {', '.join(recipe_names())}, or a path to a .toml file"
     )

@@ -15,20 +15,22 @@ TRIAL_S = 120.0
 GPU_FILES = ("/dev/nvidiactl", "/dev/dxg", "/dev/nvhost-gpu", "/dev/kfd")
 
 
-@cache
 def device_for(name: str) -> str:
-    """Return a device as torch names it; of ``auto``, a GPU that runs the network, else the CPU.
+    """Return a device as torch names it; of ``auto``, a GPU that runs the network, else the CPU."""
+    return name if name != AUTO else next(filter(works, ("cuda", "mps", "cpu")))
 
-    A device is tried in a child process: importing torch takes seconds, and a driver may abort.
+
+@cache
+def works(device: str) -> bool:
+    """Tell whether the network runs on a device of this machine.
+
+    A GPU is tried in a child process: importing torch takes seconds, and a driver may abort.
     """
-    if name != AUTO:
-        return name
+    if device == "cpu":
+        return True
     if sys.platform != "darwin" and not any(Path(each).exists() for each in GPU_FILES):
-        return "cpu"
-    for device in ("cuda", "mps"):
-        if run_isolated(runs_on, device, limits=Limits(wall_s=TRIAL_S)).value:
-            return device
-    return "cpu"
+        return False
+    return bool(run_isolated(runs_on, device, limits=Limits(wall_s=TRIAL_S)).value)
 
 
 def runs_on(device: str) -> bool:
@@ -36,7 +38,7 @@ def runs_on(device: str) -> bool:
     import torch
 
     there = {"cuda": torch.cuda.is_available, "mps": torch.backends.mps.is_available}
-    if not there[device]():
+    if not there[device.split(":", 1)[0]]():
         return False
     layer = torch.nn.TransformerEncoderLayer(d_model=32, nhead=4).to(device).eval()
     return bool(torch.isfinite(layer(torch.ones(8, 1, 32, device=device))).all().cpu())

@@ -157,7 +157,7 @@ def _sheet(site: Path, rows: list[dict[str, Any]]) -> bytes:
 def _code() -> str:
     """Return the code and the libraries that draw pages."""
     package = Path(__file__).parents[2]
-    folders = ("report/site", "report/templates", "display")
+    folders = ("report", "display")
     found = (file for name in folders for file in (package / name).rglob("*"))
     files = sorted(file for file in found if file.suffix in {".py", ".j2"})
     lines = [digest_file(file) for file in files if "node_modules" not in file.parts]

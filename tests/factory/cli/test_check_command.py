@@ -92,15 +92,6 @@ def test_every_simulator_at_once_and_who_disagrees(tmp_path, capsys):
     )
 
 
-def test_missing_files_and_empty_folders_are_wrong_usage(tmp_path, capsys):
-    assert run(["check", str(tmp_path / "nowhere.urdf")]) == 2
-    assert "nowhere.urdf: no such file" in capsys.readouterr().err
-    assert run(["check", str(tmp_path)]) == 2
-    assert f"no URDF, MJCF or USD file in {tmp_path}" in capsys.readouterr().err
-    assert run(["check"]) == 2
-    assert "no URDF, MJCF or USD file given" in capsys.readouterr().err
-
-
 def test_many_files_are_judged_at_once_and_told_in_the_order_given(tmp_path, monkeypatch, capsys):
     names = ["one", "two", "three"]
     files = [write(tmp_path / f"{name}.urdf", 0.004) for name in names]
@@ -127,12 +118,6 @@ def test_many_files_are_judged_at_once_and_told_in_the_order_given(tmp_path, mon
     lines = [line for line in told.out.splitlines()[:-1] if not line.startswith(" ")]
     assert [line.split(" (")[0] for line in lines] == [f"passed {name}.urdf" for name in names]
     assert len(judges) == 2
-
-
-def test_workers_have_to_be_some(tmp_path, capsys):
-    path = write(tmp_path / "asset.urdf", 0.004)
-    assert run(["check", str(path), "--sim", "", "--workers", "0"]) == 2
-    assert "--workers must be at least 1, not 0" in capsys.readouterr().err
 
 
 MJCF = """<mujoco><worldbody><body name="shell">{0}<body name="drawer"><joint name="slide"

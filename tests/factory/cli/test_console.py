@@ -28,7 +28,8 @@ def entry(asset_id, status=Status.PASSED, **said):
 
 def test_what_was_known_is_counted_in_a_line(capsys):
     everything = results(3, 2)
-    assert console.follow(iter(everything), 5) == everything
+    console.follow(iter(everything), collected := [], 5)
+    assert collected == everything
     assert capsys.readouterr().err.splitlines() == [
         "3 of 5 inputs known from before",
         "[4/5] passed: new-0",
@@ -37,17 +38,17 @@ def test_what_was_known_is_counted_in_a_line(capsys):
 
 
 def test_nothing_known_and_nothing_else_are_told_too(capsys):
-    console.follow(iter(results(0, 1)), 1)
+    console.follow(iter(results(0, 1)), [], 1)
     assert capsys.readouterr().err.splitlines() == ["[1/1] rejected: bad: 5 mm deep"]
-    console.follow(iter(results(4, 0)), 4)
+    console.follow(iter(results(4, 0)), [], 4)
     assert capsys.readouterr().err.splitlines() == ["4 of 4 inputs known from before"]
-    console.follow(iter(()), 0)
+    console.follow(iter(()), [], 0)
     assert capsys.readouterr().err == ""
 
 
 def test_rate_and_time_left_are_those_of_what_is_built(monkeypatch):
     monkeypatch.setattr(console, "Progress", Watched)
-    console._follow_on_terminal(console.Console(), iter(results(3, 2)), 6, tuple)
+    console._follow_on_terminal(console.Console(), iter(results(3, 2)), [], 6, tuple)
     assert (Watched.total, Watched.advanced) == (3, 2)
 
 
@@ -63,7 +64,7 @@ def test_the_bar_says_what_is_at_work_and_after_one_input_how_long_the_rest_take
             seen.append(told.file.getvalue())
             yield result
 
-    console._follow_on_terminal(told, slowly(), 3, lambda: at_work)
+    console._follow_on_terminal(told, slowly(), [], 3, lambda: at_work)
     assert "about" not in seen[0]
     assert "about 0:00:" in told.file.getvalue()
     assert "oven_0.glb solids, oven_1.glb solids, oven_2.glb solids +2" in told.file.getvalue()

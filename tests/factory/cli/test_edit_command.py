@@ -7,7 +7,8 @@ import json
 import pytest
 from shown_registry import make_registry
 
-from asset_factory.factory.cli.commands import run
+from asset_factory.factory.cli.commands import parse
+from asset_factory.factory.cli.edit import _said
 from asset_factory.factory.edit.subject import subject_of
 from asset_factory.factory.errors import ConfigError, RegistryError
 
@@ -36,19 +37,8 @@ def test_the_input_of_an_asset_is_found_by_the_log(registry, tmp_path):
         subject_of(folder, None, tmp_path)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (["nothing.glb"], "no such file or asset"),
-        (["robot.urdf"], "parts are stated of a mesh"),
-        (["broken.glb"], "broken.glb: unreadable"),
-        (["broken.glb", "--port", "70000"], "--port"),
-        (["broken.glb", "--sim", "unity"], "--sim"),
-    ],
-)
-def test_edit_says_what_is_wrong(tmp_path, capsys, monkeypatch, arguments, said):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "robot.urdf").touch()
-    (tmp_path / "broken.glb").write_bytes(b"glTF?")
-    assert run(["edit", *arguments]) == 2
-    assert said in capsys.readouterr().err
+def test_a_build_is_given_what_was_typed():
+    typed = ["--root", "a", "--root", "b", "--allow-outside", "--height", "0.5", "--up=-x"]
+    _, edit = parse(["edit", "chest.glb", *typed, "--vlm-url", "http://here/v1"])
+    _, build = parse(["build", "--input", "x", "--output", "y", *_said(edit.loading)])
+    assert build.loading == edit.loading

@@ -135,25 +135,6 @@ def test_predict_refuses_more_faces_than_the_limit_with_both_numbers(capsys, tmp
     assert told.startswith("rejected: too_large: fridge.obj: 101 faces, the limit is 100")
 
 
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        (["--checkpoint", "nowhere.pt"], "nowhere.pt: no such file"),
-        (["--checkpoint", str(FRIDGE)], "fridge.obj: not safetensors"),
-        (
-            ["--articulator", "guess"],
-            "there are auto, stated, annotated, geometric, seams, particulate, vlm, rigid",
-        ),
-        (["--samples", "0"], "samples must be at least 1, not 0"),
-    ],
-)
-def test_wrong_usage_is_told_in_one_sentence(capsys, arguments, sentence):
-    assert run(["predict", str(FRIDGE), *arguments]) == 2
-    told = capsys.readouterr().err
-    assert sentence in told
-    assert "Traceback" not in told
-
-
 def test_a_build_with_weights_ends_in_a_verdict(tmp_path, checkpoint):
     output = tmp_path / "out"
     command = [*COMMAND, "build", "--input", str(FRIDGE), "--sim", "mujoco"]

@@ -3,7 +3,12 @@
 import io
 import json
 import re
+import shlex
+import subprocess
+import sys
+import tarfile
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -165,6 +170,27 @@ def test_show_tells_size_joints_files_and_how_to_load_it(tmp_path, run):
     loaded: dict = {}
     exec(loading, loaded)  # noqa: S102 - the lines that people are told to run
     assert loaded["model"].njnt == 2
+    (packing,) = re.findall(r"in a shell, as an archive to hand on:\n(.*)\n", out)
+    subprocess.run(shlex.split(packing), cwd=tmp_path, check=True)
+    with tarfile.open(tmp_path / "cabinet-1.tar.gz") as archive:
+        assert {"cabinet-1/asset.urdf", "cabinet-1/asset.json"} <= set(archive.getnames())
+
+
+def test_the_lines_for_isaac_put_an_asset_on_its_stage(tmp_path, run, monkeypatch):
+    usd = pytest.importorskip("pxr.Usd", reason="usd-core is not installed")
+    root = make_registry(tmp_path / "out").root
+    written = usd.Stage.CreateNew(str(root / "assets" / "cabinet-1" / "asset.usd"))
+    written.SetDefaultPrim(written.DefinePrim("/cabinet"))
+    written.DefinePrim("/cabinet/door")
+    written.Save()
+    stage = usd.Stage.CreateInMemory()
+    isaac = SimpleNamespace(get_context=lambda: SimpleNamespace(get_stage=lambda: stage))
+    monkeypatch.setitem(sys.modules, "omni", SimpleNamespace(usd=isaac))
+    monkeypatch.setitem(sys.modules, "omni.usd", isaac)
+    _, out = run(Show, "cab", "--output", root)
+    (loading,) = re.findall(r"in Isaac Sim, .*:\n(.*\n.*\n.*)\n", out)
+    exec(loading, {})  # noqa: S102 - the lines that people are told to run
+    assert stage.GetPrimAtPath("/World/asset/door").IsValid()
 
 
 def test_a_beginning_names_the_only_asset_that_has_it(root, run):

@@ -12,7 +12,7 @@ from asset_factory.envs.solving import Attempt
 from asset_factory.envs.solving.record import SolveRecord, read_record
 from asset_factory.factory.cli import report
 from asset_factory.factory.cli import solve as command
-from asset_factory.factory.errors import ConfigError, Exit, RegistryError
+from asset_factory.factory.errors import Exit, RegistryError
 from asset_factory.sim_checks.processes.isolation import Outcome
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
@@ -135,19 +135,6 @@ def test_one_joint_is_no_verdict_on_the_others(output, notes, robots):
     command.run(command.Solve(ids=("cabinet",), output=output, joint="slide", robot="panda"))
     assert robots == [("cabinet", "slide", "panda")]
     assert notes == {}
-
-
-@pytest.mark.parametrize(
-    ("flags", "words"),
-    [
-        ({"robot": "arm"}, "no robot 'arm'; want one of panda, fetch, any"),
-        ({"workers": 0}, "--workers must be at least 1, not 0"),
-        ({"timeout": 0.0}, "--timeout must be more than 0, not 0 s"),
-    ],
-)
-def test_wrong_usage_is_named(output, notes, flags, words):
-    with pytest.raises(ConfigError, match=words):
-        command.run(command.Solve(output=output, **flags))
 
 
 def test_an_unknown_asset_or_joint_is_named(output, notes):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from types import SimpleNamespace
 
 import pytest
@@ -13,9 +14,9 @@ from asset_factory.factory.models.particulate import device
 
 @pytest.fixture(autouse=True)
 def _forgotten():
-    device.device_for.cache_clear()
+    device.works.cache_clear()
     yield
-    device.device_for.cache_clear()
+    device.works.cache_clear()
 
 
 @pytest.mark.parametrize(
@@ -25,11 +26,14 @@ def test_auto_takes_the_first_device_that_works(works, taken, monkeypatch, tmp_p
     monkeypatch.setattr(device, "GPU_FILES", (str(tmp_path),))
 
     def tried(function, name, limits):
-        return SimpleNamespace(value=True if name in works else None)
+        return SimpleNamespace(value=True if name.split(":")[0] in works else None)
 
     monkeypatch.setattr(device, "run_isolated", tried)
     assert input_config(InputFlags()).particulate.device == taken
-    assert input_config(InputFlags(device="cuda:1")).particulate.device == "cuda:1"
+    named = InputFlags(device="cuda:1")
+    assert input_config(named, here=False).particulate.device == "cuda:1"
+    with nullcontext() if taken == "cuda" else pytest.raises(ConfigError, match="no cuda:1 here"):
+        assert input_config(named).particulate.device == "cuda:1"
     with pytest.raises(ConfigError, match="must be auto, cpu, cuda"):
         input_config(InputFlags(device="gpu"))
 

@@ -251,9 +251,11 @@ def test_no_name_of_an_input_runs(opened, site):
 def test_a_phone_needs_no_sideways_scrolling_and_text_is_legible(opened, site, address, scheme):
     page = opened(site / address, color_scheme=scheme)
     page.set_viewport_size(PHONE)
-    page.wait_for_timeout(200)
-    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+    until(page, f"document.documentElement.scrollWidth <= {PHONE['width']}")
     assert page.evaluate(CONTRAST) == []
+    if page.query_selector("#person"):
+        contact, person = (page.locator(each).bounding_box() for each in ("#contact", "#person"))
+        assert contact["x"] + contact["width"] <= person["x"]
 
 
 def test_everything_can_be_reached_by_keyboard(opened, site):

@@ -15,6 +15,7 @@ from shown_registry import HIT, HOSTILE, POINT, bundle_in, make_registry
 from asset_factory.factory.display.made import scene_of
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.export.bundle import export_bundle
+from asset_factory.factory.report.site import site as drawing
 from asset_factory.factory.report.site.alone import page_of_file
 from asset_factory.factory.report.site.places import Places
 from asset_factory.factory.report.site.render import grid_html, list_html
@@ -143,7 +144,8 @@ def test_a_page_tells_size_units_and_how_to_load_an_asset(registry):
     assert "<span>0.6 x 0.45 x 0.8 m</span>" in text
     assert re.search(r"[\d.]+ N m s/rad</td>\s*<td class=\"number\">[\d.]+ N m</td>", text)
     assert re.search(r"[\d.]+ N s/m</td>\s*<td class=\"number\">[\d.]+ N</td>", text)
-    assert re.findall(r"<code>(import \w+)", text) == ["import mujoco", "import gymnasium"]
+    imported = re.findall(r"<code>import (\w+)", text)
+    assert imported == ["mujoco", "gymnasium", "omni"]
     assert "import mujoco" not in (registry.root / "report/a/hitting-2/index.html").read_text()
 
 
@@ -274,3 +276,10 @@ def test_hostile_names_in_a_description_are_text(tmp_path):
     parsed = Page(page_of_file(file))
     assert parsed.handlers == []
     assert parsed.tags.count("img") == 0
+
+
+def test_a_page_follows_all_code_that_draws_it(monkeypatch):
+    seen = []
+    monkeypatch.setattr(drawing, "digest_file", lambda file: seen.append(file.name) or "")
+    drawing._code.__wrapped__()
+    assert {"loading.py", "pages.py", "told.py", "asset.html.j2"} <= set(seen)
