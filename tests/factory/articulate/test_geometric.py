@@ -4,19 +4,12 @@ from functools import cache
 
 import numpy as np
 import pytest
+from plain_solids import box_between as box
 
 from asset_factory.factory.articulate.geometric import GeometricArticulator
 from asset_factory.factory.articulation import JointKind, rotation_about
 from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.learn.objects import make_object
-
-CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
-SIDES = np.array([int(corner) for corner in "013032467475045051237276026064157173"]).reshape(-1, 3)
-
-
-def box(low, high):
-    return Mesh.from_triangles(np.array(low) + CORNERS * (np.array(high) - np.array(low)), SIDES)
-
 
 CARCASS = [
     box((0.0, 0.0, 0.0), (0.02, 0.5, 0.8)),

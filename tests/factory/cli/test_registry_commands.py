@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import tyro
-from registry_samples import BAD_REPORT, REJECTED, named, publish
+from registry_samples import BAD_REPORT, REJECTED, named, publish, three_entries
 from shown_registry import make_registry
 
 from asset_factory.factory.cli import console, gc
@@ -34,11 +34,7 @@ ROOMS = {
 
 @pytest.fixture
 def root(tmp_path):
-    registry = Registry(tmp_path / "out", create=True)
-    publish(registry)
-    publish(registry, entry=named("fridge-1", category="fridge"))
-    registry.reject(replace(REJECTED, id="chest-1"), BAD_REPORT)
-    return registry.root
+    return three_entries(tmp_path / "out").root
 
 
 @pytest.fixture
@@ -170,7 +166,7 @@ def test_show_tells_size_joints_files_and_how_to_load_it(tmp_path, run):
 def test_a_beginning_names_the_only_asset_that_has_it(root, run):
     assert "fridge-1: " in run(Show, "f", "--output", root)[1]
     assert run(commands.RegistryCommand, "tag", "fri", "cold", "--output", root)[1] == (
-        "fridge-1: cold\n"
+        "fridge-1: blue, cold\n"
     )
     assert run(commands.RegistryCommand, "verify", "cab", "--output", root)[0] == 0
     publish(Registry(root), entry=named("fridge-10"))

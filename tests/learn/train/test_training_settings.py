@@ -3,7 +3,6 @@
 import pytest
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.models.network.shape import SIZES
 from asset_factory.learn.train.recipes import load_train_config, parse_train_config, recipe_names
 
 DATA = '[[data]]\nkind = "procedural"\n'
@@ -13,20 +12,6 @@ def test_every_shipped_recipe_can_be_read():
     assert {"laptop", "small", "paper"} <= set(recipe_names())
     for name in recipe_names():
         assert load_train_config(name).recipe == name
-
-
-def test_the_papers_recipe_is_the_papers():
-    config = load_train_config("paper")
-    assert (config.schedule.steps, config.batch, config.draw_at(0).points) == (100_000, 128, 2048)
-    wanted = (0.5, (0.95, 1.05), 0.02)
-    assert (config.draw.sharp_share, config.draw.scale, config.draw.shift) == wanted
-    size = SIZES["B"]
-    shape = config.network.shape
-    wanted = (size.hidden, size.blocks, size.heads, size.mlp, size.max_parts)
-    assert (shape.hidden, shape.blocks, shape.heads, shape.mlp, shape.max_parts) == wanted
-    loss = config.loss
-    wanted = (0.1, 0.0, 0.0, True)
-    assert (loss.revolute_range, loss.dice, loss.auxiliary, loss.unseen_parts) == wanted
 
 
 def test_components_bring_their_channels():

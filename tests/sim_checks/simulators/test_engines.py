@@ -10,8 +10,6 @@ from asset_factory.sim_checks.report import Severity
 from asset_factory.sim_checks.run import run_checks
 from asset_factory.sim_checks.simulators.catalog import installed
 
-#: In the way of the drawer after 0.1 m of 0.3 m.
-STOP = ((-0.31, 0.0, 0.6), (0.02, 0.5, 0.3))
 #: 2 mm of overlap on each side of the drawer.
 WIDE = (((-0.015, 0.0, 0.5955), (0.37, 0.574, 0.363)),)
 
@@ -53,16 +51,6 @@ def test_a_heavy_lid_opens_against_gravity_damping_and_friction(tmp_path, engine
     result = judge(write_lid(tmp_path), engine)
     assert codes(result) == []
     assert motion_of(result, "hinge")["reached"] > 0.99
-
-
-@pytest.mark.parametrize(
-    ("engine", "part"), [("sapien", "stopper"), ("newton", "stopper"), ("pybullet", "carcass")]
-)
-def test_a_stop_in_the_way_jams_the_drawer_at_its_distance(tmp_path, engine, part):
-    parts = {**PARTS, part: (*PARTS.get(part, ()), STOP)}
-    result = judge(write_urdf(tmp_path, parts), engine)
-    assert "jammed" in codes(result)
-    assert motion_of(result, "slide")["reached"] == pytest.approx(1 / 3, abs=0.02)
 
 
 @pytest.mark.parametrize(
