@@ -22,7 +22,9 @@ def env(request, household):
 
 
 def test_observations_fit_their_space_over_every_asset(env):
-    for asset in env.unwrapped._assets:
+    # Every task on one asset, and one of them on all.
+    assets = list(env.unwrapped._assets)
+    for asset in assets if env.unwrapped.spec.id == "OpenJoint-v1" else assets[:1]:
         observation, info = env.reset(seed=1, options={"asset": asset})
         assert env.unwrapped.asset_record.id == asset
         assert env.observation_space.contains(observation.numpy())
