@@ -56,13 +56,6 @@ def test_the_handle_moves_with_its_door_and_the_carcass_stays():
     assert articulation.joints[0].name == "door_0_hinge"
 
 
-def test_positive_opens_outwards():
-    articulation = articulate(*CARCASS, DOOR, GRIP_RIGHT)
-    pose = articulation.poses({"door_0_hinge": np.pi / 2})[1]
-    far_edge = pose @ [0.599, -0.01, 0.4, 1.0]
-    assert far_edge[1] < -0.5
-
-
 def test_a_wide_door_with_its_handle_at_the_top_opens_downwards():
     joint = only_joint(articulate(*CARCASS, DOOR, GRIP_TOP))
     assert np.allclose(joint.axis, [1, 0, 0])
@@ -156,19 +149,6 @@ def test_any_mesh_gets_an_answer(vertices, faces):
     articulation = GeometricArticulator().articulate(Mesh.from_triangles(vertices, faces))
     assert articulation.joints == ()
     assert articulation.notes
-
-
-def test_the_same_mesh_gives_the_same_articulation():
-    first, second = (
-        GeometricArticulator().articulate(make_object("oven", 0).mesh) for _ in range(2)
-    )
-    assert [j.name for j in first.joints] == [j.name for j in second.joints]
-    for one, other in zip(first.joints, second.joints, strict=True):
-        assert (
-            one.axis.tobytes() + one.origin.tobytes()
-            == other.axis.tobytes() + other.origin.tobytes()
-        )
-        assert (one.lower, one.upper) == (other.lower, other.upper)
 
 
 @cache

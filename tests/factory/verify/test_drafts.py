@@ -15,7 +15,7 @@ from asset_factory.factory.manufacture.plan import Plan
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.report_file import read_report
 from asset_factory.factory.verify import rounds
-from asset_factory.factory.verify.drafts import FACES_PER_HULL, HypothesisDraft, best_of, work_of
+from asset_factory.factory.verify.drafts import HypothesisDraft, best_of
 from asset_factory.factory.verify.validate import Verdict
 from asset_factory.sim_checks import Finding, Report, Severity
 from asset_factory.sim_checks.report import OUT_OF_TIME
@@ -154,12 +154,6 @@ def test_a_simulator_that_hung_neither_rejects_nor_repairs(output, monkeypatch):
     monkeypatch.setattr(rounds, "validate", validate)
     entry = build_asset(EXAMPLES / "laptop.glb", output, CONFIG).entry
     assert (entry.status, entry.reason) == ("unjudged", "simulator_timeout")
-
-
-def test_work_is_counted_from_what_is_made():
-    hulls = ASSET.hull_count
-    joints = len(ASSET.articulation.movable_joints)
-    assert work_of(ASSET) == joints * (hulls + len(ASSET.articulation.mesh.faces) // FACES_PER_HULL)
 
 
 def test_a_reading_that_cannot_be_made_is_passed_over(output, monkeypatch):
