@@ -98,7 +98,7 @@ def test_builds_are_answered_with_an_import_only_if_it_is_trusted(
 
 
 def test_tags_add_up(registry, other, tmp_path):
-    publish(other, "two", named("fridge-1", category="fridge"))
+    publish(other, "two", named("fridge-1", category="fridge", license=""))
     other.note("fridge-1", tags=("mine",), solved="no")
     import_export(other, export(registry, tmp_path / "x"))
     assert other.entry("fridge-1").tags == ("blue", "mine")
