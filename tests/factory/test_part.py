@@ -4,6 +4,7 @@ import numpy as np
 
 from asset_factory.factory.articulation import rotation_about
 from asset_factory.factory.part import Handle, OpensBy, Panel, Part, PartKind, PartSource, Proposer
+from asset_factory.factory.runtime.packing import pack, unpack
 
 FRAME = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]])
 DOOR = Part(
@@ -32,3 +33,15 @@ def test_panel_and_handle_turn_with_their_part():
     np.testing.assert_allclose(turned.handle.point, turn @ DOOR.handle.point)
     back = turned.turned(turn.T)
     np.testing.assert_allclose(back.panel.frame, DOOR.panel.frame, atol=1e-15)
+
+
+def test_a_part_is_remembered_with_all_that_it_is():
+    kept = unpack(Part, pack(DOOR))
+    assert kept.kind is PartKind.DOOR
+    assert kept.panel.opens is OpensBy.LEFT
+    assert kept.source == DOOR.source
+    np.testing.assert_array_equal(kept.panel.frame, DOOR.panel.frame)
+    plain = unpack(Part, pack(Part("base", np.arange(2))))
+    assert plain.kind is PartKind.PART
+    assert plain.panel is None
+    assert plain.source is None

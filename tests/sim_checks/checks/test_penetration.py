@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from box_world import body, cabinet, described, joint, with_joint
 
+from asset_factory.sim_checks.checks.combinations import combination_values
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
 from asset_factory.sim_checks.report import Severity
@@ -83,6 +84,11 @@ def test_two_parts_that_only_meet_when_both_are_half_open_are_reported_too():
     (finding,) = check(described([base, left, front], joints)).findings
     assert finding.code == "joints_collide"
     assert set(finding.parts) == {"left", "front"}
+
+
+def test_two_joints_are_looked_at_with_both_open():
+    ranges = {"a": (0.0, 1.0), "b": (-1.0, 2.0)}
+    assert combination_values(ranges, 0) == [{"a": 1.0, "b": 2.0}]
 
 
 def test_a_pair_that_the_file_excludes_is_measured_and_reported_softly():
