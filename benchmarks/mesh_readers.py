@@ -34,12 +34,14 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "tests" / "samples"), str(ROOT / "benchmarks" / "libraries")]
+sys.path[:0] = [str(ROOT / folder) for folder in ("tests/samples", "benchmarks/libraries")]
+sys.path.append(str(ROOT / "benchmarks" / "soak"))
 
 import fuzz_trial  # noqa: E402 - the attacks live with the tests
 from fuzz_cases import Case, seeds  # noqa: E402
 from fuzz_hostile import MESH_PAGES  # noqa: E402
 from fuzz_mutations import mutated  # noqa: E402
+from hostile_meshes import LONG_PAGES  # noqa: E402
 from mesh_libraries import OURS, READERS, Seen, agreed, awkward_files, ours  # noqa: E402
 
 from asset_factory.factory.errors import InputRejected  # noqa: E402
@@ -148,7 +150,7 @@ def _refused(case: Case) -> bool:
 
 def _hostile(form: str, most: int) -> Iterator[Case]:
     forms = ("glb", "gltf") if form == "glb" else (form,)
-    for page in MESH_PAGES.values():
+    for page in (MESH_PAGES | LONG_PAGES).values():
         yield from (case for case in page() if case.entry.rpartition(".")[2] in forms)
     for kind, seed in seeds().items():
         if seed.verb == "load" and seed.entry.rpartition(".")[2] in forms:

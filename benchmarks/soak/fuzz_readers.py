@@ -32,6 +32,7 @@ from fuzz_hostile_usd import USD_PAGES  # noqa: E402
 from fuzz_mutations import mutated  # noqa: E402
 from fuzz_trial import Trial, try_case  # noqa: E402
 from hostile_descriptions import DESCRIPTION_PAGES  # noqa: E402
+from hostile_meshes import LONG_PAGES  # noqa: E402
 from hostile_mjcf import MJCF_PAGES  # noqa: E402
 from hostile_weights import WEIGHT_PAGES  # noqa: E402
 
@@ -46,7 +47,7 @@ BY_HAND = "by hand: "
 PAGES = {
     f"{BY_HAND}{name}": page
     for pages in (
-        *(MESH_PAGES, TEXT_PAGES, DESCRIPTION_PAGES),
+        *(MESH_PAGES, LONG_PAGES, TEXT_PAGES, DESCRIPTION_PAGES),
         *(MJCF_PAGES, USD_PAGES, WEIGHT_PAGES),
     )
     for name, page in pages.items()

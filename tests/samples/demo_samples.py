@@ -1,4 +1,4 @@
-"""A drawer that a robot opens, and robots that succeed at once: episodes as recorded."""
+"""Robots that succeed at once: episodes as recorded."""
 
 from __future__ import annotations
 
@@ -6,27 +6,10 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from openable_samples import FRONT, assemble, box
 
 from asset_factory.envs.demos.episodes import Episode, Settings, Taken
 from asset_factory.envs.demos.files import keep_episode
-from asset_factory.factory.articulation import Joint, JointKind
-from asset_factory.factory.asset import Asset
-from asset_factory.factory.manufacture.targets.find import find_targets
-from asset_factory.factory.part import Handle
 from asset_factory.sim_checks.processes.isolation import Failure, Outcome
-
-
-def drawer() -> Asset:
-    """A block out of whose front a narrow fin is pulled."""
-    meshes = [box([0.0, 0.0, 0.3], [0.4, 0.4, 0.6]), box([0.0, -0.26, 0.5], [0.02, 0.1, 0.12])]
-    slide = Joint(
-        "slide", JointKind.PRISMATIC, 0, 1, FRONT, [0.0, -0.26, 0.5], 0.0, 0.15, friction=20.0
-    )
-    asset = assemble("drawer", meshes, (slide,), {1: Handle([0.0, -0.31, 0.5], FRONT, FRONT)})
-    return replace(
-        asset, targets=find_targets(asset.articulation, [body.hulls for body in asset.bodies])
-    )
 
 
 def write_trajectory(path: Path, seed: int, steps: int = 5) -> None:

@@ -15,6 +15,7 @@ from asset_factory.factory.intake.intake import Provenance
 from asset_factory.factory.mesh import Material, Mesh, Texture, concatenate
 from asset_factory.factory.part import Handle
 
+KINDS = (JointKind.REVOLUTE, JointKind.CONTINUOUS, JointKind.PRISMATIC, JointKind.FIXED)
 PROVENANCE = Provenance(input="cabinet.glb", digest="0" * 64, category="cabinet", license="CC0-1.0")
 
 
@@ -77,3 +78,35 @@ def cabinet(looks: Sequence[Material] = (Material("red", (0.8, 0.1, 0.1, 1.0)),)
     bodies = list(asset.bodies)
     bodies[1] = PartBody((hull_of(door), hull_of(knob)), inertial_of(door), handles[1], "exact")
     return Asset("cabinet", asset.articulation, tuple(bodies))
+
+
+def tree_of_boxes(seed: int) -> Asset:
+    """A random tree of one to six boxes behind joints of any kind and any axis."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(1, 7))
+    meshes = [box(rng.uniform(-1, 1, 3), rng.uniform(0.05, 0.5, 3)) for _ in range(count + 1)]
+    joints = []
+    for child in range(1, count + 1):
+        parent = int(rng.integers(0, child))
+        kind = KINDS[int(rng.integers(0, len(KINDS)))]
+        axis = rng.normal(size=3)
+        limits = (-rng.uniform(0, 1), rng.uniform(0.1, 2))
+        if kind is JointKind.FIXED:
+            limits = (0.0, 0.0)
+        elif kind is JointKind.CONTINUOUS:
+            limits = (-np.pi, np.pi)
+        origin = rng.uniform(-1, 1, 3)
+        line = axis / np.linalg.norm(axis)
+        joints.append(Joint(f"j{child}", kind, parent, child, line, origin, *limits))
+    return boxes_asset(meshes, tuple(joints))
+
+
+def frames(articulation: Articulation, values: dict[str, float]) -> dict[str, np.ndarray]:
+    """Poses of the links in the world, as the articulation says."""
+    poses = articulation.poses(values)
+    found = {}
+    for index, part in enumerate(articulation.parts):
+        rest = np.eye(4)
+        rest[:3, 3] = articulation.link_frame(index)
+        found[part.name] = poses[index] @ rest
+    return found

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import json
 import struct
-import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from fuzz_cases import Case, annotated, packed, prediction, seeds
-from mesh_cube import gltf_parts, pack_glb, png
+from mesh_cube import gltf_parts, pack_glb
 
 #: References that must not be followed, as meshes, descriptions and sidecars write them.
 ELSEWHERE = (
@@ -54,385 +53,139 @@ def links(suffix: str) -> dict[str, str]:
     }
 
 
-def _case(
+def folder_case(
     kind: str, name: str, entry: str, files: dict[str, bytes], *rest: Any, **options: Any
 ) -> Case:
     """An input of files in a folder, to be loaded."""
     return Case(f"{kind}-{name}", kind, "load", entry, files, *rest, **options)
 
 
-def _single(name: str, entry: str, data: bytes, **options: Any) -> Case:
+def single(name: str, entry: str, data: bytes, **options: Any) -> Case:
+    """An input of one file."""
     return Case(name, entry.rsplit(".", 1)[-1], "load", entry, {entry: data}, **options)
+
+
+def _glb(name: str, changes: Mapping[str, dict[str, Any]], **parts: Any) -> Case:
+    """The cube as GLB, fields of the first item of some of its document's lists changed."""
+    document, binary = gltf_parts(**parts)
+    for place, fields in changes.items():
+        document[place][0].update(fields)
+    return single(f"glb-{name}", "cube.glb", pack_glb(document, binary))
+
+
+def _changed(kind: str, file: str, old: bytes, new: str) -> dict[str, bytes]:
+    """The sound files of a kind, a piece of one of them another."""
+    files = seeds()[kind].files
+    return {**files, file: files[file].replace(old, new.encode(), 1)}
 
 
 def _references() -> Iterator[Case]:
     for number, reference in enumerate(ELSEWHERE):
-        picture = reference.replace("{0}", "png")
-        library = reference.replace("{0}", "mtl")
+        picture, library, array, buffer = (
+            reference.replace("{0}", suffix) for suffix in ("png", "mtl", "npz", "bin")
+        )
         document, binary = gltf_parts()
         document["images"] = [{"uri": picture}]
-        yield _single(
-            f"glb-image-{number}", "cube.glb", pack_glb(document, binary), links=links("png")
-        )
+        data = pack_glb(document, binary)
+        yield single(f"glb-image-{number}", "cube.glb", data, links=links("png"))
         document, _ = gltf_parts()
-        document["buffers"][0]["uri"] = reference.replace("{0}", "bin")
-        yield _single(
-            f"gltf-buffer-{number}", "cube.gltf", json.dumps(document).encode(), links=links("bin")
-        )
-        obj = seeds()["obj"].files
-        text = obj["cube.obj"].replace(b"cube.mtl", library.encode())
-        yield _case("obj", f"library-{number}", "cube.obj", {**obj, "cube.obj": text}, links("mtl"))
-        text = obj["cube.mtl"].replace(b"wood.png", picture.encode())
-        yield _case("mtl", f"picture-{number}", "cube.obj", {**obj, "cube.mtl": text}, links("png"))
-        ply = seeds()["ply_ascii"].files["cube.ply"].replace(b"wood.png", picture.encode())
-        yield _single(f"ply-picture-{number}", "cube.ply", ply, links=links("png"))
-        toml = b"annotation = " + json.dumps(reference.replace("{0}", "npz")).encode()
-        files = {**annotated(packed(prediction())), "cube.toml": toml}
-        yield _case("toml", f"annotation-{number}", "cube.glb", files, links("npz"))
-        dae = (
-            seeds()["dae"]
-            .files["cube.dae"]
-            .replace(
-                b"<library_geo",
-                b"<library_images><image id='i'><init_from>"
-                + picture.replace("&", "").encode()
-                + b"</init_from></image></library_images><library_geo",
-                1,
-            )
-        )
-        yield _single(f"dae-picture-{number}", "cube.dae", dae, links=links("png"))
+        document["buffers"][0]["uri"] = buffer
+        data = json.dumps(document).encode()
+        yield single(f"gltf-buffer-{number}", "cube.gltf", data, links=links("bin"))
+        files = _changed("obj", "cube.obj", b"cube.mtl", library)
+        yield folder_case("obj", f"library-{number}", "cube.obj", files, links("mtl"))
+        files = _changed("obj", "cube.mtl", b"wood.png", picture)
+        yield folder_case("mtl", f"picture-{number}", "cube.obj", files, links("png"))
+        ply = _changed("ply_ascii", "cube.ply", b"wood.png", picture)["cube.ply"]
+        yield single(f"ply-picture-{number}", "cube.ply", ply, links=links("png"))
+        files = {
+            **annotated(packed(prediction())),
+            "cube.toml": b"annotation = " + json.dumps(array).encode(),
+        }
+        yield folder_case("toml", f"annotation-{number}", "cube.glb", files, links("npz"))
+        shown = f"<init_from>{picture.replace('&', '')}</init_from>"
+        images = f"<library_images><image id='i'>{shown}</image></library_images><library_geo"
+        dae = _changed("dae", "cube.dae", b"<library_geo", images)["cube.dae"]
+        yield single(f"dae-picture-{number}", "cube.dae", dae, links=links("png"))
     cube = {"cube.glb": pack_glb(*gltf_parts())}
-    yield _case("names", "link-sidecar", "cube.glb", cube, {"cube.toml": "@OUTSIDE@/secret.toml"})
-    yield _case("names", "loop-sidecar", "cube.glb", cube, {"cube.toml": "cube.toml"})
-    yield _case("names", "loop-input", "cube.glb", {}, {"cube.glb": "cube.glb"})
-    # Nobody named this one: it is found in the folder.
-    yield _case(
-        "names",
-        "link-found",
-        "cube.glb",
-        cube,
-        {"other.glb": "@OUTSIDE@/secret.png", "o.xml": "@OUTSIDE@/secret.xml"},
-    )
+    # Nobody named the last one: it is found in the folder.
+    for name, files, led in (
+        ("link-sidecar", cube, {"cube.toml": "@OUTSIDE@/secret.toml"}),
+        ("loop-sidecar", cube, {"cube.toml": "cube.toml"}),
+        ("loop-input", {}, {"cube.glb": "cube.glb"}),
+        (
+            "link-found",
+            cube,
+            {"other.glb": "@OUTSIDE@/secret.png", "o.xml": "@OUTSIDE@/secret.xml"},
+        ),
+    ):
+        yield folder_case("names", name, "cube.glb", files, led)
 
 
 def _gltf_counts() -> Iterator[Case]:
+    counted = (
+        *(("accessors", "count"), ("bufferViews", "byteLength"), ("buffers", "byteLength")),
+        *(("bufferViews", key) for key in ("byteOffset", "byteStride", "buffer")),
+    )
     for count in (2**31, 2**32, 2**40, 2**63, -1, 10**400, 1e308, 2.5, "9", None):
-        for place, key in (
-            ("accessors", "count"),
-            ("bufferViews", "byteLength"),
-            ("buffers", "byteLength"),
-        ):
-            document, binary = gltf_parts()
-            document[place][0][key] = count
-            yield _single(f"glb-{place}-{count!s:.9}", "cube.glb", pack_glb(document, binary))
-        for key in ("byteOffset", "byteStride", "buffer"):
-            document, binary = gltf_parts()
-            document["bufferViews"][0][key] = count
-            yield _single(f"glb-view-{key}-{count!s:.9}", "cube.glb", pack_glb(document, binary))
-        document, binary = gltf_parts()
-        document["accessors"][0] = {
-            "componentType": 5126,
-            "count": 24,
-            "type": "MAT4",
-            "sparse": {
-                "count": count,
-                "indices": {"bufferView": 3, "componentType": 5123},
-                "values": {"bufferView": 0},
-            },
+        for place, key in counted:
+            yield _glb(f"{place}-{key}-{count!s:.9}", {place: {key: count}})
+        sparse = {
+            "count": count,
+            "indices": {"bufferView": 3, "componentType": 5123},
+            "values": {"bufferView": 0},
         }
-        yield _single(f"glb-sparse-{count!s:.9}", "cube.glb", pack_glb(document, binary))
+        document, binary = gltf_parts()
+        document["accessors"][0] = {"componentType": 5126, "count": 24, "type": "MAT4"}
+        document["accessors"][0]["sparse"] = sparse
+        yield single(f"glb-sparse-{count!s:.9}", "cube.glb", pack_glb(document, binary))
     for size in (0, 2**31 - 1, 2**32 - 1):
         data = bytearray(pack_glb(*gltf_parts()))
         for at in (8, 12):
             struct.pack_into("<I", data, at, size)
-            yield _single(f"glb-chunk-{at}-{size}", "cube.glb", bytes(data))
-    for values in (
-        [float("nan")] * 16,
-        [float("inf")] * 16,
-        [1e308] * 16,
-        [0] * 16,
-        [1e-320] * 16,
-        ["x"] * 16,
-    ):
-        document, binary = gltf_parts(nodes=[{"mesh": 0, "matrix": values}])
-        yield _single(f"glb-matrix-{values[0]}", "cube.glb", pack_glb(document, binary))
-        document, binary = gltf_parts(
-            nodes=[{"mesh": 0, "scale": values[:3], "rotation": values[:4]}]
-        )
-        yield _single(f"glb-placed-{values[0]}", "cube.glb", pack_glb(document, binary))
+            yield single(f"glb-chunk-{at}-{size}", "cube.glb", bytes(data))
+    for value in (float("nan"), float("inf"), 1e308, 0, 1e-320, "x"):
+        placed = {"scale": [value] * 3, "rotation": [value] * 4}
+        for name, place in (("matrix", {"matrix": [value] * 16}), ("placed", placed)):
+            yield _glb(f"{name}-{value}", {}, nodes=[{"mesh": 0, **place}])
 
 
-def _gltf_work() -> Iterator[Case]:
-    """Little files that ask for much work."""
-    cycle = [{"mesh": 0, "children": [1]}, {"children": [2]}, {"children": [0]}]
-    yield _single(
-        "glb-cycle",
-        "cube.glb",
-        pack_glb(*gltf_parts(nodes=cycle, scenes=[{"nodes": [0]}])),
-        least="unreadable",
-    )
-    yield _single(
-        "glb-selfish",
-        "cube.glb",
-        pack_glb(*gltf_parts(nodes=[{"children": [0]}], scenes=[{"nodes": [0]}])),
-    )
-    chain = [{"children": [k + 1]} for k in range(50_000)] + [{"mesh": 0}]
-    yield _single("glb-chain", "cube.glb", pack_glb(*gltf_parts(nodes=chain)), least="loaded")
-    document, binary = gltf_parts(nodes=[{"mesh": 0}] * 200_000)
-    document["scenes"] = [{"nodes": list(range(200_000))}]
-    yield _single("glb-instances", "cube.glb", pack_glb(document, binary), least="too_large")
-    for count, primitives, nodes in (
-        (2_999_999, 3000, 1),
-        (2_999_999, 1, 3000),
-        (3, 20_000, 20_000),
-    ):
-        document, binary = gltf_parts(nodes=[{"mesh": 0}] * nodes)
-        document["scenes"] = [{"nodes": list(range(nodes))}]
-        document["accessors"] += [{"componentType": 5126, "count": count, "type": "MAT4"}]
-        document["accessors"] += [{"componentType": 5126, "count": count, "type": "VEC3"}]
-        document["accessors"] += [{"componentType": 5125, "count": 0, "type": "SCALAR"}]
-        empty = {
-            "attributes": {"POSITION": 5, "COLOR_0": 4, "NORMAL": 4, "TEXCOORD_0": 4},
-            "indices": 6,
-        }
-        document["meshes"] = [{"primitives": [empty] * primitives}]
-        yield _single(
-            f"glb-work-{count}-{primitives}-{nodes}", "cube.glb", pack_glb(document, binary)
-        )
-    for opening in ("[", '{"a":'):
-        yield _single(f"gltf-deep-{opening[0]}", "cube.gltf", (opening * 5_000_000).encode())
-        yield _single(
-            f"gltf-deep-{opening[0]}-short",
-            "cube.gltf",
-            (opening * 2000).encode(),
-            least="unreadable",
-        )
-    document, binary = gltf_parts()
-    document["materials"] = document["materials"] * 20_000
-    document["images"] = [{"bufferView": 4}] * 20_000
-    document["textures"] = [{"source": k} for k in range(20_000)]
-    yield _single("glb-textures", "cube.glb", pack_glb(document, binary))
-    for extension in (
-        "KHR_draco_mesh_compression",
-        "EXT_meshopt_compression",
-        "EXT_mesh_gpu_instancing",
-    ):
-        yield _single(
-            f"glb-{extension}",
-            "cube.glb",
-            pack_glb(*gltf_parts(extensionsRequired=[extension])),
-            least="unsupported",
-        )
-    document, binary = gltf_parts()
-    for view in document["bufferViews"]:
-        view["extensions"] = {
-            "EXT_meshopt_compression": {
-                "buffer": 0,
-                "byteLength": 10,
-                "count": 2**31,
-                "byteStride": 64,
-            }
-        }
-    yield _single("glb-meshopt-view", "cube.glb", pack_glb(document, binary), least="unsupported")
-
-
-def _texts() -> Iterator[Case]:
-    triangle = b"v 0 0 0\nv 1 0 0\nv 0 1 1\n"
-    yield _single("obj-continued", "a.obj", triangle + b"f 1 2 3\n" + b"\\\n" * 3_000_000)
-    yield _single(
-        "obj-polygon", "a.obj", triangle + b"f" + b" 1" * 3_000_000 + b"\n", least="too_large"
-    )
-    yield _single("obj-index", "a.obj", triangle + b"f 1 2 99999999999999999999999\nf 1 2 3\n")
-    yield _single(
-        "obj-digits", "a.obj", triangle + b"f 1 2 " + b"9" * 1_000_000 + b"\n", least="unreadable"
-    )
-    yield _single(
-        "obj-materials",
-        "a.obj",
-        triangle + b"".join(b"usemtl m\nf 1 2 3\n" for k in range(100_000)),
-    )
-    yield _single(
-        "obj-many-materials",
-        "a.obj",
-        triangle + b"".join(b"usemtl %d\nf 1 2 3\n" % k for k in range(100_000)),
-    )
-    yield _single(
-        "obj-same-name",
-        "a.obj",
-        triangle + b"".join(b"usemtl %s\nf 1 2 3\n" % (b"." * k) for k in range(5000)),
-    )
-    mtl = b"".join(b"newmtl m%d\nKd 1 0 0\n" % k for k in range(50_000))
-    for times in (1, 20_000):
-        files = {"a.obj": b"mtllib a.mtl\n" * times + triangle + b"f 1 2 3\n", "a.mtl": mtl}
-        yield _case("obj", f"libraries-{times}", "a.obj", files, least="loaded")
-    files = {"a.obj": b"mtllib a.mtl\n" + triangle + b"f 1 2 3\n", "p.png": png((64, 64))}
-    yield _case(
-        "mtl",
-        "maps",
-        "a.obj",
-        {**files, "a.mtl": b"newmtl m\n" + b"map_Kd p.png\n" * 200_000},
-        least="loaded",
-    )
-    yield _case(
-        "mtl",
-        "itself",
-        "a.obj",
-        {**files, "a.mtl": b"newmtl m\nmap_Kd a.mtl\nmap_Kd a.obj\n"},
-        least="loaded",
-    )
-    yield _single("off-counts", "a.off", b"OFF\n4294967296 4294967296 0\n", least="unreadable")
-    yield _single(
-        "off-polygon",
-        "a.off",
-        b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2147483648 0 1 2\n",
-        least="too_large",
-    )
-    yield _single(
-        "off-negative", "a.off", b"OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n-2147483648 0 1 2\n3 0 1 2\n"
-    )
-    yield _single("off-word", "a.off", b"OFF\n3 1 0\n" + b"1" * 10_000_000)
-    yield _single("stl-vertices", "a.stl", b"solid x\n" + b"vertex" * 3_000_000)
-    yield _single("stl-blanks", "a.stl", b"solid x\n" + b"vertex" + b" " * 5_000_000 + b"x")
-    yield _single(
-        "stl-vertex-blanks",
-        "a.stl",
-        b"solid x\n" + b"vertex 1" + b" " * 2_000_000 + b"\n" + (b"vertex" + b" " * 1000) * 2000,
-    )
-    yield _single(
-        "stl-nan",
-        "a.stl",
-        b"\1" * 80 + struct.pack("<I", 4) + b"\xff\xff\xff\x7f" * 50,
-        least="not_finite",
-    )
-    for entry in (
-        "a.glb",
-        "a.gltf",
-        "a.obj",
-        "a.ply",
-        "a.stl",
-        "a.off",
-        "a.dae",
-        "a.urdf",
-        "a.xml",
-    ):
-        for name, data in (
-            ("empty", b""),
-            ("zeros", b"\0" * 4096),
-            ("latin", b"\xe9\xff\xfe" * 400),
-            ("line", b"v" * 2_000_000),
-        ):
-            yield _single(f"{entry}-{name}", entry, data)
+def _ply(name: str, form: str, elements: str, body: bytes) -> Case:
+    head = f"ply\nformat {form} 1.0\n{elements}end_header\n"
+    return single(f"ply-{name}", "a.ply", head.encode() + body)
 
 
 def _tables() -> Iterator[Case]:
-    for form in ("ascii", "binary_little_endian"):
+    binary = "binary_little_endian"
+    for form in ("ascii", binary):
         for kind, length in (("float", ""), ("int", "list uint "), ("double", "list int ")):
             for count in (2**31, 3_000_000, -5, 10**30):
-                head = (
-                    f"ply\nformat {form} 1.0\nelement vertex 3\nproperty float x\n"
-                    f"element face {count}\n"
-                )
-                head += f"property {length}{kind} q\nend_header\n"
-                yield _single(
-                    f"ply-{form}-{kind}-{count}", "a.ply", head.encode() + b"\xff\xff\xff\x7f" * 100
-                )
+                elements = "element vertex 3\nproperty float x\n"
+                elements += f"element face {count}\nproperty {length}{kind} q\n"
+                yield _ply(f"{form}-{kind}-{count}", form, elements, b"\xff\xff\xff\x7f" * 100)
         none = "".join(f"element e{k} 3000000\n" for k in range(900))
-        yield _single(
-            f"ply-nothing-{form}",
-            "a.ply",
-            f"ply\nformat {form} 1.0\n{none}end_header\n".encode() + b"\n" * 3_000_000,
-        )
+        yield _ply(f"nothing-{form}", form, none, b"\n" * 3_000_000)
         empty = "".join(f"element e{k} 3000000\nproperty list uchar int q\n" for k in range(400))
-        yield _single(
-            f"ply-empty-lists-{form}",
-            "a.ply",
-            f"ply\nformat {form} 1.0\n{empty}end_header\n".encode() + b"\0\n" * 1_500_000,
-        )
-    again = "".join("property float x\n" for _ in range(900))
-    yield _single(
-        "ply-again",
-        "a.ply",
-        f"ply\nformat ascii 1.0\nelement vertex 100000\n{again}end_header\n".encode()
-        + b"1 \n" * 100_000,
-    )
-    yield _single(
-        "ply-header",
-        "a.ply",
-        b"ply\nformat ascii 1.0\n" + b"comment x\n" * 2_000_000,
-        least="unreadable",
-    )
-    negative = (
-        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"
-        "property float y\nproperty float z\n"
-    )
-    negative += "element face 2\nproperty list char int vertex_indices\nend_header\n"
+        yield _ply(f"empty-lists-{form}", form, empty, b"\0\n" * 1_500_000)
+    again = "element vertex 100000\n" + "property float x\n" * 900
+    yield _ply("again", "ascii", again, b"1 \n" * 100_000)
+    comments = b"ply\nformat ascii 1.0\n" + b"comment x\n" * 2_000_000
+    yield single("ply-header", "a.ply", comments, least="unreadable")
+    negative = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    negative += "element face 2\nproperty list char int vertex_indices\n"
     faces = b"\xfd" + b"\x03" + struct.pack("<iii", 0, 1, 2)
-    yield _single(
-        "ply-negative", "a.ply", negative.encode() + struct.pack("<9f", *range(9)) + faces
-    )
-
-
-def _pictures() -> Iterator[Case]:
-    def chunk(kind: bytes, data: bytes) -> bytes:
-        return (
-            struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-        )
-
-    def picture(width: int, height: int, *extra: bytes, data: bytes = b"") -> bytes:
-        head = chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
-        return (
-            b"\x89PNG\r\n\x1a\n"
-            + head
-            + b"".join(extra)
-            + chunk(b"IDAT", data)
-            + chunk(b"IEND", b"")
-        )
-
-    bomb = zlib.compress(b"\0" * 200_000_000)
-    found = {
-        "huge": picture(2**31 - 1, 2**31 - 1),
-        "pixels": picture(60_000, 60_000),
-        "bomb": picture(8, 8, data=bomb),
-        "text": picture(2, 2, chunk(b"zTXt", b"x\0\0" + bomb), data=zlib.compress(b"\0" * 14)),
-        "profile": picture(2, 2, chunk(b"iCCP", b"x\0\0" + bomb), data=zlib.compress(b"\0" * 14)),
-        "empty": b"",
-        "gif": b"GIF89a" + struct.pack("<HH", 65535, 65535) + b"\0" * 100,
-        "tiff": b"II*\0\x08\0\0\0\x01\0" + struct.pack("<HHII", 256, 4, 1, 2**31 - 1) + b"\0" * 4,
-        "bmp": b"BM"
-        + struct.pack("<IIIIiiHHIIiiII", 2**31, 0, 54, 40, 2**30, 2**30, 1, 24, 0, 0, 0, 0, 0, 0),
-        "tga": b"\0\0\x0a" + b"\0" * 9 + struct.pack("<HH", 65535, 65535) + b"\x18\0",
-        "ppm": b"P6 99999999 99999999 255\n",
-        "dds": b"DDS " + struct.pack("<IIII", 124, 0x1007, 2**30, 2**30) + b"\0" * 200,
-        "eps": b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\n(x) (w) file\n",
-        "svg": b"<svg xmlns='http://www.w3.org/2000/svg'><image href='file:///etc/passwd'/></svg>",
-        "jpeg": b"\xff\xd8\xff\xe0\0\x10JFIF\0\1\1\0\0\1\0\1\0\0\xff\xc0\0\x11\x08\xff\xff\xff\xff"
-        b"\x03\1\x22\0\2\x11\1\3\x11\1\xff\xd9",
-    }
-    for name, data in found.items():
-        yield _single(f"glb-picture-{name}", "cube.glb", pack_glb(*gltf_parts(image=data or b"\0")))
-        yield _case(
-            "png", f"obj-picture-{name}", "cube.obj", {**seeds()["obj"].files, "wood.png": data}
-        )
-        urdf = seeds()["urdf"].files
-        plain = urdf["cube.mtl"].replace(b"map_Kd", b"#")
-        yield _case(
-            "urdf", f"picture-{name}", "box.urdf", {**urdf, "wood.png": data, "cube.mtl": plain}
-        )
-        yield _case(
-            "mjcf", f"picture-{name}", "box.xml", {**seeds()["mjcf"].files, "wood.png": data}
-        )
+    yield _ply("negative", binary, negative, struct.pack("<9f", *range(9)) + faces)
 
 
 def _names() -> Iterator[Case]:
     cube = pack_glb(*gltf_parts())
-    long = "n" * 240
     for name in (
         "a\nb.glb",
         "a\x1b[31mb.glb",
         "..glb.glb",
         "é😀.glb",
         "\udcff\udcfe.glb",
-        f"{long}.glb",
+        f"{'n' * 240}.glb",
         " .glb",
         "-rf.glb",
         "$(id).glb",
@@ -444,11 +197,12 @@ def _names() -> Iterator[Case]:
         "a" + "/b" * 500 + "/x.glb",
         "\u202ebgl.glb",
     ):
-        yield _case("names", f"{name!a:.40}", name, {name: cube}, least="loaded")
+        yield folder_case("names", f"{name!a:.40}", name, {name: cube}, least="loaded")
     comment = b"<!--" + b"x" * 30_000_000 + b"--><mujoco/>"
-    yield _case("names", "comment", "a.glb", {"a.glb": cube, "a.xml": comment}, least="loaded")
-    yield _case("names", "folder", "a.glb", {"a.glb/x": b""})
-    yield _case("names", "missing", f"{'m' * 400}.glb", {"x": b""})
+    files = {"a.glb": cube, "a.xml": comment}
+    yield folder_case("names", "comment", "a.glb", files, least="loaded")
+    yield folder_case("names", "folder", "a.glb", {"a.glb/x": b""})
+    yield folder_case("names", "missing", f"{'m' * 400}.glb", {"x": b""})
 
 
 def _sidecars() -> Iterator[Case]:
@@ -480,19 +234,16 @@ def _sidecars() -> Iterator[Case]:
         "license": b"license = '" + b"x" * 60_000 + b"'",
     }
     for name, text in texts.items():
-        yield _case("toml", f"{name}", "cube.glb", {"cube.glb": cube, "cube.toml": text})
+        yield folder_case("toml", name, "cube.glb", {"cube.glb": cube, "cube.toml": text})
         urdf = seeds()["urdf"].files
-        yield _case("toml", f"urdf-{name}", "box.urdf", {**urdf, "box.toml": text})
-    yield _case("toml", "folder", "cube.glb", {"cube.glb": cube, "cube.toml/x": b""})
+        yield folder_case("toml", f"urdf-{name}", "box.urdf", {**urdf, "box.toml": text})
+    yield folder_case("toml", "folder", "cube.glb", {"cube.glb": cube, "cube.toml/x": b""})
 
 
 MESH_PAGES = {
     "references": _references,
     "gltf_counts": _gltf_counts,
-    "gltf_work": _gltf_work,
-    "texts": _texts,
     "tables": _tables,
-    "pictures": _pictures,
     "names": _names,
     "sidecars": _sidecars,
 }

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-import trimesh
+from plain_solids import box_between
 
 from asset_factory.factory.mesh import Material, Mesh, concatenate
 
@@ -17,8 +16,7 @@ Triple = Sequence[float]
 
 def board(low: Triple, high: Triple, material: Material = WOOD) -> Mesh:
     """A closed box between two corners [m]."""
-    made = trimesh.creation.box(bounds=[low, high])
-    return Mesh.from_triangles(np.asarray(made.vertices), np.asarray(made.faces), material)
+    return box_between(low, high, material)
 
 
 def knob(at: Triple) -> Mesh:
@@ -56,42 +54,3 @@ def fridge() -> Mesh:
             board((0.05, -0.1, 1.15), (0.08, -0.06, 1.4), METAL),
         ]
     )
-
-
-def creased_cupboard() -> Mesh:
-    """A closed block before which one piece is both doors, a groove between them."""
-    fronts = _grooved((0.04, -0.03, 0.05), (0.86, 0.03, 0.75), (0.44, 0.46), -0.01)
-    return concatenate(
-        [
-            board((0.0, 0.0, 0.0), (0.9, 0.4, 0.8)),
-            fronts,
-            _moved(knob((0.4, 0.4)), (0.0, -0.01, 0.0)),
-            _moved(knob((0.5, 0.4)), (0.0, -0.01, 0.0)),
-        ]
-    )
-
-
-def bookcase() -> Mesh:
-    """Boards around open shelves."""
-    sides = [board((x, 0.0, 0.0), (x + 0.02, 0.3, 1.6)) for x in (0.0, 0.78)]
-    shelves = [board((0.02, 0.0, z), (0.78, 0.29, z + 0.02)) for z in (0.05, 0.5, 1.0, 1.55)]
-    return concatenate([*sides, *shelves, board((0.02, 0.29, 0.0), (0.78, 0.3, 1.6))])
-
-
-def _moved(mesh: Mesh, by: Triple) -> Mesh:
-    matrix = np.eye(4)
-    matrix[:3, 3] = by
-    return mesh.transformed(matrix)
-
-
-def _grooved(low: Triple, high: Triple, groove: tuple[float, float], depth: float) -> Mesh:
-    """A closed box with an upright groove between two places across its front."""
-    from manifold3d import Manifold
-
-    def block(low: Triple, high: Triple) -> Manifold:
-        size = np.subtract(high, low)
-        return Manifold.cube(size.tolist()).translate(list(low))
-
-    cut = block((groove[0], low[1] - 0.01, low[2] - 0.01), (groove[1], depth, high[2] + 0.01))
-    made = (block(low, high) - cut).to_mesh()
-    return Mesh.from_triangles(made.vert_properties[:, :3], made.tri_verts, PAINT)

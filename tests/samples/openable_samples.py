@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
+import export_samples
 import numpy as np
-import trimesh
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
-from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
+from asset_factory.factory.articulation import Joint, JointKind
+from asset_factory.factory.asset import Asset
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.intake.intake import Provenance
-from asset_factory.factory.mesh import Material, Mesh, concatenate
+from asset_factory.factory.mesh import Material, Mesh
 from asset_factory.factory.part import Handle
 
 FRONT = np.array([0.0, -1.0, 0.0])
@@ -21,25 +22,13 @@ HOUSEHOLD = ("cabinet", "chest", "microwave", "laptop")
 
 
 def box(center: list[float], size: list[float]) -> Mesh:
-    shape = trimesh.creation.box(extents=size)
-    return Mesh.from_triangles(shape.vertices + np.asarray(center), shape.faces, RED)
-
-
-def body(mesh: Mesh, handle: Handle | None = None) -> PartBody:
-    size = mesh.extents
-    tensor = np.diag(2.0 / 12.0 * ((size**2).sum() - size**2))
-    inertial = Inertial(2.0, mesh.bounds.mean(axis=0), tensor)
-    return PartBody((Hull(mesh.vertices, mesh.faces),), inertial, handle, "exact")
+    return export_samples.box(center, size, RED)
 
 
 def assemble(
     name: str, meshes: list[Mesh], joints: tuple[Joint, ...], handles: dict[int, Handle]
 ) -> Asset:
-    parts = tuple(Part(f"part_{i}", np.arange(12 * i, 12 * i + 12)) for i in range(len(meshes)))
-    articulation = Articulation(concatenate(meshes), parts, joints, "test")
-    return Asset(
-        name, articulation, tuple(body(mesh, handles.get(i)) for i, mesh in enumerate(meshes))
-    )
+    return replace(export_samples.boxes_asset(meshes, joints, handles), name=name)
 
 
 def cabinet(lower: float = 0.0) -> Asset:

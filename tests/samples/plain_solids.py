@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
+import trimesh
 
 from asset_factory.factory.mesh import Material, Mesh
 from asset_factory.learn.objects.kit import shapes
@@ -19,6 +22,14 @@ def mesh_of(form: shapes.Form, material: Material) -> Mesh:
 def box(x: Span, y: Span, z: Span, material: Material) -> Mesh:
     """An axis-aligned box given by its spans [m]."""
     return mesh_of(shapes.box(x, y, z), material)
+
+
+def box_between(
+    low: Sequence[float], high: Sequence[float], material: Material | None = None
+) -> Mesh:
+    """A box of eight vertices and twelve faces between two corners [m]."""
+    made = trimesh.creation.box(bounds=[low, high])
+    return Mesh.from_triangles(made.vertices, made.faces, material)
 
 
 def cylinder(

@@ -7,12 +7,6 @@ from asset_factory.factory.intake.importers.prediction import point_on_line
 from asset_factory.learn.evaluate.published.cloud import ScoredCloud
 
 
-def arrays(path):
-    """All arrays of a file, which is closed again."""
-    with np.load(path, allow_pickle=False) as held:
-        return {name: held[name] for name in held.files}
-
-
 def cloud_from(arrays, side):
     """Of the ``gt`` or the ``pred`` arrays of one fixture."""
 

@@ -52,11 +52,12 @@ def publish(registry: Registry, content: str = "one", entry: Entry = PASSED) -> 
 
 
 def three_entries(root: Path) -> Registry:
-    """Two assets that passed, and one that did not."""
+    """Two assets that passed, one of them noted and without a license, and one that did not."""
     made = Registry(root, create=True)
     publish(made)
-    publish(made, entry=named("fridge-1"))
+    publish(made, "two", named("fridge-1", category="fridge", license=""))
     made.reject(replace(REJECTED, id="chest-1"), BAD_REPORT)
+    made.note("fridge-1", tags=("blue",), solved="yes")
     return made
 
 

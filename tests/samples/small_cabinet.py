@@ -8,10 +8,7 @@ from pathlib import Path
 import numpy as np
 import trimesh
 
-from asset_factory.sim_checks.checks.in_simulator import judge_in_simulator
 from asset_factory.sim_checks.checks.result import CheckResult
-from asset_factory.sim_checks.config import CheckConfig
-from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.report import Severity
 
 Boxes = tuple[tuple[tuple[float, float, float], tuple[float, float, float]], ...]
@@ -94,10 +91,6 @@ def write_lid(folder: Path) -> Path:
         <dynamics damping="1.5" friction="2.0"/></joint></robot>"""
     )
     return path
-
-
-def judge(path: Path, simulator: str, config: CheckConfig | None = None) -> CheckResult:
-    return judge_in_simulator(read_description(path), simulator, config or CheckConfig())
 
 
 def codes(result: CheckResult, severity: Severity = Severity.ERROR) -> list[str]:

@@ -85,7 +85,8 @@ class PieceOutlines:
 
     def around(self, piece: int) -> BoolArray:
         """Return which pieces one is set in by its outline: its frame, shape [piece_count]."""
-        low, high = self.low[:, :2], self.high[:, :2]
+        low = self.low[:, :2]
+        high = self.high[:, :2]
         holds = ((low <= low[piece]) & (high >= high[piece])).all(axis=1)
         return np.asarray(holds & (self.within(low[piece], high[piece]) < WHOLE))
 

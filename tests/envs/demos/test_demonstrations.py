@@ -5,8 +5,8 @@ import shutil
 
 import numpy as np
 import pytest
-from demo_samples import drawer
 from openable_samples import write_registry
+from solvable_samples import fin
 
 from asset_factory.envs.demos import Episode, Settings, Shard, Taken
 from asset_factory.envs.demos.files import write_shard
@@ -30,7 +30,7 @@ pytestmark = [
 def shard(tmp_path_factory):
     """One episode that a robot solved, of a registry that has moved since."""
     root = tmp_path_factory.mktemp("demonstrated")
-    write_registry(root / "out", drawer())
+    write_registry(root / "out", fin("drawer"))
     assert command.run(command.Demos(root / "demos", output=root / "out", per_joint=1)) == Exit.OK
     shutil.move(root / "out", root / "moved")
     return root / "demos/drawer-000.h5"

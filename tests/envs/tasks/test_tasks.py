@@ -22,7 +22,9 @@ def env(request, household):
 
 
 def test_observations_fit_their_space_over_every_asset(env):
-    for asset in env.unwrapped._assets:
+    # Every task on one asset, and one of them on all.
+    assets = list(env.unwrapped._assets)
+    for asset in assets if env.unwrapped.spec.id == "OpenJoint-v1" else assets[:1]:
         observation, info = env.reset(seed=1, options={"asset": asset})
         assert env.unwrapped.asset_record.id == asset
         assert env.observation_space.contains(observation.numpy())
@@ -85,18 +87,17 @@ def test_a_thousand_random_steps_bring_no_nan(env):
     _random_steps(env, 1000)
 
 
-@pytest.mark.parametrize("asset", HOUSEHOLD)
-def test_nothing_moves_by_itself_and_no_robot_starts_in_the_way(household, asset):
-    for robot in ("panda", "fetch"):
-        env = make(household, asset=asset, robot_uids=robot)
-        env.reset(seed=0)
-        task = env.unwrapped
-        assert task.place.clearance > 0.0
-        still = np.zeros(env.action_space.shape, dtype=np.float32)
+@pytest.mark.parametrize("robot", ["panda", "fetch"])
+def test_nothing_moves_by_itself_and_no_robot_starts_in_the_way(household, robot):
+    env = make(household, robot_uids=robot)
+    still = np.zeros(env.action_space.shape, dtype=np.float32)
+    for asset in HOUSEHOLD:
+        env.reset(seed=0, options={"asset": asset})
+        assert env.unwrapped.place.clearance > 0.0
         for _ in range(5):
             _, _, _, _, info = env.step(still)
         assert abs(float(info["open_fraction"])) < 0.02
-        env.close()
+    env.close()
 
 
 def _random_steps(env, count):

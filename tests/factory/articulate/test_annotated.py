@@ -8,21 +8,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from plain_solids import box_between as box
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.annotation import AnnotatedJoint, Annotation
 from asset_factory.factory.mesh import Mesh, concatenate
-
-CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=np.float64)
-QUADS = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
-TRIANGLES = [triangle for a, b, c, d in QUADS for triangle in ((a, b, c), (a, c, d))]
-
-
-def box(low, high):
-    return Mesh.from_triangles(np.array(low) + CORNERS * (np.array(high) - low), TRIANGLES)
-
 
 BODY = box((0, 0, 0), (1, 1, 1))
 FRONT = box((0, -0.1, 0), (1, 0, 1))

@@ -1,17 +1,11 @@
 """What is round turns or lifts: caps, lids, levers, turntables, wheels, the knobs of a cooktop."""
 
 import numpy as np
+from plain_solids import box_between as box
 
 from asset_factory.factory.articulate.geometric import GeometricArticulator
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.mesh import Mesh, concatenate
-
-CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
-SIDES = np.array([int(corner) for corner in "013032467475045051237276026064157173"]).reshape(-1, 3)
-
-
-def box(low, high):
-    return Mesh.from_triangles(np.array(low) + CORNERS * (np.array(high) - np.array(low)), SIDES)
 
 
 def lathe(profile, center=(0.0, 0.0), axis=2):

@@ -2,23 +2,15 @@
 
 import numpy as np
 import pytest
+from plain_solids import box_between as box
 
 from asset_factory.factory.articulate.locate import located, sourced
 from asset_factory.factory.articulate.proposal import Motion, Proposal
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
-from asset_factory.factory.mesh import Mesh, concatenate
+from asset_factory.factory.mesh import concatenate
 from asset_factory.factory.part import OpensBy, PartKind, Proposer
 
 X, Y, Z = np.eye(3)
-
-
-def box(low, high):
-    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
-    faces = [
-        (0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1),
-        (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3),
-    ]  # fmt: skip
-    return Mesh.from_triangles(np.array(low) + corners * np.subtract(high, low), faces)
 
 
 def cupboard(part, joint):

@@ -8,7 +8,7 @@ from oracle_network import Oracle
 
 from asset_factory.factory.articulate.catalog import choose
 from asset_factory.factory.articulate.particulate import ParticulateArticulator
-from asset_factory.factory.articulate.settings import decode_rules, require_usable
+from asset_factory.factory.articulate.settings import require_usable
 from asset_factory.factory.articulate.stage import articulate
 from asset_factory.factory.articulation import JointKind, Weights
 from asset_factory.factory.config import BuildConfig, ParticulateConfig
@@ -210,23 +210,6 @@ def test_of_several_samples_the_one_that_agrees_with_most_is_taken():
     assert any("3 samples were read" in note for note in found.notes)
 
 
-def test_the_same_seed_gives_the_same_articulation():
-    truth = make_object("chest", 4)
-    one = asked(truth, wrong=0.1)
-    again = asked(truth, wrong=0.1)
-    assert one.notes == again.notes
-    assert [p.faces.tolist() for p in one.parts] == [p.faces.tolist() for p in again.parts]
-    assert [(j.lower, j.upper, j.origin.tolist()) for j in one.joints] == [
-        (j.lower, j.upper, j.origin.tolist()) for j in again.joints
-    ]
-
-
-def test_who_said_so_is_known():
-    found = asked(make_object("fridge", 1))
-    assert found.articulator == "particulate"
-    assert found.weights == WEIGHTS
-
-
 def intake_of(truth):
     mesh = truth.mesh
     return Intake("it", mesh, np.arange(len(mesh.faces)), np.eye(4), Provenance("it.obj", "00"))
@@ -259,8 +242,3 @@ def test_the_shipped_network_answers_unless_another_is_named():
 def test_impossible_settings_are_refused_before_any_input(setting, value, sentence):
     with pytest.raises(ConfigError, match=sentence):
         require_usable(replace(CONFIG, **{setting: value}), needed=False)
-
-
-def test_settings_become_rules():
-    rules = decode_rules(ParticulateConfig(refinement="patch", tree="all", least_confidence=0.3))
-    assert (rules.refinement, rules.tree, rules.least_confidence) == ("patch", "all", 0.3)

@@ -15,10 +15,14 @@ from asset_factory.factory.part import PartKind
 from asset_factory.factory.runtime.stages import Stages
 
 
-def read(path, mesh, up="z"):
-    """The mesh written with that axis up, and read without a word of it."""
+def write(path, mesh, up="z"):
+    """The mesh with that axis up, without a word of it."""
     vertices = mesh.vertices @ rotation_to_z_up(up)
     trimesh.Trimesh(vertices, mesh.faces, process=False).export(path)
+
+
+def read(path, mesh, up="z"):
+    write(path, mesh, up)
     config = BuildConfig()
     origin = Source(path, config)
     return standing_hypotheses(origin.load(), origin, Stages(config))
@@ -38,7 +42,7 @@ def test_two_doors_that_show_only_with_the_other_axis_up_stand_it_up(tmp_path, s
 
 def test_what_is_predicted_stands_up_too_and_says_so(tmp_path):
     path = tmp_path / "fridge.glb"
-    read(path, fridge())
+    write(path, fridge())
     told = predict(path, BuildConfig())
     assert [joint["type"] for joint in told["joints"]] == ["revolute"] * 2
     assert any("up its sides show 2 doors" in note for note in told["notes"])

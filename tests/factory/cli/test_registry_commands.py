@@ -13,7 +13,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import tyro
-from registry_samples import BAD_REPORT, REJECTED, named, publish
+from registry_samples import BAD_REPORT, REJECTED, named, publish, three_entries
 from shown_registry import make_registry
 
 from asset_factory.factory.cli import console, gc
@@ -39,11 +39,7 @@ ROOMS = {
 
 @pytest.fixture
 def root(tmp_path):
-    registry = Registry(tmp_path / "out", create=True)
-    publish(registry)
-    publish(registry, entry=named("fridge-1", category="fridge"))
-    registry.reject(replace(REJECTED, id="chest-1"), BAD_REPORT)
-    return registry.root
+    return three_entries(tmp_path / "out").root
 
 
 @pytest.fixture
@@ -196,7 +192,7 @@ def test_the_lines_for_isaac_put_an_asset_on_its_stage(tmp_path, run, monkeypatc
 def test_a_beginning_names_the_only_asset_that_has_it(root, run):
     assert "fridge-1: " in run(Show, "f", "--output", root)[1]
     assert run(commands.RegistryCommand, "tag", "fri", "cold", "--output", root)[1] == (
-        "fridge-1: cold\n"
+        "fridge-1: blue, cold\n"
     )
     assert run(commands.RegistryCommand, "verify", "cab", "--output", root)[0] == 0
     publish(Registry(root), entry=named("fridge-10"))

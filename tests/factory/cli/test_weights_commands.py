@@ -12,13 +12,12 @@ from weight_rule import weights
 from asset_factory.factory.cli.commands import run
 from asset_factory.factory.cli.flags import InputFlags, input_config
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.models.network.shape import expected_tensors
 from asset_factory.factory.models.partfield.shape import UNUSED, PartFieldShape
 from asset_factory.factory.models.partfield.shape import expected_tensors as expected_field_tensors
 from asset_factory.factory.models.particulate.field import load_field
 from asset_factory.factory.models.particulate.model import load_model
-from asset_factory.factory.models.weights.checkpoint import convert, describe
-from asset_factory.factory.models.weights.safetensors import read_safetensors, write_safetensors
+from asset_factory.factory.models.weights.checkpoint import convert
+from asset_factory.factory.models.weights.safetensors import read_safetensors
 from asset_factory.factory.models.weights.sources import PARTFIELD, PARTICULATE, fetch
 from asset_factory.factory.runtime.store import digest_file
 
@@ -86,42 +85,13 @@ def test_a_converted_field_keeps_its_terms_and_its_features(released_field, tmp_
     assert np.array_equal(before, after)
 
 
-def test_bfloat16_weights_are_loaded_as_float32(tmp_path):
-    file = tmp_path / "half.safetensors"
-    state = {name: tensor.bfloat16() for name, tensor in tiny_model()._network.state_dict().items()}
-    write_safetensors(file, state, {})
-    assert describe(file).dtypes == ("BF16",)
-    assert {weight.dtype for weight in load_model(str(file))._network.parameters()} == {
-        torch.float32
-    }
-
-
-@pytest.mark.parametrize(
-    ("change", "says"),
-    [
-        (lambda state: state.pop("blocks.1.norm2.bias"), "blocks.1.norm2.bias: missing"),
-        (
-            lambda state: state.update({"feat_proj.bias": torch.zeros(9)}),
-            "feat_proj.bias: shape [9], want [32]",
-        ),
-        (
-            lambda state: state.update({"head.weight": torch.zeros(9)}),
-            "head.weight: no such tensor",
-        ),
-        (
-            lambda state: state.clear() or state.update({"conv1.weight": torch.zeros(9)}),
-            "pos_embed.mlp.2.weight: missing",
-        ),
-    ],
-)
-def test_a_wrong_checkpoint_ends_in_one_sentence(tmp_path, capsys, change, says):
-    state = dict(tiny_model()._network.state_dict())
-    change(state)
+def test_a_wrong_checkpoint_ends_in_one_sentence(tmp_path, capsys):
+    state = {**tiny_model()._network.state_dict(), "feat_proj.bias": torch.zeros(9)}
     file = tmp_path / "wrong.pt"
     torch.save(state, file)
     assert run(["weights", "info", str(file)]) == 2
     shown = capsys.readouterr().err
-    assert says in shown
+    assert "feat_proj.bias: shape [9], want [32]" in shown
     assert str(file) in shown
     assert "Traceback" not in shown
     with pytest.raises(ConfigError):
@@ -257,8 +227,3 @@ def test_without_the_hubs_library_the_remedy_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "huggingface_hub", None)
     with pytest.raises(ConfigError, match="pip install huggingface_hub"):
         fetch(PARTICULATE.source)
-
-
-def test_expected_tensors_are_what_was_saved(released):
-    assert set(expected_tensors(TINY)) == set(tiny_model()._network.state_dict())
-    assert describe(released).tensors == len(expected_tensors(TINY))

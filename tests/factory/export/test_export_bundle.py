@@ -30,12 +30,6 @@ def textured_cabinet():
     )
 
 
-def test_the_same_asset_gives_the_same_bytes_in_any_folder(tmp_path):
-    export_bundle(textured_cabinet(), PROVENANCE, tmp_path / "one")
-    export_bundle(textured_cabinet(), PROVENANCE, tmp_path / "two" / "elsewhere")
-    assert content(tmp_path / "one") == content(tmp_path / "two" / "elsewhere")
-
-
 def test_exporting_again_leaves_nothing_of_the_bundle_before(tmp_path):
     export_bundle(textured_cabinet(), PROVENANCE, tmp_path / "bundle")
     export_bundle(boxes_asset([box([0, 0, 0], [1, 1, 1])], ()), PROVENANCE, tmp_path / "bundle")

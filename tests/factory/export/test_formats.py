@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from export_samples import PROVENANCE, box, boxes_asset, cabinet
+from export_samples import PROVENANCE, cabinet, frames, tree_of_boxes
 from format_readers import READERS, animated_glb, pxr_usd
 
 from asset_factory.factory.articulate.annotated import annotated_articulator, annotation_of
-from asset_factory.factory.articulation import Joint, JointKind
+from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.export import export_bundle
@@ -21,46 +21,6 @@ from asset_factory.sim_checks.description import Mimic
 
 ALL = tuple(each.name for each in FORMATS)
 SHARES = (0.0, 0.25, 0.5, 0.8, 1.0)
-KINDS = (JointKind.REVOLUTE, JointKind.CONTINUOUS, JointKind.PRISMATIC, JointKind.FIXED)
-
-
-def tree_of_boxes(seed):
-    """A random tree of one to six boxes behind joints of any kind and any axis."""
-    rng = np.random.default_rng(seed)
-    count = int(rng.integers(1, 7))
-    meshes = [box(rng.uniform(-1, 1, 3), rng.uniform(0.05, 0.5, 3)) for _ in range(count + 1)]
-    joints = []
-    for child in range(1, count + 1):
-        kind = KINDS[int(rng.integers(0, len(KINDS)))]
-        axis = rng.normal(size=3)
-        limits = (-rng.uniform(0, 1), rng.uniform(0.1, 2))
-        if kind is JointKind.FIXED:
-            limits = (0.0, 0.0)
-        elif kind is JointKind.CONTINUOUS:
-            limits = (-np.pi, np.pi)
-        joints.append(
-            Joint(
-                f"j{child}",
-                kind,
-                int(rng.integers(0, child)),
-                child,
-                axis / np.linalg.norm(axis),
-                rng.uniform(-1, 1, 3),
-                *limits,
-            )
-        )
-    return boxes_asset(meshes, tuple(joints))
-
-
-def frames(articulation, values):
-    """Poses of the links in the world, as the articulation says."""
-    poses = articulation.poses(values)
-    found = {}
-    for index, part in enumerate(articulation.parts):
-        rest = np.eye(4)
-        rest[:3, 3] = articulation.link_frame(index)
-        found[part.name] = poses[index] @ rest
-    return found
 
 
 @pytest.fixture(scope="module")

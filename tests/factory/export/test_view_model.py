@@ -23,16 +23,6 @@ from asset_factory.factory.verify.validate import Verdict
 from asset_factory.sim_checks import Finding, Report, Severity
 
 
-def test_the_same_asset_gives_the_same_bytes(tmp_path):
-    models = []
-    for name in ("one", "two"):
-        (tmp_path / name).mkdir()
-        write_model(cabinet(), tmp_path / name)
-        models.append((tmp_path / name / "view.glb").read_bytes())
-    assert models[0] == models[1]
-    assert len(scene_from(models[0]).movable) == 2
-
-
 def test_an_input_that_became_nothing_can_be_looked_at(tmp_path):
     folder = write_input(box([0, 0, 1], [1, 2, 3]), tmp_path / "input")
     scene = scene_from((folder / "view.glb").read_bytes())

@@ -3,16 +3,10 @@
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from plain_solids import box_between as box
 
 from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.mesh import Mesh, concatenate
-
-CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
-SIDES = np.array([int(corner) for corner in "013032467475045051237276026064157173"]).reshape(-1, 3)
-
-
-def box(low, high):
-    return Mesh.from_triangles(np.array(low) + CORNERS * (np.array(high) - np.array(low)), SIDES)
 
 
 def test_a_box_is_one_component():

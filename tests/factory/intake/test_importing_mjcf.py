@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from test_importing_urdf import articulated, bounds_of
 
-from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import InputRejected
@@ -28,22 +28,10 @@ def load(folder, text):
     return load_description(write(folder, text), IntakeConfig())
 
 
-def articulated(intake):
-    assert intake.annotation is not None
-    return AnnotatedArticulator(
-        intake.annotation, intake.transform, intake.source_faces
-    ).articulate(intake.mesh)
-
-
 def refused(folder, text):
     with pytest.raises(InputRejected) as caught:
         load(folder, text)
     return caught.value
-
-
-def part_bounds(articulation, name):
-    index = [part.name for part in articulation.parts].index(name)
-    return articulation.part_mesh(index).bounds
 
 
 def test_joints_of_every_kind_come_back_in_the_world_frame(tmp_path):
@@ -69,7 +57,7 @@ def test_joints_of_every_kind_come_back_in_the_world_frame(tmp_path):
     offset = joint.origin - np.array([0.0, 0.0, 0.0])
     np.testing.assert_allclose(offset - joint.axis * (joint.axis @ offset), 0.0, atol=1e-9)
     np.testing.assert_allclose(
-        part_bounds(result, "door"), [[0.8, -0.1, 0.7], [1.2, 0.1, 1.3]], atol=1e-9
+        bounds_of(result, "door"), [[0.8, -0.1, 0.7], [1.2, 0.1, 1.3]], atol=1e-9
     )
     assert intake.mesh.materials[0].color == (1.0, 0.0, 0.0, 1.0)
     assert any("floats freely" in note for note in intake.provenance.notes)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.config import IntakeConfig
@@ -80,21 +81,6 @@ def test_a_link_stands_where_its_joint_and_visual_origins_put_it(tmp_path):
         bounds_of(result, "arm"), [[-1.0, 1.5, 9.5], [1.0, 2.5, 10.5]], atol=1e-12
     )
     np.testing.assert_allclose(result.joint("slide").axis, [0.0, 1.0, 0.0], atol=1e-12)
-
-
-def test_every_primitive_is_closed_and_as_large_as_it_says(tmp_path):
-    shapes = {
-        "box": ('<box size="1 2 3"/>', 6.0, 1e-12),
-        "cylinder": ('<cylinder radius="1" length="2"/>', 2.0 * np.pi, 0.02),
-        "sphere": ('<sphere radius="1"/>', 4.0 / 3.0 * np.pi, 0.02),
-        "capsule": ('<capsule radius="1" length="2"/>', 2.0 * np.pi + 4.0 / 3.0 * np.pi, 0.02),
-    }
-    for shape, volume, tolerance in shapes.values():
-        visual = f"<visual><geometry>{shape}</geometry></visual>"
-        result = lift(tmp_path, link("base", visual))
-        assert signed_volume(result, 0) == pytest.approx(volume, rel=tolerance)
-        edges = np.sort(result.mesh.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-        assert (np.unique(edges, axis=0, return_counts=True)[1] == 2).all()
 
 
 def test_a_mirroring_mesh_scale_keeps_faces_outward(tmp_path):
@@ -197,23 +183,6 @@ def test_the_digest_depends_on_every_file_that_was_read(tmp_path):
     assert load(path).provenance.digest != before
 
 
-BOMB = (
-    '<!DOCTYPE r [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;">]><robot>'
-    '<link name="&b;"/></robot>'
-)
-
-
-@pytest.mark.parametrize(
-    "text", [BOMB, "<robot><link>", "", "<model/>", "\x00\x01", "<robot xmlns:x='u'><y:z/></robot>"]
-)
-def test_broken_or_dangerous_xml_is_unreadable(tmp_path, text):
-    path = tmp_path / "thing.urdf"
-    path.write_text(text)
-    with pytest.raises(InputRejected) as caught:
-        load(path)
-    assert caught.value.code == "unreadable"
-
-
 AB = link("a") + link("b")
 
 
@@ -306,37 +275,11 @@ def test_axes_and_ranges_agree_with_the_reference_conversion(name):
         )
 
 
-def rpy(roll, pitch, yaw):
-    """Independent of the reader: three elementary rotations, multiplied."""
-    cr = np.cos(roll)
-    sr = np.sin(roll)
-    cp = np.cos(pitch)
-    sp = np.sin(pitch)
-    cy = np.cos(yaw)
-    sy = np.sin(yaw)
-    about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
-    about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
-    about_z = np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
-    return about_z @ about_y @ about_x
-
-
 def homogeneous(rotation, translation):
     matrix = np.eye(4)
-    matrix[:3, :3] = rotation
+    matrix[:3, :3] = rotation.as_matrix()
     matrix[:3, 3] = translation
     return matrix
-
-
-def about(axis, angle):
-    """Rotation by the exponential of a cross-product matrix, summed as a series."""
-    x, y, z = axis
-    cross = angle * np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    total = np.eye(3)
-    term = np.eye(3)
-    for n in range(1, 40):
-        term = term @ cross / n
-        total = total + term
-    return total
 
 
 number = st.floats(-2.0, 2.0).map(lambda x: round(x, 3))
@@ -370,12 +313,16 @@ def test_random_trees_move_as_a_product_of_matrices_says(tmp_path, edges):
         unit = np.array(axis) / np.linalg.norm(axis)
         value = 1.5 * share
         motion = {
-            "revolute": homogeneous(about(unit, value), np.zeros(3)),
-            "continuous": homogeneous(about(unit, value), np.zeros(3)),
-            "prismatic": homogeneous(np.eye(3), unit * value),
+            "revolute": homogeneous(Rotation.from_rotvec(unit * value), np.zeros(3)),
+            "continuous": homogeneous(Rotation.from_rotvec(unit * value), np.zeros(3)),
+            "prismatic": homogeneous(Rotation.identity(), unit * value),
             "fixed": np.eye(4),
         }[kind]
-        frames.append(frames[parent] @ homogeneous(rpy(*angles), np.array(xyz)) @ motion)
+        # Independent of the reader: roll, then pitch, then yaw, about axes that stand still.
+        roll, pitch, yaw = (
+            Rotation.from_rotvec(a * e) for a, e in zip(angles, np.eye(3), strict=True)
+        )
+        frames.append(frames[parent] @ homogeneous(yaw * pitch * roll, np.array(xyz)) @ motion)
     intake = load(write(tmp_path, body))
     result = articulated(intake)
     values = {f"j{n}": 1.5 * e[5] for n, e in enumerate(edges, start=1) if e[1] != "fixed"}

@@ -166,13 +166,3 @@ def test_published_predictions_become_trees(name):
         child = int(joint.name.rsplit("_", 1)[-1])
         line = stored["revolute_plucker"][child] if joint.turns else stored["prismatic_axis"][child]
         assert abs(joint.axis @ line[:3]) == pytest.approx(np.linalg.norm(line[:3]), rel=1e-5)
-
-
-LINES = Path(__file__).parents[4] / "shared" / "fixtures" / "geometry" / "plucker.npz"
-
-
-@pytest.mark.skipif(not LINES.is_file(), reason="the reference lines are not on this machine")
-def test_points_on_lines_agree_with_the_reference():
-    stored = np.load(LINES)
-    for line, point in zip(stored["plucker"], stored["point_out"], strict=True):
-        np.testing.assert_allclose(point_on_line(line[:3], line[3:]), point, atol=1e-6)

@@ -46,23 +46,19 @@ def volumes(mesh):
     return sorted(round(solid.volume(), 9) for solid in gate(*mesh).solids)
 
 
-def test_a_closed_box_is_one_solid_of_its_volume():
-    assert volumes(box((1, 2, 3))) == [6.0]
-
-
-def test_an_inverted_box_is_turned():
+@pytest.mark.parametrize(
+    "changed",
+    [
+        lambda faces: faces,
+        lambda faces: faces[:, ::-1],
+        lambda faces: np.concatenate([faces, faces]),
+        lambda faces: np.concatenate([faces, faces[:, ::-1]]),
+    ],
+    ids=["as it is", "inverted", "duplicated", "double-sided"],
+)
+def test_a_closed_box_is_one_solid_of_its_volume(changed):
     vertices, faces = box((1, 2, 3))
-    assert volumes((vertices, faces[:, ::-1])) == [6.0]
-
-
-def test_duplicated_faces_do_not_double_the_volume():
-    vertices, faces = box((1, 2, 3))
-    assert volumes((vertices, np.concatenate([faces, faces]))) == [6.0]
-
-
-def test_double_sided_faces_count_once():
-    vertices, faces = box((1, 2, 3))
-    gated = gate(vertices, np.concatenate([faces, faces[:, ::-1]]))
+    gated = gate(vertices, changed(faces))
     assert [solid.volume() for solid in gated.solids] == pytest.approx([6.0])
     assert not gated.sheets
 

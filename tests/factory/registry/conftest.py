@@ -3,8 +3,14 @@
 from __future__ import annotations
 
 import pytest
+from registry_samples import three_entries
 
 
 @pytest.fixture(autouse=True)
 def unsynced(monkeypatch):
     monkeypatch.setattr("os.fsync", lambda descriptor: None)
+
+
+@pytest.fixture
+def registry(tmp_path):
+    return three_entries(tmp_path / "out")

@@ -1,28 +1,14 @@
 """What is handed on: whole, reproducible, and with its terms."""
 
-import io
 import json
 import subprocess
 import tarfile
-from dataclasses import replace
-from pathlib import Path
 
 import pytest
-from registry_samples import BAD_REPORT, REJECTED, named, publish
+from registry_samples import named, publish
 
 from asset_factory.factory.errors import RegistryError
-from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.export import contents, write_export
-
-
-@pytest.fixture
-def registry(tmp_path):
-    made = Registry(tmp_path / "out", create=True)
-    publish(made)
-    publish(made, "two", named("fridge-1", category="fridge", license=""))
-    made.reject(replace(REJECTED, id="chest-1"), BAD_REPORT)
-    made.note("fridge-1", tags=("blue",), solved="yes")
-    return made
 
 
 def export(registry, target, layout="plain", **filters):
@@ -150,12 +136,3 @@ def test_urls(registry, tmp_path):
         export(registry, "memory://bucket/folder")
     with pytest.raises(RegistryError, match="nosuch"):
         export(registry, "nosuch://bucket/x.tar")
-
-
-def test_a_stream_is_enough_for_an_archive(registry):
-    from asset_factory.factory.registry.export.writing import write_archive
-
-    stream = io.BytesIO()
-    write_archive(contents(registry, registry.entries()), stream, compressed=False)
-    with tarfile.open(fileobj=io.BytesIO(stream.getvalue())) as archive:
-        assert Path(archive.getnames()[-1]).name == "SHA256SUMS"

@@ -3,12 +3,11 @@
 import io
 import shutil
 import tarfile
-from dataclasses import replace
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from registry_samples import BAD_REPORT, REJECTED, REPORT, dump, named, publish
+from registry_samples import REPORT, dump, named, publish
 
 from asset_factory.factory.errors import RegistryError
 from asset_factory.factory.registry import Registry
@@ -18,16 +17,6 @@ from asset_factory.factory.registry.names import is_safe_path
 from asset_factory.factory.registry.rebuild import rebuild
 from asset_factory.factory.registry.verify import verify
 from asset_factory.factory.runtime.store import digest_bytes
-
-
-@pytest.fixture
-def registry(tmp_path):
-    made = Registry(tmp_path / "out", create=True)
-    publish(made)
-    publish(made, "two", named("fridge-1", category="fridge"))
-    made.reject(replace(REJECTED, id="chest-1"), BAD_REPORT)
-    made.note("fridge-1", tags=("blue",), solved="yes")
-    return made
 
 
 @pytest.fixture
@@ -109,7 +98,7 @@ def test_builds_are_answered_with_an_import_only_if_it_is_trusted(
 
 
 def test_tags_add_up(registry, other, tmp_path):
-    publish(other, "two", named("fridge-1", category="fridge"))
+    publish(other, "two", named("fridge-1", category="fridge", license=""))
     other.note("fridge-1", tags=("mine",), solved="no")
     import_export(other, export(registry, tmp_path / "x"))
     assert other.entry("fridge-1").tags == ("blue", "mine")
@@ -206,7 +195,6 @@ def member(name, content=b"x", **changes):
     return info, content
 
 
-HUGE = "9" * 15
 HOSTILE = {
     "climbs": (member("../../etc/passwd"), "is no path in an export"),
     "climbs_later": (member("assets/a/../../../b"), "is no path in an export"),

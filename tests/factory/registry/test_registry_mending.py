@@ -4,7 +4,7 @@ import shutil
 from dataclasses import replace
 
 import pytest
-from registry_samples import publish, three_entries
+from registry_samples import publish
 
 from asset_factory.factory.intake.discover import find_inputs
 from asset_factory.factory.registry import verify as verify_module
@@ -14,11 +14,6 @@ from asset_factory.factory.registry.rows import delete, insert
 from asset_factory.factory.registry.verify import Settled, mend_rows, settle, verify
 from asset_factory.factory.runtime.layout import WITHDRAWN
 from asset_factory.factory.runtime.store import folder_digests
-
-
-@pytest.fixture
-def registry(tmp_path):
-    return three_entries(tmp_path / "out")
 
 
 def mended(registry, *, final=True):

@@ -3,16 +3,10 @@
 import shutil
 
 import pytest
-from registry_samples import three_entries
 
 from asset_factory.factory.registry.database import writing
 from asset_factory.factory.registry.rows import delete
 from asset_factory.factory.registry.verify import verify
-
-
-@pytest.fixture
-def registry(tmp_path):
-    return three_entries(tmp_path / "out")
 
 
 def alter(folder):

@@ -15,7 +15,7 @@ from asset_factory.factory.manufacture.plan import Plan
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.report_file import read_report
 from asset_factory.factory.verify import rounds
-from asset_factory.factory.verify.drafts import FACES_PER_HULL, HypothesisDraft, best_of, work_of
+from asset_factory.factory.verify.drafts import HypothesisDraft, best_of
 from asset_factory.factory.verify.validate import Verdict
 from asset_factory.sim_checks import Finding, Report, Severity
 from asset_factory.sim_checks.report import OUT_OF_TIME
@@ -83,17 +83,17 @@ def _reading_as(monkeypatch, *changes):
 CONFIG = BuildConfig(articulator="geometric", simulators=())
 
 
-def test_a_reading_that_is_blocked_loses_to_one_that_opens(tmp_path, monkeypatch):
+def test_a_reading_that_is_blocked_loses_to_one_that_opens(output, monkeypatch):
     _reading_as(monkeypatch, _blocked, lambda right: right)
-    result = build_asset(EXAMPLES / "laptop.glb", tmp_path, CONFIG)
+    result = build_asset(EXAMPLES / "laptop.glb", output, CONFIG)
     assert result.entry.status == "passed"
-    report = read_report(Registry(tmp_path).assets / result.entry.id).report
+    report = read_report(Registry(output).assets / result.entry.id).report
     (told,) = [f.message for f in report.findings if f.code == "other_reading"]
     assert told.startswith("read otherwise (")
     assert "is rejected" in told
 
 
-def test_a_reading_of_which_nothing_can_be_made_is_told_with_its_probability(tmp_path, monkeypatch):
+def test_a_reading_of_which_nothing_can_be_made_is_told_with_its_probability(output, monkeypatch):
     def rated(right):
         return replace(right, joints=tuple(replace(j, confidence=0.31) for j in right.joints))
 
@@ -109,19 +109,19 @@ def test_a_reading_of_which_nothing_can_be_made_is_told_with_its_probability(tmp
 
     asked = []
     monkeypatch.setattr(rounds, "manufacture", manufacture)
-    result = build_asset(EXAMPLES / "laptop.glb", tmp_path, CONFIG)
-    report = read_report(Registry(tmp_path).assets / result.entry.id).report
+    result = build_asset(EXAMPLES / "laptop.glb", output, CONFIG)
+    report = read_report(Registry(output).assets / result.entry.id).report
     (told,) = [f.message for f in report.findings if f.code == "other_reading"]
     assert "turns, probability 0.31), it cannot be made, no_bodies: nothing is left of it" in told
 
 
-def test_beyond_the_most_work_only_the_likeliest_is_made(tmp_path, monkeypatch):
+def test_beyond_the_most_work_only_the_likeliest_is_made(output, monkeypatch):
     _reading_as(monkeypatch, _blocked, lambda right: right)
     hurried = replace(CONFIG, readings=ReadingsConfig(most_work=0))
-    assert build_asset(EXAMPLES / "laptop.glb", tmp_path, hurried).entry.status == "rejected"
+    assert build_asset(EXAMPLES / "laptop.glb", output, hurried).entry.status == "rejected"
 
 
-def test_a_reading_whose_check_hung_gives_its_place_to_no_other(tmp_path, monkeypatch):
+def test_a_reading_whose_check_hung_gives_its_place_to_no_other(output, monkeypatch):
     _reading_as(monkeypatch, lambda right: right, lambda right: right)
     honest = rounds.inspect
     late = Finding("check_timeout", Severity.ERROR, "no answer", cause=OUT_OF_TIME)
@@ -134,15 +134,15 @@ def test_a_reading_whose_check_hung_gives_its_place_to_no_other(tmp_path, monkey
         return Verdict(Report("asset.urdf", findings=(late,))) if first else verdict
 
     monkeypatch.setattr(rounds, "inspect", inspect)
-    result = build_asset(EXAMPLES / "laptop.glb", tmp_path, CONFIG)
+    result = build_asset(EXAMPLES / "laptop.glb", output, CONFIG)
     assert (result.entry.status, result.entry.reason) == ("unjudged", "check_timeout")
     assert result.entry.key == ""
     assert len(asked) == 1
-    assert not Registry(tmp_path).known_keys([""])
-    assert build_asset(EXAMPLES / "laptop.glb", tmp_path, CONFIG).entry.status == "passed"
+    assert not Registry(output).known_keys([""])
+    assert build_asset(EXAMPLES / "laptop.glb", output, CONFIG).entry.status == "passed"
 
 
-def test_a_simulator_that_hung_neither_rejects_nor_repairs(tmp_path, monkeypatch):
+def test_a_simulator_that_hung_neither_rejects_nor_repairs(output, monkeypatch):
     honest = rounds.validate
     late = Finding("simulator_timeout", Severity.ERROR, "no answer", "bullet", cause=OUT_OF_TIME)
     jammed = Finding("jammed", Severity.ERROR, "sapien: stuck", "sapien")
@@ -152,17 +152,11 @@ def test_a_simulator_that_hung_neither_rejects_nor_repairs(tmp_path, monkeypatch
         return replace(verdict, report=replace(verdict.report, findings=(jammed, late)))
 
     monkeypatch.setattr(rounds, "validate", validate)
-    entry = build_asset(EXAMPLES / "laptop.glb", tmp_path, CONFIG).entry
+    entry = build_asset(EXAMPLES / "laptop.glb", output, CONFIG).entry
     assert (entry.status, entry.reason) == ("unjudged", "simulator_timeout")
 
 
-def test_work_is_counted_from_what_is_made():
-    hulls = ASSET.hull_count
-    joints = len(ASSET.articulation.movable_joints)
-    assert work_of(ASSET) == joints * (hulls + len(ASSET.articulation.mesh.faces) // FACES_PER_HULL)
-
-
-def test_a_reading_that_cannot_be_made_is_passed_over(tmp_path, monkeypatch):
+def test_a_reading_that_cannot_be_made_is_passed_over(output, monkeypatch):
     made = rounds.manufacture
 
     def manufacture(articulation, *asked):
@@ -173,9 +167,9 @@ def test_a_reading_that_cannot_be_made_is_passed_over(tmp_path, monkeypatch):
     monkeypatch.setattr(rounds, "manufacture", manufacture)
     impossible = lambda right: replace(right, notes=("impossible",))  # noqa: E731
     _reading_as(monkeypatch, impossible, lambda right: right)
-    assert build_asset(EXAMPLES / "laptop.glb", tmp_path / "a", CONFIG).entry.status == "passed"
+    assert build_asset(EXAMPLES / "laptop.glb", output, CONFIG).entry.status == "passed"
     monkeypatch.undo()
     monkeypatch.setattr(rounds, "manufacture", manufacture)
     _reading_as(monkeypatch, impossible)
-    refused = build_asset(EXAMPLES / "laptop.glb", tmp_path / "b", CONFIG).entry
+    refused = build_asset(EXAMPLES / "laptop.glb", output, CONFIG).entry
     assert (refused.status, refused.reason) == ("rejected", "too_many_hulls")

@@ -34,13 +34,6 @@ def test_door_opens_to_the_front_with_positive_values(tmp_path):
     np.testing.assert_allclose(opened.part_mesh(1).bounds[0], [-0.51, -1.31, -0.4], atol=1e-6)
 
 
-def test_units_and_up_axis_of_the_stage(tmp_path):
-    header = 'metersPerUnit = 0.01\nupAxis = "Y"'
-    turned = read(tmp_path, stage(CABINET, header))
-    np.testing.assert_allclose(turned.mesh.extents, [0.01, 0.008, 0.0062], atol=1e-7)
-    np.testing.assert_allclose(np.abs(turned.joints[0].axis), [0.0, 1.0, 0.0], atol=1e-6)
-
-
 def test_lengths_on_a_scaled_body_are_scaled(tmp_path):
     base = body("base", (0, 0, 0), mesh("box", (0.5, 0.3, 0.4)), scale=2.0)
     hinge = HINGE.replace("(-0.5, -0.31, 0)", "(-0.25, -0.155, 0)")

@@ -5,7 +5,8 @@ import json
 import numpy as np
 import pytest
 from cupboards import cupboard, hinge, in_one_piece
-from published_arrays import arrays, cloud_from
+from published_arrays import cloud_from
+from stored_arrays import arrays
 
 from asset_factory.factory.geometry.posing import turned
 from asset_factory.learn.evaluate.published.cloud import cloud_of

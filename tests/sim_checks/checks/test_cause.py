@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 from asset_factory.sim_checks.checks.cause import Cause, CauseEvidence, Way, likely_cause
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
-from asset_factory.sim_checks.report import Finding
 
 CONFIG = PenetrationConfig()
 
@@ -49,14 +48,24 @@ def room(way, back=-10.0):
     return described([body("walls", walls), box], [slide])
 
 
-def test_fat_hulls_around_a_drawer_that_fits_are_to_blame():
-    assert causes(shown_as(cabinet("wide"), "drawer", cabinet())) == [
-        ("rest_penetration", "hull_inflation")
-    ]
-
-
-def test_a_drawer_that_is_really_too_wide_overlaps():
-    assert causes(cabinet("wide")) == [("rest_penetration", "parts_overlap")]
+@pytest.mark.parametrize(
+    ("broken", "found"),
+    [
+        (shown_as(cabinet("wide"), "drawer", cabinet()), ("rest_penetration", "hull_inflation")),
+        (cabinet("wide"), ("rest_penetration", "parts_overlap")),
+        (cabinet("axis_flip"), ("sweep_penetration", "wrong_axis")),
+        (cabinet("hinge_inside"), ("sweep_penetration", "wrong_axis")),
+        (room(0.1), ("sweep_penetration", "wrong_axis")),
+        (room(0.4), ("sweep_penetration", "limit_too_long")),
+        (room(0.1, back=0.0), ("sweep_penetration", None)),
+    ],
+    ids=[
+        "fat hulls around a drawer that fits", "a drawer too wide", "a door that opens inwards",
+        "a hinge inside the edge", "a slide the wrong way", "a wall at its end", "walls all round",
+    ],
+)  # fmt: skip
+def test_each_way_to_be_broken_has_its_cause(broken, found):
+    assert set(causes(broken)) == {found}
 
 
 def test_fat_hulls_along_the_way_are_to_blame_too():
@@ -66,28 +75,8 @@ def test_fat_hulls_along_the_way_are_to_blame_too():
     assert causes(slim) == [("sweep_penetration", "hull_inflation")]
 
 
-def test_a_door_that_opens_inwards_has_the_wrong_axis():
-    assert set(causes(cabinet("axis_flip"))) == {("sweep_penetration", "wrong_axis")}
-
-
-def test_a_hinge_inside_the_edge_is_the_wrong_axis():
-    assert causes(cabinet("hinge_inside")) == [("sweep_penetration", "wrong_axis")]
-
-
-def test_a_slide_the_wrong_way_has_the_wrong_axis():
-    assert causes(room(0.1)) == [("sweep_penetration", "wrong_axis")]
-
-
-def test_a_way_that_only_ends_in_a_wall_is_too_long():
-    assert causes(room(0.4)) == [("sweep_penetration", "limit_too_long")]
-
-
 def test_a_way_that_ends_before_the_wall_is_sound():
     assert causes(room(0.51)) == []
-
-
-def test_a_way_blocked_early_on_both_sides_has_no_cause_that_can_be_told():
-    assert causes(room(0.1, back=0.0)) == [("sweep_penetration", None)]
 
 
 def test_without_visible_surfaces_only_the_way_is_told():
@@ -156,6 +145,7 @@ def test_finding_and_measurements_say_the_same_and_the_message_says_why():
     (finding,) = result.findings
     (measured,) = [item for item in result.measurements["rest"] if item["depth_mm"] > 2.0]
     assert (measured["cause"], finding.cause) == ("parts_overlap", "parts_overlap")
+    assert type(finding.cause) is str
     assert measured["visual_mm"] == pytest.approx(-5.0, rel=0.05)
     assert finding.message.endswith("the visible parts themselves overlap")
     assert json.loads(json.dumps(result.measurements)) == result.measurements
@@ -221,10 +211,3 @@ def test_at_rest_what_is_seen_always_decides(depth, share, leaked):
     deeper = replace(seen, visual=min(0.0, share * depth) - CONFIG.rest_m - 1e-6)
     assert cause(seen) is not None
     assert cause(deeper) is (Cause.LEAKED_SEGMENT if leaked else Cause.PARTS_OVERLAP)
-
-
-def test_a_cause_goes_into_a_report_as_a_plain_word():
-    (finding,) = check(cabinet("wide")).findings
-    assert isinstance(finding, Finding)
-    assert json.dumps(finding.cause) == '"parts_overlap"'
-    assert type(finding.cause) is str

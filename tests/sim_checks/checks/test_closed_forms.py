@@ -184,18 +184,6 @@ def test_two_crossed_rods(depth, whole, angle, spin):
     assert agrees(measured(below, above, whole), depth, (first + second) * SIDE_SAG)
 
 
-@settings(max_examples=4)
-@given(depth=depths, whole=rotations, turn=rotations, direction=rotations)
-def test_two_balls(depth, whole, turn, direction):
-    first = 0.12
-    second = 0.07
-    center = direction.apply([0.0, 0.0, first + second - depth])
-    a = (f'<sphere radius="{first}"/>', UPRIGHT, (0, 0, 0))
-    b = (f'<sphere radius="{second}"/>', turn, center)
-    sag = (first + second) * (RING_SAG + SIDE_SAG)
-    assert agrees(measured(a, b, whole), depth, sag)
-
-
 @pytest.mark.parametrize("depth", [1e-5, 1e-4, 1e-3, 1e-2, 0.1])
 def test_a_ball_with_a_thousand_corners_in_another(depth):
     """Many edge pairs take another road to the depth; it must lead to the same place."""

@@ -1,6 +1,7 @@
-"""Ranges, axes and drives of a size that no such object has."""
+"""Ranges, axes, drives and resistance of a size that no such object has."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -141,3 +142,51 @@ def test_a_part_further_off_than_the_larger_is_across_is_no_part(gap, told):
         assert found.severity is Severity.ERROR
         assert found.value == pytest.approx(gap)
         assert found.limit == pytest.approx(math.hypot(0.4, 0.3, 0.02), abs=1e-6)
+
+
+REACH = 0.5
+
+
+def door(friction=0.0, damping=0.0):
+    """A thin door 0.5 m wide that turns by 1.5 rad, hinged at its edge."""
+    links = [
+        body("frame", [((-0.1, 0.0, 0.0), (0.1, 0.1, 1.0))]),
+        body("door", [((REACH / 2, 0.0, 0.0), (REACH, 1e-3, 1.0))]),
+    ]
+    hinge = joint("hinge", "revolute", "frame", "door", (0.0, 0.0, 0.0), (0, 0, 1), (0.0, 1.5))
+    return described(links, [replace(hinge, friction=friction, damping=damping)])
+
+
+#: Pull [N] at the edge by which a damping [N m s/rad] opens the door in three seconds.
+DAMPING = REACH / 0.5
+
+
+@pytest.mark.parametrize(("word", "per_newton"), [("friction", REACH), ("damping", DAMPING)])
+@pytest.mark.parametrize(
+    ("force", "severity"), [(29.0, None), (31.0, Severity.WARNING), (101.0, Severity.ERROR)]
+)
+def test_resistance_counts_as_the_pull_at_the_far_edge(word, per_newton, force, severity):
+    found = finding(door(**{word: force * per_newton}), f"{word}_excessive")
+    assert (found and found.severity) == severity
+    assert found is None or found.value == pytest.approx(force, rel=1e-3)
+
+
+def test_a_slide_needs_no_lever():
+    links = [
+        body("frame", [((0.0, 0.0, 0.0), (0.1,) * 3)]),
+        body("drawer", [((0.0, 0.2, 0.0), (0.1,) * 3)]),
+    ]
+    slide = joint("slide", "prismatic", "frame", "drawer", (0.0, 0.0, 0.0), (0, 1, 0), (0.0, 0.3))
+    found = finding(described(links, [replace(slide, friction=1e4)]), "friction_excessive")
+    assert (found.value, found.severity) == (1e4, Severity.ERROR)
+
+
+@pytest.mark.parametrize(("share", "told"), [(0.9, False), (1.1, True)])
+def test_damping_that_turns_the_speed_round_in_one_step_is_told(share, told):
+    thing = door()
+    inertia = thing.links[1].inertia
+    about_hinge = inertia.tensor[2, 2] + inertia.mass * (REACH / 2) ** 2
+    found = finding(door(damping=share * about_hinge * 240.0), "damping_stiff")
+    assert (found is not None) is told
+    if found is not None:
+        assert found.value == pytest.approx(share, rel=1e-4)

@@ -311,13 +311,19 @@ def test_each_fault_of_a_motion_is_named_with_its_number(changes, expected):
     assert [(f.code, str(f.severity), f.value) for f in findings] == expected
 
 
-@pytest.mark.parametrize(("share", "expected"), [(0.01, []), (0.05, ["warning"]), (0.5, ["error"])])
-def test_parts_that_push_each_other_at_rest_are_named(share, expected):
-    observation = Observation(
-        LoadedModel((), (), ()), rest=(RestMotion("j", 0.3 * share, share, finite=True),)
-    )
+@pytest.mark.parametrize(
+    ("observed", "expected"),
+    [
+        ({"rest": (RestMotion("j", 0.003, 0.01, finite=True),)}, []),
+        ({"rest": (RestMotion("j", 0.015, 0.05, finite=True),)}, [("pushed_at_rest", "warning")]),
+        ({"rest": (RestMotion("j", 0.15, 0.5, finite=True),)}, [("pushed_at_rest", "error")]),
+        ({"fall": Fall(finite=False)}, [("not_finite", "error")]),
+    ],
+)
+def test_each_fault_at_rest_and_in_a_fall_is_named(observed, expected):
+    observation = Observation(LoadedModel((), (), ()), **observed)
     findings = check_motion(nothing(), "engine", observation, CheckConfig()).findings
-    assert [str(f.severity) for f in findings if f.code == "pushed_at_rest"] == expected
+    assert [(f.code, str(f.severity)) for f in findings] == expected
 
 
 def test_made_up_energy_is_a_number_in_joules_against_what_is_allowed():
@@ -344,12 +350,6 @@ def test_only_what_weight_moves_is_said_to_open_by_its_weight(pushed, expected):
     findings = check_motion(nothing(), "engine", observation, CheckConfig()).findings
     assert [(f.code, str(f.severity)) for f in findings] == [(code, "warning") for code in expected]
     assert all("'door' and 'shelf'" in f.message for f in findings if f.code == "pushed_at_rest")
-
-
-def test_a_fall_to_infinity_is_hard():
-    observation = Observation(LoadedModel((), (), ()), fall=Fall(finite=False))
-    (finding,) = check_motion(nothing(), "engine", observation, CheckConfig()).findings
-    assert (finding.code, str(finding.severity)) == ("not_finite", "error")
 
 
 def nothing():

@@ -4,18 +4,15 @@ import pytest
 from small_cabinet import write_urdf
 
 from asset_factory.sim_checks import Status
-from asset_factory.sim_checks.judge import Judge
 
 ENGINES = ("sapien", "mujoco", "pybullet")
 LIMIT = '<limit lower="0" upper="0.3"'
 
 
-@pytest.fixture(scope="module")
-def judge():
+@pytest.fixture(autouse=True)
+def there():
     for engine in ENGINES:
         pytest.importorskip(engine)
-    with Judge() as judge:
-        yield judge
 
 
 @pytest.mark.parametrize(

@@ -45,12 +45,6 @@ def test_touching_boxes_anywhere_neither_crash_nor_overlap(seed):
     assert first.stand(second).depth == pytest.approx(0.0, abs=1e-9)
 
 
-def test_a_hull_inside_another_is_found():
-    outer = Collider(box_hull((0, 0, 0), UNIT))
-    inner = Collider(box_hull((0, 0, 0), (0.1, 0.1, 0.1)))
-    assert outer.stand(inner).depth == pytest.approx(0.55)
-
-
 def test_moving_a_collider_in_place_is_the_same_as_building_it_there():
     generator = np.random.default_rng(2)
     points = generator.normal(size=(20, 3))

@@ -23,37 +23,6 @@ def worst(path, moving, standing, steps=8, **tolerance):
     return sweep.worst([Candidate(0, 0, 0.0)], Tolerance(**tolerance))
 
 
-def test_a_thin_plate_passed_between_two_poses_is_found():
-    needle = box_hull((0.0, 0.0, 0.0), (0.002, 0.002, 0.002))
-    plate = box_hull((0.4321, 0.0, 0.0), (0.0005, 1.0, 1.0))
-    found = worst(SLIDE, needle, plate)
-    assert found.excess == pytest.approx(0.00125, rel=0.02)
-    assert found.at == pytest.approx(0.4321, abs=1e-4)
-
-
-def test_a_pin_that_turns_through_a_plate_is_found():
-    pin = box_hull((0.5, 0.0, 0.0), (0.002, 0.002, 0.002))
-    angle = 1.2345
-    plate = box_hull((0.5 * np.cos(angle), 0.5 * np.sin(angle), 0.0), (0.0004, 0.0004, 1.0))
-    found = worst(Path(True, np.zeros(3), Z, 3.0), pin, plate)
-    assert found.depth > 0.001
-    assert found.at == pytest.approx(angle, abs=1e-3)
-
-
-def test_the_corner_of_a_turning_door_cuts_its_frame_where_geometry_says():
-    """A door of thickness t hinged in front: its back corner's circle passes the frame's face."""
-    width = 0.6
-    thickness = 0.03
-    frame = 0.6005
-    door = box_hull((width / 2, thickness / 2, 0.0), (width, thickness, 1.0))
-    jamb = box_hull((frame + 0.05, 0.0, 0.0), (0.1, 0.1, 1.0))
-    found = worst(Path(True, np.zeros(3), -Z, 1.5), door, jamb, steps=32)
-    # The far back corner is highest along x when it points straight there.
-    assert found.excess == pytest.approx(np.hypot(width, thickness) - frame, abs=2e-5)
-    # A circle is flat at its top: 5 mrad are 8 micrometres of depth.
-    assert found.at == pytest.approx(np.arctan2(thickness, width), abs=5e-3)
-
-
 def test_no_search_ends_before_it_knows_on_which_side_of_the_limit_it_falls():
     """A door's back corner at x = w cos + t sin meets a jamb: 1 mm deep at a known angle."""
     width = 0.6

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -16,7 +17,8 @@ from ros_packages import (
     write_package,
 )
 
-from asset_factory.sim_checks import Report, run_checks
+from asset_factory.sim_checks import Report
+from asset_factory.sim_checks.judge import Judge
 from asset_factory.sim_checks.read.gather import gather
 from asset_factory.sim_checks.read.roots import (
     MOST_LEVELS,
@@ -25,9 +27,15 @@ from asset_factory.sim_checks.read.roots import (
     ros_package_path,
 )
 
+Checked = Callable[..., Report]
 
-def checked(path: Path, *roots: Path, outside: bool = False) -> Report:
-    return run_checks(path, (), options=ReadOptions(roots, outside))
+
+@pytest.fixture
+def checked(judge: Judge) -> Checked:
+    """Have a file judged that may be read from some roots too."""
+    return lambda path, *roots, outside=False: judge.check(
+        path, (), options=ReadOptions(roots, outside)
+    )
 
 
 def codes(report: Report) -> list[str]:
@@ -56,7 +64,9 @@ def is_sound(report: Report) -> bool:
         "package://cabinet/robots/../meshes/",
     ],
 )
-def test_a_package_is_read_wherever_its_urdf_lies(tmp_path: Path, before: str) -> None:
+def test_a_package_is_read_wherever_its_urdf_lies(
+    tmp_path: Path, checked: Checked, before: str
+) -> None:
     """Named by its package.xml, though its folder is called otherwise."""
     folder = tmp_path / "cabinet-main"
     path = write_package(folder, "cabinet", before.format(root=folder), "robots/a/cabinet.urdf")
@@ -66,7 +76,7 @@ def test_a_package_is_read_wherever_its_urdf_lies(tmp_path: Path, before: str) -
     assert str(tmp_path) not in report.to_json()
 
 
-def test_what_lies_in_one_folder_is_read_in_place(tmp_path: Path) -> None:
+def test_what_lies_in_one_folder_is_read_in_place(tmp_path: Path, checked: Checked) -> None:
     path = write_package(tmp_path, "cabinet", "package://anything/meshes/", "cabinet.urdf")
     assert gather(path, tmp_path / "copy", OWN_PACKAGE).path == path
     report = checked(path)
@@ -74,13 +84,15 @@ def test_what_lies_in_one_folder_is_read_in_place(tmp_path: Path) -> None:
     assert not told(report)
 
 
-def test_escaped_names_are_those_of_files(tmp_path: Path) -> None:
+def test_escaped_names_are_those_of_files(tmp_path: Path, checked: Checked) -> None:
     path = write_package(tmp_path, "", "my%20meshes/", "cabinet.urdf")
     (tmp_path / "meshes").rename(tmp_path / "my meshes")
     assert is_sound(checked(path))
 
 
-def test_a_package_is_looked_for_a_few_levels_up_and_no_further(tmp_path: Path) -> None:
+def test_a_package_is_looked_for_a_few_levels_up_and_no_further(
+    tmp_path: Path, checked: Checked
+) -> None:
     deep = "/".join("abcdefgh"[:MOST_LEVELS])
     path = write_package(
         tmp_path / "near", "cabinet", "package://cabinet/meshes/", f"{deep}/c.urdf"
@@ -96,7 +108,9 @@ def test_a_package_is_looked_for_a_few_levels_up_and_no_further(tmp_path: Path) 
 
 
 @pytest.mark.parametrize("away", ["../meshes/", "{root}/meshes/", "file://{root}/meshes/"])
-def test_what_no_root_holds_is_refused_with_the_flag_that_helps(tmp_path: Path, away: str) -> None:
+def test_what_no_root_holds_is_refused_with_the_flag_that_helps(
+    tmp_path: Path, checked: Checked, away: str
+) -> None:
     path = write_package(tmp_path, "", away.format(root=tmp_path))
     report = checked(path)
     assert codes(report) == ["outside_folder"]
@@ -109,7 +123,7 @@ def test_what_no_root_holds_is_refused_with_the_flag_that_helps(tmp_path: Path, 
 
 
 def test_another_package_is_found_in_a_root_its_folders_and_the_ros_path(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, checked: Checked, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """As in a workspace: in a root or a repository, by the folder's name or the package's."""
     path = write_package(tmp_path / "bringup", "bringup", "package://description/meshes/")
@@ -125,7 +139,7 @@ def test_another_package_is_found_in_a_root_its_folders_and_the_ros_path(
         assert is_sound(checked(path, *ros_package_path()))
 
 
-def test_materials_and_pictures_come_along(tmp_path: Path) -> None:
+def test_materials_and_pictures_come_along(tmp_path: Path, checked: Checked) -> None:
     path = write_package(tmp_path, "cabinet", "../meshes/")
     textures = tmp_path / "textures"
     textures.mkdir()
@@ -145,7 +159,7 @@ def test_materials_and_pictures_come_along(tmp_path: Path) -> None:
     assert is_sound(checked(path))
 
 
-def test_links_pipes_and_secrets_are_not_copied(tmp_path: Path) -> None:
+def test_links_pipes_and_secrets_are_not_copied(tmp_path: Path, checked: Checked) -> None:
     """A hostile package reaches nothing outside, by links, materials or devices."""
     secret = tmp_path / "secret.obj"
     write_meshes(tmp_path / "elsewhere")
@@ -171,7 +185,7 @@ def test_links_pipes_and_secrets_are_not_copied(tmp_path: Path) -> None:
     assert codes(checked(path)) == ["outside_folder"]
 
 
-def test_meshes_of_one_name_in_two_packages_stay_two(tmp_path: Path) -> None:
+def test_meshes_of_one_name_in_two_packages_stay_two(tmp_path: Path, checked: Checked) -> None:
     path = write_package(tmp_path / "one" / "pkg", "cabinet", "package://cabinet/meshes/")
     write_meshes(tmp_path / "other" / "pkg" / "meshes")
     other = f"file://{tmp_path}/other/pkg/meshes/drawer.obj"
@@ -193,7 +207,7 @@ def test_meshes_of_one_name_in_two_packages_stay_two(tmp_path: Path) -> None:
     ],
 )
 def test_an_mjcf_is_read_from_its_package_as_mujoco_reads_it(
-    tmp_path: Path, compiler: str, before: str, include: str
+    tmp_path: Path, checked: Checked, compiler: str, before: str, include: str
 ) -> None:
     mujoco = pytest.importorskip("mujoco")
     path = write_mjcf_package(tmp_path, compiler, before.format(root=tmp_path), include)
@@ -208,7 +222,9 @@ def test_an_mjcf_is_read_from_its_package_as_mujoco_reads_it(
     assert is_sound(checked(path, tmp_path))
 
 
-def test_an_mjcf_that_attaches_another_model_keeps_the_files_of_both(tmp_path: Path) -> None:
+def test_an_mjcf_that_attaches_another_model_keeps_the_files_of_both(
+    tmp_path: Path, checked: Checked
+) -> None:
     pytest.importorskip("mujoco")
     inner = write_mjcf_package(tmp_path / "cabinet", 'meshdir="../meshes"', "")
     path = tmp_path / "kitchen" / "mjcf" / "kitchen.xml"

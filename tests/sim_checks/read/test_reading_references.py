@@ -10,7 +10,7 @@ import trimesh
 from PIL import Image
 
 from asset_factory.sim_checks.description import DescriptionError
-from asset_factory.sim_checks.read.read import read_description
+from asset_factory.sim_checks.read.read import read_here
 
 pytest.importorskip("mujoco")
 BODY = "<worldbody><body><geom size='0.1'/></body></worldbody>"
@@ -37,7 +37,7 @@ def code_of(folder, text, name="asset.xml"):
     path = folder / name
     path.write_text(text)
     try:
-        read_description(path)
+        read_here(path)
     except DescriptionError as error:
         return error.code
     return None

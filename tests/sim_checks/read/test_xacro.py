@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 from ros_packages import MESHES, PACKAGE, SLIDE, link, write_meshes
 
-from asset_factory.sim_checks import Report, run_checks
+from asset_factory.sim_checks import Report
+from asset_factory.sim_checks.judge import Judge
 from asset_factory.sim_checks.read import xacro
 from asset_factory.sim_checks.read.roots import ReadOptions
 
@@ -36,7 +37,7 @@ def codes(report: Report) -> list[str]:
     return [finding.code for finding in report.errors]
 
 
-def test_macros_includes_arguments_and_packages_are_expanded(tmp_path: Path) -> None:
+def test_macros_includes_arguments_and_packages_are_expanded(tmp_path: Path, judge: Judge) -> None:
     body = (
         '<xacro:include filename="$(find cabinet)/urdf/parts.xacro"/>'
         '<xacro:arg name="travel" default="0.1"/><xacro:property name="k" '
@@ -47,20 +48,20 @@ def test_macros_includes_arguments_and_packages_are_expanded(tmp_path: Path) -> 
     path = write_xacro(tmp_path, body)
     (path.parent / "parts.xacro").write_text(ROBOT.format(MACROS))
     (path.parent / "sizes.yaml").write_text("k: 2\n")
-    report = run_checks(path, ())
+    report = judge.check(path, ())
     assert codes(report) == []
     assert report.description == "cabinet.urdf.xacro"
     assert "read_by_xacro" in [finding.code for finding in report.findings]
     sweep = report.measurements["penetration"]["joints"][0]
     assert (sweep["upper"], round(sweep["clearance_mm"], 2)) == (0.2, 3.0)
-    longer = run_checks(path, (), options=ReadOptions(arguments=("travel:=0.15",)))
+    longer = judge.check(path, (), options=ReadOptions(arguments=("travel:=0.15",)))
     assert longer.measurements["penetration"]["joints"][0]["upper"] == 0.3
 
 
-def test_a_urdf_with_macros_needs_no_other_name(tmp_path: Path) -> None:
+def test_a_urdf_with_macros_needs_no_other_name(tmp_path: Path, judge: Judge) -> None:
     links = "".join(link(name, f"../meshes/{name}.obj") for name in MESHES)
     path = write_xacro(tmp_path, f'<xacro:property name="a" value="1"/>{links}{SLIDE}', "a.urdf")
-    assert codes(run_checks(path, ())) == []
+    assert codes(judge.check(path, ())) == []
 
 
 @pytest.mark.parametrize(
@@ -78,14 +79,14 @@ def test_a_urdf_with_macros_needs_no_other_name(tmp_path: Path) -> None:
         "<xacro:nothing/>",
     ],
 )
-def test_what_reaches_out_is_refused(tmp_path: Path, inside: str) -> None:
+def test_what_reaches_out_is_refused(tmp_path: Path, judge: Judge, inside: str) -> None:
     out = tmp_path / "out"
     out.mkdir()
     (out / "secret.xacro").write_text(ROBOT.format('<link name="secret"/>'))
     (out / "secret.yaml").write_text("secret: 1")
     said = inside.format(out=out)
     said = said if said.startswith("<") else f'<link name="a"><v x="{said}"/></link>'
-    report = run_checks(write_xacro(tmp_path / "pkg", said), ())
+    report = judge.check(write_xacro(tmp_path / "pkg", said), ())
     assert codes(report) == ["invalid_xacro"]
     assert report.measurements == {}
 

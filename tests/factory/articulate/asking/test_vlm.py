@@ -8,9 +8,10 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 import pytest
 from one_piece import fridge
 
-from asset_factory.factory.articulate.asking import endpoint
+from asset_factory.factory.articulate.asking import articulator, endpoint
 from asset_factory.factory.articulate.asking.articulator import VlmArticulator
 from asset_factory.factory.articulate.asking.endpoint import require_endpoint
+from asset_factory.factory.articulate.asking.sheet import sheet_of
 from asset_factory.factory.config import VlmConfig
 from asset_factory.factory.errors import ConfigError, InputRejected, Unjudged
 
@@ -70,12 +71,22 @@ def server(monkeypatch):
     made.http.server_close()
 
 
+@pytest.fixture(scope="module")
+def drawn():
+    """A fridge and its sheet of pictures, which takes two seconds to draw."""
+    mesh = fridge()
+    return mesh, sheet_of(mesh)
+
+
 @pytest.fixture
-def ask(server, tmp_path):
+def ask(server, drawn, tmp_path, monkeypatch):
+    sheets = {id(drawn[0]): drawn[1]}
+    monkeypatch.setattr(articulator, "sheet_of", lambda mesh: sheets[id(mesh)])
+
     def asked(*answers, model="eyes-1", **settings):
         server.answers = list(answers)
         config = VlmConfig(server.url, model, answers=str(tmp_path / "answers"), **settings)
-        return VlmArticulator("fridge.glb", config).hypotheses(fridge())
+        return VlmArticulator("fridge.glb", config).hypotheses(drawn[0])
 
     return asked
 

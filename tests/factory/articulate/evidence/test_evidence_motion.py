@@ -56,13 +56,6 @@ def test_a_knob_turns_without_end():
     assert apart(found.motion.origin, found.motion.axis, joint.origin) < 1e-3
 
 
-def test_the_same_part_gives_the_same_finding():
-    first, second = (best_motion(partition(WORLDS["left"]), 1) for _ in range(2))
-    assert first.confidence == second.confidence
-    assert (first.numbers == second.numbers).all()
-    assert (first.motion.axis == second.motion.axis).all()
-
-
 def test_size_does_not_matter():
     small = partition(WORLDS["drawer"])
     large = Partition(

@@ -203,15 +203,6 @@ def test_the_colour_of_inner_faces_is_their_parts(built):
     assert {"inner_body", "inner_panel_1"} <= names
 
 
-def test_the_same_skin_gives_the_same_solids():
-    one = solids(cupboard(), CONFIG)
-    other = solids(cupboard(), CONFIG)
-    assert one.surfaces == other.surfaces
-    for a, b in zip(one.pieces, other.pieces, strict=True):
-        for first, second in zip(a.hulls, b.hulls, strict=True):
-            assert np.array_equal(first.vertices, second.vertices)
-
-
 def test_a_lid_that_is_lifted_gets_no_drawers_box():
     hinged = bin_with_lid()
     lift = replace(hinged.joints[0], kind=JointKind.PRISMATIC, axis=np.array([0.0, 0.0, 1.0]))

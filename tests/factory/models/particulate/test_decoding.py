@@ -328,9 +328,3 @@ def test_one_tree_over_parts_with_faces_also_when_the_root_has_none(over):
     assert any("lost every face" in note for note in found.notes)
     assert found.parts[1].parent_probability is None
     assert found.parts[0].parent_probability == pytest.approx(1 / (1 + np.exp(-1.0)))
-
-
-def test_one_part_is_a_tree_without_edges():
-    surface, faces = strip(2)
-    found = decoded(surface, faces, rows(np.full(24, 3), np.zeros((16, 16))))
-    assert (found.edges, found.root, len(found.parts)) == ((), 0, 1)

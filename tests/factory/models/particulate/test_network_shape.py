@@ -95,19 +95,16 @@ def test_a_block_number_costs_nothing():
         read_shape(tensors)
 
 
-def test_a_network_of_no_width_is_refused():
-    tensors = {**expected_tensors(TINY), "pos_embed.mlp.2.weight": (0, 0)}
-    with pytest.raises(ConfigError, match="do not divide the width 0"):
-        read_shape(tensors)
-
-
 def test_no_torch_before_a_model_is_loaded():
     model = "asset_factory.factory.models.particulate.model"
     code = f"import sys, {model}; sys.exit('torch' in sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
 
 
-def test_heads_that_do_not_divide_the_width_are_refused():
-    tensors = {**expected_tensors(TINY), "blocks.0.attn1.norm_q.weight": (5,)}
-    with pytest.raises(ConfigError, match="do not divide the width 16"):
-        read_shape(tensors)
+@pytest.mark.parametrize(
+    ("name", "shape", "width"),
+    [("blocks.0.attn1.norm_q.weight", (5,), 16), ("pos_embed.mlp.2.weight", (0, 0), 0)],
+)
+def test_heads_that_do_not_divide_the_width_are_refused(name, shape, width):
+    with pytest.raises(ConfigError, match=f"do not divide the width {width}"):
+        read_shape({**expected_tensors(TINY), name: shape})
