@@ -24,8 +24,6 @@ from .work import Workpiece
 SHRED = 0.4
 #: What is shown of the body around a panel lies so near to the body's pieces [m].
 BACKED_M = 0.01
-#: Corners so near to a panel's back lie on it [m].
-AT_SEAM_M = 0.001
 #: Points spread within a triangle, as weights of its corners, shape [10, 3].
 SPREAD = np.array([(i, j, 12 - i - j) for i in range(1, 12, 3) for j in range(1, 12 - i, 3)]) / 12
 
@@ -45,7 +43,7 @@ def panel_surfaces(work: Workpiece, part: int) -> None:
     points = own.reshape(-1, 3)
     if panel.is_lid:
         # Straps stand out above the seam; cuts along it left corners all round.
-        points = points[points[:, 2] > panel.back - AT_SEAM_M]
+        points = points[points[:, 2] > panel.back - work.views[panel.side].raster.pixel]
     outline = _clipped(outline_of(points), panel)
     if len(outline) < 3:
         return
