@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulation import Articulation, JointKind
+from ...geometry.components import connected_components
 from ...geometry.edges import shared_edges
 from ...geometry.posing import face_parts
 from ...mesh import BoolArray, FloatArray, IntArray, Mesh
@@ -58,9 +59,16 @@ def parts_to_build(articulation: Articulation, fronts: bool = False) -> tuple[in
 
 
 def _has_box(articulation: Articulation, part: int) -> bool:
-    """Tell whether a part is a drawer with all that slides behind its front."""
+    """Tell whether a part is a drawer of pieces of its own, with all that slides behind its front.
+
+    Edges of single sheets may lie on its frame's, and are the same then.
+    """
     panel = articulation.parts[part].panel
     if panel is None or articulation.joints[part - 1].kind is not JointKind.PRISMATIC:
+        return False
+    pieces = connected_components(articulation.mesh)
+    own = face_parts(articulation) == part
+    if np.isin(pieces[own], pieces[~own]).any():
         return False
     return panel.has_box(float((articulation.part_mesh(part).vertices @ panel.frame[2]).max()))
 

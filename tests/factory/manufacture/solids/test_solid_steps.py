@@ -1,5 +1,7 @@
 """Each step of making solids against closed forms."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import trimesh
@@ -10,6 +12,7 @@ from labelled_skins import SIZE, box_skin, chest, cupboard, labelled
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, rotation_about
 from asset_factory.factory.config import SolidsConfig
 from asset_factory.factory.geometry import posing
+from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.solids.box import Box
 from asset_factory.factory.manufacture.solids.build import solids
@@ -23,7 +26,7 @@ from asset_factory.factory.manufacture.solids.matter import PATH, Matter
 from asset_factory.factory.manufacture.solids.pieces import FOIL_M, convex_pieces
 from asset_factory.factory.manufacture.solids.reach import reaching
 from asset_factory.factory.manufacture.solids.seam import CutSkin, cut
-from asset_factory.factory.manufacture.solids.skin import parts_to_build, skin_parts
+from asset_factory.factory.manufacture.solids.skin import border, parts_to_build, skin_parts
 from asset_factory.factory.manufacture.solids.surfaces import boundary, inside_of, outside_of, plate
 from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.factory.views.raster import Side
@@ -47,11 +50,23 @@ def test_parts_that_are_patches_of_one_surface_are_told_from_bodies():
     assert skin_parts(Articulation(concatenate(boxes), parts, (hinge,), "test")) == ()
 
 
-@pytest.mark.parametrize(("depth", "built"), [(0.02, (1,)), (0.4, ())])
-def test_a_drawer_deeper_than_high_keeps_its_own_box(depth, built):
+@pytest.mark.parametrize(
+    ("depth", "framed", "built"), [(0.02, True, (1,)), (0.4, True, ()), (0.4, False, (1,))]
+)
+def test_a_drawer_deeper_than_high_keeps_its_own_box(depth, framed, built):
     slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, -1, 0], [0, -0.25, 0.1], 0.0, 0.3)
     ends = depth - SIZE[1] / 2.0
     given = labelled(*box_skin(), [lambda at: (at[:, 2] < 0.2) & (at[:, 1] < ends)], [slide])
+    if framed:
+        # Sheets of a frame at the same edges: what they divide are pieces of their own.
+        edges, _ = border(given.mesh, face_parts(given))
+        inner = np.full((len(edges), 1, 3), [0.0, 0.1, 0.5])
+        corners = np.concatenate([given.mesh.vertices[edges], inner], axis=1).reshape(-1, 3)
+        frame = Mesh.from_triangles(corners, np.arange(len(corners)).reshape(-1, 3))
+        first = len(given.mesh.faces)
+        body = np.append(given.parts[0].faces, np.arange(first, first + len(frame.faces)))
+        parts = (replace(given.parts[0], faces=body), given.parts[1])
+        given = replace(given, mesh=concatenate([given.mesh, frame]), parts=parts)
     assert skin_parts(given) == (1,)
     assert parts_to_build(given) == built
 
