@@ -2,10 +2,10 @@
 
     python benchmarks/stated.py OUT --python PYTHON
 
-Writes a sidecar for each labelled mesh of ``train_static`` (no rule of the geometry was fitted to
-them), builds all with ``factory build --sim all``, has the data's own ``score.py`` compare what was
-registered with the labels, and writes ``results/stated_static.toml``. PYTHON has ``yourdfpy``,
-which that script reads URDF with. Left out are meshes that are drawn open.
+Writes a sidecar for each labelled mesh of ``train_static``, builds all with ``factory build --sim
+all``, has the data's own ``score.py`` compare what was registered with the labels, and writes
+``results/stated_static.toml``. PYTHON has ``yourdfpy``, which that script reads URDF with. Left out
+are meshes that are drawn open.
 """
 
 from __future__ import annotations

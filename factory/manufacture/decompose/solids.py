@@ -130,8 +130,7 @@ def gate(vertices: FloatArray, faces: IntArray) -> Gated:
             closed += manifold.decompose()
             # A pane that hangs at its frame's corners is no part of the volume.
             panes = faces[group][_both_ways(faces[group])]
-            if len(panes):
-                sheets += [_compact(vertices, patch) for patch in two_sided_patches(panes)]
+            sheets += [_compact(vertices, patch) for patch in two_sided_patches(panes)]
             continue
         for patch in two_sided_patches(faces[group]):
             manifold = manifold_of(vertices, patch)
@@ -162,13 +161,14 @@ def _groups(faces: IntArray, vertex_count: int) -> list[IntArray]:
     """Return the faces of each set that is connected through vertices, in first-face order."""
     links = np.concatenate([faces[:, :2], faces[:, 1:]])
     label = label_linked(vertex_count, links)
-    return _by_label(label[faces[:, 0]]) if len(faces) else []
+    return _by_label(label[faces[:, 0]])
 
 
 def _by_label(label: IntArray) -> list[IntArray]:
     order = np.argsort(label, kind="stable")
     splits = np.flatnonzero(np.diff(label[order])) + 1
-    return sorted(np.split(order, splits), key=lambda group: int(group[0]))
+    groups = (group for group in np.split(order, splits) if len(group))
+    return sorted(groups, key=lambda group: int(group[0]))
 
 
 def two_sided_patches(faces: IntArray) -> list[IntArray]:

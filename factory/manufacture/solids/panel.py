@@ -184,7 +184,7 @@ def _rim(
 ) -> float | None:
     """Return the depth down to which nine tenths of the faces around a part's rim reach [m].
 
-    If ``whole``, down to which all would, were the last tenth as even as those before: a ragged
+    If ``whole``, down to which all would, were the last tenth as even as the four before: a ragged
     end does not count, and a lid ends at its seam.
     """
     corners = (mesh.vertices @ view.side.frame.T)[mesh.faces[faces]]
@@ -206,7 +206,7 @@ def _rim(
     half, most = (float(depth[order][np.searchsorted(share, part)]) for part in (0.5, 0.9))
     if not whole:
         return most
-    return min(most + 0.25 * (most - half), float(corners[..., 2].max()))
+    return min(most + (most - half) / 4.0, float(corners[..., 2].max()))
 
 
 def _back(

@@ -66,11 +66,11 @@ def _has_box(articulation: Articulation, part: int) -> bool:
     panel = articulation.parts[part].panel
     if panel is None or articulation.joints[part - 1].kind is not JointKind.PRISMATIC:
         return False
+    if not panel.has_box(float((articulation.part_mesh(part).vertices @ panel.frame[2]).max())):
+        return False
     pieces = connected_components(articulation.mesh)
     own = face_parts(articulation) == part
-    if np.isin(pieces[own], pieces[~own]).any():
-        return False
-    return panel.has_box(float((articulation.part_mesh(part).vertices @ panel.frame[2]).max()))
+    return not np.isin(pieces[own], pieces[~own]).any()
 
 
 def border(mesh: Mesh, part: IntArray) -> tuple[IntArray, IntArray]:

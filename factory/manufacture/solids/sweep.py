@@ -84,7 +84,7 @@ def _lines(panel: FlatPanel, joint: Joint) -> list[tuple[Joint, str]]:
     edge = 2 * across + int(abs(at[across] - ends[1]) < abs(at[across] - ends[0]))
     depths = {"slab back": panel.back + BEHIND_M, "slab front": panel.front}
     # What stands further before a panel is no frame, but a cistern behind a seat.
-    if panel.front - panel.frame[edge] <= panel.thickness and np.isfinite(panel.frame[edge]):
+    if panel.front - panel.thickness <= panel.frame[edge] < np.inf:
         depths = {"frame": min(float(panel.frame[edge]), panel.back), **depths}
     lines = []
     for rule, depth in depths.items():
