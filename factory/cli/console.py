@@ -26,11 +26,12 @@ from rich.text import Text
 from asset_factory.sim_checks import Disagreement, Finding, Report, Severity, Status
 from asset_factory.sim_checks.grouping import group_findings
 
+from ..intake.formats.catalog import is_mesh
 from ..models.weights.checkpoint import WeightsInfo
 from ..registry import Entry
 from ..registry.result import Result
 from ..report.summary import Summary
-from ..runtime.layout import ASSETS, REJECTED, SUMMARY
+from ..runtime.layout import ASSETS, MODEL, REJECTED, SUMMARY
 from ..runtime.terminal import Terminal, one_line
 
 if TYPE_CHECKING:
@@ -190,9 +191,12 @@ def print_results(summary: Summary, output: Path) -> None:
     )
     where = f"Assets: {output / ASSETS}   reports of the others: {output / REJECTED}"
     console.print(where, soft_wrap=True, markup=False)
-    rejected = next((each.entry for each in listed if each.entry.status is Status.REJECTED), None)
-    if rejected is not None:
-        edit = f"To say what opens: factory edit {output / REJECTED / rejected.id}"
+    rejected = [each for each in listed if each.entry.status is Status.REJECTED]
+    folders = [output / REJECTED / each.entry.id for each in rejected if is_mesh(Path(each.input))]
+    # Of a mesh that could not be read there is nothing to draw on.
+    edited = next((folder for folder in folders if (folder / MODEL).is_file()), None)
+    if edited is not None:
+        edit = f"To say what opens: factory edit {edited}"
         console.print(edit, soft_wrap=True, markup=False)
 
 

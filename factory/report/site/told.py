@@ -169,10 +169,12 @@ def asset_page(root: Path, entry: Entry) -> AssetPage:
         repairs=told.repairs,
         folder=f"../../../{place}/{entry.id}/",
         registry=root.absolute().name,
-        edit=f"factory edit {root.absolute().name}/{place}/{entry.id}",
     )
     model = _model(folder)
-    return with_model(page, model) if model else page
+    if not model:
+        return page
+    edit = f"factory edit {page.registry}/{place}/{entry.id}"
+    return with_model(replace(page, edit=edit), model)
 
 
 def with_model(page: AssetPage, model: bytes) -> AssetPage:

@@ -89,3 +89,18 @@ def test_a_long_table_leaves_out_what_was_known(capsys):
     assert "old-0" not in printed
     assert "bad" in printed
     assert f"{console.LISTED} known from before: in summary.json." in printed
+
+
+def test_an_edit_is_offered_of_meshes_that_were_read(tmp_path, capsys):
+    def told():
+        console.print_results(Summary(tuple(rejected)), tmp_path)
+        return capsys.readouterr().out
+
+    bad = {name: entry(name, status=Status.REJECTED, reason="empty") for name in ("a", "b", "c")}
+    rejected = [Result("a.glb", bad["a"]), Result("b.urdf", bad["b"])]
+    for name in ("b", "c"):
+        (tmp_path / "rejected" / name).mkdir(parents=True)
+        (tmp_path / "rejected" / name / "view.glb").touch()
+    assert "factory edit" not in told()
+    rejected.append(Result("c.glb", bad["c"]))
+    assert f"factory edit {tmp_path}/rejected/c" in told()

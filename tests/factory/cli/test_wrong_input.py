@@ -88,6 +88,7 @@ TABLE = {
     "nightly --config nowhere.toml": "nowhere.toml: No such file or directory",
     "nightly": "inputs: none; name files or folders in the configuration or by --input",
     "nightly --input folder --output new --sim no": "no simulator 'no'; there are sapien",
+    "nightly --input text.txt --output new --name a/b": "--name: is 'a/b', want letters, digits",
     "evaluate --output new --set nothing": "--set must be one of real, procedural, folder, skins",
     "train nothing": "no recipe 'nothing'; there are laptop, paper",
     "train nowhere.toml": "recipe 'nowhere.toml': No such file or directory",
