@@ -17,6 +17,9 @@ from ..mesh import FloatArray
 UNITS = ((0.001, "millimetres", 1.0), (0.01, "centimetres", 1.0), (0.0254, "inches", 2.0))
 """Factors tried when a size is implausible in metres, and how much better than others each fits."""
 
+_UNIT_WITHIN = 4.0
+"""How far off the expected size, times that handicap, a unit is still believed."""
+
 PLAUSIBLE_EXTENT = (0.02, 5.0)
 """Largest extent of an object of unknown category that is believed to be in metres [m]."""
 
@@ -186,18 +189,19 @@ def scale_by_size(extents: FloatArray, category: str | None) -> Scale:
         f"its own is {value:.4g}"
     )
     return Scale(
-        factor, source, f"{note}, which no known unit makes plausible ({plausible}).", False
+        factor, source, f"{note}, which no known unit makes likely ({plausible}).", False
     )
 
 
 def _best_unit(value: float, size: Size, expected: float) -> tuple[float, str] | None:
     """Return the unit that makes ``value`` plausible and closest to the expected size."""
-    fits = {
+    off = {
         (factor, name): handicap * max(value * factor / expected, expected / (value * factor))
         for factor, name, handicap in UNITS
         if size.least <= value * factor <= size.most
     }
-    return min(fits, key=lambda unit: fits[unit]) if fits else None
+    best = min(off, key=lambda unit: off[unit], default=None)
+    return best if best is not None and off[best] <= _UNIT_WITHIN else None
 
 
 def _article(category: str) -> str:
