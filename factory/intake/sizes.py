@@ -188,9 +188,7 @@ def scale_by_size(extents: FloatArray, category: str | None) -> Scale:
         f"The input was scaled by {factor:.6g} to a {what} of {size.typical:g} m: "
         f"its own is {value:.4g}"
     )
-    return Scale(
-        factor, source, f"{note}, which no known unit makes likely ({plausible}).", False
-    )
+    return Scale(factor, source, f"{note}, which no known unit makes likely ({plausible}).", False)
 
 
 def _best_unit(value: float, size: Size, expected: float) -> tuple[float, str] | None:

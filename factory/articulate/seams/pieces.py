@@ -66,7 +66,7 @@ class PieceOutlines:
         return np.asarray((np.clip(common, 0.0, None) / size).clip(0.0, 1.0).prod(axis=1))
 
     def set_in(self, pieces: BoolArray) -> BoolArray:
-        """Return some pieces with those within the box of one: panes, bottoms of drawers.
+        """Return some pieces with those within the box of one, or of all: panes, drawers' bottoms.
 
         What lies on a box is not within it: the ceiling that a drawer slides under.
 
@@ -77,10 +77,14 @@ class PieceOutlines:
             Shape [piece_count].
         """
         found = pieces.copy()
+        chosen = np.flatnonzero(pieces).tolist()
+        if not chosen:
+            return found
         pixel = self.view.raster.pixel
-        for piece in np.flatnonzero(pieces).tolist():
-            within = (self.low >= self.low[piece] - pixel) & (self.high <= self.high[piece] + pixel)
-            found |= within.all(axis=1) & (self.low[:, 1] < self.high[piece, 1] - pixel)
+        whole = np.stack([self.low[pieces].min(axis=0), self.high[pieces].max(axis=0)])
+        for low, high in (whole, *(self.ends[:, piece] for piece in chosen)):
+            within = (self.low >= low - pixel) & (self.high <= high + pixel)
+            found |= within.all(axis=1) & (self.low[:, 1] < high[1] - pixel)
         return found
 
     def around(self, piece: int) -> BoolArray:

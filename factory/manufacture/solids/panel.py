@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy import ndimage
@@ -36,6 +36,12 @@ DOOR_M = 0.022
 LID_M = 0.03
 #: Backs lie at least this far behind most of the front [m].
 SOLID_M = 0.008
+#: What is meant to hold a back skin ends so far behind it [m].
+FLUSH_M = 0.002
+#: Of an object this thin, as a share of what a hinge opens in it, a door or window is all there is.
+THIN_SHARE = 0.16
+#: What is left of it to hang on, where no frame is [m].
+POST_M = 0.015
 
 
 @dataclass(frozen=True)
@@ -53,6 +59,7 @@ class FlatPanel:
         frame: depth at which the frame begins beyond its left, right, lower and upper edge [m],
             shape [4]; infinite where there is none.
         shared: whether another panel begins at each edge, shape [4].
+        through: whether it is as thick as the object, so that nothing lies behind it.
     """
 
     part: int
@@ -65,6 +72,7 @@ class FlatPanel:
     rule: str
     frame: FloatArray
     shared: BoolArray
+    through: bool = False
 
     @property
     def open(self) -> BoolArray:
@@ -101,7 +109,7 @@ def opens(joint: Joint, panel: Panel) -> bool:
 
 
 def find_panel(
-    mesh: Mesh, faces: IntArray, part: int, joint: Joint, view: View
+    mesh: Mesh, faces: IntArray, part: int, joint: Joint, view: View, opposite: View | None
 ) -> FlatPanel | None:
     """Measure a part that is a panel, on the view that it faces.
 
@@ -111,6 +119,7 @@ def find_panel(
         part: its index in the view.
         joint: that holds it.
         view: of the side on which it opens.
+        opposite: of the side across; ``None`` of a lid.
 
     Returns:
         ``None`` where it is none after all: ragged, or thicker than wide.
@@ -130,13 +139,16 @@ def find_panel(
     is_lid = view.side is Side.TOP
     rim = _rim(mesh, faces, view, (low, high), whole=is_lid)
     far = float((mesh.bounds @ view.side.frame.T)[:, 2].max())
-    back, rule = _back(is_lid, front, deepest, rim, far)
+    slides = joint.kind is JointKind.PRISMATIC and not is_lid
+    end = np.inf if slides or opposite is None else _end(opposite, low, high)
+    through = end - front <= THIN_SHARE * float((high - low).min())
+    back, rule = (end + FLUSH_M, "through") if through else _back(is_lid, front, deepest, rim, far)
     if back - front > float((high - low).max()) and not is_lid:
         return None
     frame = _frames(view, part, low, high, back)
     shared = np.zeros(4, dtype=bool)
-    slides = joint.kind is JointKind.PRISMATIC and not is_lid
-    return FlatPanel(part, slides, view.side, low, high, front, back, rule, frame, shared)
+    panel = FlatPanel(part, slides, view.side, low, high, front, back, rule, frame, shared, through)
+    return _hung_on_post(panel, joint) if through else panel
 
 
 def smoothed(view: View, seen: BoolArray) -> FloatArray:
@@ -225,6 +237,33 @@ def _back(
         back = min(deepest + SOLID_M, front + 0.7 * room)
         rule = "front"
     return back, rule
+
+
+def _end(opposite: View, low: FloatArray, high: FloatArray) -> float:
+    """Return how far away most of an object ends behind a rectangle [m]."""
+    rows, columns = opposite.raster.window(
+        np.array([-high[0], low[1]]), np.array([-low[0], high[1]])
+    )
+    away = opposite.away[rows, columns]
+    seen = opposite.seen[rows, columns]
+    return -float(np.median(away[seen])) if seen.any() else np.inf
+
+
+def _hung_on_post(panel: FlatPanel, joint: Joint) -> FlatPanel:
+    """Return a panel that leaves a post of the object to hang on where it has no frame."""
+    flat = panel.side.frame[:2]
+    across = int(np.argmin(np.abs(flat @ joint.axis)))
+    ends = np.array([panel.low[across], panel.high[across]])
+    end = int(np.argmin(np.abs(ends - (flat @ joint.origin)[across])))
+    edge = 2 * across + end
+    if not panel.open[edge]:
+        return panel
+    frame = panel.frame.copy()
+    frame[edge] = panel.front
+    moved = panel.high.copy() if end else panel.low.copy()
+    moved[across] += -POST_M if end else POST_M
+    framed = replace(panel, frame=frame)
+    return replace(framed, high=moved) if end else replace(framed, low=moved)
 
 
 def _frames(view: View, part: int, low: FloatArray, high: FloatArray, back: float) -> FloatArray:

@@ -65,7 +65,8 @@ def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float)
         view = views.get(side_facing(given.outward))
         if view is None or not (view.part == index).any():
             continue
-        panel = find_panel(mesh, articulation.parts[index].faces, index, joint, view)
+        opposite = views.get(side_facing(-given.outward))
+        panel = find_panel(mesh, articulation.parts[index].faces, index, joint, view, opposite)
         if panel is not None:
             panels[index] = panel
     panels = _apart(panels)
@@ -122,7 +123,8 @@ def _claimed(skin: CutSkin, panel: FlatPanel, claimants: set[int], behind: float
 
     Faces there of something else that moves, a knob or an inner drawer, stay with it.
     """
-    column = panel.reach(0.0, panel.back)
+    # What stands out of the back of one that goes through is its other handle.
+    column = panel.reach(0.0, np.inf if panel.through else panel.back)
     frame = panel.side.frame
     wide = panel.reach(0.0, panel.back + behind)
     planes = [(axis, float(end)) for axis in (0, 1) for end in (wide.low[axis], wide.high[axis])]

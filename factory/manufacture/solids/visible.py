@@ -48,8 +48,9 @@ def panel_surfaces(work: Workpiece, part: int) -> None:
     if len(outline) < 3:
         return
     inner = work.lids.get(part, ())
-    back = plate(outline, [rectangle(box) for box in inner[:1]], panel.back)
-    work.add(part, back, "slab back", panel.rule, panel=panel, thickness=thickness)
+    if not panel.through:
+        back = plate(outline, [rectangle(box) for box in inner[:1]], panel.back)
+        work.add(part, back, "slab back", panel.rule, panel=panel, thickness=thickness)
     hollows = work.hollows.get(part, ())
     wall = work.config.wall_m
     if work.closed_behind(part):

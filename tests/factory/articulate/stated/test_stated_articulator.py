@@ -318,6 +318,20 @@ def test_a_door_in_its_frame_takes_pane_and_handles_along():
     assert not ((left[..., 0] > 0.2) & (left[..., 0] < 0.9) & (left[..., 2] < 1.9)).any()
 
 
+def test_panes_between_a_windows_bars_turn_with_it():
+    frame = block([0.0, 0.0, 0.0], [0.7, 0.08, 1.1]) - block([0.04, -1, 0.04], [0.66, 1, 1.06])
+    ends = ((0.05, 0.12, 0.05, 1.05), (0.58, 0.65, 0.05, 1.05), (0.121, 0.579, 0.05, 0.12))
+    ends += ((0.121, 0.579, 0.98, 1.05),)
+    bars = [block([x0, 0.01, z0], [x1, 0.05, z1]) for x0, x1, z0, z1 in ends]
+    pane = block([0.122, 0.028, 0.122], [0.578, 0.032, 0.978])
+    mesh = mesh_of(frame + bars[0] + bars[1] + bars[2] + bars[3] + pane, 0.1)
+    part = {"kind": "door", "side": "front", "box": [0.07, 0.05, 0.93, 0.95], "hinge": "left"}
+    made = articulated(mesh, part)[0]
+    sash = np.array([[0.05, 0.01, 0.05], [0.65, 0.05, 1.05]])
+    assert box_of(made, 1) == pytest.approx(sash)
+    assert len(made.parts[0].faces) == len(mesh_of(frame, 0.1).faces)
+
+
 def test_a_drawer_takes_its_bottom_along_and_stays_in_its_rails():
     case = block([0.0, 0.0, 0.0], [0.6, 0.9, 0.5]) - block([0.05, -1.0, 0.3], [0.55, 0.85, 0.45])
     tray = block([0.06, -0.02, 0.31], [0.54, 0.4, 0.44]) - block([0.08, 0.02, 0.0], [0.52, 0.38, 1])

@@ -179,6 +179,23 @@ def test_a_lids_hinge_stays_under_the_cistern_behind_it():
     assert 0.69 < joint.origin[2] < SIZE[2] + 0.01
 
 
+def test_a_thin_door_goes_through_and_leaves_a_post():
+    skin = box_skin(np.array([0.8, 0.08, 2.0]), 0.02)
+    framed = [lambda at: (at[:, 1] < -0.039) & (np.abs(at[:, 0]) < 0.3) & (at[:, 2] < 1.9)]
+    whole = [lambda at: at[:, 1] < -0.039]
+    for patches, left in ((framed, -0.3), (whole, -0.4)):
+        hinge = Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, -1], [left, -0.04, 1.0], 0.0, 1.5)
+        made = solids(labelled(*skin, patches, [hinge]), SolidsConfig())
+        assert made.articulation.part_mesh(1).bounds[:, 1] == pytest.approx([-0.04, 0.04], abs=3e-3)
+        post, door = (
+            np.concatenate([hull.vertices for hull in made.pieces[part].hulls]) for part in (0, 1)
+        )
+        assert post[:, 2].max() > 1.9
+        assert np.ptp(door[:, 1]) == pytest.approx(0.08, abs=5e-3)
+        behind = (np.abs(post[:, 0]) < 0.28) & (post[:, 2] > 0.02) & (post[:, 2] < 1.88)
+        assert not behind.any()
+
+
 def test_without_an_interior_nothing_is_hollow():
     made = solids(chest(), replace(CONFIG, interior=False))
     kinds = {each.kind for each in made.surfaces}
