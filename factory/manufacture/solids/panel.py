@@ -19,9 +19,11 @@ from .box import Box
 LEAST_FILL = 0.5
 #: Rows and columns that hold fewer of its pixels than this share of the fullest are its frayed rim.
 FRAYED = 0.3
-#: Where nothing lies beyond an edge within this distance, no frame does [m].
+#: Where nothing lies beyond an edge within this distance, no frame does, and panels no further
+#: apart share a seam [m].
 BESIDE_M = 0.012
-#: How much further a panel without a frame reaches: nothing may be left standing there [m].
+#: How much further a panel without a frame reaches: nothing may be left standing there [m]. The
+#: post that one leaves which goes through is as wide.
 BEYOND_M = 0.015
 #: What opens along a direction does so to this cosine; what lies across one, to less than that.
 ALONG = 0.9
@@ -36,12 +38,8 @@ DOOR_M = 0.022
 LID_M = 0.03
 #: Backs lie at least this far behind most of the front [m].
 SOLID_M = 0.008
-#: What is meant to hold a back skin ends so far behind it [m].
-FLUSH_M = 0.002
 #: Of an object this thin, as a share of what a hinge opens in it, a door or window is all there is.
 THIN_SHARE = 0.16
-#: What is left of it to hang on, where no frame is [m].
-POST_M = 0.015
 
 
 @dataclass(frozen=True)
@@ -142,7 +140,7 @@ def find_panel(
     slides = joint.kind is JointKind.PRISMATIC and not is_lid
     end = np.inf if slides or opposite is None else _end(opposite, low, high)
     through = end - front <= THIN_SHARE * float((high - low).min())
-    back, rule = (end + FLUSH_M, "through") if through else _back(is_lid, front, deepest, rim, far)
+    back, rule = (end, "through") if through else _back(is_lid, front, deepest, rim, far)
     if back - front > float((high - low).max()) and not is_lid:
         return None
     frame = _frames(view, part, low, high, back)
@@ -261,7 +259,7 @@ def _hung_on_post(panel: FlatPanel, joint: Joint) -> FlatPanel:
     frame = panel.frame.copy()
     frame[edge] = panel.front
     moved = panel.high.copy() if end else panel.low.copy()
-    moved[across] += -POST_M if end else POST_M
+    moved[across] += -BEYOND_M if end else BEYOND_M
     framed = replace(panel, frame=frame)
     return replace(framed, high=moved) if end else replace(framed, low=moved)
 

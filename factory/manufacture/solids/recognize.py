@@ -15,12 +15,10 @@ from ...views.view import View, elevation
 from ..poses import joints_above
 from .box import Box
 from .bump import Bump, find_bump
-from .panel import FlatPanel, find_panel, opens
+from .panel import BESIDE_M, FlatPanel, find_panel, opens
 from .seam import CutSkin, cut
 from .skin import border
 
-#: Panels nearer to one another than this share a seam [m].
-SEAM_M = 0.012
 #: An inner side this close behind a panel's back is the panel's own [m].
 OWN_BACK_M = 0.04
 #: What is its own lies so far within its edges [m].
@@ -97,7 +95,7 @@ def _apart(panels: dict[int, FlatPanel]) -> dict[int, FlatPanel]:
             high = np.minimum(one.high, other.high)
             deep = one.front > other.back or other.front > one.back
             axis = int(np.argmin(high - low))
-            meet = high[axis] - low[axis] > -SEAM_M and high[1 - axis] > low[1 - axis]
+            meet = high[axis] - low[axis] > -BESIDE_M and high[1 - axis] > low[1 - axis]
             if one.side is not other.side or deep or not meet:
                 continue
             middle = float(low[axis] + high[axis]) / 2.0
