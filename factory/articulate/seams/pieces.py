@@ -65,27 +65,33 @@ class PieceOutlines:
         common = np.minimum(self.high[:, :2], high) - np.maximum(self.low[:, :2], low)
         return np.asarray((np.clip(common, 0.0, None) / size).clip(0.0, 1.0).prod(axis=1))
 
-    def set_in(self, pieces: BoolArray) -> BoolArray:
-        """Return some pieces with those within the box of one, or of all: panes, drawers' bottoms.
+    def set_in(self, pieces: BoolArray, *, together: bool) -> BoolArray:
+        """Return some pieces with those within the box of one: panes, bottoms of drawers.
 
         What lies on a box is not within it: the ceiling that a drawer slides under.
 
         Args:
             pieces: shape [piece_count].
+            together: whether those count as well that are within the box of all: between bars.
 
         Returns:
             Shape [piece_count].
         """
         found = pieces.copy()
-        chosen = np.flatnonzero(pieces).tolist()
-        if not chosen:
-            return found
         pixel = self.view.raster.pixel
-        whole = np.stack([self.low[pieces].min(axis=0), self.high[pieces].max(axis=0)])
-        for low, high in (whole, *(self.ends[:, piece] for piece in chosen)):
+        boxes = [self.ends[:, piece] for piece in np.flatnonzero(pieces)]
+        if together and boxes:
+            boxes.append(np.stack([self.low[pieces].min(axis=0), self.high[pieces].max(axis=0)]))
+        for low, high in boxes:
             within = (self.low >= low - pixel) & (self.high <= high + pixel)
             found |= within.all(axis=1) & (self.low[:, 1] < high[1] - pixel)
         return found
+
+    def meeting(self, pieces: BoolArray) -> BoolArray:
+        """Return which pieces' boxes meet the box of one of some, shape [piece_count]."""
+        below = self.low[:, None] <= self.high[pieces]
+        above = self.high[:, None] >= self.low[pieces]
+        return np.asarray((below & above).all(axis=2).any(axis=1))
 
     def around(self, piece: int) -> BoolArray:
         """Return which pieces one is set in by its outline: its frame, shape [piece_count]."""

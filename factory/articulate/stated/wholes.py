@@ -87,9 +87,11 @@ class SeenPieces:
             margin = OFF / 2.0 * float((high - low).max())
             # What hangs in the air before a panel is another part's: a cistern's lever.
             own = own_pieces(outlines, mover.panel, margin)
-            own &= outlines.high[:, 2] >= mover.panel.front - margin
-            own = outlines.set_in(own)
-            for leaf in np.flatnonzero(own & (shown >= OWN)).tolist():
+            on_it = outlines.high[:, 2] >= mover.panel.front - margin
+            own &= on_it | outlines.meeting(own & on_it)
+            leaves = own & (shown >= OWN)
+            own = outlines.set_in(own, together=not leaves.any())
+            for leaf in np.flatnonzero(leaves).tolist():
                 if self._shows_its_back(outlines, leaf):
                     # A door between two rooms has handles on either side.
                     own |= outlines.within(*outlines.ends[:, leaf, :2]) >= WHOLE

@@ -332,6 +332,17 @@ def test_panes_between_a_windows_bars_turn_with_it():
     assert len(made.parts[0].faces) == len(mesh_of(frame, 0.1).faces)
 
 
+def test_a_glass_within_the_ring_of_a_door_is_the_doors_and_a_lever_before_it_is_not():
+    body = block([0.0, 0.0, 0.0], [0.6, 0.6, 0.8]) - block([0.2, -1, 0.3], [0.4, 0.5, 0.5])
+    circle = CrossSection.circle(0.04, 24).translate((0.16, 0.0))
+    ring = circle.revolve(48).rotate((90, 0, 0)).translate((0.3, -0.041, 0.4))
+    glass = Manifold.sphere(0.11, 48).scale((1.0, 0.3, 1.0)).translate((0.3, -0.061, 0.4))
+    lever = block([0.25, -0.2, 0.38], [0.3, -0.15, 0.4])
+    part = {"kind": "door", "side": "front", "box": [1 / 6, 0.25, 5 / 6, 0.75], "hinge": "left"}
+    made = articulated(mesh_of(body + ring + glass + lever, 0.1), part)[0]
+    assert box_of(made, 1) == pytest.approx(np.array([[0.1, -0.094, 0.2], [0.5, -0.001, 0.6]]))
+
+
 def test_a_drawer_takes_its_bottom_along_and_stays_in_its_rails():
     case = block([0.0, 0.0, 0.0], [0.6, 0.9, 0.5]) - block([0.05, -1.0, 0.3], [0.55, 0.85, 0.45])
     tray = block([0.06, -0.02, 0.31], [0.54, 0.4, 0.44]) - block([0.08, 0.02, 0.0], [0.52, 0.38, 1])
