@@ -18,7 +18,7 @@ from .frame import turned_hull
 from .knobs import clear_of_bumps, keep_clear
 from .lattice import closed_up, marked
 from .matter import INSIDE, PATH, Matter
-from .panel import FlatPanel
+from .panel import FlatPanel, hinge_edge
 from .pieces import convex_pieces
 from .reach import FAR_M, reaching
 from .slab import FLUSH_M, FrontRelief, handles, relief
@@ -41,16 +41,19 @@ BARE_SHARE = 0.1
 SPACING = 1.5
 
 
-def gaps(panel: FlatPanel, joint_axis: FloatArray, gap: float) -> FloatArray:
+def gaps(panel: FlatPanel, joint: Joint, gap: float) -> FloatArray:
     """Return how far the carving reaches beyond each edge of a panel [m], shape [4]."""
     margin = np.full(4, gap)
     if panel.slides:
         return margin
-    along = int(np.abs((panel.side.frame @ joint_axis)[:2]).argmax())
+    along = int(np.abs((panel.side.frame @ joint.axis)[:2]).argmax())
     across = 1 - along
     width = float(panel.high[across] - panel.low[across])
     swing = panel.thickness**2 / (2.0 * width)
     margin[2 * across : 2 * across + 2] += PASSING_M + swing
+    if panel.through:
+        # So thick a leaf would take its post away.
+        margin[hinge_edge(panel, joint)] -= swing
     return margin
 
 
@@ -60,7 +63,7 @@ def planes_of_panels(
     """Return where the lattice must have planes, across each axis of the working frame [m]."""
     planes: list[list[float]] = [[], [], []]
     for part, panel in panels.items():
-        margin = gaps(panel, joints[part - 1].axis, config.gap_m)
+        margin = gaps(panel, joints[part - 1], config.gap_m)
         for box in (
             panel.reach(-config.gap_m, panel.back),
             Box(np.append(panel.low, panel.front), np.append(panel.high, panel.back)),
@@ -103,8 +106,9 @@ def carve_panel(work: Workpiece, part: int) -> None:
     panel = work.panels[part]
     frame = panel.side.frame
     config = work.config
-    margin = gaps(panel, work.joints[part - 1].axis, config.gap_m)
-    carved = panel.reach(margin, panel.back + config.behind_m).turned(frame.T)
+    margin = gaps(panel, work.joints[part - 1], config.gap_m)
+    end = np.inf if panel.through else panel.back + config.behind_m
+    carved = panel.reach(margin, end).turned(frame.T)
     slab = panel.reach(-config.gap_m, panel.back).turned(frame.T)
     span = work.lattice.span(carved)
     for other in [0, *(each for each in work.rest)]:

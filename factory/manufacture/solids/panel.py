@@ -23,7 +23,7 @@ FRAYED = 0.3
 #: apart share a seam [m].
 BESIDE_M = 0.012
 #: How much further a panel without a frame reaches: nothing may be left standing there [m]. The
-#: post that one leaves which goes through is as wide.
+#: post that one leaves which goes through is twice as wide.
 BEYOND_M = 0.015
 #: What opens along a direction does so to this cosine; what lies across one, to less than that.
 ALONG = 0.9
@@ -238,30 +238,34 @@ def _back(
 
 
 def _end(opposite: View, low: FloatArray, high: FloatArray) -> float:
-    """Return how far away most of an object ends behind a rectangle [m]."""
+    """Return how far away an object ends behind a rectangle, without what stands out there [m]."""
     rows, columns = opposite.raster.window(
         np.array([-high[0], low[1]]), np.array([-low[0], high[1]])
     )
     away = opposite.away[rows, columns]
     seen = opposite.seen[rows, columns]
-    return -float(np.median(away[seen])) if seen.any() else np.inf
+    return -float(np.percentile(away[seen], 5)) if seen.any() else np.inf
+
+
+def hinge_edge(panel: FlatPanel, joint: Joint) -> int:
+    """Return at which edge a panel is hinged: 0 to 3 for left, right, lower and upper."""
+    flat = panel.side.frame[:2]
+    across = int(np.argmin(np.abs(flat @ joint.axis)))
+    ends = np.array([panel.low[across], panel.high[across]])
+    return 2 * across + int(np.argmin(np.abs(ends - (flat @ joint.origin)[across])))
 
 
 def _hung_on_post(panel: FlatPanel, joint: Joint) -> FlatPanel:
     """Return a panel that leaves a post of the object to hang on where it has no frame."""
-    flat = panel.side.frame[:2]
-    across = int(np.argmin(np.abs(flat @ joint.axis)))
-    ends = np.array([panel.low[across], panel.high[across]])
-    end = int(np.argmin(np.abs(ends - (flat @ joint.origin)[across])))
-    edge = 2 * across + end
+    edge = hinge_edge(panel, joint)
     if not panel.open[edge]:
         return panel
+    across, above = divmod(edge, 2)
     frame = panel.frame.copy()
     frame[edge] = panel.front
-    moved = panel.high.copy() if end else panel.low.copy()
-    moved[across] += -BEYOND_M if end else BEYOND_M
-    framed = replace(panel, frame=frame)
-    return replace(framed, high=moved) if end else replace(framed, low=moved)
+    ends = np.stack([panel.low, panel.high])
+    ends[above, across] += -2.0 * BEYOND_M if above else 2.0 * BEYOND_M
+    return replace(panel, frame=frame, low=ends[0], high=ends[1])
 
 
 def _frames(view: View, part: int, low: FloatArray, high: FloatArray, back: float) -> FloatArray:
