@@ -104,7 +104,7 @@ def test_height_is_option_then_sidecar_then_table(tmp_path):
         ("fridge.obj", (700, 700, 1800), 0.001, "category"),
         ("fridge.obj", (28, 28, 71), 0.0254, "category"),
         ("fridge.obj", (0.07, 0.07, 0.17), 10.0, "category"),
-        ("drawer.obj", (1.3, 1.6, 4.15), 0.5 / 4.15, "category"),  # Nobody's drawer of 4 inches.
+        ("drawer.obj", (1.3, 1.6, 4.15), 0.9 / 4.15, "category"),  # Nobody's drawer of 4 inches.
         ("thing.obj", (0.1, 0.1, 4.9), 1.0, "as_is"),
         ("thing.obj", (10, 10, 490), 0.001, "guess"),
         ("thing.obj", (1e6, 1e6, 1e7), 1e-7, "guess"),
