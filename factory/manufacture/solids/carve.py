@@ -225,7 +225,6 @@ def hollow_behind(work: Workpiece, part: int) -> None:
     """Hollow out the space behind a panel, and give a drawer its box."""
     panel = work.panels[part]
     if panel.through:
-        work.filled[part] = False
         return
     frame = panel.side.frame
     wall = work.config.wall_m

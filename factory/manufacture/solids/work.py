@@ -80,7 +80,7 @@ class Workpiece:
 
     def closed_behind(self, part: int) -> bool:
         """Tell whether the space behind a panel is filled, so that its opening ends in a face."""
-        return self.filled.get(part, True)
+        return not self.panels[part].through and self.filled.get(part, True)
 
     def block(self, part: int, cells: BoolArray, weight: int) -> None:
         """Mark how badly cells must stay free of a part's pieces; earlier marks stay."""

@@ -179,13 +179,17 @@ def test_a_lids_hinge_stays_under_the_cistern_behind_it():
     assert 0.69 < joint.origin[2] < SIZE[2] + 0.01
 
 
-def test_a_thin_door_goes_through_and_leaves_a_post():
+@pytest.mark.parametrize("interior", [True, False])
+def test_a_thin_door_goes_through_and_leaves_a_post(interior):
     skin = box_skin(np.array([0.8, 0.08, 2.0]), 0.02)
     framed = [lambda at: (at[:, 1] < -0.039) & (np.abs(at[:, 0]) < 0.3) & (at[:, 2] < 1.9)]
     whole = [lambda at: at[:, 1] < -0.039]
     for patches, left in ((framed, -0.3), (whole, -0.4)):
         hinge = Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, -1], [left, -0.04, 1.0], 0.0, 1.5)
-        made = solids(labelled(*skin, patches, [hinge]), SolidsConfig())
+        made = solids(labelled(*skin, patches, [hinge]), SolidsConfig(interior=interior))
+        body = made.articulation.part_mesh(0)
+        left = body.vertices[body.faces].mean(axis=1)
+        assert not ((np.abs(left[:, 0]) < 0.25) & (left[:, 2] > 0.05) & (left[:, 2] < 1.8)).any()
         assert made.articulation.part_mesh(1).bounds[:, 1] == pytest.approx([-0.04, 0.04], abs=3e-3)
         post, door = (
             np.concatenate([hull.vertices for hull in made.pieces[part].hulls]) for part in (0, 1)
