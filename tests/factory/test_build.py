@@ -147,19 +147,14 @@ def test_a_process_that_is_killed_is_listed_as_unjudged(tmp_path):
 def test_overlapping_neighbours_are_rejected_with_the_millimetres(tmp_path):
     # Two drawers of one chest, modelled with 8 mm of overlap: no repair may hide that.
     parts = {
-        "base": [(1, 0.02, 1), (0, 0.265, 0.5)],
-        "one": [(0.5, 0.5, 0.4), (-0.246, 0, 0.5)],
-        "two": [(0.5, 0.5, 0.4), (0.246, 0, 0.5)],
+        "base": ("1 0.02 1", "0 0.265 0.5"),
+        "one": ("0.5 0.5 0.4", "-0.246 0 0.5"),
+        "two": ("0.5 0.5 0.4", "0.246 0 0.5"),
     }
     urdf = ['<robot name="chest">']
     for name, (size, center) in parts.items():
-        mesh = trimesh.creation.box(size)
-        mesh.apply_translation(center)
-        (tmp_path / f"{name}.obj").write_text(
-            trimesh.exchange.obj.export_obj(mesh, include_normals=False)
-        )
         urdf.append(
-            f'<link name="{name}"><visual><geometry><mesh filename="{name}.obj"/>'
+            f'<link name="{name}"><visual><origin xyz="{center}"/><geometry><box size="{size}"/>'
             "</geometry></visual></link>"
         )
         if name != "base":

@@ -37,9 +37,3 @@ def test_mistakes_are_named(tmp_path, text, sentence):
     path.write_text(text)
     with pytest.raises(ConfigError, match=sentence):
         load_config(str(path))
-
-
-@pytest.mark.parametrize("preset", ["strictest", "nowhere.toml", "../presets/strict"])
-def test_a_preset_that_is_not_there_is_named(preset):
-    with pytest.raises(ConfigError, match=preset):
-        load_config(preset)

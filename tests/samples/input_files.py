@@ -21,8 +21,8 @@ _CART = """<robot name="cart">
 """
 
 
-def write_inputs(folder: Path) -> None:
-    """Boxes, and what is made of several files, in subfolders of a new folder.
+def write_inputs(folder: Path) -> Path:
+    """The folder, with boxes, and what is made of several files, in subfolders of a new folder.
 
     ``cart``: a description with meshes, one of them with a texture; ``painted``: materials and a
     texture whose name has a space; ``strange``: materials in a file that is not called like one;
@@ -45,6 +45,7 @@ def write_inputs(folder: Path) -> None:
     lid.apply_translation((0.0, -0.2, 0.015))
     lid.export(parts / "lid.stl")
     (parts.parent / "cart.urdf").write_text(_CART)
+    return folder
 
 
 def write_painted(path: Path, materials: str, texture: str) -> None:

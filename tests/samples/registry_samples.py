@@ -8,6 +8,7 @@ from pathlib import Path
 
 from asset_factory.factory.registry import Entry, Registry
 from asset_factory.factory.registry.report_file import BuildReport
+from asset_factory.factory.runtime.store import folder_digests
 from asset_factory.sim_checks import Finding, Report, Severity
 
 PASSED = Entry(
@@ -38,7 +39,9 @@ def named(asset_id: str, **changes: object) -> Entry:
     return replace(PASSED, id=asset_id, **changes)
 
 
-def publish(registry: Registry, content: str = "one", entry: Entry = PASSED) -> Path:
+def publish(
+    registry: Registry, content: str = "one", entry: Entry = PASSED, report: BuildReport = REPORT
+) -> Path:
     """Publish an asset with a mesh of that content."""
     with registry.staging_folder() as staging:
         bundle = staging / "bundle"
@@ -48,7 +51,7 @@ def publish(registry: Registry, content: str = "one", entry: Entry = PASSED) -> 
         (bundle / "asset.json").write_text(
             json.dumps({**MANIFEST, "license": entry.license or None})
         )
-        return registry.publish(entry, bundle, REPORT)
+        return registry.publish(entry, bundle, report)
 
 
 def three_entries(root: Path) -> Registry:
@@ -59,6 +62,18 @@ def three_entries(root: Path) -> Registry:
     made.reject(replace(REJECTED, id="chest-1"), BAD_REPORT)
     made.note("fridge-1", tags=("blue",), solved="yes")
     return made
+
+
+def require_same(output: Path, wanted: Path) -> None:
+    """Fail unless one output is whole, and byte for byte the other."""
+    from asset_factory.factory.registry.verify import verify
+
+    for folder in ("assets", "rejected"):
+        assert folder_digests(output / folder) == folder_digests(wanted / folder)
+    assert Registry(output).entries() == Registry(wanted).entries()
+    assert verify(Registry(output)) == ()
+    for folder in (".staging", ".claims"):
+        assert not list((output / folder).iterdir())
 
 
 def dump(registry: Registry) -> list[tuple[object, ...]]:

@@ -8,9 +8,13 @@ from weight_rule import weights
 
 from asset_factory.factory.models.network.shape import NetworkShape, expected_tensors
 from asset_factory.factory.models.network.transformer import PartArticulationTransformer
+from asset_factory.factory.models.partfield.shape import PartFieldShape
 from asset_factory.factory.models.particulate.model import Model, PointCloud
 
 TINY = NetworkShape(hidden=32, blocks=3, heads=4, features=6)
+TINY_FIELD = PartFieldShape(
+    channels=8, unet=(8, 16), resolution=8, width=16, layers=1, plane_channels=72
+)
 GAINS = {"point_mask_decoder": 3.0, "part_hierarchy_decoder": 2.0}
 
 # Threads that wait for each other cost more than such small products.

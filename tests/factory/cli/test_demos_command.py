@@ -15,7 +15,7 @@ from asset_factory.envs.demos import Settings, files
 from asset_factory.envs.demos.episodes import make_shards
 from asset_factory.envs.demos.folder import hold
 from asset_factory.factory.cli import demos as command
-from asset_factory.factory.errors import ConfigError, Exit, RegistryError
+from asset_factory.factory.errors import ConfigError, Exit
 
 h5py = pytest.importorskip("h5py", reason="h5py is not installed")
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
@@ -187,27 +187,6 @@ def test_joints_without_a_success_have_no_trajectories(make, tmp_path):
 def test_a_task_is_demonstrated_on_its_joints(make, robot, flags, joints):
     make(**flags)
     assert {episode.joint for episode in robot.asked} == joints
-
-
-@pytest.mark.parametrize(
-    ("flags", "words"),
-    [
-        ({"per_joint": 0}, "--per-joint must be at least 1, not 0"),
-        ({"timeout": 0.0}, "--timeout must be more than 0, not 0 s"),
-        ({"control_mode": "pd_wish"}, "--control-mode: no 'pd_wish'; want one of pd_joint_pos"),
-        ({"robot": "fetch", "control_mode": "pd_ee_pose"}, "Fetch has no 'pd_ee_pose'"),
-    ],
-)
-def test_wrong_usage_is_named(make, flags, words):
-    with pytest.raises(ConfigError, match=words):
-        make(**flags)
-
-
-def test_an_unknown_asset_is_named(make):
-    with pytest.raises(
-        RegistryError, match=r"no asset 'sofa' in .*; there are 'cabinet', 'oven', 'valve'"
-    ):
-        make(ids=("sofa",))
 
 
 def test_one_folder_holds_one_kind_and_one_run(make, tmp_path):

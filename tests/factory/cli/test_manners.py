@@ -136,15 +136,6 @@ def test_the_doctor_tells_each_as_soon_as_it_is_tried(monkeypatch, capsys):
     assert "pip install it" in told[1]
 
 
-def test_a_folder_without_inputs_is_no_build(capsys, tmp_path):
-    (tmp_path / "in").mkdir()
-    (tmp_path / "in" / "readme.txt").write_text("nothing")
-    build = ["build", "--input", str(tmp_path / "in"), "--output", str(tmp_path / "out")]
-    assert run([*build, "--sim", "mujoco"]) == 2
-    assert f"no input in {tmp_path / 'in'}; want .glb" in capsys.readouterr().err
-    assert not (tmp_path / "out").exists()
-
-
 def test_a_quiet_build_says_nothing_and_a_json_build_one_summary(capsys, tmp_path):
     (tmp_path / "brick.stl").write_text("solid nothing\nendsolid nothing\n")
     build = ["build", "--input", str(tmp_path / "brick.stl"), "--sim", "mujoco"]

@@ -110,17 +110,6 @@ def test_without_torch_auto_is_refused_before_anything_is_made(monkeypatch, tmp_
     assert (told["articulator"], told["weights"]) == ("geometric", [])
 
 
-def test_a_point_cloud_is_rejected_with_a_reason(tmp_path, checkpoint):
-    cloud = tmp_path / "cloud.ply"
-    rows = "\n".join("{} {} {}".format(*row) for row in np.random.default_rng(0).random((40, 3)))
-    head = (
-        "ply\nformat ascii 1.0\nelement vertex 40\nproperty float x\nproperty float y\n"
-        "property float z\nend_header\n"
-    )
-    cloud.write_text(f"{head}{rows}\n")
-    assert told_of(cloud, checkpoint)["rejected"]["code"] == "empty"
-
-
 def test_predict_prints_what_it_was_told(capsys, checkpoint):
     arguments = ["predict", str(FRIDGE), "--checkpoint", str(checkpoint), "--points", "1500"]
     assert run([*arguments, "--json"]) == 0

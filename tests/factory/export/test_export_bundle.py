@@ -8,20 +8,13 @@ import numpy as np
 import pytest
 from export_samples import PROVENANCE, box, boxes_asset, cabinet, image
 
-from asset_factory.factory.articulation import Joint, JointKind, Part
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.asset import Asset
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.export.manifest import Manifest
 from asset_factory.factory.mesh import Material
 from asset_factory.factory.part import PartKind, PartSource, Proposer
-
-
-def content(folder):
-    return {
-        p.relative_to(folder).as_posix(): p.read_bytes()
-        for p in sorted(folder.rglob("*"))
-        if p.is_file()
-    }
+from asset_factory.factory.runtime.store import folder_digests
 
 
 def textured_cabinet():
@@ -34,13 +27,13 @@ def test_exporting_again_leaves_nothing_of_the_bundle_before(tmp_path):
     export_bundle(textured_cabinet(), PROVENANCE, tmp_path / "bundle")
     export_bundle(boxes_asset([box([0, 0, 0], [1, 1, 1])], ()), PROVENANCE, tmp_path / "bundle")
     export_bundle(boxes_asset([box([0, 0, 0], [1, 1, 1])], ()), PROVENANCE, tmp_path / "fresh")
-    assert content(tmp_path / "bundle") == content(tmp_path / "fresh")
+    assert folder_digests(tmp_path / "bundle") == folder_digests(tmp_path / "fresh")
 
 
 def test_everything_named_in_the_urdf_exists_inside_the_folder(tmp_path):
     bundle = export_bundle(textured_cabinet(), PROVENANCE, tmp_path)
     named = {mesh.get("filename", "") for mesh in ElementTree.parse(bundle.urdf).iter("mesh")}
-    on_disk = {name for name in content(tmp_path) if name.endswith(".obj")}
+    on_disk = {name for name in folder_digests(tmp_path) if name.endswith(".obj")}
     assert named == on_disk
 
 
@@ -56,16 +49,9 @@ def test_parts_whose_textures_share_a_name_keep_their_own_picture(tmp_path):
 
 def test_a_part_of_two_materials_is_written_as_two_visuals(tmp_path):
     two = cabinet([Material("a"), Material("b", (1.0, 0.0, 0.0, 1.0)), Material("c")])
-    merged = Asset(
-        "merged",
-        type(two.articulation)(
-            two.articulation.mesh,
-            (Part("all", np.arange(len(two.articulation.mesh.faces))),),
-            (),
-            "t",
-        ),
-        two.bodies[:1],
-    )
+    mesh = two.articulation.mesh
+    whole = Articulation(mesh, (Part("all", np.arange(len(mesh.faces))),), (), "t")
+    merged = Asset("merged", whole, two.bodies[:1])
     bundle = export_bundle(merged, PROVENANCE, tmp_path)
     assert len(ElementTree.parse(bundle.urdf).findall("link/visual")) == 3
     assert bundle.manifest.links[0].visuals == 3

@@ -16,10 +16,10 @@ from export_samples import (
     tree_of_boxes,
 )
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind
+from asset_factory.factory.articulation import Joint, JointKind, Part
 from asset_factory.factory.asset import Asset
 from asset_factory.factory.export import export_bundle
-from asset_factory.factory.mesh import Material, Mesh
+from asset_factory.factory.mesh import Material, Mesh, concatenate
 from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 
 LIMITS = Limits(wall_s=120.0)
@@ -152,31 +152,11 @@ def test_mujoco_takes_flat_visuals_lone_triangles_and_carriers(tmp_path):
     empty = Mesh.from_triangles(np.zeros((0, 3)), np.zeros((0, 3)))
     slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 0.1)
     turn = Joint("turn", JointKind.REVOLUTE, 1, 2, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
-    asset = boxes_asset([box([0, 0, 0], [1, 1, 1]), empty, solid], (slide, turn))
-    flat = Articulation(
-        type(solid)(
-            np.concatenate([asset.articulation.mesh.vertices, triangle.vertices]),
-            np.concatenate(
-                [
-                    asset.articulation.mesh.faces[:-12],
-                    triangle.faces + len(asset.articulation.mesh.vertices),
-                ]
-            ),
-            None,
-            None,
-            np.zeros(13, dtype=np.int64),
-            asset.articulation.mesh.materials,
-        ),
-        (
-            asset.articulation.parts[0],
-            asset.articulation.parts[1],
-            type(asset.articulation.parts[0])("flat", np.array([12])),
-        ),
-        asset.articulation.joints,
-        "test",
-    )
-    model = mujoco.MjModel.from_xml_path(
-        str(exported(Asset("flat", flat, asset.bodies), tmp_path).mjcf)
-    )
+    body = box([0, 0, 0], [1, 1, 1])
+    asset = boxes_asset([body, empty, solid], (slide, turn))
+    parts = (*asset.articulation.parts[:2], Part("flat", np.array([12])))
+    flat = replace(asset.articulation, mesh=concatenate([body, triangle]), parts=parts)
+    bundle = exported(Asset("flat", flat, asset.bodies), tmp_path)
+    model = mujoco.MjModel.from_xml_path(str(bundle.mjcf))
     assert (model.nbody, model.njnt) == (4, 2)
     assert json.loads((tmp_path / "asset.json").read_text())["links"][1]["hulls"] == 0

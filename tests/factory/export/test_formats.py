@@ -10,9 +10,8 @@ from format_readers import READERS, animated_glb, pxr_usd
 from asset_factory.factory.articulate.annotated import annotated_articulator, annotation_of
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import IntakeConfig
-from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.export import export_bundle
-from asset_factory.factory.export.formats import FORMATS, formats_named
+from asset_factory.factory.export.formats import FORMATS
 from asset_factory.factory.export.manifest import Manifest
 from asset_factory.factory.geometry.coupling import with_common_ranges
 from asset_factory.factory.intake.load import load
@@ -81,11 +80,6 @@ def test_only_what_is_asked_for_is_written(tmp_path):
     export_bundle(cabinet(), PROVENANCE, tmp_path, formats=("glb",))
     written = {path.name for path in tmp_path.iterdir() if path.is_file()}
     assert written == {"asset.urdf", "asset.xml", "asset.json", "asset.glb"}
-
-
-def test_an_unknown_format_is_named():
-    with pytest.raises(ConfigError, match="no format 'obj'; there are urdf, mjcf, sdf, usd, glb"):
-        formats_named(("obj",))
 
 
 def test_a_joint_that_follows_another_does_so_in_every_format_and_back(tmp_path):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from export_samples import PROVENANCE, box, cabinet
@@ -42,16 +43,12 @@ def test_what_was_rejected_keeps_what_is_shown_and_no_asset(tmp_path):
         config = BuildConfig()
         origin = Source(source, config)
         made = Made(asset, bundle, verdict, Plan())
-        product = finished(origin, _Intake(), made, Stages(config, None))
+        intake = SimpleNamespace(name="cabinet", provenance=PROVENANCE)
+        product = finished(origin, intake, made, Stages(config, None))
         result = register(registry, product)
     kept = {path.name for path in registry.folder(result.entry).iterdir()}
     assert kept == {*SHOWN, "report.json"}
     assert verify(registry) == ()
-
-
-class _Intake:
-    name = "cabinet"
-    provenance = PROVENANCE
 
 
 def test_a_rejection_without_a_folder_keeps_its_report_alone(tmp_path):

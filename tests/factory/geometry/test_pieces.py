@@ -48,12 +48,14 @@ def grooved():
 
 def test_a_groove_parts_a_skin():
     shape = board(grooved())
-    found = pieces(sheet_of(shape))
     up = shape.face_normals[:, 2] > 0.99
-    left = found[up & (shape.triangles_center[:, 0] < 0.28)]
-    right = found[up & (shape.triangles_center[:, 0] > 0.32)]
-    assert len(np.unique(left)) == len(np.unique(right)) == 1
-    assert left[0] != right[0]
+    surface = Surface.of(np.asarray(shape.vertices), np.asarray(shape.faces))
+    assert (surface.components == 0).all()
+    for found in (pieces(sheet_of(shape)), surface.pieces):
+        left = found[up & (shape.triangles_center[:, 0] < 0.28)]
+        right = found[up & (shape.triangles_center[:, 0] > 0.32)]
+        assert len(np.unique(left)) == len(np.unique(right)) == 1
+        assert left[0] != right[0]
 
 
 def test_a_flat_skin_is_parted_at_its_edges_alone():
@@ -98,14 +100,3 @@ def test_pieces_do_not_depend_on_the_order_of_faces(seed):
     after = pieces(sheet_of(shuffled))
     pairs = np.unique(np.stack([before, after]), axis=1)
     assert pairs.shape[1] == len(np.unique(before)) == len(np.unique(after))
-
-
-def test_a_surface_knows_its_pieces():
-    shape = board(grooved())
-    surface = Surface.of(np.asarray(shape.vertices), np.asarray(shape.faces))
-    up = shape.face_normals[:, 2] > 0.99
-    left = surface.pieces[up & (shape.triangles_center[:, 0] < 0.28)]
-    right = surface.pieces[up & (shape.triangles_center[:, 0] > 0.32)]
-    assert len(np.unique(left)) == len(np.unique(right)) == 1
-    assert left[0] != right[0]
-    assert (surface.components == 0).all()

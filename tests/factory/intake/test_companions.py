@@ -13,9 +13,7 @@ from asset_factory.factory.intake.source import Source
 
 @pytest.fixture(scope="module")
 def inputs(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("here") / "meshes"
-    write_inputs(folder)
-    return folder
+    return write_inputs(tmp_path_factory.mktemp("here") / "meshes")
 
 
 @pytest.mark.parametrize(

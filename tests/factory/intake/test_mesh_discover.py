@@ -7,7 +7,6 @@ import sys
 import pytest
 from ros_packages import write_meshes, write_package
 
-from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.intake.discover import find_inputs, links_out
 
 
@@ -82,11 +81,6 @@ def test_links_out_of_the_folder_and_hidden_files_are_passed_over(tmp_path):
 def test_a_file_named_twice_is_one_input(tmp_path):
     path = _touch(tmp_path / "a.glb")
     assert find_inputs([path, tmp_path, path]) == (path,)
-
-
-def test_a_path_that_does_not_exist_is_a_config_error(tmp_path):
-    with pytest.raises(ConfigError, match="does not exist"):
-        find_inputs([tmp_path / "absent"])
 
 
 @pytest.mark.parametrize(

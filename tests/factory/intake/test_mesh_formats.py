@@ -20,6 +20,11 @@ def _corners(mesh):
     return np.asarray(mesh.vertices[mesh.faces])
 
 
+def _normals(mesh):
+    a, b, c = np.moveaxis(_corners(mesh), 1, 0)
+    return np.cross(b - a, c - a)
+
+
 def _load(path):
     return load_visual(path, path.parent, LIMITS)
 
@@ -86,9 +91,7 @@ def test_gltf_applies_nested_transforms_and_every_instance(tmp_path):
 def test_gltf_mirrored_instance_still_faces_outward(tmp_path):
     mesh = _load(write_glb(tmp_path, nodes=[{"mesh": 0, "scale": [-1, 1, 1]}])).mesh
     assert _volume(mesh) == pytest.approx(1.0)
-    corners = _corners(mesh)
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    np.testing.assert_allclose(mesh.corner_normals[:, 0], normals, atol=1e-6)
+    np.testing.assert_allclose(mesh.corner_normals[:, 0], _normals(mesh), atol=1e-6)
 
 
 @pytest.mark.parametrize(("mode", "indices"), [(5, [0, 1, 3, 2]), (6, [0, 1, 2, 3])])
@@ -107,9 +110,7 @@ def test_gltf_strips_and_fans_become_triangles(mode, indices, tmp_path):
     }
     document["buffers"][0]["byteLength"] = len(binary)
     (tmp_path / "quad.glb").write_bytes(pack_glb(document, binary))
-    mesh = _load(tmp_path / "quad.glb").mesh
-    corners = _corners(mesh)
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = _normals(_load(tmp_path / "quad.glb").mesh)
     np.testing.assert_allclose(normals, [[-1, 0, 0], [-1, 0, 0]], atol=1e-6)
 
 

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from mesh_cube import write_glb, write_off, write_stl
 
 from asset_factory.factory.config import IntakeConfig
-from asset_factory.factory.errors import ConfigError, InputRejected
+from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.loading import load_mesh
-from asset_factory.factory.intake.orientation import UP_AXES, parse_up, rotation_to_z_up
+from asset_factory.factory.intake.orientation import UP_AXES, rotation_to_z_up
 from asset_factory.factory.intake.sizes import guess_category, scale_by_size, size_table
 
 FIXTURE = Path(__file__).parents[4] / "shared" / "fixtures" / "postprocess_e2e" / "up_dir.npz"
@@ -64,11 +64,6 @@ def test_up_is_option_then_sidecar_then_format(tmp_path):
         "option",
     )
     assert any("up axis was taken to be z" in note for note in _load(stl).provenance.notes)
-
-
-def test_no_other_word_is_an_up_axis():
-    with pytest.raises(ConfigError, match="want one of x, -x"):
-        parse_up("up")
 
 
 def test_transform_leads_from_the_input_to_the_object(tmp_path):

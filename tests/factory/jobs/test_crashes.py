@@ -54,9 +54,10 @@ def test_leaving_without_a_word_is_a_death_too(tmp_path):
 
 @pytest.mark.parametrize("name", ["wanders", "ended"])
 def test_a_death_elsewhere_or_by_another_hand_is_tried_again(tmp_path, name):
-    for _ in range(2):
-        result = built(tmp_path, name, retries=0)
-        assert (result.known, result.entry.reason) == (False, "build_crashed")
+    for retries in (1, 0):
+        result = built(tmp_path, name, retries)
+        wanted = (False, "build_crashed", 1 + retries)
+        assert (result.known, result.entry.reason, result.attempts) == wanted
 
 
 def test_another_version_other_limits_or_a_word_end_the_wait(tmp_path, monkeypatch):

@@ -6,6 +6,7 @@ import json
 import shutil
 from pathlib import Path
 
+import trimesh
 from job_samples import job
 
 from asset_factory.envs.assets import read_registry
@@ -13,28 +14,13 @@ from asset_factory.factory.cli import run
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.aside import superseded
 
-BOX = """
-v 0 0 0
-v 1 0 0
-v 1 1 0
-v 0 1 0
-v 0 0 1
-v 1 0 1
-v 1 1 1
-v 0 1 1
-f 4 3 2 1
-f 5 6 7 8
-f 1 2 6 5
-f 2 3 7 6
-f 3 4 8 7
-f 4 1 5 8
-"""
 
-
-def built(folder: Path, height: float, output: Path) -> tuple[str, tuple[str, ...]]:
+def built(
+    folder: Path, height: float, output: Path, size: float = 1.0
+) -> tuple[str, tuple[str, ...]]:
     """The id of the box in a folder, once it is built at a height, and what it replaced."""
     folder.mkdir(exist_ok=True)
-    (folder / "box.obj").write_text(BOX)
+    trimesh.creation.box((1.0, 1.0, size)).export(folder / "box.obj")
     (folder / "box.toml").write_text(f"height = {height}\n")
     (result,) = job((folder / "box.obj",), output).run()
     assert result.entry.status == "passed"
@@ -75,7 +61,6 @@ def test_the_same_file_elsewhere_stays_what_it_was(tmp_path) -> None:
 def test_another_mesh_in_its_place_is_another_input(tmp_path) -> None:
     out = tmp_path / "out"
     first, _ = built(tmp_path / "in", 1.0, out)
-    (tmp_path / "in" / "box.obj").write_text(f"{BOX}\nv 5 5 5\n")
-    (result,) = job((tmp_path / "in" / "box.obj",), out).run()
-    assert {entry.id for entry in Registry(out).entries()} == {first, result.entry.id}
-    assert result.replaced == ()
+    second, replaced = built(tmp_path / "in", 1.0, out, size=2.0)
+    assert {entry.id for entry in Registry(out).entries()} == {first, second}
+    assert replaced == ()

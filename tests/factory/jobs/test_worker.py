@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-import pytest
 import trimesh
 from job_samples import PLAIN, job
 
@@ -10,13 +9,6 @@ from asset_factory.factory.jobs import local, worker
 from asset_factory.factory.jobs.local import LocalExecutor
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.runtime.store import folder_digests
-
-
-@pytest.fixture(autouse=True)
-def _fresh_worker():
-    yield
-    while worker._JUDGES:
-        worker._JUDGES.popitem()[1].close()
 
 
 def boxes(folder):

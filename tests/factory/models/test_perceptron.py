@@ -54,9 +54,3 @@ def test_a_file_for_other_numbers_is_refused():
         Perceptron.read(stored, "some", ("a", "b", "c"))
     with pytest.raises(ConfigError, match="another order"):
         Perceptron.read(stored, "some", ("b", "a"))
-
-
-def test_a_file_of_anything_else_is_refused(tmp_path):
-    (tmp_path / "some.safetensors").write_bytes(b"\x80\x04N.")
-    with pytest.raises(ConfigError, match="too few"):
-        load_arrays(tmp_path / "some.safetensors")

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 import threading
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from registry_samples import named, publish
@@ -54,15 +55,12 @@ def test_claims_of_the_dead_are_dropped_those_of_the_living_are_not(tmp_path):
 
 def test_several_who_make_a_registry_at_once_lose_nothing(tmp_path):
     count = 8
-    together = threading.Barrier(8)
+    together = threading.Barrier(count)
 
     def work(number):
         together.wait()
         publish(Registry(tmp_path / "out", create=True), entry=named(f"cabinet-{number}"))
 
-    threads = [threading.Thread(target=work, args=(number,)) for number in range(count)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    with ThreadPoolExecutor(count) as pool:
+        list(pool.map(work, range(count)))
     assert len(Registry(tmp_path / "out").entries()) == count

@@ -1,6 +1,5 @@
 """Counts are kept, whoever writes; they are what counting the rows gives."""
 
-from contextlib import closing
 from dataclasses import replace
 from itertools import product
 
@@ -80,19 +79,3 @@ def test_counting_reads_no_row(registry):
         count(connection, Filters(category="fridge", status="passed"))
         plan = connection.execute(f"EXPLAIN QUERY PLAN {asked[0]}").fetchall()
     assert all("assets" not in str(step) for step in plan)
-
-
-def test_a_database_of_an_older_version_is_made_anew(tmp_path):
-    import sqlite3
-
-    from registry_samples import publish
-
-    registry = Registry(tmp_path / "out", create=True)
-    publish(registry)
-    with closing(sqlite3.connect(registry.root / "registry.db")) as old:
-        for number in range(3):
-            old.execute(f"DROP TRIGGER counted_{number}")
-        old.execute("DROP TABLE counts")
-        old.execute("PRAGMA user_version = 3")
-        old.commit()
-    assert Registry(registry.root).count() == 1

@@ -71,15 +71,8 @@ def state(registry):
     for entry in registry.entries():
         mesh = registry.folder(entry) / "meshes" / "a.obj"
         assert registry.report(entry).passed == (entry.status == "passed")
-        seen.append(
-            (
-                entry.id,
-                entry.status,
-                mesh.read_text() if mesh.exists() else "",
-                entry.tags,
-                entry.solved,
-            )
-        )
+        content = mesh.read_text() if mesh.exists() else ""
+        seen.append((entry.id, entry.status, content, entry.tags, entry.solved))
     return seen
 
 
@@ -100,7 +93,9 @@ CASES = {
 }
 
 
-def die_everywhere(tmp_path, case, stride):
+@pytest.mark.parametrize("stride", [19, pytest.param(1, marks=pytest.mark.full)])
+@pytest.mark.parametrize("case", CASES)
+def test_nothing_is_ever_half_there(tmp_path, case, stride):
     before, work = CASES[case]
     registry, old = outcome(tmp_path / "old", *before)
     _, new = outcome(tmp_path / "new", *before, work)
@@ -125,17 +120,6 @@ def die_everywhere(tmp_path, case, stride):
         line += stride
     assert met == {str(old), str(new)}
     assert line > 50 // stride
-
-
-@pytest.mark.parametrize("case", CASES)
-def test_nothing_is_ever_half_there(tmp_path, case):
-    die_everywhere(tmp_path, case, stride=19)
-
-
-@pytest.mark.full
-@pytest.mark.parametrize("case", CASES)
-def test_nothing_is_ever_half_there_at_any_line(tmp_path, case):
-    die_everywhere(tmp_path, case, stride=1)
 
 
 def test_what_is_published_is_on_the_disk_before_its_name_and_then_its_name(tmp_path, monkeypatch):

@@ -10,7 +10,7 @@ from asset_factory.factory.intake.discover import find_inputs
 from asset_factory.factory.registry import verify as verify_module
 from asset_factory.factory.registry.aside import set_asset_aside
 from asset_factory.factory.registry.database import writing
-from asset_factory.factory.registry.rows import delete, insert
+from asset_factory.factory.registry.rows import RegistryRow, delete, insert
 from asset_factory.factory.registry.verify import Settled, mend_rows, settle, verify
 from asset_factory.factory.runtime.layout import WITHDRAWN
 from asset_factory.factory.runtime.store import folder_digests
@@ -19,8 +19,7 @@ from asset_factory.factory.runtime.store import folder_digests
 def mended(registry, *, final=True):
     problems = verify(registry)
     mend_rows(registry, problems)
-    settled = settle(registry, problems, final=final)
-    return settled
+    return settle(registry, problems, final=final)
 
 
 def test_rows_are_made_anew_from_the_folders(registry):
@@ -28,15 +27,9 @@ def test_rows_are_made_anew_from_the_folders(registry):
     with writing(registry.root) as connection:
         delete(connection, "fridge-1")
         record = replace(registry.entry("cabinet-1"), hulls=99)
-        insert(connection, (mending_row(record),))
+        insert(connection, (RegistryRow(record, ""),))
     assert mended(registry) == {"cabinet-1": "mended", "fridge-1": "mended"}
     assert registry.entries() == before
-
-
-def mending_row(entry):
-    from asset_factory.factory.registry.rows import RegistryRow
-
-    return RegistryRow(entry, "")
 
 
 def test_a_row_without_a_folder_goes(registry):

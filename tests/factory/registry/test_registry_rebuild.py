@@ -100,8 +100,3 @@ def test_an_older_database_is_made_anew_from_the_folders(registry):
         connection.execute(f"PRAGMA user_version = {SCHEMA_VERSION - 1}")
     assert dump(Registry(registry.root)) == before
     assert verify(registry) == ()
-
-
-def test_a_folder_without_assets_is_no_registry(tmp_path):
-    with pytest.raises(RegistryError, match="no registry here"):
-        rebuild(tmp_path)

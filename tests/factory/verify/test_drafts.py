@@ -4,6 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 from export_samples import cabinet
 
 from asset_factory.factory.articulate import standing
@@ -93,26 +94,39 @@ def test_a_reading_that_is_blocked_loses_to_one_that_opens(output, monkeypatch):
     assert "is rejected" in told
 
 
-def test_a_reading_of_which_nothing_can_be_made_is_told_with_its_probability(output, monkeypatch):
-    def rated(right):
-        return replace(right, joints=tuple(replace(j, confidence=0.31) for j in right.joints))
+def _impossible(right):
+    """The same, of which nothing can be made, and joints of which nobody is sure."""
+    joints = tuple(replace(joint, confidence=0.31) for joint in right.joints)
+    return replace(right, joints=joints, notes=("impossible",))
 
-    _reading_as(monkeypatch, rated, lambda right: right)
-    honest = rounds.manufacture
-    rejection = InputRejected("no_bodies", "nothing is left of it")
 
-    def manufacture(articulation, *more):
-        if not asked:
-            asked.append(articulation)
-            raise rejection
-        return honest(articulation, *more)
+@pytest.fixture
+def impossible(monkeypatch):
+    """The impossible is refused."""
+    made = rounds.manufacture
 
-    asked = []
+    def manufacture(articulation, *asked):
+        if "impossible" in articulation.notes:
+            raise InputRejected("too_many_hulls", "part 'lid': needs 999 convex pieces")
+        return made(articulation, *asked)
+
     monkeypatch.setattr(rounds, "manufacture", manufacture)
+    return _impossible
+
+
+def test_a_reading_that_cannot_be_made_is_passed_over_and_told(output, monkeypatch, impossible):
+    _reading_as(monkeypatch, impossible, lambda right: right)
     result = build_asset(EXAMPLES / "laptop.glb", output, CONFIG)
+    assert result.entry.status == "passed"
     report = read_report(Registry(output).assets / result.entry.id).report
     (told,) = [f.message for f in report.findings if f.code == "other_reading"]
-    assert "turns, probability 0.31), it cannot be made, no_bodies: nothing is left of it" in told
+    assert "turns, probability 0.31), it cannot be made, too_many_hulls: part 'lid': needs" in told
+
+
+def test_where_no_reading_can_be_made_the_reason_is_told(output, monkeypatch, impossible):
+    _reading_as(monkeypatch, impossible)
+    refused = build_asset(EXAMPLES / "laptop.glb", output, CONFIG).entry
+    assert (refused.status, refused.reason) == ("rejected", "too_many_hulls")
 
 
 def test_beyond_the_most_work_only_the_likeliest_is_made(output, monkeypatch):
@@ -154,22 +168,3 @@ def test_a_simulator_that_hung_neither_rejects_nor_repairs(output, monkeypatch):
     monkeypatch.setattr(rounds, "validate", validate)
     entry = build_asset(EXAMPLES / "laptop.glb", output, CONFIG).entry
     assert (entry.status, entry.reason) == ("unjudged", "simulator_timeout")
-
-
-def test_a_reading_that_cannot_be_made_is_passed_over(output, monkeypatch):
-    made = rounds.manufacture
-
-    def manufacture(articulation, *asked):
-        if articulation.notes == ("impossible",):
-            raise InputRejected("too_many_hulls", "part 'lid': needs 999 convex pieces")
-        return made(articulation, *asked)
-
-    monkeypatch.setattr(rounds, "manufacture", manufacture)
-    impossible = lambda right: replace(right, notes=("impossible",))  # noqa: E731
-    _reading_as(monkeypatch, impossible, lambda right: right)
-    assert build_asset(EXAMPLES / "laptop.glb", output, CONFIG).entry.status == "passed"
-    monkeypatch.undo()
-    monkeypatch.setattr(rounds, "manufacture", manufacture)
-    _reading_as(monkeypatch, impossible)
-    refused = build_asset(EXAMPLES / "laptop.glb", output, CONFIG).entry
-    assert (refused.status, refused.reason) == ("rejected", "too_many_hulls")

@@ -18,7 +18,10 @@ from asset_factory.factory.part import PartKind
 from asset_factory.factory.verify.repair import next_plan
 
 CONFIG = RepairConfig()
+#: The hulls of both are cut apart already.
+STARTED = Plan(separate=frozenset({("base", "door")}))
 UP = (0.0, 0.0, 1.0)
+DOWN = (0.0, 0.0, -1.0)
 #: At the outer front edge of the door's end.
 EDGE = (-0.3, -0.225, 0.0)
 
@@ -34,17 +37,9 @@ def cabinet(axis=UP, origin=EDGE, upper=1.5, lower=0.0, kind=JointKind.REVOLUTE)
     door, door_faces = box((0.6, 0.02, 0.8), (0.0, -0.215, 0.0))
     mesh = Mesh.from_triangles(np.vstack([body, door]), np.vstack([faces, door_faces + len(body)]))
     parts = (Part("base", np.arange(12)), Part("door", np.arange(12, 24)))
-    direction = np.asarray(axis, dtype=float)
-    hinge = Joint(
-        "hinge",
-        kind,
-        0,
-        1,
-        direction / np.linalg.norm(direction),
-        np.asarray(origin, dtype=float),
-        lower,
-        upper,
-    )
+    direction = np.array(axis, dtype=float)
+    direction /= np.linalg.norm(direction)
+    hinge = Joint("hinge", kind, 0, 1, direction, np.asarray(origin), lower, upper)
     articulation = Articulation(mesh, parts, (hinge,), "annotated")
     inertial = Inertial(1.0, np.zeros(3), np.eye(3))
     bodies = tuple(
@@ -87,8 +82,7 @@ def blocked(asset, clear_until):
 
 
 def mended(asset, clear_until=0.01, config=CONFIG):
-    started = Plan(separate=frozenset({("base", "door")}))
-    return next_plan(blocked(asset, clear_until), started, config, Spare(), asset)
+    return next_plan(blocked(asset, clear_until), STARTED, config, Spare(), asset)
 
 
 def test_a_door_that_opens_inwards_is_turned_round_and_told():
@@ -97,7 +91,7 @@ def test_a_door_that_opens_inwards_is_turned_round_and_told():
     plan = mended(inwards)
     assert "opened inwards" in plan.repairs[-1].sentence
     turned = as_planned(inwards.articulation, plan).joints[0]
-    assert turned.axis == pytest.approx([0.0, 0.0, -1.0])
+    assert turned.axis == pytest.approx(DOWN)
     assert (turned.lower, turned.upper) == (0.0, 1.5)
 
 
@@ -105,11 +99,11 @@ def test_a_tilted_axis_is_straightened():
     tilted = cabinet(axis=(np.sin(np.radians(8.0)), 0.0, -np.cos(np.radians(8.0))))
     plan = mended(tilted)
     assert "8.0 degrees off" in plan.repairs[-1].sentence
-    assert as_planned(tilted.articulation, plan).joints[0].axis == pytest.approx([0, 0, -1.0])
+    assert as_planned(tilted.articulation, plan).joints[0].axis == pytest.approx(DOWN)
 
 
 def test_a_hinge_beside_the_edge_goes_to_it():
-    shifted = cabinet(axis=(0.0, 0.0, -1.0), origin=(-0.27, -0.205, 0.0))
+    shifted = cabinet(axis=DOWN, origin=(-0.27, -0.205, 0.0))
     plan = mended(shifted)
     assert "front edge" in plan.repairs[-1].sentence
     assert as_planned(shifted.articulation, plan).joints[0].origin[:2] == pytest.approx(EDGE[:2])
@@ -117,7 +111,7 @@ def test_a_hinge_beside_the_edge_goes_to_it():
 
 def test_a_hinge_in_what_the_door_lies_before_goes_to_the_edge_between_them():
     # 45 mm behind the door and 30 beside its edge; the front edge is too far.
-    inside = cabinet(axis=(0.0, 0.0, -1.0), origin=(-0.27, -0.16, 0.0), upper=np.pi)
+    inside = cabinet(axis=DOWN, origin=(-0.27, -0.16, 0.0), upper=np.pi)
     plan = mended(inside)
     assert "54.1 mm off its panel's back edge" in plan.repairs[-1].sentence
     hung = as_planned(inside.articulation, plan).joints[0]
@@ -128,7 +122,7 @@ def test_a_hinge_in_what_the_door_lies_before_goes_to_the_edge_between_them():
 @pytest.mark.parametrize(("deep", "left"), [(0.008, True), (0.03, False)])
 def test_what_the_edge_leaves_in_the_way_is_for_the_cut_that_follows(deep, left):
     # A side of the cabinet that reaches beyond the door's edge, before its front.
-    asset = cabinet(axis=(0.0, 0.0, -1.0), origin=(-0.27, -0.16, 0.0))
+    asset = cabinet(axis=DOWN, origin=(-0.27, -0.16, 0.0))
     side, faces = box((0.02, 0.2, 0.8), (-0.311, -0.105 - deep, 0.0))
     body = asset.bodies[0]
     beside = replace(body, hulls=(*body.hulls, Hull(side, np.asarray(faces))))
@@ -139,8 +133,8 @@ def test_what_the_edge_leaves_in_the_way_is_for_the_cut_that_follows(deep, left)
 @pytest.mark.parametrize(
     "asset",
     [
-        cabinet(axis=(0.0, 0.0, -1.0), origin=(0.0, -0.215, 0.0)),
-        cabinet(axis=(0.0, 0.0, -1.0), origin=(-0.05, 0.1, 0.0)),
+        cabinet(axis=DOWN, origin=(0.0, -0.215, 0.0)),
+        cabinet(axis=DOWN, origin=(-0.05, 0.1, 0.0)),
         cabinet(axis=(1.0, 0.0, 1.0)),
     ],
     ids=["turns about its middle", "hung in the block", "an axis far off"],
@@ -154,7 +148,7 @@ def test_a_hinge_that_no_edge_frees_goes_to_the_line_of_its_neighbour():
     # will do; the true line is that of the door above.
     line = (-0.3, -0.24, 0.0)
     above = Joint("above", JointKind.REVOLUTE, 0, 2, -np.array(UP), np.array(line), 0.0, 1.5)
-    asset = cabinet(axis=(0.0, 0.0, -1.0), origin=(-0.27, -0.205, 0.0))
+    asset = cabinet(axis=DOWN, origin=(-0.27, -0.205, 0.0))
     asset = with_more(asset, "base", [((0.02, 0.2, 0.8), (-0.311, -0.135, 0.0))])
     asset = with_more(asset, "door", [((0.02, 0.1, 0.8), (-0.29, -0.275, 0.0))])
     assert mended(asset) is None
@@ -175,8 +169,8 @@ def test_doors_on_one_line_are_turned_round_together():
     started = Plan(separate=frozenset({("base", "door"), ("base", "upper")}))
     plan = next_plan(given, started, CONFIG, Spare(), asset)
     assert {name: tuple(each.axis) for name, each in plan.mended.items()} == {
-        "hinge": (0.0, 0.0, -1.0),
-        "above": (0.0, 0.0, -1.0),
+        "hinge": DOWN,
+        "above": DOWN,
     }
 
 
@@ -185,7 +179,7 @@ def test_what_is_askew_and_goes_too_far_is_straightened_and_ended():
     plan = mended(asset)
     assert [each.sentence.split()[0] for each in plan.repairs] == ["mended", "ended"]
     hinge = as_planned(asset.articulation, plan).joints[0]
-    assert hinge.axis == pytest.approx([0.0, 0.0, -1.0])
+    assert hinge.axis == pytest.approx(DOWN)
     assert 2.75 <= hinge.upper < 4.75
     # What would have to be turned round besides is no small change.
     assert mended(replace(asset, articulation=cabinet(axis=(1.0, 0.0, 1.0)).articulation)) is None
@@ -196,7 +190,7 @@ def test_what_is_askew_and_goes_too_far_is_straightened_and_ended():
 def test_a_hinge_without_limits_goes_as_far_as_it_is_free_and_closes_where_it_is_smallest(
     sign, ajar
 ):
-    shut = cabinet(axis=(0.0, 0.0, -1.0))
+    shut = cabinet(axis=DOWN)
     drawn = posed(shut.articulation, {"hinge": ajar})
     turn = shut.articulation.joints[0].motion(ajar)
     door = shut.bodies[1].hulls[0]
@@ -219,7 +213,7 @@ def test_a_hinge_without_limits_goes_as_far_as_it_is_free_and_closes_where_it_is
     assert hinge.kind is JointKind.REVOLUTE
     if not ajar:
         assert planned.parts[1].kind is PartKind.DOOR
-    assert hinge.axis == pytest.approx([0.0, 0.0, -1.0])
+    assert hinge.axis == pytest.approx(DOWN)
     assert hinge.lower == pytest.approx(-ajar, abs=0.06)
     assert 4.4 < hinge.upper + ajar < 4.75
     assert "had none" in plan.repairs[-1].sentence
@@ -237,7 +231,7 @@ def test_what_turns_without_end_is_as_drawn_while_another_part_moves():
     # Half a turn on, the arm would be in the door's way.
     knob = Joint("knob", JointKind.CONTINUOUS, 0, 2, UP, (0.5, -0.5, 0.0), -np.pi, np.pi)
     arm = [((0.4, 0.02, 0.1), (0.75, -0.5, 0.0))]
-    asset = with_more(cabinet(axis=(0.0, 0.0, -1.0)), "arm", arm, knob)
+    asset = with_more(cabinet(axis=DOWN), "arm", arm, knob)
     hulls = [body.hulls for body in asset.bodies]
     assert swept_m(asset.articulation, hulls, asset.articulation.joints[0]) < 1e-6
 
@@ -247,19 +241,17 @@ def test_a_small_part_that_cannot_move_is_fixed_where_nothing_else_is_wrong(code
     asset = cabinet()
     spare = Spare(joints=frozenset({"hinge"}))
     named = "hinge" if code == "jammed" else None
-    started = Plan(separate=frozenset({("base", "door")}))
     wrong = hard(code, name=named)
-    plan = next_plan(verdict(wrong), started, CONFIG, spare, asset)
+    plan = next_plan(verdict(wrong), STARTED, CONFIG, spare, asset)
     assert plan.frozen == {"hinge"}
     other = verdict(wrong, hard("jammed", name="other"))
-    assert next_plan(other, started, CONFIG, spare, asset) is None
+    assert next_plan(other, STARTED, CONFIG, spare, asset) is None
 
 
 def test_a_small_part_that_is_pressed_into_another_is_not_turned_round():
     inwards = cabinet()
-    started = Plan(separate=frozenset({("base", "door")}))
     spare = Spare(joints=frozenset({"hinge"}))
-    plan = next_plan(blocked(inwards, 0.01), started, CONFIG, spare, inwards)
+    plan = next_plan(blocked(inwards, 0.01), STARTED, CONFIG, spare, inwards)
     assert not plan.mended
 
 
@@ -274,7 +266,7 @@ def test_a_joint_is_mended_once_and_only_if_joints_may_be():
 
 def test_a_joint_that_is_ended_early_ends_where_it_touches_nothing():
     # It opens, and comes into the block again after three quarters of a turn.
-    asset = cabinet(axis=(0.0, 0.0, -1.0), upper=5.5)
+    asset = cabinet(axis=DOWN, upper=5.5)
     plan = mended(asset, clear_until=4.8)
     assert not plan.mended
     ended = replace(asset.articulation.joints[0], upper=plan.upper["hinge"])
@@ -284,10 +276,9 @@ def test_a_joint_that_is_ended_early_ends_where_it_touches_nothing():
 
 def test_a_closed_end_that_lies_in_something_is_pulled_in():
     # Down to -0.4 it turns into the block; as modelled it is free.
-    asset = cabinet(axis=(0.0, 0.0, -1.0), lower=-0.4)
+    asset = cabinet(axis=DOWN, lower=-0.4)
     given = verdict(hard("rest_penetration"), rest=[contact(20.0)], joints=[joint()])
-    started = Plan(separate=frozenset({("base", "door")}))
-    plan = next_plan(given, started, CONFIG, Spare(), asset)
+    plan = next_plan(given, STARTED, CONFIG, Spare(), asset)
     assert "began hinge at" in plan.repairs[-1].sentence
     begins = as_planned(asset.articulation, plan).joints[0].lower
     assert -0.1 < begins <= 0.0
@@ -297,22 +288,20 @@ def test_a_closed_end_that_lies_in_something_is_pulled_in():
 @pytest.mark.parametrize("measured_alone", [True, False])
 def test_no_joint_ends_before_the_pose_as_modelled(clear_until, measured_alone):
     # Half of its range is free, so it would be long enough; but all of that lies below 0.
-    asset = cabinet(axis=(0.0, 0.0, -1.0), lower=-1.5, upper=0.4)
+    asset = cabinet(axis=DOWN, lower=-1.5, upper=0.4)
     measured = replace(joint(upper=0.4, clear_until=clear_until), lower=-1.5)
     assert (clear_until + 1.5) / 1.9 > CONFIG.least_range_share
     given = verdict(hard("sweep_penetration", name="hinge"), joints=[measured])
-    started = Plan(separate=frozenset({("base", "door")}))
-    plan = next_plan(given, started, CONFIG, Spare(), None if measured_alone else asset)
+    plan = next_plan(given, STARTED, CONFIG, Spare(), None if measured_alone else asset)
     assert plan is None or "hinge" not in plan.upper
 
 
 def test_a_joint_that_is_never_free_gets_no_end():
-    asset = cabinet(axis=(0.0, 0.0, -1.0))
+    asset = cabinet(axis=DOWN)
     given = verdict(
         hard("sweep_penetration", name="hinge"), joints=[joint(upper=1.5, clear_until=0.0)]
     )
-    started = Plan(separate=frozenset({("base", "door")}))
-    plan = next_plan(given, started, CONFIG, Spare(), asset)
+    plan = next_plan(given, STARTED, CONFIG, Spare(), asset)
     assert plan is None or "hinge" not in plan.upper
 
 

@@ -17,6 +17,7 @@ from asset_factory.sim_checks.measurements import (
 
 CONFIG = RepairConfig()
 NONE_SMALL = Spare()
+NOTHING_DONE = Plan()
 
 
 def contact(depth_mm, links=("base", "door"), at=None):
@@ -62,11 +63,19 @@ def verdict(*findings, rest=(), joints=()):
     return Verdict(Report("asset.urdf", findings=findings, measurements=measurements))
 
 
+def planned(given, before=NOTHING_DONE, spare=NONE_SMALL):
+    """The plan that follows from a verdict and the plan before."""
+    return next_plan(given, before, CONFIG, spare)
+
+
+def blocked(*others, name="hinge", clear_until=1.5):
+    """A joint that runs into something there, and what else is found."""
+    found = hard("sweep_penetration", name=name)
+    return verdict(*others, found, joints=[joint(name, clear_until=clear_until)])
+
+
 def test_a_clean_asset_needs_no_plan():
-    assert (
-        next_plan(verdict(rest=[contact(-4.0)], joints=[joint()]), Plan(), CONFIG, NONE_SMALL)
-        is None
-    )
+    assert planned(verdict(rest=[contact(-4.0)], joints=[joint()])) is None
 
 
 @pytest.mark.parametrize("where", ["rest", "sweep"])
@@ -75,36 +84,34 @@ def test_hulls_that_nearly_touch_are_cut_apart_once(where):
     at_rest = verdict(rest=[contact(-0.5, links)])
     on_the_way = verdict(joints=[joint(pairs=[contact(-0.5, links, at=1.0)])])
     given = at_rest if where == "rest" else on_the_way
-    plan = next_plan(given, Plan(), CONFIG, NONE_SMALL)
+    plan = planned(given)
     assert plan.separate == {("base", "door")}
     assert [each.sentence for each in plan.repairs] == ["cut the hulls apart of base and door"]
-    assert next_plan(given, plan, CONFIG, NONE_SMALL) is None
+    assert planned(given, plan) is None
 
 
 def test_a_knuckle_that_remains_is_excluded_once():
     given = verdict(Finding("hinge_overlap", Severity.WARNING, "knuckle", parts=("door", "base")))
-    plan = next_plan(given, Plan(), CONFIG, NONE_SMALL)
+    plan = planned(given)
     assert plan.exclude == {("base", "door")}
-    assert next_plan(given, plan, CONFIG, NONE_SMALL) is None
+    assert planned(given, plan) is None
 
 
 def test_a_joint_that_runs_into_something_late_ends_before():
-    given = verdict(hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=1.5)])
-    plan = next_plan(given, Plan(), CONFIG, NONE_SMALL)
+    given = blocked()
+    plan = planned(given)
     assert plan.upper == {"hinge": 1.5}
     assert "ended hinge at 1.5 instead of 2 rad" in plan.repairs[-1].sentence
 
 
 def test_a_joint_that_runs_into_something_early_is_not_shortened_to_nothing():
-    given = verdict(hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=0.2)])
-    assert next_plan(given, Plan(), CONFIG, NONE_SMALL) is None
+    given = blocked(clear_until=0.2)
+    assert planned(given) is None
 
 
 def test_a_small_blocked_part_is_frozen_and_says_after_how_much():
-    given = verdict(
-        hard("sweep_penetration", name="button"), joints=[joint("button", clear_until=0.2)]
-    )
-    plan = next_plan(given, Plan(), CONFIG, Spare(frozenset({"button"})))
+    given = blocked(name="button", clear_until=0.2)
+    plan = planned(given, spare=Spare(frozenset({"button"})))
     assert plan.frozen == {"button"}
     assert "after 10% of its range" in plan.repairs[-1].sentence
 
@@ -114,17 +121,15 @@ def test_one_hopeless_joint_makes_the_whole_hopeless():
         hard("sweep_penetration", name="hinge"),
         joints=[joint(clear_until=0.1), joint("button", clear_until=0.1)],
     )
-    assert next_plan(given, Plan(), CONFIG, Spare(frozenset({"button"}))) is None
+    assert planned(given, spare=Spare(frozenset({"button"}))) is None
 
 
 @pytest.mark.parametrize(
     "code", ["rest_penetration", "no_collision", "limits_swapped", "simulator_crashed"]
 )
 def test_what_no_repair_mends_gets_no_plan(code):
-    given = verdict(
-        hard(code), hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=1.5)]
-    )
-    assert next_plan(given, Plan(), CONFIG, NONE_SMALL) is None
+    given = blocked(hard(code))
+    assert planned(given) is None
 
 
 def lying_in(*parts):
@@ -138,7 +143,7 @@ def test_of_two_guessed_parts_that_lie_in_one_another_the_less_sure_is_given_up(
     before = Plan(
         separate=frozenset({("a", "b"), ("a", "base")}), exclude=frozenset({("b", "base")})
     )
-    plan = next_plan(verdict(lying_in("a", "b")), before, CONFIG, GUESSES)
+    plan = planned(verdict(lying_in("a", "b")), before, GUESSES)
     assert plan.given_up == {"b_hinge"}
     assert plan.separate == {("a", "base")}
     assert plan.exclude == frozenset()
@@ -146,14 +151,9 @@ def test_of_two_guessed_parts_that_lie_in_one_another_the_less_sure_is_given_up(
 
 
 def test_a_guessed_part_that_lies_in_a_known_one_is_given_up_and_two_known_ones_are_hopeless():
-    assert next_plan(verdict(lying_in("a", "base")), Plan(), CONFIG, GUESSES).given_up == {
-        "a_hinge"
-    }
-    assert next_plan(verdict(lying_in("base", "shelf")), Plan(), CONFIG, GUESSES) is None
-    assert (
-        next_plan(verdict(lying_in("a", "base"), hard("no_collision")), Plan(), CONFIG, GUESSES)
-        is None
-    )
+    assert planned(verdict(lying_in("a", "base")), spare=GUESSES).given_up == {"a_hinge"}
+    assert planned(verdict(lying_in("base", "shelf")), spare=GUESSES) is None
+    assert planned(verdict(lying_in("a", "base"), hard("no_collision")), spare=GUESSES) is None
 
 
 def test_of_what_jams_only_the_guess_worth_least_is_given_up():
@@ -161,64 +161,62 @@ def test_of_what_jams_only_the_guess_worth_least_is_given_up():
     pushed = Finding(
         "others_moved", Severity.ERROR, "a is pushed", joint="best", joints=("a_hinge",)
     )
-    plan = next_plan(verdict(jammed, pushed), Plan(), CONFIG, GUESSES)
+    plan = planned(verdict(jammed, pushed), spare=GUESSES)
     assert plan.given_up == {"b_hinge"}
     assert [each.sentence for each in plan.repairs] == ["gave up b_hinge: a jams"]
     alone = Finding("jammed", Severity.ERROR, "the best one jams", joint="best")
-    assert next_plan(verdict(jammed, alone), Plan(), CONFIG, GUESSES) is None
+    assert planned(verdict(jammed, alone), spare=GUESSES) is None
 
 
 def test_what_was_given_up_and_still_overlaps_ends_the_repairs():
     given = Plan(given_up=frozenset({"a_hinge"}))
-    assert next_plan(verdict(lying_in("a", "base")), given, CONFIG, GUESSES) is None
+    assert planned(verdict(lying_in("a", "base")), given, GUESSES) is None
 
 
 def test_a_guessed_hinge_that_is_blocked_is_moved_to_the_front_edge_once():
-    given = verdict(hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=1.5)])
+    given = blocked()
     spare = Spare(hinges=frozenset({"hinge", "other"}))
-    plan = next_plan(given, Plan(), CONFIG, spare)
+    plan = planned(given, spare=spare)
     assert plan.rehung == {"hinge"}
     assert [each.sentence for each in plan.repairs] == [
         "moved hinge to the door's front edge: it ran into something"
     ]
-    assert next_plan(given, plan, CONFIG, spare).upper == {"hinge": 1.5}
+    assert planned(given, plan, spare).upper == {"hinge": 1.5}
 
 
 def test_what_nobody_gets_into_is_made_hollow_once():
     found = verdict(hard("interior_filled", parts=("lever",)))
-    plan = next_plan(found, Plan(), CONFIG, NONE_SMALL)
+    plan = planned(found)
     assert plan.hollow == {"lever"}
     assert "lever" in plan.repairs[-1].sentence
-    assert next_plan(found, plan, CONFIG, NONE_SMALL) is None
+    assert planned(found, plan) is None
     assert next_plan(found, Plan(), RepairConfig(kinds="geometry"), NONE_SMALL) == plan
     assert next_plan(found, Plan(), RepairConfig(kinds="none"), NONE_SMALL) is None
     soft = Finding("interior_filled", Severity.WARNING, "little is left", parts=("lever",))
-    assert next_plan(verdict(soft), Plan(), CONFIG, NONE_SMALL) is None
+    assert planned(verdict(soft)) is None
 
 
 JOINED = Finding("hulls_joined", Severity.WARNING, "12 hulls joined to 8", parts=("base",))
 
 
 def test_hulls_that_were_joined_are_left_apart_before_any_joint_is_changed():
-    given = verdict(
-        JOINED, hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=1.5)]
-    )
-    plan = next_plan(given, Plan(), CONFIG, NONE_SMALL)
+    given = blocked(JOINED)
+    plan = planned(given)
     assert plan.closely
     assert not plan.upper
     assert "base" in plan.repairs[-1].sentence
-    assert next_plan(given, plan, CONFIG, NONE_SMALL).upper == {"hinge": 1.5}
+    assert planned(given, plan).upper == {"hinge": 1.5}
 
 
 def test_joined_hulls_stay_joined_where_nothing_is_wrong_or_there_are_too_many():
     wrong = hard("rest_penetration")
-    assert next_plan(verdict(JOINED), Plan(), CONFIG, NONE_SMALL) is None
-    assert next_plan(verdict(JOINED, wrong), Plan(fewer=10), CONFIG, NONE_SMALL) is None
-    assert next_plan(verdict(wrong), Plan(), CONFIG, NONE_SMALL) is None
+    assert planned(verdict(JOINED)) is None
+    assert planned(verdict(JOINED, wrong), Plan(fewer=10)) is None
+    assert planned(verdict(wrong)) is None
 
 
 def test_joined_hulls_stay_joined_where_other_parts_are_wrong():
     wrong = hard("rest_penetration", parts=("door", "handle"))
-    assert next_plan(verdict(JOINED, wrong), Plan(), CONFIG, NONE_SMALL) is None
+    assert planned(verdict(JOINED, wrong)) is None
     unplaced = hard("simulator_crashed", parts=())
-    assert next_plan(verdict(JOINED, unplaced), Plan(), CONFIG, NONE_SMALL).closely
+    assert planned(verdict(JOINED, unplaced)).closely

@@ -1,7 +1,6 @@
 """Nights over real builds, in which something was broken between them."""
 
-import json
-import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -66,24 +65,7 @@ def test_a_night_mends_what_it_can(config):
     assert (again.night.exit_code, again.night.known, again.night.damaged) == (0, 1, 0)
 
 
-@pytest.mark.full
-def test_a_whole_folder_and_a_row_that_are_lost_come_again(config):
-    (first,) = night(config).attempts
-    asset = config.output / "assets" / first.id
-    before = folder_digests(asset)
-    shutil.rmtree(asset)
-    report = night(config)
-    assert (report.settled, report.night.exit_code) == ({first.id: "mended"}, 0)
-    assert folder_digests(asset) == before
-    (config.output / "registry.db").unlink()
-    assert night(config).night.exit_code == 0
-    summary = config.output / "nights" / "0002" / "summary.json"
-    assert [item["became"] for item in json.loads(summary.read_text())["damage"]] == ["mended"]
-
-
 def test_nothing_is_withdrawn_while_inputs_are_not_begun(config):
-    from dataclasses import replace
-
     (first,) = night(config).attempts
     (config.output / "assets" / first.id / "asset.urdf").unlink()
     short = replace(config, budget=replace(config.budget, max_hours=1e-9))

@@ -281,15 +281,6 @@ def test_what_could_be_mended_is_said_and_does_not_ring(workshop, config):
     assert (workshop.urgent, report.night.mended, report.night.exit_code) == (frozenset(), 0, 4)
 
 
-def test_nothing_is_withdrawn_in_a_night_that_did_not_get_through(workshop, config):
-    run(workshop, config)
-    workshop.damage = (Problem("a-00", "altered", "", "is not"),)
-    workshop.most_hours = workshop.hours + 1
-    report = run(workshop, config)
-    assert (report.night.withdrawn, report.night.exit_code) == (0, 4)
-    assert report.settled == {"a-00": Settled.LEFT}
-
-
 def test_a_source_that_drifts_rings(workshop, config):
     config = replace(
         config,

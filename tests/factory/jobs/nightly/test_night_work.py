@@ -1,16 +1,17 @@
 """Nights with the real registry and real jobs."""
 
 import json
+from dataclasses import replace
 
 import pytest
-from registry_samples import REPORT
+from registry_samples import publish
 
 from asset_factory.factory.cli.nightly import Nightly, night_config, run
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.jobs.nightly.run import run_night
 from asset_factory.factory.jobs.nightly.settings import NightBudget
 from asset_factory.factory.jobs.nightly.work import Work
-from asset_factory.factory.registry import Entry, Registry
+from asset_factory.factory.jobs.ray.executor import RayExecutor
+from asset_factory.factory.registry import Registry
 
 pytest.importorskip("pyarrow")
 
@@ -33,34 +34,22 @@ def test_a_night_without_inputs_makes_a_registry_and_says_so(command, capsys):
 
 
 def test_damage_in_the_registry_is_found(command, capsys):
-    registry = Registry(command.output, create=True)
-    with registry.staging_folder() as staging:
-        (staging / "bundle").mkdir()
-        (staging / "bundle" / "asset.urdf").write_text("<robot/>")
-        folder = registry.publish(
-            Entry("a-0000000000", "a", "", "passed", "", 1, 1, 1), staging / "bundle", REPORT
-        )
+    folder = publish(Registry(command.output, create=True))
     assert run(command) == 0
     (folder / "asset.urdf").write_text("<robot />")
     assert run(command) == 4
     assert "Damaged: 1 registered asset" in capsys.readouterr().out
     data = json.loads((command.output / "nights" / "0002" / "summary.json").read_text())
-    assert [(item["id"], item["code"]) for item in data["damage"]] == [("a-0000000000", "altered")]
+    assert [(item["id"], item["code"]) for item in data["damage"]] == [("cabinet-1", "altered")]
     assert data["night"]["verified"] == 1
 
 
 def test_an_input_that_is_not_there_is_wrong_usage(command):
-    from dataclasses import replace
-
     with pytest.raises(ConfigError, match="nowhere"):
         run(replace(command, input=(command.output / "nowhere",)))
 
 
 def test_budgets_and_executors_are_those_of_jobs(command):
-    from dataclasses import replace
-
-    from asset_factory.factory.jobs.ray.executor import RayExecutor
-
     config = night_config(replace(command, executor="ray", ray_address="head:6379", workers=4))
     assert (Work(config).budget().max_s, Work(config).budget().limit) == (None, None)
     limits = NightBudget(max_hours=0.5, limit=7, retry_rejected=("build_timeout",))
@@ -69,18 +58,3 @@ def test_budgets_and_executors_are_those_of_jobs(command):
     executor = Work(config).executor()
     assert isinstance(executor, RayExecutor)
     assert (executor.address, executor.workers) == ("head:6379", 4)
-
-
-@pytest.mark.full
-def test_a_night_over_a_real_job(command, tmp_path):
-    (tmp_path / "in" / "torn.glb").write_bytes(b"glTF\x02\x00\x00\x00")
-    config = night_config(command)
-    first = run_night(config, Work(config))
-    second = run_night(config, Work(config))
-    assert [(a.status, a.reason, a.known) for a in first.attempts] == [
-        ("rejected", "unreadable", False)
-    ]
-    assert [(a.status, a.reason, a.known) for a in second.attempts] == [
-        ("rejected", "unreadable", True)
-    ]
-    assert second.registry["same"] == 1

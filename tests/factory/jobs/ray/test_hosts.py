@@ -15,14 +15,13 @@ import pytest
 from command_line import COMMAND
 from hosts import hosts
 from input_files import write_inputs
+from registry_samples import require_same
 from s3_server import BUCKET, s3_server
 from tiny_checkpoint import write_checkpoint
 
 import asset_factory
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.cleaning import collect_garbage
-from asset_factory.factory.registry.verify import verify
-from asset_factory.factory.runtime.store import folder_digests
 
 pytest.importorskip("ray")
 pytestmark = [
@@ -44,8 +43,7 @@ def hidden(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def inputs(hidden):
-    write_inputs(hidden / "meshes")
-    return hidden / "meshes"
+    return write_inputs(hidden / "meshes")
 
 
 @pytest.fixture(scope="module")
@@ -106,15 +104,6 @@ def built(cluster, inputs, output, disturb=None, *, code=0, flags=FLAGS):
         told = "".join(line for line in said if "passed over" not in line)
     assert ended == code, told
     return told
-
-
-def require_same(output, undisturbed):
-    for folder in ("assets", "rejected"):
-        assert folder_digests(output / folder) == folder_digests(undisturbed / folder)
-    assert tuple(Registry(output).entries()) == tuple(Registry(undisturbed).entries())
-    assert verify(Registry(output)) == ()
-    assert not list((output / ".staging").iterdir())
-    assert not list((output / ".claims").iterdir())
 
 
 def test_the_registry_is_that_of_one_host(cluster, inputs, undisturbed, tmp_path):

@@ -17,7 +17,6 @@ from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.jobs.executor import AHEAD, Call
 from asset_factory.factory.jobs.ray.cluster import SETTINGS
-from asset_factory.factory.jobs.ray.exchange import Exchange
 from asset_factory.factory.jobs.ray.executor import RayExecutor
 from asset_factory.factory.jobs.ray.network import Asked
 from asset_factory.sim_checks.processes.isolation import Limits
@@ -119,27 +118,6 @@ def cluster():
     yield made
     ray.shutdown()
     made.shutdown()
-
-
-@pytest.mark.full
-@pytest.mark.parametrize("through", ["folder", "url"])
-def test_folders_filled_on_nodes_come_back(cluster, tmp_path, through):
-    url = "" if through == "folder" else (tmp_path / "between").as_uri()
-    (tmp_path / "between").mkdir()
-    folders = [tmp_path / str(index) for index in range(4)]
-    for folder in folders:
-        folder.mkdir()
-    executor = RayExecutor(address=cluster.address, exchange=Exchange("folder", url))
-    calls = [
-        Call(folder.name, {"source": folder.name, "folder": folder, "size": 1000})
-        for folder in folders
-    ]
-    for call, outcome in executor.run(ray_calls.fill, calls, LIMITS):
-        filled = outcome.unwrap()
-        assert filled.folder.is_relative_to(call.arguments["folder"])
-        assert (filled.folder / "robot.urdf").read_text() == f"<robot name='{call.name}'/>"
-        assert (filled.folder / "meshes" / "a.bin").read_bytes() == bytes(range(256)) * 1000
-    assert not list((tmp_path / "between").iterdir())
 
 
 @pytest.mark.full

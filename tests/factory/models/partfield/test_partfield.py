@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import torch  # noqa: TID253
-from tiny_model import tiny_model  # noqa: F401 - one thread, as set there
+from tiny_model import TINY_FIELD as TINY
 from weight_rule import weights
 
 from asset_factory.factory.errors import ConfigError
@@ -24,8 +24,6 @@ from asset_factory.factory.models.partfield.voxels import (
     voxelize,
 )
 from asset_factory.factory.models.particulate.field import FeatureField
-
-TINY = PartFieldShape(channels=8, unet=(8, 16), resolution=8, width=16, layers=1, plane_channels=72)
 
 
 def field(shape=TINY):

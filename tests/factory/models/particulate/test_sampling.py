@@ -9,7 +9,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from stored_arrays import arrays
 
-from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.models.particulate.frames import UnitBox
 from asset_factory.factory.models.particulate.sampling import draw, sample
 from asset_factory.factory.models.particulate.sharp import sharp_edges
@@ -138,13 +137,6 @@ def test_faces_without_area_get_no_point_and_make_no_edge_sharp():
     cloud = draw(surface, sharp_edges(surface), 300, np.random.default_rng(0), most_covered=100)
     assert cloud.faces[~cloud.sharp].max() == 11
     assert np.isfinite(cloud.normals).all()
-
-
-def test_no_area_at_all_is_a_rejection():
-    line = Surface.of(np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]]), np.array([[0, 1, 2]]))
-    with pytest.raises(InputRejected) as caught:
-        sample(line, 100, 100, 100, np.random.default_rng(0))
-    assert caught.value.code == "zero_size"
 
 
 def test_the_network_sees_the_box_of_the_points_and_the_way_back_is_exact():

@@ -5,6 +5,7 @@ import signal
 import socket
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import fields
 
 import numpy as np
@@ -43,14 +44,18 @@ def not_at_home():
     raise AssertionError("the network at home was asked")
 
 
-def test_a_loaded_network_multiplies_with_one_thread(tmp_path):
+@pytest.fixture
+def config(tmp_path):
+    checkpoint = write_checkpoint(tmp_path / "tiny.safetensors")
+    return ParticulateConfig(checkpoint=str(checkpoint), points=64)
+
+
+def test_a_loaded_network_multiplies_with_one_thread(config):
     torch = pytest.importorskip("torch")
     before = torch.get_num_threads()
     torch.set_num_threads(2)
     try:
-        load_network(
-            ParticulateConfig(checkpoint=str(write_checkpoint(tmp_path / "tiny.safetensors")))
-        )
+        load_network(config)
         assert torch.get_num_threads() == 1
     finally:
         torch.set_num_threads(before)
@@ -96,16 +101,8 @@ def test_many_askers_at_once_each_get_their_own_answer(serving):
     clouds = [(cloud_of(100 + number, number), cloud_of(50, number)) for number in range(16)]
     with asking(serving(network)):
         served = [network_for("it", not_at_home) for _ in clouds]
-    answers = [None] * len(clouds)
-
-    def ask(number):
-        answers[number] = served[number](*clouds[number])
-
-    threads = [threading.Thread(target=ask, args=(number,)) for number in range(len(clouds))]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    with ThreadPoolExecutor(len(clouds)) as pool:
+        answers = pool.map(lambda ask, both: ask(*both), served, clouds)
     assert all(equal(answer, network(*both)) for answer, both in zip(answers, clouds, strict=True))
 
 
@@ -213,10 +210,7 @@ def test_what_is_too_long_is_not_even_received():
             wire.receive(here, time.monotonic() + 5.0)
 
 
-def test_a_killed_service_starts_again_and_a_stopped_one_leaves_nothing(tmp_path):
-    config = ParticulateConfig(
-        checkpoint=str(write_checkpoint(tmp_path / "tiny.safetensors")), points=64
-    )
+def test_a_killed_service_starts_again_and_a_stopped_one_leaves_nothing(config):
     own = load_network(config)
     cloud = cloud_of(600)
     with ModelService(config, at_once=1) as service:
@@ -234,10 +228,7 @@ def test_a_killed_service_starts_again_and_a_stopped_one_leaves_nothing(tmp_path
     assert service.pid is None
 
 
-def test_a_service_that_nobody_asks_loads_nothing(tmp_path):
-    config = ParticulateConfig(
-        checkpoint=str(write_checkpoint(tmp_path / "tiny.safetensors")), points=64
-    )
+def test_a_service_that_nobody_asks_loads_nothing(config):
     with ModelService(config, at_once=1) as service:
         while not os.path.exists(service.address.path):
             time.sleep(0.01)

@@ -1,6 +1,5 @@
 """What fuzzing found in the readers of checkpoints, each once."""
 
-import io
 import json
 import struct
 import time
@@ -153,15 +152,3 @@ def test_a_header_of_nothing_but_brackets_is_refused_before_it_is_parsed(tmp_pat
         open_checkpoint(safetensors(tmp_path, b"[" + b"{}," * 1_000_001 + b"1]"))
     with pytest.raises(ConfigError, match="invalid type: map, expected a string"):
         open_checkpoint(safetensors(tmp_path, {"__metadata__": {"terms": {"a": 1}}}))
-
-
-def test_the_zip_of_a_real_file_is_still_read(tmp_path):
-    torch = pytest.importorskip("torch")
-    stream = io.BytesIO()
-    state = {
-        "state_dict": {"a.weight": torch.ones(2, 3), "b": torch.nn.Parameter(torch.zeros(4))},
-        ("epoch", 1): 3,
-    }
-    torch.save(state, stream)
-    (tmp_path / "w.ckpt").write_bytes(stream.getvalue())
-    assert open_checkpoint(tmp_path / "w.ckpt").shapes == {"a.weight": (2, 3), "b": (4,)}

@@ -105,9 +105,8 @@ def test_doubled_names_are_refused(tmp_path):
 def test_what_torch_saves_is_read(tmp_path, wrapped):
     file = tmp_path / "model.pt"
     state = OrderedDict(TENSORS)
-    torch.save(
-        {"state_dict": state, "epoch": 3, "callbacks": {"best": 0.5}} if wrapped else state, file
-    )
+    whole = {"state_dict": state, "epoch": 3, "callbacks": {"best": 0.5}, ("epoch", 1): 3}
+    torch.save(whole if wrapped else state, file)
     assert_same(loaded(file))
 
 

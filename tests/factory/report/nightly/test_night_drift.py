@@ -1,6 +1,7 @@
 """The yield by source against the last nights."""
 
 import json
+from dataclasses import replace
 from pathlib import PurePath
 
 import pytest
@@ -24,8 +25,6 @@ def yields(now, earlier, rules=None):
 
 
 def test_an_input_belongs_to_the_innermost_root_above_it():
-    from dataclasses import replace
-
     given = [attempt("a"), attempt("inner/b"), attempt("inner/c", "rejected")]
     given += [replace(attempt("d"), input="/single.glb")]
     found = source_yields(given, ROOTS, (), SourceRules())

@@ -1,5 +1,7 @@
 """Counts, shares, changes and exit codes, in closed form."""
 
+from dataclasses import replace
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -111,8 +113,6 @@ def test_changes_against_the_night_before():
 
 
 def test_an_input_that_was_moved_is_the_same_input():
-    from dataclasses import replace
-
     before = attempt("a")
     now = replace(attempt("a", "rejected"), input="elsewhere/a.glb")
     changes = compare([before], [now])
@@ -282,8 +282,6 @@ def test_spans_of_time_never_lose_an_hour(seconds):
 
 
 def test_what_was_mended_does_not_ring_and_what_is_known_to_crash_does_not_either():
-    from dataclasses import replace
-
     figures = night("1", WELL, damaged=2, mended=2)
     asked = (figures, None, Changes(), FailureRules())
     assert exit_code(*asked) == 0

@@ -1,0 +1,12 @@
+"""What builds in the process of a test leave there is ended with it."""
+
+import pytest
+
+from asset_factory.factory.jobs import worker
+
+
+@pytest.fixture(autouse=True)
+def _judges_end():
+    yield
+    while worker._JUDGES:
+        worker._JUDGES.popitem()[1].close()
