@@ -188,8 +188,8 @@ def test_a_thin_door_goes_through_and_leaves_a_post(interior):
         hinge = Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, -1], [left, -0.04, 1.0], 0.0, 1.5)
         made = solids(labelled(*skin, patches, [hinge]), SolidsConfig(interior=interior))
         body = made.articulation.part_mesh(0)
-        left = body.vertices[body.faces].mean(axis=1)
-        assert not ((np.abs(left[:, 0]) < 0.25) & (left[:, 2] > 0.05) & (left[:, 2] < 1.8)).any()
+        at = body.vertices[body.faces].mean(axis=1)
+        assert not ((np.abs(at[:, 0]) < 0.25) & (at[:, 2] > 0.05) & (at[:, 2] < 1.8)).any()
         assert made.articulation.part_mesh(1).bounds[:, 1] == pytest.approx([-0.04, 0.04], abs=3e-3)
         post, door = (
             np.concatenate([hull.vertices for hull in made.pieces[part].hulls]) for part in (0, 1)
