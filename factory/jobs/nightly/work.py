@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cached_property
 from pathlib import Path
 
 from ... import jobs
@@ -32,7 +33,10 @@ class Work:
 
     def __init__(self, config: NightConfig) -> None:
         self._config = config
-        self._registry = Registry(config.output, create=True)
+
+    @cached_property
+    def _registry(self) -> Registry:
+        return Registry(self._config.output, create=True)
 
     @property
     def settings(self) -> dict[str, str]:

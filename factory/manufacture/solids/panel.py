@@ -238,7 +238,7 @@ def _back(
 
 
 def _end(opposite: View, low: FloatArray, high: FloatArray) -> float:
-    """Return how far away an object ends behind a rectangle, without what stands out there [m]."""
+    """Return how far away an object ends behind a rectangle, but for handles [m]."""
     rows, columns = opposite.raster.window(
         np.array([-high[0], low[1]]), np.array([-low[0], high[1]])
     )

@@ -121,7 +121,7 @@ def _claimed(skin: CutSkin, panel: FlatPanel, claimants: set[int], behind: float
 
     Faces there of something else that moves, a knob or an inner drawer, stay with it.
     """
-    # What stands out of the back of one that goes through is its other handle.
+    # Behind a leaf that goes through is its other handle.
     column = panel.reach(0.0, np.inf if panel.through else panel.back)
     frame = panel.side.frame
     wide = panel.reach(0.0, panel.back + behind)

@@ -95,6 +95,7 @@ TABLE = {
     "weights info nowhere.pt": "nowhere.pt: no such file; want a checkpoint, shipped",
     "nightly --config nowhere.toml": "nowhere.toml: No such file or directory",
     "nightly": "inputs: none; name files or folders in the configuration or by --input",
+    "nightly --input nowhere --output new": "nowhere: does not exist",
     "nightly --input folder --output new --sim no": "no simulator 'no'; there are sapien",
     "nightly --input text.txt --output new --name a/b": "--name: is 'a/b', want letters, digits",
     "evaluate --output new --set nothing": "--set must be one of real, procedural, folder, skins",
