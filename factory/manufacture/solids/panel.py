@@ -139,7 +139,9 @@ def find_panel(
     far = float((mesh.bounds @ view.side.frame.T)[:, 2].max())
     slides = joint.kind is JointKind.PRISMATIC and not is_lid
     end = np.inf if slides or opposite is None else _end(opposite, low, high)
-    through = end - front <= THIN_SHARE * float((high - low).min())
+    thin = THIN_SHARE * float((high - low).min())
+    # Handles of the other side stand out; a case that is open behind is not thin.
+    through = end - front <= thin and far - front <= 2.0 * thin
     back, rule = (end, "through") if through else _back(is_lid, front, deepest, rim, far)
     if back - front > float((high - low).max()) and not is_lid:
         return None

@@ -200,6 +200,17 @@ def test_a_thin_door_goes_through_and_leaves_a_post(interior):
         assert not behind.any()
 
 
+def test_a_door_of_a_case_that_is_open_behind_does_not_go_through():
+    vertices, faces = box_skin()
+    shown = vertices[faces].mean(axis=1)
+    faces = faces[shown[:, 1] < SIZE[1] / 2 - 1e-6]
+    thick = np.concatenate([vertices, (vertices - [0, 0, 0.4]) * 0.9 + [0, 0, 0.4]])
+    faces = np.concatenate([faces, faces[:, ::-1] + len(vertices)])
+    hinge = Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, -1], [-0.3, -0.25, 0.4], 0.0, 1.5)
+    made = solids(labelled(thick, faces, [lambda at: at[:, 1] < -0.249], [hinge]), SolidsConfig())
+    assert np.ptp(made.articulation.part_mesh(1).vertices[:, 1]) < 0.06
+
+
 def test_without_an_interior_nothing_is_hollow():
     made = solids(chest(), replace(CONFIG, interior=False))
     kinds = {each.kind for each in made.surfaces}
