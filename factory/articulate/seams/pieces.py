@@ -91,7 +91,7 @@ class PieceOutlines:
         """Return which pieces' boxes meet the box of one of some, shape [piece_count]."""
         below = self.low[:, None] <= self.high[pieces]
         above = self.high[:, None] >= self.low[pieces]
-        return np.asarray((below & above).all(axis=2).any(axis=1))
+        return np.asarray(np.all(below & above, axis=2).any(axis=1))
 
     def around(self, piece: int) -> BoolArray:
         """Return which pieces one is set in by its outline: its frame, shape [piece_count]."""
