@@ -26,7 +26,6 @@ from rich.text import Text
 from asset_factory.sim_checks import Disagreement, Finding, Report, Severity, Status
 from asset_factory.sim_checks.grouping import group_findings
 
-from ..intake.formats.catalog import is_mesh
 from ..models.weights.checkpoint import WeightsInfo
 from ..registry import Entry
 from ..registry.result import Result
@@ -171,6 +170,8 @@ def _sentence(result: Result) -> str:
 
 def print_results(summary: Summary, output: Path) -> None:
     """Print the table at the end of a build, and where to look."""
+    from ..intake.formats.catalog import is_mesh
+
     console = terminal()
     whole = Column("asset", no_wrap=True)
     table = Table(whole, "parts", "joints", "hulls", "verdict", "reason")
@@ -196,8 +197,7 @@ def print_results(summary: Summary, output: Path) -> None:
     # Of a mesh that could not be read there is nothing to draw on.
     edited = next((folder for folder in folders if (folder / MODEL).is_file()), None)
     if edited is not None:
-        edit = f"To say what opens: factory edit {edited}"
-        console.print(edit, soft_wrap=True, markup=False)
+        console.print(f"To say what opens: factory edit {edited}", soft_wrap=True, markup=False)
 
 
 def print_prediction(data: dict[str, Any]) -> None:
