@@ -60,12 +60,11 @@ def run(command: Nightly) -> int:
     from ..jobs.nightly.run import run_night
     from ..jobs.nightly.work import Work
     from ..jobs.signals import interruptible
-    from ..report.nightly.files import PAGE, chosen_name, nights_of, require_libraries
+    from ..report.nightly.files import PAGE, nights_of, require_libraries
     from ..report.nightly.report import message
 
     config = night_config(command)
     require_libraries()
-    chosen_name(nights_of(config.output), command.name)
     with interruptible():
         report = run_night(config, Work(config), name=command.name, fresh=command.fresh)
     if not command.no_report:

@@ -59,6 +59,7 @@ def run_night(
     """
     found = work.find()
     nights = files.nights_of(config.output)
+    files.chosen_name(nights, name)  # Before anything is made.
     with _writable(nights):
         nights.mkdir(parents=True, exist_ok=True)
         with locked(nights) as announce:

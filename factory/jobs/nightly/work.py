@@ -23,7 +23,6 @@ from .settings import LOCAL, NightConfig
 
 _HOUR_S = 3600.0
 _DAY_S = 86400.0
-_GIGA = 1e9
 
 
 class Work:
@@ -108,7 +107,7 @@ class Work:
         freed = collect_garbage(
             self._config.output,
             older_than_s=_DAY_S * upkeep.cache_days or None,
-            keep_bytes=round(_GIGA * upkeep.cache_gb) or None,
+            keep_bytes=round(1e9 * upkeep.cache_gb) or None,
         )
         left = counted(freed.staging.files + freed.unfinished.files, "thing")
         cached = counted(freed.cache.files, "cached result")

@@ -46,14 +46,14 @@ def gaps(panel: FlatPanel, joint: Joint, gap: float) -> FloatArray:
     margin = np.full(4, gap)
     if panel.slides:
         return margin
-    along = int(np.abs((panel.side.frame @ joint.axis)[:2]).argmax())
-    across = 1 - along
+    edge = hinge_edge(panel, joint)
+    across = edge // 2
     width = float(panel.high[across] - panel.low[across])
     swing = panel.thickness**2 / (2.0 * width)
     margin[2 * across : 2 * across + 2] += PASSING_M + swing
     if panel.through:
         # So thick a leaf would take its post away.
-        margin[hinge_edge(panel, joint)] -= swing
+        margin[edge] -= swing
     return margin
 
 

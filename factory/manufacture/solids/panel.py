@@ -241,12 +241,10 @@ def _back(
 
 def _end(opposite: View, low: FloatArray, high: FloatArray) -> float:
     """Return how far away an object ends behind a rectangle, but for handles [m]."""
-    rows, columns = opposite.raster.window(
-        np.array([-high[0], low[1]]), np.array([-low[0], high[1]])
-    )
-    away = opposite.away[rows, columns]
-    seen = opposite.seen[rows, columns]
-    return -float(np.percentile(away[seen], 5)) if seen.any() else np.inf
+    mirrored = np.array([[-high[0], low[1]], [-low[0], high[1]]])
+    window = opposite.raster.window(*mirrored)
+    away = opposite.away[window][opposite.seen[window]]
+    return -float(np.percentile(away, 5)) if len(away) else np.inf
 
 
 def hinge_edge(panel: FlatPanel, joint: Joint) -> int:
@@ -257,17 +255,24 @@ def hinge_edge(panel: FlatPanel, joint: Joint) -> int:
     return 2 * across + int(np.argmin(np.abs(ends - (flat @ joint.origin)[across])))
 
 
+def ended_at(panel: FlatPanel, edge: int, at: float) -> FlatPanel:
+    """Return a panel with an edge elsewhere [m], and a frame beyond it from its front on."""
+    across, above = divmod(edge, 2)
+    ends = np.stack([panel.low, panel.high])
+    ends[above, across] = at
+    frame = panel.frame.copy()
+    frame[edge] = min(frame[edge], panel.front)
+    return replace(panel, frame=frame, low=ends[0], high=ends[1])
+
+
 def _hung_on_post(panel: FlatPanel, joint: Joint) -> FlatPanel:
     """Return a panel that leaves a post of the object to hang on where it has no frame."""
     edge = hinge_edge(panel, joint)
     if not panel.open[edge]:
         return panel
     across, above = divmod(edge, 2)
-    frame = panel.frame.copy()
-    frame[edge] = panel.front
-    ends = np.stack([panel.low, panel.high])
-    ends[above, across] += -2.0 * BEYOND_M if above else 2.0 * BEYOND_M
-    return replace(panel, frame=frame, low=ends[0], high=ends[1])
+    post = 2.0 * BEYOND_M
+    return ended_at(panel, edge, panel.high[across] - post if above else panel.low[across] + post)
 
 
 def _frames(view: View, part: int, low: FloatArray, high: FloatArray, back: float) -> FloatArray:

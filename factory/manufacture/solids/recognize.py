@@ -15,7 +15,7 @@ from ...views.view import View, elevation
 from ..poses import joints_above
 from .box import Box
 from .bump import Bump, find_bump
-from .panel import BESIDE_M, FlatPanel, find_panel, opens
+from .panel import BESIDE_M, FlatPanel, ended_at, find_panel, opens
 from .seam import CutSkin, cut
 from .skin import border
 
@@ -100,20 +100,15 @@ def _apart(panels: dict[int, FlatPanel]) -> dict[int, FlatPanel]:
                 continue
             middle = float(low[axis] + high[axis]) / 2.0
             first = one.low[axis] + one.high[axis] < other.low[axis] + other.high[axis]
-            result[a] = _ended(one, axis, middle, first)
-            result[b] = _ended(other, axis, middle, not first)
+            result[a] = _ended(one, 2 * axis + int(first), middle)
+            result[b] = _ended(other, 2 * axis + int(not first), middle)
     return result
 
 
-def _ended(panel: FlatPanel, axis: int, at: float, above: bool) -> FlatPanel:
-    ends = (panel.high if above else panel.low).copy()
-    ends[axis] = at
-    frame = panel.frame.copy()
+def _ended(panel: FlatPanel, edge: int, at: float) -> FlatPanel:
     shared = panel.shared.copy()
-    shared[2 * axis + int(above)] = True
-    frame[2 * axis + int(above)] = min(frame[2 * axis + int(above)], panel.front)
-    ended = replace(panel, frame=frame, shared=shared)
-    return replace(ended, high=ends) if above else replace(ended, low=ends)
+    shared[edge] = True
+    return replace(ended_at(panel, edge, at), shared=shared)
 
 
 def _claimed(skin: CutSkin, panel: FlatPanel, claimants: set[int], behind: float) -> CutSkin:
