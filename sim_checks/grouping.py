@@ -7,7 +7,7 @@ from collections.abc import Collection, Hashable, Sequence
 from dataclasses import replace
 
 from .measurements import penetrations
-from .report import Finding, Report, Severity
+from .report import Disagreement, Finding, Report, Severity
 
 #: Digits that figures of one asset share, whichever of its files they were taken from.
 DIGITS = 3
@@ -23,6 +23,16 @@ def group_findings(findings: Sequence[Finding]) -> tuple[tuple[Finding, ...], ..
         tuple(sorted(group, key=_excess, reverse=True))
         for (severity, _), group in sorted(groups.items(), key=lambda each: order.index(each[0][0]))
     )
+
+
+def group_disagreements(
+    disagreements: Sequence[Disagreement],
+) -> tuple[tuple[Disagreement, ...], ...]:
+    """Return disagreements by question and answers: those of each group differ in their joint."""
+    groups: dict[Hashable, list[Disagreement]] = {}
+    for each in disagreements:
+        groups.setdefault((each.question, frozenset(each.verdicts.items())), []).append(each)
+    return tuple(map(tuple, groups.values()))
 
 
 def _excess(finding: Finding) -> float:

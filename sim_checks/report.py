@@ -94,6 +94,18 @@ class Finding:
         return self.cause in (KILLED, OUT_OF_TIME)
 
 
+#: What each question asks.
+ASKED = {
+    "loads": "whether the file loads",
+    "link_poses": "where links are",
+    "opens": "whether {joint} opens",
+    "returns": "whether {joint} closes again",
+    "rests": "whether {joint} stays where it is",
+    "leaves_others": "whether {joint} leaves other joints alone",
+    "keeps_limits": "whether {joint} keeps its limits",
+}
+
+
 @dataclass(frozen=True)
 class Disagreement:
     """Simulators that say different things of the same question.
@@ -113,6 +125,11 @@ class Disagreement:
     values: Mapping[str, float | None]
     unit: str | None
     reason: str
+
+    @property
+    def asked(self) -> str:
+        """Return the question in words."""
+        return ASKED.get(self.question, self.question).format(joint=repr(self.joint))
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from rich.table import Column, Table
 from rich.text import Text
 
 from asset_factory.sim_checks import Disagreement, Finding, Report, Severity, Status
-from asset_factory.sim_checks.grouping import group_findings
+from asset_factory.sim_checks.grouping import group_disagreements, group_findings
 
 from ..models.weights.checkpoint import WeightsInfo
 from ..registry import Entry
@@ -257,25 +257,33 @@ def print_report(
     if len(told) < len(report.findings):
         same = len(report.findings) - len(told)
         console.print(f"  [dim]and {same} as in another file of this asset, above[/]")
-    for disagreement in report.disagreements:
-        console.print(f"  {_disagreement_line(disagreement)}", soft_wrap=True)
+    for alike in group_disagreements(report.disagreements):
+        for disagreement in alike if verbose else alike[:1]:
+            line = _disagreement_line(disagreement, 0 if verbose else len(alike) - 1)
+            console.print(f"  {line}", soft_wrap=True)
 
 
-def _disagreement_line(disagreement: Disagreement) -> str:
-    question = disagreement.question + (f" {disagreement.joint}" if disagreement.joint else "")
+def _disagreement_line(disagreement: Disagreement, more: int) -> str:
     answers = []
     for simulator, verdict in disagreement.verdicts.items():
         value = disagreement.values.get(simulator)
-        number = "" if value is None else f" ({value:.4g} {disagreement.unit})"
-        answers.append(f"{simulator} {verdict}{number}")
+        told = "" if value is None else f" ({_figure(value, disagreement.unit)})"
+        answers.append(f"{simulator} {verdict}{told}")
+    others = f" (so for {more} more joint{'s' if more > 1 else ''})" if more else ""
     return (
-        f"[cyan]disagree[/] {escape(question)}: {escape(', '.join(answers))}; "
+        f"[cyan]disagree[/] {escape(disagreement.asked + others)}: {escape(', '.join(answers))}; "
         f"{escape(disagreement.reason)}"
     )
 
 
+def _figure(value: float, unit: str | None) -> str:
+    return f"{100.0 * value:.3g}% of range" if unit == "of range" else f"{value:.4g} {unit}"
+
+
 def _finding_line(finding: Finding, count: int) -> str:
-    where = f" [{finding.simulator}]" if finding.simulator else ""
+    # Most sentences about an engine begin with its name.
+    named = finding.simulator is None or finding.message.startswith(finding.simulator)
+    where = "" if named else f" [{finding.simulator}]"
     many = f" ({count} of them, the worst)" if count > 1 else ""
     told = f"{finding.code}{where}{many}: {finding.message}"
     return f"[{_STYLES[finding.severity]}]{finding.severity}[/] {escape(told)}"

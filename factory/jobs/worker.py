@@ -52,7 +52,12 @@ def build_here(
 def _judge(config: CheckConfig, engines: int) -> Judge:
     """Return this process's validator with those thresholds; its children end with the process."""
     if (config, engines) not in _JUDGES:
-        while _JUDGES:
-            _JUDGES.popitem()[1].close()
+        close_judges()
         _JUDGES[config, engines] = Judge(config, engines)
     return _JUDGES[config, engines]
+
+
+def close_judges() -> None:
+    """End this process's validators and their children."""
+    while _JUDGES:
+        _JUDGES.popitem()[1].close()

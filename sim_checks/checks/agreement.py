@@ -105,10 +105,13 @@ def _finding(
     if math.isinf(distance):
         message = f"{simulator} has NaN or infinity for the place of link {name!r}"
         return error("pose_mismatch", message, **subject, unit="m", limit=limit)
+    off = [(1000.0 * distance, 1000.0 * config.position_m, "mm")]
+    off += [(math.degrees(angle), math.degrees(config.angle_rad), "deg")]
+    off = [each for each in off if each[0] > each[1]]
     message = (
-        f"{simulator} puts link {name!r} up to {1000 * distance:.4g} mm and "
-        f"{math.degrees(angle):.4g} deg from where the file puts it; at most "
-        f"{1000 * config.position_m:g} mm and {math.degrees(config.angle_rad):.3g} deg are allowed"
+        f"{simulator} puts link {name!r} up to "
+        f"{' and '.join(f'{value:.4g} {unit}' for value, _, unit in off)} from where the file puts "
+        f"it; at most {' and '.join(f'{most:.3g} {unit}' for _, most, unit in off)} is allowed"
     )
     return error("pose_mismatch", message, **subject, value=distance, unit="m", limit=limit)
 

@@ -110,10 +110,11 @@ def _hull_findings(
         volume = _signed_volume(shape)
         if volume <= 0.0 or hull.volume > config.convexity * volume:
             ratio = round(hull.volume / volume, 4) if volume > 0.0 else None
-            told = "but it is open, flat or inside out"
+            message = f"{name} is open, flat or inside out: engines take its hull"
             if ratio is not None and ratio <= 1e3:
-                told = f"{ratio:.3g} times its own volume"
-            message = f"{name} is not convex: engines take its hull, {told}"
+                message = (
+                    f"{name} is not convex: engines take its hull, {ratio:.3g} times its own volume"
+                )
             yield warning(
                 "nonconvex_collision", message, parts=parts, value=ratio, limit=config.convexity
             )

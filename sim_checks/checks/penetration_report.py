@@ -61,7 +61,10 @@ def told_parts(sweeps: Sequence[JointSweep], config: PenetrationConfig) -> froze
 
 def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> Iterator[Finding]:
     at_rest = {contact.parts: contact.depth for contact in study.rest}
-    poses = [("with every joint at lower", study.rest), ("with every joint at 0", study.zero or ())]
+    poses = [
+        ("with every joint at its lower limit", study.rest),
+        ("with every joint at 0", study.zero or ()),
+    ]
     for pose, contacts in poses:
         for contact in contacts:
             repeated = (
@@ -99,7 +102,7 @@ def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> Iterator[Fi
             grave = False
             code = "joint_dependency"
             message = (
-                f"{joint} is blocked while the other joints are at lower: "
+                f"{joint} is blocked while other joints are at their lower limits: "
                 f"{a} and {b} would penetrate {depth:.2f} mm at {pair.at:.4g} {unit}; "
                 f"with {' and '.join(sweep.needs_open)} open its way is free"
             )

@@ -26,8 +26,8 @@ MOST_LINES = 40
 #: Bullet's messages start with where in its source they were written, and often end without a new
 #: line.
 BULLET_PREFIX = r"b3(?:Warning|Printf|Error)\[[^\]]*\]:\s*"
-#: Lines that an engine writes whatever the file.
-CHATTER = ("build time", "UserWarning: Failed to find system libvulkan", "warn(")
+#: In lines that an engine writes whatever the file, or that quote its source.
+CHATTER = ("build time", "Failed to find system libvulkan", "warn(", "= spec.compile()")
 
 
 def observe(
@@ -100,7 +100,7 @@ def captured_lines(lines: list[str]) -> Iterator[None]:
 
 def _timeless(line: str, path: Path) -> str:
     """Return the line without clock, temporary folder, place in the code and machine."""
-    line = re.sub(r"^\S+\.py:\d+: ", "", line)
+    line = re.sub(r"^\S+\.py:\d+: (\w+Warning: )?", "", line)
     line = re.sub(r"^\[\d{4}-\d\d-\d\d [^\]]*\]\s*", "", line)
     line = re.sub(r"[^\s\"'\[(]*/twin-[^/\s]+/", "", line)
     return line.replace(f"{path.parent.resolve()}/", "")

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
+
 import numpy as np
 from scipy import ndimage
 
+from ...articulate.seams.placing import SLIDE
 from ...articulation import Joint, JointKind
 from ...asset import Hull
 from ...config import SolidsConfig
@@ -239,21 +243,16 @@ def hollow_behind(work: Workpiece, part: int) -> None:
     if work.filled[part]:
         room = _inner(work, (0, part), wall)
     else:
-        room = _own_inside(work)
-        work.block(0, ndimage.binary_erosion(room), INSIDE)
+        work.block(0, ndimage.binary_erosion(_own_inside(work)), INSIDE)
+        if not panel.slides:
+            return
+        room = _empty(work)
         layer = Box(column.low, np.append(column.high[:2], start + BEHIND_BACK_M))
         room[work.lattice.span(layer.turned(frame.T))] = True
-    for other in work.hollows:
-        for box in work.hollows[other]:
-            turned = box.turned(work.panels[other].side.frame.T).grown(wall)
-            if other != part:
-                room[work.lattice.span(turned)] = False
-    for other in work.rest:
-        corners = work.skin.corners[work.skin.part == other].reshape(-1, 3)
-        if len(corners):
-            room[work.lattice.span(Box.around(corners).grown(wall))] = False
+    for taken in _taken(work, part):
+        room[work.lattice.span(taken.grown(wall))] = False
     boxes = hollow(work.lattice, room, column, frame)
-    if not boxes or not (work.filled[part] or panel.slides):
+    if not boxes:
         return
     work.hollows[part] = boxes
     for box in boxes:
@@ -263,6 +262,17 @@ def hollow_behind(work: Workpiece, part: int) -> None:
         work.owner[span] = np.where(work.owner[span] == 0, -1, work.owner[span])
     if panel.slides:
         _give_box(work, panel, boxes)
+
+
+def _taken(work: Workpiece, part: int) -> Iterator[Box]:
+    """Yield the boxes, in the working frame, that other parts and their hollows fill."""
+    for other, boxes in work.hollows.items():
+        if other != part:
+            yield from (box.turned(work.panels[other].side.frame.T) for box in boxes)
+    for other in work.rest:
+        corners = work.skin.corners[work.skin.part == other].reshape(-1, 3)
+        if len(corners):
+            yield Box.around(corners)
 
 
 def _filled_behind(work: Workpiece, column: Box, frame: FloatArray) -> bool:
@@ -275,6 +285,16 @@ def _own_inside(work: Workpiece) -> BoolArray:
     """Return the empty cells that the mesh shuts in on five sides."""
     walls = marked(work.lattice, surface_points(work, 0))
     return np.asarray(closed_up(work.whole | walls) & ~walls & ~work.whole)
+
+
+def _empty(work: Workpiece) -> BoolArray:
+    """Return the cells without surface or matter: a drawer's box need not be shut in.
+
+    Lines of matter without a surface are none: rays that an open mesh let through.
+    """
+    walls = marked(work.lattice, surface_points(work, 0))
+    matter = ndimage.binary_opening(work.whole)
+    return np.asarray(~walls & ~matter & (work.owner <= 0))
 
 
 def _give_box(work: Workpiece, panel: FlatPanel, boxes: tuple[Box, ...]) -> None:
@@ -292,3 +312,18 @@ def _give_box(work: Workpiece, panel: FlatPanel, boxes: tuple[Box, ...]) -> None
     work.boards[panel.part] = boards
     hulls = [board.turned(frame.T).hull() for board in boards]
     work.hulls[panel.part] += tuple(hull for hull in hulls if hull is not None)
+    if boards:
+        _keep_in(work, panel.part, max(float(board.high[2]) for board in boards) - panel.back)
+
+
+def _keep_in(work: Workpiece, part: int, depth: float) -> None:
+    """Let no drawer slide out further than its box is deep [m]: nothing would hold it."""
+    joint = work.joints[part - 1]
+    if joint.upper <= depth:
+        return
+    held = replace(joint, upper=SLIDE * depth)
+    work.notes.append(
+        f"{work.name(part)!r} slides {held.upper:.3g} m out, not {joint.upper:.3g}: its box is "
+        f"{depth:.3g} m deep"
+    )
+    work.joints[part - 1] = held

@@ -15,7 +15,7 @@ HEIGHT = 0.85
 BOTTOM_M = 0.008
 WALL_M = 0.01
 #: Lower or narrower hollows take no box [m].
-LEAST_M = 0.04
+LEAST_M = 0.016
 
 
 def drawer_box(hollow: Box, back: float, up: int = 1) -> tuple[Box, ...]:

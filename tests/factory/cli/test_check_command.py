@@ -9,6 +9,7 @@ import pytest
 
 from asset_factory.factory.cli import console
 from asset_factory.factory.cli.commands import run
+from asset_factory.sim_checks import Disagreement, Report
 from asset_factory.sim_checks.judge import Judge
 
 BODY = (
@@ -87,9 +88,26 @@ def test_every_simulator_at_once_and_who_disagrees(tmp_path, capsys):
     out = capsys.readouterr().out
     assert "(sapien, mujoco, pybullet)" in out
     assert re.search(
-        r"disagree opens slide: sapien pass \(1 of range\), mujoco jammed .* PhysX never collides",
+        r"disagree whether 'slide' opens: sapien pass \(100% of range\), mujoco jammed .* "
+        "PhysX never collides",
         out,
     )
+
+
+def test_joints_of_which_engines_say_the_same_are_told_in_one_line(capsys):
+    verdicts = {"sapien": "pass", "pybullet": "jammed"}
+    joints = [("a", verdicts), ("b", verdicts), ("c", {**verdicts, "pybullet": "not_finite"})]
+    told = tuple(
+        Disagreement("opens", joint, answers, {"sapien": 1.0, "pybullet": 0.04}, "of range", "why")
+        for joint, answers in joints
+    )
+    report = Report("asset.urdf", ("sapien", "pybullet"), (), {}, told)
+    for verbose, lines in ((False, 2), (True, 3)):
+        console.print_report(report, verbose=verbose)
+        said = [line for line in capsys.readouterr().out.splitlines() if "disagree" in line]
+        assert len(said) == lines
+        assert ("(so for 1 more joint)" in said[0]) is not verbose
+        assert "sapien pass (100% of range), pybullet jammed (4% of range)" in said[0]
 
 
 def test_many_files_are_judged_at_once_and_told_in_the_order_given(tmp_path, monkeypatch, capsys):

@@ -41,10 +41,10 @@ def test_a_package_is_an_input_wherever_it_lies_and_known_by_all_its_files(tmp_p
 
 def test_an_mjcf_of_a_package_is_an_input(tmp_path: Path) -> None:
     pytest.importorskip("mujoco")
-    path = write_mjcf_package(tmp_path, 'meshdir="../meshes"', "", "../shared/assets.xml")
+    path = write_mjcf_package(tmp_path, 'meshdir="../meshes"', "", "../common/assets.xml")
     read = source(path)
     assert len(read.load().mesh.faces) == 24
-    assert {"../meshes/drawer.obj", "../shared/assets.xml"} <= set(read.reads)
+    assert {"../meshes/drawer.obj", "../common/assets.xml"} <= set(read.reads)
 
 
 def test_a_refused_input_is_another_one_once_it_is_a_package(tmp_path: Path) -> None:

@@ -8,5 +8,4 @@ from asset_factory.factory.jobs import worker
 @pytest.fixture(autouse=True)
 def _judges_end():
     yield
-    while worker._JUDGES:
-        worker._JUDGES.popitem()[1].close()
+    worker.close_judges()

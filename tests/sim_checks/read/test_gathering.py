@@ -202,7 +202,7 @@ def test_meshes_of_one_name_in_two_packages_stay_two(tmp_path: Path, checked: Ch
         ('assetdir="../meshes/"', "", ""),
         ("", "../meshes/", ""),
         ("", "{root}/meshes/", ""),
-        ('meshdir="../meshes"', "", "../shared/assets.xml"),
+        ('meshdir="../meshes"', "", "../common/assets.xml"),
         ('meshdir="../meshes" strippath="true"', "C:\\robots\\", "parts/assets.xml"),
     ],
 )

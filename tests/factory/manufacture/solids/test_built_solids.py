@@ -5,7 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from labelled_skins import FINE, SIZE, bin_with_lid, box_skin, chest, cupboard, labelled
+from labelled_skins import (
+    FINE,
+    SIZE,
+    bin_with_lid,
+    box_skin,
+    chest,
+    cupboard,
+    front,
+    labelled,
+)
 
 from asset_factory.factory.articulate.locate import located
 from asset_factory.factory.articulation import Joint, JointKind
@@ -138,6 +147,31 @@ def test_a_drawer_has_a_bottom_two_sides_a_back_and_no_top():
         above = np.array([[middle[0], middle[1], high[2] - 0.03]])
         for hull in hulls:
             assert depth_below(hull, above)[0] < 0.0
+
+
+def test_a_drawer_of_a_case_open_below_and_behind_has_its_box_too():
+    vertices, faces = box_skin()
+    edge = np.array([0.0, SIZE[1] / 2.0, 0.0])
+    inner = (vertices - edge) * 0.95 + edge
+    middle = vertices[faces].mean(axis=1)
+    case = faces[(middle[:, 2] > 1e-6) & (middle[:, 1] < SIZE[1] / 2.0 - 1e-6)]
+    sheets = np.concatenate([case, case[:, ::-1] + len(vertices)])
+    slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, -1, 0], [0, -0.25, 0.6], 0.0, 0.3)
+    given = labelled(
+        np.concatenate([vertices, inner]), sheets, [front([-0.2, 0.5], [0.2, 0.7])], [slide]
+    )
+    drawer = np.concatenate([hull.vertices for hull in solids(given, CONFIG).pieces[1].hulls])
+    assert np.ptp(drawer[:, 1]) > 0.4
+
+
+def test_a_drawer_stays_in_its_hollow():
+    given = chest()
+    far = [replace(joint, upper=1.5) for joint in given.joints]
+    made = solids(replace(given, joints=tuple(far)), CONFIG).articulation
+    for joint in made.joints:
+        drawer = made.part_mesh(joint.child).bounds
+        assert 0.2 < joint.upper < np.ptp(drawer[:, 1])
+    assert any("its box is" in note for note in made.notes)
 
 
 def test_a_lid_is_hollow_and_so_is_what_it_closes():

@@ -173,7 +173,7 @@ def test_a_drawer_box_keeps_clear_of_its_room():
     inside = (size[0] - 0.02) * (size[1] - BOTTOM_M) * (size[2] - 0.01)
     total = sum(board.size.prod() for board in boards)
     assert total == pytest.approx(size.prod() - inside, rel=1e-6)
-    assert drawer_box(Box(np.zeros(3), np.array([0.4, 0.03, 0.5])), 0.0) == ()
+    assert drawer_box(Box(np.zeros(3), np.array([0.4, 0.024, 0.5])), 0.0) == ()
 
 
 def test_pieces_of_a_box_around_a_hollow_are_its_walls_exactly():
