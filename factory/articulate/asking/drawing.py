@@ -24,6 +24,10 @@ CREASE_INK = 0.35
 LIGHT = np.array([-0.45, 0.6, -0.66])
 AMBIENT = 0.4
 GROUND = 0.93
+#: How far behind its nearest point a side's face goes, as a share of the longest extent.
+FACE = 0.15
+#: A darker object is brightened until half of it is as light as that.
+BRIGHT = 0.4
 #: How the oblique view is turned: about the upright, and down [rad].
 ASIDE = 0.6
 ABOVE = 0.4
@@ -44,16 +48,37 @@ def drawn_side(mesh: Mesh, side: Side, width: int, height: int) -> tuple[Picture
     seen = elevation(mesh, side, pixels)
     light = AMBIENT + (1.0 - AMBIENT) * _lit(seen)
     ink = 1.0 - _lines(seen, float(mesh.extents.max()))
-    colored = seen.color * (0.35 + 0.65 * light)[..., None]
+    colored = _brightened(seen) * (0.35 + 0.65 * light)[..., None]
     shaded = np.repeat(light[..., None], 3, axis=2)
     return (_finished(colored, seen.seen, ink), _finished(shaded, seen.seen, ink))
 
 
-def drawn_oblique(mesh: Mesh, width: int, height: int) -> Picture:
-    """Return the mesh seen from the front, a little from its right and above, coloured."""
+def drawn_oblique(mesh: Mesh, side: Side, width: int, height: int) -> Picture:
+    """Return the mesh seen from an upright side, a little from its right and above, coloured."""
+    before = side.frame.T @ Side.FRONT.frame
     turn = rotation_about([1.0, 0.0, 0.0], ABOVE) @ rotation_about([0.0, 0.0, 1.0], -ASIDE)
-    colored, _ = drawn_side(mesh.turned(turn), Side.FRONT, width, height)
+    colored, _ = drawn_side(mesh.turned(turn @ before.T), Side.FRONT, width, height)
     return colored
+
+
+def count_lines(mesh: Mesh, side: Side, pixels: int) -> float:
+    """Return how much a side's face shows: how many pixels its steps, grooves and creases fill.
+
+    What lies further in, seen through an open back, is no face.
+    """
+    seen = elevation(mesh, side, pixels)
+    extent = float(mesh.extents.max())
+    face = seen.seen & (seen.depth - seen.depth[seen.seen].min(initial=np.inf) < FACE * extent)
+    return float(_lines(seen, extent)[face].sum())
+
+
+def _brightened(seen: View) -> FloatArray:
+    """Return the colours of a side, 0 to 1, those of a dark object lighter."""
+    light = seen.color[seen.seen].max(axis=1, initial=0.0)
+    middle = float(np.median(light)) if len(light) else 1.0
+    if middle >= BRIGHT:
+        return seen.color
+    return np.asarray(seen.color ** (np.log(BRIGHT) / np.log(max(middle, 1e-3))))
 
 
 def _lit(seen: View) -> FloatArray:

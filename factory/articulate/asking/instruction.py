@@ -5,9 +5,10 @@ from __future__ import annotations
 from ...intake.stated import Hinge, StatedKind
 
 _TEXT = """\
-You see one object, from a file named {name!r}: its front large, coloured and shaded, an oblique
-view, and below its left, right, back and top, each coloured and shaded. Left and right are those of
-somebody who stands before the front. Over each side lies a grid of tenths: x runs from 0 at the
+You see one object, from a file named {name!r}: the side that shows most large, coloured and shaded,
+an oblique view, and below the other sides and the top, each coloured and shaded. FRONT is only
+where the file has its front: name the side on which you see a part. Left and right are those of
+somebody who stands before FRONT. Over each side lies a blue grid of tenths: x runs from 0 at the
 left end of the object on that side to 1 at its right end, y from 0 at the bottom to 1 at the top
 (on TOP the back is up). Dark lines are steps in depth, grooves and creases.
 
@@ -18,7 +19,8 @@ Say which parts of the real object would open, slide or turn, as one JSON object
 - kind: one of {kinds}.
 - side: the side that shows it: front, back, left, right or top.
 - box: its outline there, to a hundredth: the part that moves with its frame, not its handle alone.
-  Follow the dark lines. Boxes of two parts of one side do not overlap.
+  Follow the outermost dark line of its gap; where none is drawn, say where it would be. Boxes of
+  two parts of one side do not overlap, unless one carries the other, as a door its dial.
 - hinge: one of {hinges}. Of a door, a flap or a lever the
   edge of its box where it is hinged; of a lid the edge of the object. Leave it out for what slides
   or turns about its middle, and where nothing shows it.
@@ -28,8 +30,8 @@ Say which parts of the real object would open, slide or turn, as one JSON object
   before a tank, a wheel between forks.
 - "drawn": degrees or millimetres that it stands open in these pictures, or "open".
 - "alternatives": [{{"kind": ...}}, {{"hinge": ...}}] where it may be otherwise.
-- Knobs and wheels only if they turn on the real object. No hinges, no handles, no feet as parts of
-  their own.
+- Knobs, buttons and wheels only if they are parts of their own here, and turn or give way on the
+  real object. No hinges, no door handles, no feet, nothing that merely lies there.
 - If nothing opens: {{"opens": false}}.
 
 Example, a fridge with two doors hinged on its right: {{"parts": [

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ...mesh import Mesh
 from ...views.raster import Side
-from .drawing import Picture, drawn_oblique, drawn_side
+from .drawing import Picture, count_lines, drawn_oblique, drawn_side
 
 if TYPE_CHECKING:
     from PIL import Image, ImageDraw
@@ -21,15 +21,18 @@ EDGE = 36
 ROOMY = 220
 GROUND = (255, 255, 255)
 INK = (25, 25, 25)
-LINES = ((255, 255, 255, 110), (0, 0, 0, 110))
-OTHERS = (Side.LEFT, Side.RIGHT, Side.BACK, Side.TOP)
+#: Of the grid: no seam has this colour.
+GRID = (0, 150, 255, 140)
+UPRIGHT = (Side.FRONT, Side.LEFT, Side.RIGHT, Side.BACK)
+#: Another side than the front is shown large if it has so many times its lines.
+TELLS_MORE = 1.5
 
 
 def sheet_of(mesh: Mesh) -> bytes:
     """Return a PNG of a mesh whose front is -Y; the same mesh gives the same bytes.
 
-    Above the front, coloured and shaded, and an oblique view; below the left, right, back and top,
-    coloured and shaded. A grid of tenths lies over each side.
+    Above the upright side that shows most, coloured and shaded, and an oblique view of it; below
+    the other sides and the top, coloured and shaded. A grid of tenths lies over each side.
     """
     from PIL import Image, ImageDraw
 
@@ -37,12 +40,14 @@ def sheet_of(mesh: Mesh) -> bytes:
     sheet = Image.new("RGB", (width, LARGE + 2 * SMALL + 6 * EDGE), GROUND)
     draw = ImageDraw.Draw(sheet, "RGBA")
     third = width // 3
-    colored, shaded = drawn_side(mesh, Side.FRONT, LARGE, LARGE)
-    _put(sheet, draw, colored, "FRONT, coloured", EDGE, 0)
-    _put(sheet, draw, shaded, "FRONT, shaded", third + EDGE, 0)
-    oblique = drawn_oblique(mesh, LARGE, LARGE)
-    _put(sheet, draw, oblique, "from the front, right and above", 2 * third + EDGE, 0, grid=False)
-    for number, side in enumerate(OTHERS):
+    main = largest_side(mesh)
+    colored, shaded = drawn_side(mesh, main, LARGE, LARGE)
+    _put(sheet, draw, colored, f"{main.upper()}, coloured", EDGE, 0)
+    _put(sheet, draw, shaded, f"{main.upper()}, shaded", third + EDGE, 0)
+    oblique = drawn_oblique(mesh, main, LARGE, LARGE)
+    _put(sheet, draw, oblique, "oblique, from above", 2 * third + EDGE, 0, grid=False)
+    others = [side for side in UPRIGHT if side is not main]
+    for number, side in enumerate((*others, Side.TOP)):
         left = number * (SMALL + 2 * EDGE) + EDGE
         for row, picture in enumerate(drawn_side(mesh, side, SMALL, SMALL)):
             top = LARGE + 2 * EDGE + row * (SMALL + 2 * EDGE)
@@ -52,6 +57,13 @@ def sheet_of(mesh: Mesh) -> bytes:
     buffer = io.BytesIO()
     sheet.save(buffer, format="PNG", compress_level=6)
     return buffer.getvalue()
+
+
+def largest_side(mesh: Mesh) -> Side:
+    """Return the upright side that is shown large: the front, unless another has far more on it."""
+    lines = {side: count_lines(mesh, side, SMALL) for side in UPRIGHT}
+    most = max(UPRIGHT, key=lambda side: lines[side])
+    return most if lines[most] > TELLS_MORE * lines[Side.FRONT] else Side.FRONT
 
 
 def _put(
@@ -77,9 +89,8 @@ def _put(
     for tenth in range(11):
         column = left + round(tenth * (columns - 1) / 10)
         row = top + rows - 1 - round(tenth * (rows - 1) / 10)
-        for offset, color in enumerate(LINES):
-            draw.line((column + offset, top, column + offset, top + rows - 1), color)
-            draw.line((left, row + offset, left + columns - 1, row + offset), color)
+        draw.line((column, top, column, top + rows - 1), GRID)
+        draw.line((left, row, left + columns - 1, row), GRID)
         number = f"{tenth / 10:g}"
         if columns >= ROOMY or tenth % 2 == 0:
             draw.text((column, top + rows + 2), number, INK, small, anchor="ma")

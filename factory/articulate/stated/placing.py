@@ -114,8 +114,8 @@ def place_parts(seen: SeenMesh, parts: Sequence[StatedPart]) -> list[Placed]:
             seams = [
                 _boxed(mesh, fronts, parts[place], place, view) for place, view in views.items()
             ]
-            _refuse_shared(seams)
             outlines = [_outlined(mesh, pieces, each) for each in seams]
+            _refuse_shared(outlines)
             for cut, whole in zip(seams, outlines, strict=True):
                 ways = [
                     pieces.way(_as_stated(mover.turned(turn.T), whole, mesh), whole)
@@ -157,7 +157,8 @@ def _outlined(mesh: Mesh, pieces: SeenPieces, part: StatedBox) -> StatedBox:
     front = part.front
     frame = StatedFrame.of(mesh, part.view.side)
     raster = front.relief.raster
-    reach = np.maximum(OFF * frame.size, LEAST_OFF * raster.pixel)
+    # A piece that fits is meant, though somebody drew a little beside it.
+    reach = 1.25 * np.maximum(OFF * frame.size, LEAST_OFF * raster.pixel)
     outline = pieces.nearest(part.view.side, frame.place(part.view.box), reach)
     if outline is None:
         return part

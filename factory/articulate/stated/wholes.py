@@ -10,7 +10,7 @@ from ...articulation import JointKind
 from ...geometry.components import connected_components
 from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, IntArray, Mesh
-from ...part import PartKind
+from ...part import OpensBy, PartKind
 from ...views.raster import Side, side_facing
 from ...views.view import Views
 from ..seams.cutting import Region
@@ -109,6 +109,9 @@ class SeenPieces:
             own &= self._share_within(mover.region) >= ABOVE
         if shown[own].sum() < enough or own.all():
             return StatedWay(mover)
+        if mover.panel is not None and np.allclose(mover.panel.frame, part.view.side.frame):
+            ends = outlines.low[own].min(axis=0), outlines.high[own].max(axis=0)
+            mover = _hung_at(mover, ends[0][:2], ends[1][:2])
         if part.stated.range is None and mover.motion.kind is JointKind.PRISMATIC:
             mover = _in_its_rails(mover, float(outlines.high[own, 2].max()))
         return StatedWay(mover, np.flatnonzero(own))
@@ -147,6 +150,24 @@ class SeenPieces:
         whole = np.bincount(self.of_faces, weights=self._areas)
         inner = np.bincount(self.of_faces, weights=self._areas * within, minlength=len(whole))
         return np.asarray(inner / np.maximum(whole, 1e-12))
+
+
+def _hung_at(mover: OpeningPart, low: FloatArray, high: FloatArray) -> OpeningPart:
+    """Return a panel in the outline [m] of its pieces, hinged there: a stated box may be off."""
+    panel = mover.panel
+    if (
+        panel is None
+        or np.abs([low - panel.low, high - panel.high]).max() > 2.0 * OFF * panel.size.max()
+    ):
+        return mover
+    edge = {
+        OpensBy.LEFT: (low - panel.low)[0] * panel.frame[0],
+        OpensBy.RIGHT: (high - panel.high)[0] * panel.frame[0],
+        OpensBy.TOP: (high - panel.high)[1] * panel.frame[1],
+        OpensBy.BOTTOM: (low - panel.low)[1] * panel.frame[1],
+    }.get(panel.opens, np.zeros(3))
+    motion = replace(mover.motion, origin=mover.motion.origin + edge)
+    return replace(mover, motion=motion, panel=replace(panel, low=low, high=high))
 
 
 def _in_its_rails(mover: OpeningPart, back: float) -> OpeningPart:

@@ -2,14 +2,17 @@
 
 import io
 import json
+from dataclasses import replace
 
 import numpy as np
 from one_piece import fridge
 from PIL import Image
 
 from asset_factory.factory.articulate.asking.drawing import drawn_side
-from asset_factory.factory.articulate.asking.sheet import sheet_of
+from asset_factory.factory.articulate.asking.sheet import largest_side, sheet_of
+from asset_factory.factory.articulation import rotation_about
 from asset_factory.factory.cli.commands import run
+from asset_factory.factory.mesh import Material
 from asset_factory.factory.views.raster import Side
 
 
@@ -22,6 +25,17 @@ def test_a_seam_is_dark_at_its_share_of_the_side():
         inner = slice(20, -20)
         darkest = 20 + int(ink[inner].argmin())
         assert abs((1.0 - darkest / rows) - 1.1 / 1.6) < 0.01
+
+
+def test_the_side_that_shows_most_is_large():
+    turned = [fridge().turned(rotation_about([0.0, 0.0, 1.0], -np.pi / 2.0 * k)) for k in range(4)]
+    assert [largest_side(mesh) for mesh in turned] == [Side.FRONT, Side.LEFT, Side.BACK, Side.RIGHT]
+
+
+def test_a_dark_object_is_drawn_lighter():
+    black = replace(fridge(), materials=(Material("black", (0.02, 0.02, 0.02, 1.0)),))
+    colored, _ = drawn_side(black, Side.FRONT, 200, 200)
+    assert np.median(colored) > 60
 
 
 def test_the_same_mesh_gives_the_same_sheet():

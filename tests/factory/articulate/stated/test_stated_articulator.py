@@ -301,6 +301,16 @@ def test_a_piece_that_a_box_means_is_the_part_and_nothing_is_cut():
     assert box_of(cut, 1)[1][1] > 0.015
 
 
+def test_boxes_drawn_over_one_another_are_the_pieces_that_they_mean():
+    fronts = [block([0.01, -0.02, z], [0.49, 0.0, z + 0.18]) for z in (0.01, 0.21, 0.41)]
+    mesh = mesh_of(block([0.0, 0.001, 0.0], [0.5, 0.4, 1.0]) + Manifold.compose(fronts), 0.1)
+    boxes = [[0.0, 0.0, 1.0, 0.24], [0.05, 0.17, 1.0, 0.43], [0.0, 0.37, 0.95, 0.55]]
+    drawers = [{"kind": "drawer", "side": "front", "box": box} for box in boxes]
+    made = articulated(mesh, *drawers)[0]
+    lows = [box_of(made, part)[0][2] for part in (1, 2, 3)]
+    assert lows == pytest.approx([0.01, 0.21, 0.41])
+
+
 def test_a_door_in_its_frame_takes_pane_and_handles_along():
     # As deep as all of the object, by its handles.
     frame = block([0.0, 0.0, 0.0], [1.0, 0.1, 2.0]) - block([0.06, -1.0, -1.0], [0.94, 1.0, 1.94])
@@ -318,17 +328,19 @@ def test_a_door_in_its_frame_takes_pane_and_handles_along():
     assert not ((left[..., 0] > 0.2) & (left[..., 0] < 0.9) & (left[..., 2] < 1.9)).any()
 
 
-def test_panes_between_a_windows_bars_turn_with_it():
+@pytest.mark.parametrize("off", [-0.02, 0.0, 0.02])
+def test_panes_between_a_windows_bars_turn_with_it_about_its_edge(off):
     frame = block([0.0, 0.0, 0.0], [0.7, 0.08, 1.1]) - block([0.04, -1, 0.04], [0.66, 1, 1.06])
     ends = ((0.05, 0.12, 0.05, 1.05), (0.58, 0.65, 0.05, 1.05), (0.121, 0.579, 0.05, 0.12))
     ends += ((0.121, 0.579, 0.98, 1.05),)
     bars = [block([x0, 0.01, z0], [x1, 0.05, z1]) for x0, x1, z0, z1 in ends]
     pane = block([0.122, 0.028, 0.122], [0.578, 0.032, 0.978])
     mesh = mesh_of(frame + bars[0] + bars[1] + bars[2] + bars[3] + pane, 0.1)
-    part = {"kind": "door", "side": "front", "box": [0.07, 0.05, 0.93, 0.95], "hinge": "left"}
-    made = articulated(mesh, part)[0]
+    box = [0.07 + off, 0.05 + off, 0.93 + off, 0.95 + off]
+    made = articulated(mesh, {"kind": "door", "side": "front", "box": box, "hinge": "left"})[0]
     sash = np.array([[0.05, 0.01, 0.05], [0.65, 0.05, 1.05]])
     assert box_of(made, 1) == pytest.approx(sash)
+    assert made.joints[0].origin[0] == pytest.approx(0.05)
     assert len(made.parts[0].faces) == len(mesh_of(frame, 0.1).faces)
 
 
