@@ -223,15 +223,6 @@ def proud_drawers(edge=EDGE):
     return mesh_of(solid, edge)
 
 
-def slab_door(edge=EDGE):
-    """A small fridge: a slab without a handle above a plinth, a groove behind it on three sides."""
-    solid = _box((0.0, 0.0, 0.0), (0.5, 0.55, 0.85)) - _box((-1.0, -1.0, -1.0), (1.0, 0.04, 0.06))
-    half = GROOVE / 2.0
-    around = _box((-1.0, 0.06 - half, 0.06), (2.0, 0.06 + half, 2.0))
-    solid -= around - _box((GROOVE, -1.0, -1.0), (0.5 - GROOVE, 1.0, 0.85 - GROOVE))
-    return mesh_of(solid, edge)
-
-
 def plain_box(edge=EDGE):
     """Nothing opens."""
     return mesh_of(_box((0.0, 0.0, 0.0), (0.6, 0.5, 0.9)), edge)

@@ -64,7 +64,7 @@ def drawn_oblique(mesh: Mesh, side: Side, width: int, height: int) -> Picture:
 def count_lines(mesh: Mesh, side: Side, pixels: int) -> float:
     """Return how much a side's face shows: how many pixels its steps, grooves and creases fill.
 
-    What lies further in, seen through an open back, is no face.
+    An inside seen through an open back is not counted.
     """
     seen = elevation(mesh, side, pixels)
     extent = float(mesh.extents.max())

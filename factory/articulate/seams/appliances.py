@@ -9,10 +9,10 @@ import numpy as np
 from ...part import OpensBy
 from .candidates import usable
 from .fronts import Front
-from .groups import OUTLINED, FrontPanel
+from .groups import FrontPanel
 from .handles import Protrusion
 from .motions import Opening
-from .panels import STRICT
+from .panels import LEAST_VALUE, STRICT
 from .rectangles import CLOSED, Rectangle
 
 #: The door takes at least so much of what is seen of the side.
@@ -47,7 +47,7 @@ def appliance_door(front: Front, found: Sequence[Rectangle]) -> Opening | None:
     handles = front.scene.handles_in(rectangle)
     others = [each for each in OpensBy if each is not way]
     ways = ((way, LIKELY), *((each, (1.0 - LIKELY) / len(others)) for each in others))
-    return Opening(FrontPanel(rectangle, handles, OUTLINED), ways)
+    return Opening(FrontPanel(rectangle, handles, LEAST_VALUE), ways)
 
 
 def _way(rectangle: Rectangle, controls: Sequence[Protrusion]) -> OpensBy:

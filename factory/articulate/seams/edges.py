@@ -48,12 +48,6 @@ def seen_thickness(
     return thickness if len(beside) == 1 or cover >= ALONE else None
 
 
-def is_slab(fronts: Mapping[Side, Front], side: Side, panel: FrontPanel, rim: float) -> bool:
-    """Tell whether both sides beside a panel show its back edge at one depth."""
-    found = [_seams(fronts[side], panel, rim, other) for other in _beside(fronts, side, panel)]
-    return _agreeing(found, fronts[side]) is not None
-
-
 def _best(seams: FloatArray) -> tuple[float, float]:
     behind, cover = seams[seams[:, 1].argmax()]
     return float(behind), float(cover)

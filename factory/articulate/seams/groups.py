@@ -9,8 +9,6 @@ from typing import TypeVar
 from .handles import Protrusion
 from .rectangles import Rectangle
 
-#: How sure a panel is of which nothing but the outline is seen, as log-odds.
-OUTLINED = 0.8
 #: Two panels may share this much of the smaller one.
 OVERLAP = 0.08
 

@@ -22,7 +22,6 @@ from .panels import choose
 from .placing import OpeningPart, lid_mover, panel_mover
 from .rectangles import Rectangle
 from .relief import Relief, reliefs_of
-from .slabs import slabs_on
 from .straight import straightening
 
 MOST = 4
@@ -121,7 +120,7 @@ def _openings(seen: _Sides, *, has_knobs: bool) -> tuple[Movers, ...]:
     if by_rules and side is seen.side and seen.has_all_of(learned.panels):
         return by_rules
     if learned.value <= max((odds if by_rules else 0.0) + MARGIN, 0.0):
-        return by_rules or _slab_hypotheses(seen)
+        return by_rules
     others = seen.hypotheses_of(side, learned.panels)
     return (*others[: MOST - 1], *by_rules)[:MOST]
 
@@ -223,13 +222,6 @@ class _Sides:
                 found.append(_movers(self.fronts, side, other))
         found[1:] = sorted(found[1:], key=lambda movers: -_probability(movers))
         return tuple(found[:MOST])
-
-
-def _slab_hypotheses(seen: _Sides) -> tuple[Movers, ...]:
-    """Return the side with the largest slabs."""
-    panels = {side: slabs_on(seen.fronts, side, seen.found[side]) for side in AROUND}
-    side = max(AROUND, key=lambda each: _front_value(panels[each], each))
-    return seen.hypotheses_of(side, panels[side])
 
 
 def _front_value(panels: Sequence[FrontPanel], side: Side) -> float:

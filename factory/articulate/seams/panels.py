@@ -63,17 +63,6 @@ def choose(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[FrontPanel, .
     return (*chosen, *_without_handles(scene.relief, chosen, bare))
 
 
-def rated(scene: FrontScene, found: Sequence[Rectangle]) -> list[Group]:
-    """Return each rectangle that may be a panel with what speaks for it, the likeliest first.
-
-    Args:
-        scene: the side.
-        found: its closed rectangles, the best first.
-    """
-    level, _ = _groups(scene, found)
-    return level
-
-
 def _groups(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[list[Group], list[Group]]:
     """Return what may be panels, and what steps back and may only be cut into some."""
     first_row, last_row, _, _ = scene.relief.box

@@ -155,16 +155,16 @@ class SeenPieces:
 def _hung_at(mover: OpeningPart, low: FloatArray, high: FloatArray) -> OpeningPart:
     """Return a panel in the outline [m] of its pieces, hinged there: a stated box may be off."""
     panel = mover.panel
-    if (
-        panel is None
-        or np.abs([low - panel.low, high - panel.high]).max() > 2.0 * OFF * panel.size.max()
-    ):
+    if panel is None:
+        return mover
+    (left, bottom), (right, top) = off = np.array([low - panel.low, high - panel.high])
+    if np.abs(off).max() > 2.0 * OFF * panel.size.max():
         return mover
     edge = {
-        OpensBy.LEFT: (low - panel.low)[0] * panel.frame[0],
-        OpensBy.RIGHT: (high - panel.high)[0] * panel.frame[0],
-        OpensBy.TOP: (high - panel.high)[1] * panel.frame[1],
-        OpensBy.BOTTOM: (low - panel.low)[1] * panel.frame[1],
+        OpensBy.LEFT: left * panel.frame[0],
+        OpensBy.RIGHT: right * panel.frame[0],
+        OpensBy.TOP: top * panel.frame[1],
+        OpensBy.BOTTOM: bottom * panel.frame[1],
     }.get(panel.opens, np.zeros(3))
     motion = replace(mover.motion, origin=mover.motion.origin + edge)
     return replace(mover, motion=motion, panel=replace(panel, low=low, high=high))

@@ -136,20 +136,6 @@ def test_a_door_is_as_thick_as_the_seam_beside_it_shows():
 
 
 @pytest.mark.parametrize("quarters", range(4))
-def test_a_slab_that_both_sides_show_is_a_door_without_a_handle(quarters):
-    turn = np.eye(4)
-    turn[:3, :3] = np.rint(rotation_about(UP, quarters * np.pi / 2.0))
-    found = read(sample("slab_door").transformed(turn))
-    (joint,) = found.joints
-    assert abs(joint.axis @ UP) > 0.99
-    place = turn[:3, :3].T @ joint.origin
-    assert place[1] == pytest.approx(0.0, abs=0.02)
-    assert min(abs(place[0]), abs(place[0] - 0.5)) < 0.02
-    door = found.part_mesh(joint.child).vertices @ turn[:3, :3]
-    assert np.ptp(door[:, 1]) == pytest.approx(0.06, abs=0.012)
-
-
-@pytest.mark.parametrize("quarters", range(4))
 def test_the_lid_of_a_bin_opens_upwards(quarters):
     turn = np.eye(4)
     turn[:3, :3] = np.rint(rotation_about(UP, quarters * np.pi / 2.0))
