@@ -14,7 +14,7 @@ STOP_M = 0.006
 HEIGHT = 0.85
 BOTTOM_M = 0.008
 WALL_M = 0.01
-#: Lower or narrower hollows take no box [m].
+#: A box that would be lower or narrower is none [m].
 LEAST_M = 0.016
 
 
