@@ -243,10 +243,11 @@ def hollow_behind(work: Workpiece, part: int) -> None:
     if work.filled[part]:
         room = _inner(work, (0, part), wall)
     else:
-        work.block(0, ndimage.binary_erosion(_own_inside(work)), INSIDE)
+        walls = marked(work.lattice, surface_points(work, 0))
+        work.block(0, ndimage.binary_erosion(_own_inside(work, walls)), INSIDE)
         if not panel.slides:
             return
-        room = _empty(work)
+        room = _empty(work, walls)
         layer = Box(column.low, np.append(column.high[:2], start + BEHIND_BACK_M))
         room[work.lattice.span(layer.turned(frame.T))] = True
     for taken in _taken(work, part):
@@ -281,18 +282,16 @@ def _filled_behind(work: Workpiece, column: Box, frame: FloatArray) -> bool:
     return bool(cells.size and cells.mean() > FILLED)
 
 
-def _own_inside(work: Workpiece) -> BoolArray:
-    """Return the empty cells that the mesh shuts in on five sides."""
-    walls = marked(work.lattice, surface_points(work, 0))
+def _own_inside(work: Workpiece, walls: BoolArray) -> BoolArray:
+    """Return the empty cells that the mesh, whose surface is ``walls``, shuts in on five sides."""
     return np.asarray(closed_up(work.whole | walls) & ~walls & ~work.whole)
 
 
-def _empty(work: Workpiece) -> BoolArray:
+def _empty(work: Workpiece, walls: BoolArray) -> BoolArray:
     """Return the cells without surface or matter: a drawer's box need not be shut in.
 
     Lines of matter without a surface are none: rays that an open mesh let through.
     """
-    walls = marked(work.lattice, surface_points(work, 0))
     matter = ndimage.binary_opening(work.whole)
     return np.asarray(~walls & ~matter & (work.owner <= 0))
 

@@ -5,16 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from labelled_skins import (
-    FINE,
-    SIZE,
-    bin_with_lid,
-    box_skin,
-    chest,
-    cupboard,
-    front,
-    labelled,
-)
+from labelled_skins import FINE, SIZE, bin_with_lid, box_skin, chest, cupboard, front, labelled
 
 from asset_factory.factory.articulate.locate import located
 from asset_factory.factory.articulation import Joint, JointKind
@@ -157,10 +148,9 @@ def test_a_drawer_of_a_case_open_below_and_behind_has_its_box_too():
     case = faces[(middle[:, 2] > 1e-6) & (middle[:, 1] < SIZE[1] / 2.0 - 1e-6)]
     sheets = np.concatenate([case, case[:, ::-1] + len(vertices)])
     slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, -1, 0], [0, -0.25, 0.6], 0.0, 0.3)
-    given = labelled(
-        np.concatenate([vertices, inner]), sheets, [front([-0.2, 0.5], [0.2, 0.7])], [slide]
-    )
-    drawer = np.concatenate([hull.vertices for hull in solids(given, CONFIG).pieces[1].hulls])
+    vertices, patch = np.concatenate([vertices, inner]), front([-0.2, 0.5], [0.2, 0.7])
+    made = solids(labelled(vertices, sheets, [patch], [slide]), CONFIG)
+    drawer = np.concatenate([hull.vertices for hull in made.pieces[1].hulls])
     assert np.ptp(drawer[:, 1]) > 0.4
 
 
