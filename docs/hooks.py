@@ -15,7 +15,7 @@ ELSEWHERE = {
     "changelog.md": "CHANGELOG.md",
     "contributing.md": "CONTRIBUTING.md",
     "model-card.md": "configs/weights/small.md",
-    "model-card-of-sides.md": "configs/weights/seams.md",
+    "model-card-of-detector.md": "configs/weights/detector.md",
 }
 LINK = re.compile(r"(?<!!)\[([^\]]*)\]\(([^)\s]+)\)")
 LOG = logging.getLogger("mkdocs.hooks")

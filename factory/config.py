@@ -320,7 +320,7 @@ class BuildConfig:
     Attributes:
         articulator: ``auto`` (what came with the input, else ``particulate`` with a checkpoint of
             one's own, else the shipped network and the rules of shape together), ``annotated``,
-            ``geometric``, ``seams``, ``particulate``, ``vlm``, ``rigid``.
+            ``geometric``, ``particulate``, ``vlm``, ``rigid``.
         simulators: who judges.
         formats: what an asset is written in, besides URDF and MJCF: ``sdf``, ``usd``, ``glb``.
         asset_wall_s: longest a single input may take, repairs included [s].

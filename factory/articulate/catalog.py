@@ -41,9 +41,6 @@ ARTICULATORS: Mapping[str, ArticulatorEntry] = MappingProxyType(
             ArticulatorEntry("stated", "stated.articulator", "the parts that its sidecar states"),
             ArticulatorEntry("annotated", "annotated", "the joints that came with the input"),
             ArticulatorEntry("geometric", "geometric", "rules of shape, without learning"),
-            ArticulatorEntry(
-                "seams", "seams", "seams and handles on the sides of one-piece meshes"
-            ),
             ArticulatorEntry("particulate", "particulate", "a trained network", True),
             ArticulatorEntry(
                 "vlm",

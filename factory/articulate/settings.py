@@ -18,7 +18,7 @@ from ..models.weights.sources import PARTFIELD, SHIPPED, fetch
 
 NEEDS_TORCH = (
     "the network needs torch: pip install 'asset-factory[particulate]'; "
-    "or name an articulator that asks none: --articulator geometric, seams, stated or annotated"
+    "or name an articulator that asks none: --articulator geometric, stated or annotated"
 )
 LEAST = {"driving": 0, "points": 1, "context_points": 1, "max_faces": 4, "samples": 1}
 

@@ -43,8 +43,7 @@ ARTICULATE = Stage(
     settings=("articulator", "particulate", "auto", "vlm"),
     libraries=("numpy", "scipy", "trimesh", "torch"),
     data=tuple(
-        f"weights/{name}.safetensors"
-        for name in ("agreement", "detector", "trust", "evidence", "rectangles", "seams")
+        f"weights/{name}.safetensors" for name in ("agreement", "detector", "trust", "evidence")
     ),
     also=_weight_digests,
 )

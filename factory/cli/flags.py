@@ -76,7 +76,7 @@ class InputFlags:
     """How inputs are loaded and articulated."""
 
     articulator: str = "auto"
-    """Proposes joints: auto, stated, annotated, geometric, seams, particulate, vlm or rigid."""
+    """Proposes joints: auto, stated, annotated, geometric, particulate, vlm or rigid."""
     checkpoint: str | None = None
     """Weights of particulate: a file, hf:owner/repository/file@commit, or paper (as published)."""
     features: str | None = None

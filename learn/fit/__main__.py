@@ -1,12 +1,11 @@
 """Fit the small networks that the maker ships: weights, and a card beside them.
 
-    python -m asset_factory.learn.fit agreement configs/weights/agreement.safetensors --real FOLDER
+    python -m asset_factory.learn.fit agreement configs/weights/agreement.safetensors \
+        --real FOLDER --data ROOT
     python -m asset_factory.learn.fit motions configs/weights/evidence.safetensors
-    python -m asset_factory.learn.fit rectangles configs/weights/rectangles.safetensors --kept rows/
-    python -m asset_factory.learn.fit sides configs/weights/seams.safetensors --kept views/
     python -m asset_factory.learn.fit trust configs/weights/trust.safetensors
 
-Sides take hours of one core, the others up to one.
+Each takes up to an hour of one core.
 """
 
 from __future__ import annotations
@@ -19,12 +18,10 @@ from pathlib import Path
 import numpy as np
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.models.shipped import Arrays
 from asset_factory.factory.runtime.terminal import complain, say
 
 from ..datasets.objects import described, generated
 from ..datasets.split import read_split
-from .making import keep_described_views, keep_views, kept_rows
 from .writing import Fit, write_fit
 
 Asked = argparse.Namespace
@@ -42,38 +39,6 @@ def main(arguments: list[str] | None = None) -> int:
     write_fit(asked.output, fit, given, asked.seed)
     say(f"{fit.data}: {fit.figures}; weights in {asked.output}")
     return 0
-
-
-def _sides(asked: Asked) -> Fit:
-    from .sides import fit_sides
-
-    asked.kept.mkdir(parents=True, exist_ok=True)
-    keep_views(asked.kept, asked.seed, asked.objects)
-    data = f"{asked.objects} generated objects"
-    if asked.described is not None:
-        keep_described_views(asked.kept, asked.seed, asked.described, np.radians(asked.turn))
-        data += f", and those of {asked.described.name}"
-    arrays, figures = fit_sides(asked.kept, asked.kept / "state.pt", asked.rounds, asked.seed)
-    what = (
-        "A picture network: of one side of an object it tells which pixels open, where what opens "
-        "ends, and how it opens. `factory/articulate/seams/sight.py` asks it."
-    )
-    figures = f"on one file in 25, not learned from: {figures}"
-    return Fit(Arrays(asked.output, arrays, {}), what, data, figures)
-
-
-def _rectangles(asked: Asked) -> Fit:
-    from .rectangles import fit_rectangles, report
-
-    asked.kept.mkdir(parents=True, exist_ok=True)
-    rows = [kept_rows(asked.kept, asked.seed, number) for number in range(asked.objects)]
-    stored = fit_rectangles(rows, asked.seed)
-    what = (
-        "Two small networks: which rectangle on a side is a panel, and how a panel opens. "
-        "`factory/articulate/seams/learned.py` asks them."
-    )
-    figures = f"of four fifths of the objects on the last fifth: {report(rows, asked.seed)}"
-    return Fit(stored, what, f"{asked.objects} generated objects", figures)
 
 
 def _motions(asked: Asked) -> Fit:
@@ -127,17 +92,19 @@ def _agreement(asked: Asked) -> Fit:
     from asset_factory.factory.articulate.auto.articulator import load_auto
     from asset_factory.factory.config import AutoConfig, ParticulateConfig
 
-    from ..detector.real import real_objects
-    from .agreement import fit_agreement, rate_parts, report
+    from .agreement import fit_agreement, labelled_meshes, rate_parts, report
 
     guess = load_auto(ParticulateConfig(), AutoConfig())
-    rated = rate_parts(guess, real_objects(asked.real, held_out=True))
+    rated = rate_parts(guess, labelled_meshes(asked.real, asked.data))
     stored = fit_agreement(rated)
     what = (
-        "Two logistic models: how likely a part is there that rules or another network propose, "
-        "and one that only the detector sees. `factory/articulate/detected` asks them."
+        "Logistic models: how likely a part is there that rules or another network propose, a "
+        "panel that only the detector sees, and a lid. `factory/articulate/detected` asks them."
     )
-    data = f"the meshes of {asked.real.name} that the detector did not learn from"
+    data = (
+        f"the meshes of {asked.real.name} that the detector did not learn from, and the objects "
+        "of the develop half, each made one piece"
+    )
     return Fit(stored, what, data, report(rated))
 
 
@@ -149,23 +116,16 @@ def _parser() -> argparse.ArgumentParser:
     )
     commands = parser.add_subparsers(required=True)
     motions = commands.add_parser("motions", help="how evidence for motions weighs, usual ranges")
-    rectangles = commands.add_parser("rectangles", help="which are panels, and how panels open")
-    sides = commands.add_parser("sides", help="the picture network of sides")
     trust = commands.add_parser("trust", help="in each source of auto")
     agreement = commands.add_parser("agreement", help="between the detector and others")
     agreement.add_argument("--real", type=Path, required=True, help="folder of labelled meshes")
-    named = (
-        (agreement, _agreement), (motions, _motions), (rectangles, _rectangles), (sides, _sides),
-        (trust, _trust),
-    )  # fmt: skip
+    agreement.add_argument("--data", type=Path, required=True, help="root of the list's objects")
+    named = ((agreement, _agreement), (motions, _motions), (trust, _trust))
     for command, fit in named:
         command.set_defaults(fit=fit)
         command.add_argument("output", type=Path, help="file to write, .safetensors")
         first = 500 if command is motions else 0
         command.add_argument("--seed", type=int, default=first, help="of objects, looks, weights")
-    for command, count in ((rectangles, 314), (sides, 8000)):
-        command.add_argument("--objects", type=int, default=count, help="generated to learn from")
-        command.add_argument("--kept", type=Path, required=True, help="where those are kept")
     for command, count in ((motions, 6), (trust, 2)):
         command.add_argument("--seeds", type=int, default=count, help="objects of each category")
         command.add_argument(
@@ -173,11 +133,6 @@ def _parser() -> argparse.ArgumentParser:
         )
     motions.add_argument("--every", type=int, default=1, help="learn from every n-th object only")
     motions.add_argument("--steps", type=int, default=250, help="of each optimisation at most")
-    sides.add_argument("--rounds", type=int, default=20, help="of training")
-    sides.add_argument("--described", type=Path, help="folder with objects to learn from as well")
-    sides.add_argument(
-        "--turn", type=float, default=-90.0, help="that brings their fronts to -Y [deg]"
-    )
     trust.add_argument(
         "--split", type=Path, action="append", default=[], help="names in each folder to use"
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -161,14 +161,3 @@ def fit_examples(examples: Examples, settings: FitSettings) -> Perceptron:
     rows = np.clip((examples.rows - mean) / scale, -FARTHEST, FARTHEST)
     found = fit_perceptron(rows, examples.cross_entropy, settings)
     return replace(found, mean=mean, scale=scale)
-
-
-def averaged(networks: Sequence[Perceptron]) -> Perceptron:
-    """Return one network with the mean scores of several that scale inputs alike, none direct."""
-    return replace(
-        networks[0],
-        inner=np.concatenate([each.inner for each in networks], axis=1),
-        offset=np.concatenate([each.offset for each in networks]),
-        outer=np.concatenate([each.outer / len(networks) for each in networks]),
-        base=np.mean([each.base for each in networks], axis=0),
-    )

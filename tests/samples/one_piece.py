@@ -1,5 +1,7 @@
 """Meshes as image-to-3D gives them: one closed surface, seams as grooves, handles fused on."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from asset_factory.factory.mesh import Material, Mesh
@@ -221,6 +223,13 @@ def proud_drawers(edge=EDGE):
         solid += _box((low, -0.01, 0.63), (low + 0.58, 0.001, 0.72))
         solid += bar((low + 0.25, 0.67), (low + 0.33, 0.685), off=0.035)
     return mesh_of(solid, edge)
+
+
+def bumpy(mesh):
+    """The same with every vertex a little off, as image-to-3D tools give it."""
+    rng = np.random.default_rng(0)
+    off = rng.normal(0.0, 7e-4 * mesh.extents.max(), mesh.vertices.shape)
+    return replace(mesh, vertices=mesh.vertices + off)
 
 
 def plain_box(edge=EDGE):

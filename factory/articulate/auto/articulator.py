@@ -22,12 +22,13 @@ from ..annotated import annotated_articulator, annotation_of
 from ..articulator import Articulator
 from ..assembly import assembled
 from ..geometric import GeometricArticulator
-from ..proposal import Hypothesis, Proposal
+from ..origin import MeshOrigin
+from ..proposal import Proposal
 from ..rigid import rigid_articulation
+from ..seams.movers import knobs_of
 from ..stated import StatedArticulator
 from .contacts import contacts_of, settled
 from .hidden import without_hidden
-from .one_piece import MeshOrigin, different, least_of, seam_hypotheses
 from .partition import Sharing, share_out, shells
 from .parts import agreed_parts
 from .proposals import propose
@@ -66,31 +67,24 @@ class AutoArticulator:
     def articulate(self, mesh: Mesh) -> Articulation:
         """Return what of ``mesh`` [m], z up, moves with some certainty; the rest is one rigid part.
 
+        Network and rules see rubbish in a one-piece mesh: only its knobs are told.
+
         Raises:
             InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``:
                 broken weights.
         """
-        return self.hypotheses(mesh)[0].articulation
-
-    def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
-        """Return what :meth:`articulate` does; of a mesh of one piece also what else it may be."""
-        least = least_of(self.trust, self.config.least_confidence)
-        origin = MeshOrigin.of(mesh)
-        seams = seam_hypotheses(mesh, least, self.name) if origin.one_piece else ()
-        if origin.is_generated:
-            return seams
+        if MeshOrigin.of(mesh).is_generated:
+            return knobs_of(mesh, self.name)
         views = Views(mesh, connected_components(mesh))
-        own = self.decide(views, self.proposals(mesh, face_areas(mesh)))
-        every = (own, *[each.articulation for each in seams])
-        made = [each for each in every if each.movable_joints] or [own]
-        weighed = [replace(each, weights=self.weights) for each in different(made)]
-        return tuple(Hypothesis.of(each) for each in weighed)
+        decided = self.decide(views, self.proposals(mesh, face_areas(mesh)))
+        return replace(decided, weights=self.weights)
 
     def _least(self, rated: Sequence[Proposal]) -> float:
         """Return how sure a part must be; one must be surer where only the network sees any."""
-        least = least_of(self.trust, self.config.least_confidence)
+        asked = self.config.least_confidence
+        least = self.trust.least if asked is None else asked
         likely = [each for each in rated if each.rated >= least]
-        if not likely or self.config.least_confidence is not None:
+        if not likely or asked is not None:
             return least
         guessed = all(each.proposer is Proposer.NETWORK and each.rated < ALONE for each in likely)
         return ALONE if guessed else least
@@ -164,7 +158,7 @@ def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
     """Return who is asked for one input.
 
     What came with it is believed; else the network of a checkpoint of the user's own is asked
-    alone; else the shipped network, rules of shape and, for one-piece meshes, their seams.
+    alone; else the detector, the shipped network and rules of shape.
 
     Raises:
         ConfigError: no usable checkpoint, no torch, or a setting that cannot be.

@@ -8,42 +8,51 @@ from functools import cache
 import numpy as np
 from scipy.special import expit
 
+from ...mesh import FloatArray
 from ...models.perceptron import Perceptron
 from ...models.shipped import Arrays, load_shipped
 
 FILE = "agreement.safetensors"
 #: Networks of the file, and what they are given.
 PROPOSED = "proposed"
-ALONE = "alone"
-SIGNS = {PROPOSED: ("support", "confidence"), ALONE: ("support",)}
+PANEL = "panel"
+LID = "lid"
+PANEL_SIGNS = ("support", "root of support", "seams in relief", "handle")
+SIGNS = {PROPOSED: ("support", "confidence"), PANEL: PANEL_SIGNS, LID: ("support",)}
 
 
 @dataclass(frozen=True)
 class Agreement:
-    """Two logistic models, fitted to real meshes that the detector did not learn from.
+    """Logistic models, fitted to meshes that the detector did not learn from.
 
     Attributes:
         proposed: of a part that somebody else proposes with some confidence.
-        alone: of a part that only the detector sees.
+        panel: of a door, drawer or flap that only the detector sees.
+        lid: of such a lid.
         least: probability below which a part stays fixed.
     """
 
     proposed: Perceptron
-    alone: Perceptron
+    panel: Perceptron
+    lid: Perceptron
     least: float
 
     def of_proposed(self, support: float, confidence: float) -> float:
         """Return the probability of a part that somebody else proposes."""
         return _chance(self.proposed, support, confidence)
 
-    def of_alone(self, support: float) -> float:
-        """Return the probability of a part that only the detector sees."""
-        return _chance(self.alone, support)
+    def of_panel(self, signs: FloatArray) -> float:
+        """Return the probability of a panel for which :data:`PANEL_SIGNS` speak."""
+        return _chance(self.panel, *signs)
+
+    def of_lid(self, support: float) -> float:
+        """Return the probability of a lid that only the detector sees."""
+        return _chance(self.lid, support)
 
 
 @cache
 def load_agreement() -> Agreement:
-    """Return the network that comes with the package.
+    """Return the models that come with the package.
 
     Raises:
         ConfigError: the file is for other signs.
@@ -53,8 +62,8 @@ def load_agreement() -> Agreement:
 
 def agreement_of(stored: Arrays) -> Agreement:
     """Return what a file holds; errors as for :func:`load_agreement`."""
-    proposed, alone = (Perceptron.read(stored, name, signs) for name, signs in SIGNS.items())
-    return Agreement(proposed, alone, float(stored.arrays["least"][0]))
+    proposed, panel, lid = (Perceptron.read(stored, name, signs) for name, signs in SIGNS.items())
+    return Agreement(proposed, panel, lid, float(stored.arrays["least"][0]))
 
 
 def _chance(network: Perceptron, *signs: float) -> float:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...intake.stated import Hinge, StatedKind, StatedPart
+from ...intake.stated import Box, Hinge, StatedKind, StatedPart
 from ...mesh import FloatArray
 from ...models.detector.canvas import CANVAS, LONGEST, WAYS, PanelWay, Sort, shares_of
 from ...models.detector.decode import Found, shared_areas
@@ -15,7 +15,7 @@ from ...views.raster import Side, side_facing
 from ..seams.fronts import OPPOSITE
 
 #: Sorts that close an upright side, and what they are called.
-_PANELS = {
+PANELS = {
     Sort.DOOR: (StatedKind.DOOR, (PanelWay.LEFT, PanelWay.RIGHT)),
     Sort.FLAP: (StatedKind.FLAP, (PanelWay.BOTTOM, PanelWay.TOP)),
     Sort.DRAWER: (StatedKind.DRAWER, (PanelWay.OUT,)),
@@ -26,7 +26,7 @@ _EDGES = {
     PanelWay.BOTTOM: Hinge.BOTTOM,
     PanelWay.TOP: Hinge.TOP,
 }
-_HINGE_SIDES = {
+HINGE_OF = {
     Side.FRONT: Hinge.FRONT,
     Side.BACK: Hinge.BACK,
     Side.LEFT: Hinge.LEFT,
@@ -34,6 +34,10 @@ _HINGE_SIDES = {
 }
 #: Two hinges are both tried where the likelier is not this sure.
 SURE_WAY = 0.8
+#: Sides agree on where a lid is hinged if the sum of what they say is so long, as a share of all
+#: that they say. Of 27 lids no labelled hinge lies elsewhere where they do, and where they do not
+#: it is 0.23 at most.
+AGREED = 0.4
 #: A panel of which this much is in a likelier one is no part of its own.
 INSIDE = 0.5
 #: One that is cut short by surer ones must keep so much of itself.
@@ -48,11 +52,13 @@ class DetectedPart:
         stated: as a person would state it.
         found: where it is seen; of a lid on every side that shows it.
         probability: that it is there.
+        evident: seams close all around it and a handle is in it, whoever sees it.
     """
 
     stated: StatedPart
     found: tuple[Found, ...]
     probability: float = 1.0
+    evident: bool = False
 
 
 def seen_parts(found: Sequence[Found], extents: FloatArray) -> tuple[DetectedPart, ...]:
@@ -63,8 +69,9 @@ def seen_parts(found: Sequence[Found], extents: FloatArray) -> tuple[DetectedPar
         extents: of the mesh along x, y and z, in any unit, shape [3].
     """
     sizes = extents / extents.max() * LONGEST
-    parts = [DetectedPart(_panel(each, sizes), (each,)) for each in _apart(found)]
-    lids = tuple(each for each in found if each.sort is Sort.LID)
+    panels = [each for each in _apart(found) if _shows(_box(each, sizes))]
+    parts = [DetectedPart(_panel(each, sizes), (each,)) for each in panels]
+    lids = tuple(each for each in found if each.sort is Sort.LID and _shows(_box(each, sizes)))
     if lids:
         parts.append(DetectedPart(_lid(lids, sizes), lids))
     return tuple(parts)
@@ -73,9 +80,11 @@ def seen_parts(found: Sequence[Found], extents: FloatArray) -> tuple[DetectedPar
 def _apart(found: Sequence[Found]) -> list[Found]:
     """Return the panels of upright sides that are not in one another, nor seen from behind."""
     kept: list[Found] = []
-    panels = [each for each in found if each.sort in _PANELS and each.side is not Side.TOP]
-    for each in sorted(panels, key=lambda each: -each.score):
-        if any(_share_inside(_from_behind(each), other) >= INSIDE for other in kept):
+    panels = [each for each in found if each.sort in PANELS and each.side is not Side.TOP]
+    # Of what both sides of a door show alike the side that is looked at first counts.
+    for each in sorted(panels, key=lambda each: -round(each.score, 3)):
+        twice = (each, _from_behind(each))
+        if any(_share_inside(one, other) >= INSIDE for one in twice for other in kept):
             continue
         cut = each
         for other in kept:
@@ -120,7 +129,7 @@ def _share_inside(one: Found, other: Found) -> float:
 
 
 def _panel(found: Found, sizes: FloatArray) -> StatedPart:
-    kind, allowed = _PANELS[found.sort]
+    kind, allowed = PANELS[found.sort]
     hinge = None
     if found.sort is not Sort.DRAWER:
         chances = {way: float(found.ways[WAYS.index(way)]) for way in allowed}
@@ -131,8 +140,12 @@ def _panel(found: Found, sizes: FloatArray) -> StatedPart:
 
 
 def _lid(lids: Sequence[Found], sizes: FloatArray) -> StatedPart:
-    """Return the lid that several sides show: its row is that of the surest upright side."""
+    """Return the lid that several sides show: its row is that of the surest upright side.
+
+    Where they contradict one another on its hinge, none is told.
+    """
     direction = np.zeros(3)
+    said = 0.0
     for each in lids:
         right, up, away = each.side.frame
         far = up if each.side is Side.TOP else away
@@ -143,9 +156,11 @@ def _lid(lids: Sequence[Found], sizes: FloatArray) -> StatedPart:
             PanelWay.BOTTOM: -far,
         }
         for way, where in toward.items():
-            direction += each.score * float(each.ways[WAYS.index(way)]) * where
-    hinge_side = side_facing(direction) if float(np.linalg.norm(direction)) > 0.0 else Side.BACK
-    hinge = _HINGE_SIDES.get(hinge_side, Hinge.BACK)
+            weight = each.score * float(each.ways[WAYS.index(way)])
+            direction += weight * where
+            said += weight
+    agreed = float(np.linalg.norm(direction)) > AGREED * said
+    hinge = HINGE_OF.get(side_facing(direction)) if agreed else None
     upright = [each for each in lids if each.side is not Side.TOP]
     if not upright:
         above = max(lids, key=lambda each: each.score)
@@ -154,7 +169,12 @@ def _lid(lids: Sequence[Found], sizes: FloatArray) -> StatedPart:
     return StatedPart(StatedKind.LID, best.side, _box(best, sizes), hinge)
 
 
-def _box(found: Found, sizes: FloatArray) -> tuple[float, float, float, float]:
+def _shows(box: Box) -> bool:
+    """Tell whether a box has any of a side's picture in it."""
+    return box[0] < box[2] and box[1] < box[3]
+
+
+def _box(found: Found, sizes: FloatArray) -> Box:
     extents = np.abs(found.side.frame[:2] @ sizes)
     left, low, right, high = np.clip(shares_of(found.box, extents), 0.0, 1.0)
     return float(left), float(low), float(right), float(high)

@@ -1,5 +1,1 @@
-"""Reads one-piece meshes from their sides: seams, handles, panels, lids."""
-
-from .articulator import SeamsArticulator, articulator_for
-
-__all__ = ["SeamsArticulator", "articulator_for"]
+"""Sides of an object: seams, handles, knobs; cuts along them, and how what they bound opens."""

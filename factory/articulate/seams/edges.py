@@ -9,7 +9,7 @@ import numpy as np
 from ...mesh import FloatArray
 from ...views.raster import Side
 from .fronts import AROUND, Front
-from .groups import FrontPanel
+from .rectangles import FrontPanel
 
 #: A panel that ends so near the outline is seen from beside [pixels].
 AT_OUTLINE = 6

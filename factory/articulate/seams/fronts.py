@@ -10,14 +10,15 @@ import numpy as np
 
 from ...mesh import FloatArray
 from ...views.raster import Side
-from .candidates import FrontScene
 from .controls import with_strips
 from .evidence import Seams, level_seams, upright_seams
-from .handles import Face, cleared
-from .rectangles import SHORTEST, Rectangle, lines_of, rectangles_of
+from .handles import Face, Protrusion, cleared
+from .rectangles import SHORTEST, Lines, Rectangle, lines_of, rectangles_of
 from .relief import Relief
-from .sight import Sight, sight_of
 from .twins import parted
+
+#: A handle belongs to a panel if it is that far inside [pixels].
+INSIDE = 1.0
 
 AROUND = (Side.FRONT, Side.RIGHT, Side.BACK, Side.LEFT)
 OPPOSITE = {
@@ -26,6 +27,29 @@ OPPOSITE = {
     Side.LEFT: Side.RIGHT,
     Side.RIGHT: Side.LEFT,
 }
+
+
+@dataclass(frozen=True, eq=False)
+class FrontScene:
+    """One side, ready to be searched for panels.
+
+    Attributes:
+        face: the side without handles.
+        level, upright: candidate lines.
+    """
+
+    face: Face
+    level: Lines
+    upright: Lines
+
+    def handles_in(self, rectangle: Rectangle) -> tuple[Protrusion, ...]:
+        """Return the pulls in a rectangle, the most prominent first."""
+        inside = [
+            handle
+            for handle in self.face.pulls
+            if rectangle.holds(handle.low, INSIDE) and rectangle.holds(handle.high, INSIDE)
+        ]
+        return tuple(sorted(inside, key=lambda h: -h.height * float(np.sqrt(h.size.prod()))))
 
 
 @dataclass(frozen=True)
@@ -43,11 +67,6 @@ class Front:
     behind: Relief
 
     @cached_property
-    def sight(self) -> Sight:
-        """Return what a picture network sees on it."""
-        return sight_of(self.relief)
-
-    @cached_property
     def level(self) -> Seams:
         """Return the evidence for horizontal seams."""
         return level_seams(self.relief, self.face)
@@ -56,17 +75,11 @@ class Front:
     def scene(self) -> FrontScene:
         """Return the side with its candidate lines."""
         first_row, last_row, first_column, last_column = self.relief.box
-        level, upright = self._own_seams()
-        rows = lines_of(level, first_row, last_row)
+        rows = lines_of(self.level, first_row, last_row)
+        upright = upright_seams(self.relief, self.face)
         columns = lines_of(upright.turned(), first_column, last_column)
         face = with_strips(parted(self.face, columns), rows, columns)
-        return FrontScene(self.relief, face, thickness(self.relief, self.behind), rows, columns)
-
-    def _own_seams(self) -> tuple[Seams, Seams]:
-        """Return level and upright evidence, without what the network knows is no seam."""
-        kept = ~self.sight.runs_on(self.relief.shape)
-        upright = upright_seams(self.relief, self.face)
-        return self.level.only(kept[0]), upright.only(kept[1])
+        return FrontScene(face, rows, columns)
 
     def rectangles(self) -> tuple[Rectangle, ...]:
         """Return those that are closed by seams, the best first."""

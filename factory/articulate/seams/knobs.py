@@ -19,9 +19,8 @@ MOST = 10
 #: Where a knob ends, before what carries it, and around it [pixels].
 FOOT = 1.0
 AROUND = 1.0
-#: That small things in a row are knobs, and that those turn.
-EXISTENCE = 0.7
-SURE = 0.9
+#: Probability that small things in a row are knobs and turn.
+LIKELY = 0.63
 
 
 def knobs_on(relief: Relief, face: Face) -> tuple[OpeningPart, ...]:
@@ -55,6 +54,4 @@ def _mover(relief: Relief, face: Face, knob: Protrusion) -> OpeningPart:
         kind=PartKind.KNOB,
         region=box_before(raster.side, low, high, back),
         motion=Motion.endless(away, across * right + height * up + back * away),
-        existence=EXISTENCE,
-        sure=SURE,
     )

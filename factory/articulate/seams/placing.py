@@ -15,8 +15,7 @@ from ..proposal import Motion, Proposal
 from .cutting import Region
 from .edges import seen_thickness
 from .fronts import Front
-from .groups import FrontPanel
-from .lids import Lid
+from .rectangles import FrontPanel
 
 #: A panel whose back edge nobody sees reaches so far behind its rim: share of the object's depth,
 #: and of the picture [pixels].
@@ -45,8 +44,6 @@ class OpeningPart:
         kind: what it is; names the part.
         region: what it fills.
         motion: how it opens.
-        existence: probability that there is such a part, 0 to 1.
-        sure: that it moves so, if there is one, 0 to 1.
         panel, handle: as in :class:`~asset_factory.factory.part.Part`; ``None`` for parts that are
             no panel of a side, or have no handle.
     """
@@ -54,15 +51,8 @@ class OpeningPart:
     kind: PartKind
     region: Region
     motion: Motion
-    existence: float
-    sure: float
     panel: Panel | None = None
     handle: Handle | None = None
-
-    @property
-    def probability(self) -> float:
-        """Return the probability that there is such a part and that it moves so, 0 to 1."""
-        return self.existence * self.sure
 
     def turned(self, rotation: FloatArray) -> OpeningPart:
         """Return the same of an object turned about the origin by ``rotation``, shape [3, 3]."""
@@ -74,18 +64,17 @@ class OpeningPart:
             handle=None if self.handle is None else self.handle.turned(rotation),
         )
 
-    def proposal(self, faces: BoolArray) -> Proposal:
-        """Return the proposal that these faces, shape [face_count], open so."""
+    def proposal(self, faces: BoolArray, probability: float) -> Proposal:
+        """Return the proposal that these faces, shape [face_count], open so; probably, 0 to 1."""
         return Proposal(
             self.kind,
             faces,
             self.motion,
-            {"shown": self.existence, "way": self.sure},
             proposer=Proposer.SIDES,
             panel=self.panel,
             handle=self.handle,
-            existence=self.existence,
-            probability=self.probability,
+            existence=probability,
+            probability=probability,
         )
 
 
@@ -131,12 +120,7 @@ def _borders(front: Front, panel: FrontPanel) -> tuple[FloatArray, ...]:
 
 
 def panel_mover(
-    fronts: Mapping[Side, Front],
-    side: Side,
-    panel: FrontPanel,
-    way: OpensBy,
-    existence: float,
-    sure: float,
+    fronts: Mapping[Side, Front], side: Side, panel: FrontPanel, way: OpensBy
 ) -> OpeningPart:
     """Return a panel of a front that opens in one way.
 
@@ -145,8 +129,6 @@ def panel_mover(
         side: the panel's.
         panel: one of its panels.
         way: how it opens.
-        existence: as in :class:`OpeningPart`.
-        sure: likewise.
     """
     front = fronts[side]
     behind = front.relief.depth
@@ -186,8 +168,6 @@ def panel_mover(
         kind=KINDS[way],
         region=region,
         motion=motion,
-        existence=existence,
-        sure=sure,
         panel=Panel(raster.side.frame, low[::-1], high[::-1], rim, thickness, way),
         handle=_handle(front, panel, motion),
     )
@@ -208,15 +188,13 @@ def _handle(front: Front, panel: FrontPanel, motion: Motion) -> Handle | None:
     return Handle(point, -away, pull / np.linalg.norm(pull), source="protrusion")
 
 
-def lid_mover(
-    fronts: Mapping[Side, Front], lid: Lid, hinge: Side, existence: float, sure: float
-) -> OpeningPart:
-    """Return a lid hinged on one side."""
+def lid_mover(fronts: Mapping[Side, Front], row: int, hinge: Side) -> OpeningPart:
+    """Return a lid above a row of the sides' pictures, hinged on one side."""
     front = fronts[hinge]
     raster = front.relief.raster
     right, up, away = raster.side.frame
-    height = raster.low[1] + lid.row * raster.pixel
-    near = _nearest_above(front, lid.row)
+    height = raster.low[1] + row * raster.pixel
+    near = _nearest_above(front, row)
     _, _, left, last = front.relief.box
     across = raster.low[0] + (left + last) / 2.0 * raster.pixel
     origin = across * right + height * up + (raster.near + near) * away
@@ -224,8 +202,6 @@ def lid_mover(
         kind=PartKind.LID,
         region=Region(-up[None, :], np.array([-height])),
         motion=Motion(JointKind.REVOLUTE, right, origin, 0.0, TURN),
-        existence=existence,
-        sure=sure,
     )
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy import ndimage
 
 from ...mesh import FloatArray, IntArray
 from .evidence import Seams
+from .handles import Protrusion
 
 #: Lines looked at in each direction; more only find noise.
 MOST_LINES = 26
@@ -20,8 +21,6 @@ SHORTEST = 0.07
 COVERED = 0.55
 #: At the rounded corners of a rectangle nothing is asked: share of its side.
 CORNER = 0.06
-#: What is closed by seams so far may be a panel though nothing is seen on it.
-CLOSED = 0.8
 #: A side is covered to at least this, all four together to at least that.
 LEAST_SIDE = 0.55
 LEAST_MEAN = 0.72
@@ -107,10 +106,6 @@ def _sums(values: FloatArray) -> FloatArray:
     return np.pad(np.cumsum(values, axis=1), ((0, 0), (1, 0)))
 
 
-#: Sides of a rectangle, in the order of all figures about them.
-BOTTOM, TOP, LEFT, RIGHT = range(4)
-
-
 @dataclass(frozen=True, eq=False)
 class Rectangle:
     """Four lines that close, in pixels of one side.
@@ -145,18 +140,33 @@ class Rectangle:
         """Return whether a place (row, column) lies inside."""
         return bool((point >= self.low + margin).all() and (point <= self.high - margin).all())
 
-    def with_side(self, side: int, at: int) -> Rectangle:
-        """Return the same with one side elsewhere, ``BOTTOM``, ``TOP``, ``LEFT`` or ``RIGHT``."""
-        axis, upper = divmod(side, 2)
-        low = self.low.copy()
-        high = self.high.copy()
-        (high if upper else low)[axis] = at
-        return replace(self, low=low, high=high)
-
     def shared(self, other: Rectangle) -> float:
         """Return the area of both [pixels]."""
         side = np.minimum(self.high, other.high) - np.maximum(self.low, other.low)
         return float(np.prod(np.maximum(side, 0)))
+
+
+@dataclass(frozen=True, eq=False)
+class FrontPanel:
+    """A rectangle that opens.
+
+    Attributes:
+        rectangle: where it is.
+        handles: its pulls, the most prominent first.
+    """
+
+    rectangle: Rectangle
+    handles: tuple[Protrusion, ...]
+
+    @property
+    def handle(self) -> Protrusion | None:
+        """Return the one that it is pulled by."""
+        return self.handles[0] if self.handles else None
+
+    @property
+    def aspect(self) -> float:
+        """Return the width over height."""
+        return float(self.rectangle.size[1] / max(self.rectangle.size[0], 1))
 
 
 def rectangles_of(level: Lines, upright: Lines, shortest: float) -> tuple[Rectangle, ...]:

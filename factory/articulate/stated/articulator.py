@@ -22,8 +22,8 @@ from ..articulator import Articulator, make_hypotheses
 from ..assembly import JOINT_SUFFIX, assembled
 from ..proposal import Hypothesis, Motion, Proposal
 from ..rigid import rigid_articulation
-from ..seams.articulator import cut_along
 from ..seams.cutting import CutMesh, inside
+from ..seams.movers import cut_along
 from ..seams.placing import OpeningPart
 from .boxed import NOT_FOUND, USUAL, label_of
 from .expecting import Expected, count_expected, find_expected, require_some

@@ -12,8 +12,7 @@ from ...intake.stated import StatedPart, StatedView
 from ...mesh import FloatArray
 from ...part import OpensBy, PartKind
 from ..seams.fronts import Front
-from ..seams.groups import FrontPanel
-from ..seams.rectangles import Rectangle
+from ..seams.rectangles import FrontPanel, Rectangle
 
 NOT_FOUND = "stated_part_not_found"
 #: Of a stated box so much must show the mesh.
@@ -115,7 +114,7 @@ def boxed_in(front: Front, part: StatedPart, place: int, box: Rectangle) -> Stat
             unit="of its area",
             limit=LEAST_SHOWN,
         )
-    panel = FrontPanel(box, front.scene.handles_in(box), 1.0)
+    panel = FrontPanel(box, front.scene.handles_in(box))
     return StatedBox(part, place, part.view, front, panel)
 
 

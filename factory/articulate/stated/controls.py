@@ -85,7 +85,7 @@ def _control(part: StatedBox) -> OpeningPart:
     region = box_before(raster.side, low, high, back)
     if _depth_is_bounded(part):
         region = Region(region.normals[:-1], region.offsets[:-1])
-    return OpeningPart(kind, region, _motion(kind, away, origin), 1.0, 1.0)
+    return OpeningPart(kind, region, _motion(kind, away, origin))
 
 
 def _motion(kind: PartKind, away: FloatArray, origin: FloatArray) -> Motion:
@@ -149,4 +149,4 @@ def _cap(part: StatedBox) -> OpeningPart:
         np.stack([-up, right, -right]),
         np.array([-height, 2.0 * middle - across, -across]),
     )
-    return OpeningPart(part.kind, region, Motion.endless(_UP, origin), 1.0, 1.0)
+    return OpeningPart(part.kind, region, Motion.endless(_UP, origin))

@@ -12,7 +12,6 @@ from ...mesh import FloatArray
 from ...views.raster import Side
 from ..seams.cutting import Region
 from ..seams.fronts import AROUND, OPPOSITE, Front
-from ..seams.lids import Lid
 from ..seams.placing import OpeningPart, lid_mover
 from .boxed import MOST_WAYS, StatedBox
 from .snapping import OFF
@@ -43,11 +42,10 @@ def lid_openings(fronts: Mapping[Side, Front], part: StatedBox) -> list[OpeningP
     others = [each for each in AROUND if each not in (side, OPPOSITE[side])]
     likely = [OPPOSITE[side], *others] if hinge is None else [HINGE_SIDES[hinge]]
     row = int(part.panel.rectangle.low[0])
-    lid = Lid(row, 1.0, 1.0, tuple((each, 1.0) for each in likely))
     bounds = _bounds(part)
     found = []
     for each in likely[:MOST_WAYS]:
-        mover = lid_mover(fronts, lid, each, 1.0, 1.0)
+        mover = lid_mover(fronts, row, each)
         region = mover.region.within(bounds)
         if part.stated.drawn is not None:
             # One that stands open may lean out beyond the body that it is hinged on.

@@ -18,7 +18,7 @@ from ...views.view import Views
 from ..proposal import Motion
 from ..seams.cutting import Region
 from ..seams.fronts import Front, fronts_of
-from ..seams.motions import openings_of
+from ..seams.motions import likely_ways
 from ..seams.placing import OpeningPart, panel_mover
 from ..seams.rectangles import Rectangle
 from ..seams.relief import reliefs_of
@@ -201,8 +201,7 @@ def _openings(
             wanted = _likeliest_first(wanted, part, boxed)
         side = part.front.relief.side
         made = [
-            tilted(panel_mover(fronts, side, part.panel, way, 1.0, 1.0), part)
-            for way in wanted[:MOST_WAYS]
+            tilted(panel_mover(fronts, side, part.panel, way), part) for way in wanted[:MOST_WAYS]
         ]
     return [replace(each, kind=part.kind) for each in made]
 
@@ -219,14 +218,15 @@ def _wanted_ways(part: StatedBox, ways: Mapping[Hinge, OpensBy]) -> tuple[OpensB
 def _likeliest_first(
     wanted: Sequence[OpensBy], part: StatedBox, boxed: Sequence[StatedBox]
 ) -> tuple[OpensBy, ...]:
-    """Return ways in which a panel may open as its handle, its shape and its company have it."""
+    """Return ways in which a panel may open as its handle, its shape and its neighbours have it."""
     beside = [each.panel for each in boxed if each.is_panel and each.front is part.front]
     if not any(panel is part.panel for panel in beside):
         beside.append(part.panel)
-    openings = openings_of(part.front.scene, beside, part.front.sight)
-    (own,) = (each for each in openings if each.panel is part.panel)
-    likely = [way for way, _ in own.ways if way in wanted]
-    return (*likely, *(way for way in wanted if way not in likely))
+    likely = likely_ways(part.front.relief, part.panel, beside)
+    return (
+        *(way for way in likely if way in wanted),
+        *(way for way in wanted if way not in likely),
+    )
 
 
 def _as_stated(mover: OpeningPart, part: StatedBox, mesh: Mesh) -> OpeningPart:

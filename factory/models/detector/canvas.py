@@ -111,3 +111,13 @@ def shares_of(box: FloatArray, extents: FloatArray) -> FloatArray:
     """
     low = (CANVAS - extents) / 2.0
     return np.asarray((box.reshape(2, 2) - low) / extents).ravel()
+
+
+def on_canvas(shares: FloatArray, extents: FloatArray) -> FloatArray:
+    """Return the canvas's box [pixels] that shares of a side's picture mean.
+
+    Args:
+        shares: left, lower, right, upper edge, shape [4].
+        extents: width and height of the side [pixels], shape [2].
+    """
+    return np.asarray((shares.reshape(2, 2) * extents + (CANVAS - extents) / 2.0).ravel())

@@ -17,7 +17,7 @@ def rejected(tmp_path, text):
     path = tmp_path / "shape.obj"
     path.write_text(text)
     with pytest.raises(InputRejected) as refused:
-        articulate(load(path, IntakeConfig()), BuildConfig(articulator="seams"))
+        articulate(load(path, IntakeConfig()), BuildConfig(articulator="geometric"))
     assert refused.value.code == "no_movable_joint"
     return refused.value.message
 
@@ -31,7 +31,7 @@ def test_something_flat_is_told_that_it_has_no_inside(tmp_path):
 
 def test_a_solid_is_told_its_size_and_every_way_to_say_more(tmp_path):
     message = rejected(tmp_path, TETRAHEDRON)
-    seen = "no seam or handle on its sides speaks for a door, drawer or lid"
-    assert f"nothing moves, says seams (it is 1 x 1 x 1 m): {seen}; " in message
+    seen = "the mesh is one connected surface: nothing can be told apart; kept rigid"
+    assert f"nothing moves, says geometric (it is 1 x 1 x 1 m): {seen}; " in message
     for way in ("sidecar", "factory edit", "--config lenient", "--checkpoint paper"):
         assert way in message

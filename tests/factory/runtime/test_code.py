@@ -141,7 +141,7 @@ def _seen_by_python(tree, name, file):
 
 def test_articulators_imported_by_name_are_among_what_the_stage_runs():
     (stage,) = (stage for stage in STAGES if stage.name == "articulate")
-    for name in ("geometric.geometric", "seams.articulator", "auto.articulator"):
+    for name in ("geometric.geometric", "seams.movers", "auto.articulator"):
         assert any(
             module.startswith(f"asset_factory.factory.articulate.{name.partition('.')[0]}.")
             for module in modules_run_by(*stage.code)

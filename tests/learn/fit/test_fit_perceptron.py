@@ -1,17 +1,14 @@
-"""Small networks learn what can be learned, and are averaged and written without a loss."""
+"""Small networks learn what can be learned, and are written without a loss."""
 
 import numpy as np
 import pytest
 
-from asset_factory.factory.articulate.seams.features import MOTION_NAMES, NAMES
-from asset_factory.factory.articulate.seams.learned import load_judge
+from asset_factory.factory.articulate.auto.trust import NAME, SIGNS, load_trust
 from asset_factory.factory.models.perceptron import Perceptron
-from asset_factory.factory.part import OpensBy
 from asset_factory.learn.fit.perceptron import (
     Examples,
     FitSettings,
     Weighing,
-    averaged,
     fit_examples,
     fit_perceptron,
 )
@@ -32,16 +29,9 @@ def _settings(width, decay, seed):
 
 def test_a_network_learns_what_no_line_divides():
     examples = _examples()
-    network = averaged([fit_examples(examples, _settings(6, 2e-5, seed)) for seed in range(3)])
+    network = fit_examples(examples, _settings(6, 2e-5, 0))
     right = (network.scores(examples.rows) > 0.0) == (examples.wanted > 0.5)
     assert right.mean() > 0.9
-
-
-def test_the_average_of_networks_is_one_network():
-    examples = _examples()
-    several = [fit_examples(examples, _settings(4, 2e-3, seed)) for seed in range(3)]
-    mean = np.mean([network.scores(examples.rows) for network in several], axis=0)
-    assert averaged(several).scores(examples.rows) == pytest.approx(mean)
 
 
 @pytest.mark.parametrize("answers", [1, 3])
@@ -76,8 +66,8 @@ def test_weights_past_the_hidden_layer_are_fitted_too():
 
 
 def test_networks_come_back_from_their_file():
-    shipped = {"panel": load_judge("panel", NAMES), "motion": load_judge("motion", MOTION_NAMES)}
-    stored = networks_stored(shipped, {"panel": NAMES, "motion": MOTION_NAMES})
-    again = Perceptron.read(stored, "motion", MOTION_NAMES)
-    assert np.array_equal(again.outer, shipped["motion"].outer)
-    assert again.scores(np.zeros((1, len(MOTION_NAMES)))).shape == (1, len(OpensBy))
+    shipped = load_trust().network
+    again = Perceptron.read(networks_stored({NAME: shipped}, {NAME: SIGNS}), NAME, SIGNS)
+    assert np.array_equal(again.direct, shipped.direct)
+    rows = np.random.default_rng(0).normal(size=(5, len(SIGNS)))
+    assert np.array_equal(again.scores(rows), shipped.scores(rows))

@@ -11,11 +11,11 @@ from one_piece import doors, drawers, fridge, mesh_of
 from stated_parts import FINE, articulated, block, box_of
 
 from asset_factory.factory.articulate.locate import located
-from asset_factory.factory.articulate.seams.articulator import SeamsArticulator
 from asset_factory.factory.articulate.stated import StatedArticulator, placing
 from asset_factory.factory.articulation import JointKind, rotation_about
 from asset_factory.factory.errors import ConfigError, InputRejected
 from asset_factory.factory.intake.stated import Hinge, StatedKind, stated_from
+from asset_factory.factory.part import Proposer
 
 
 @pytest.mark.parametrize("off", [-0.04, 0.0, 0.04])
@@ -180,12 +180,17 @@ def test_a_sidecar_of_another_mesh_is_refused():
 
 
 class Guess:
-    """Sees whatever the seams of a one-piece mesh show."""
+    """Sees the three drawers of ``drawers``."""
 
     name = "guess"
 
     def articulate(self, mesh):
-        return SeamsArticulator().articulate(mesh)
+        rows = ((0.07, 0.36), (0.38, 0.67), (0.69, 0.96))
+        boxes = [[0.05, low, 0.95, high] for low, high in rows]
+        said = stated_from(
+            {"parts": [{"kind": "drawer", "side": "front", "box": box} for box in boxes]}
+        )
+        return StatedArticulator(said, None, Proposer.SIDES).articulate(mesh)
 
 
 def test_what_is_expected_is_found_or_counted():

@@ -1,5 +1,7 @@
 """A mesh that the articulator cut is kept as it was cut."""
 
+import json
+
 import numpy as np
 import trimesh
 from one_piece import fridge
@@ -11,7 +13,8 @@ from asset_factory.factory.intake.load import load
 from asset_factory.factory.runtime.stages import Stages
 from asset_factory.factory.runtime.store import Store
 
-CONFIG = BuildConfig(articulator="seams")
+DOOR = {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1], "hinge": "right"}
+CONFIG = BuildConfig(articulator="stated")
 
 
 def test_a_cut_mesh_comes_back_from_the_cache(tmp_path, monkeypatch):
@@ -21,6 +24,7 @@ def test_a_cut_mesh_comes_back_from_the_cache(tmp_path, monkeypatch):
         trimesh.Trimesh(mesh.vertices, mesh.faces, process=False), include_normals=True
     )
     file.write_text(text)
+    (tmp_path / "fridge.parts.json").write_text(json.dumps({"parts": [DOOR]}))
     intake = load(file, IntakeConfig(up="z"))
     stages = Stages(CONFIG, Store(tmp_path / "cache"))
     first = hypotheses(intake, "key", stages)[0].articulation

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...articulation import rotation_about
-from ...geometry.triangles import doubled_normals
-from ...mesh import FloatArray, Mesh
+from ..articulation import rotation_about
+from ..geometry.triangles import doubled_normals
+from ..mesh import FloatArray, Mesh
 
 #: Faces that lean less than this look sideways (sine of what their normals rise).
 LEANING = 0.2

@@ -1,1 +1,0 @@
-"""What the articulator of one-piece meshes learned: from pictures of generated objects' sides."""
