@@ -102,19 +102,6 @@ def stove(edge=EDGE):
     return mesh_of(solid, edge)
 
 
-def chest(edge=EDGE):
-    """A chest with a seam around it, two straps across the seam, and a lock on it."""
-    solid = _box((0.0, 0.0, 0.0), (0.9, 0.5, 0.55))
-    half = GROOVE / 2.0
-    ring = _box((-1.0, -1.0, 0.36 - half), (2.0, 2.0, 0.36 + half))
-    ring -= _box((GROOVE, GROOVE, 0.0), (0.9 - GROOVE, 0.5 - GROOVE, 1.0))
-    solid -= ring
-    for x in (0.2, 0.65):
-        solid += _box((x, -0.008, 0.0), (x + 0.05, 0.5, 0.558))
-    solid += _box((0.42, -0.03, 0.31), (0.48, 0.001, 0.4))
-    return mesh_of(solid, edge)
-
-
 def thick_doors(edge=EDGE):
     """Two doors over the whole front, 0.1 m thick, as a groove on the sides and on top shows."""
     solid = _box((0.0, 0.0, 0.0), (0.9, 0.7, 1.6))
@@ -123,15 +110,6 @@ def thick_doors(edge=EDGE):
     around = _box((-1.0, 0.1 - half, -1.0), (2.0, 0.1 + half, 2.0))
     solid -= around - _box((GROOVE, -1.0, -1.0), (0.9 - GROOVE, 1.0, 1.6 - GROOVE))
     solid += bar((0.39, 0.6), (0.41, 1.1)) + bar((0.49, 0.6), (0.51, 1.1))
-    return mesh_of(solid, edge)
-
-
-def pair_with_level_bars(edge=EDGE):
-    """Two tall doors, each with a level bar at its top."""
-    solid = _box((0.0, 0.0, 0.0), (0.9, 0.5, 0.9))
-    for low, high in ((0.03, 0.448), (0.452, 0.87)):
-        solid = _engraved(solid, *frame(low, 0.04, high, 0.86))
-        solid += bar((low + 0.14, 0.8), (high - 0.14, 0.82))
     return mesh_of(solid, edge)
 
 
