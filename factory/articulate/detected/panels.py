@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 from scipy.special import expit, softmax
@@ -47,12 +48,12 @@ def panels_of(dense: Dense, seen: SeenMesh, *, closed: bool) -> Iterator[tuple[F
         for rectangle in front.rectangles()[:MOST_CLOSED] if closed else ():
             panel = _panel_in(on_canvas(_shares(front, frame, rectangle), extents), side, dense)
             if panel is not None:
-                yield panel, _signs(panel, front, rectangle, dense)
+                yield panel, _signs(panel.score, front, rectangle)
         for found in own:
             if found.side is side and found.sort in PANELS:
                 left, low, right, high = shares_of(found.box, extents).tolist()
                 meant = snap(front, frame, (left, low, right, high))
-                yield found, _signs(found, front, meant, dense)
+                yield found, _signs(support_of_box(found, dense), front, meant)
 
 
 def is_evident(signs: FloatArray) -> bool:
@@ -67,7 +68,7 @@ def _shares(front: Front, frame: StatedFrame, rectangle: Rectangle) -> FloatArra
 
 
 def _panel_in(box: FloatArray, side: Side, dense: Dense) -> Found | None:
-    """Return the panel that cells see in a box; ``None`` where they see none, or a lid."""
+    """Return the panel that cells see in a box, its support for score; ``None``: none, or a lid."""
     view = SIDES.index(side)
     cells = box_cells(box)
     if not cells.any():
@@ -77,11 +78,11 @@ def _panel_in(box: FloatArray, side: Side, dense: Dense) -> Found | None:
     sort = SORTS[int(sorts[:OPENING].argmax())]
     opened = float(np.clip(dense.opened[view][cells], 0.0, 1.0).mean())
     found = Found(side, box, sort, 0.0, sorts, ways, opened)
-    seen = sort in PANELS and support_of_box(found, dense) >= LEAST_SUPPORT
-    return found if seen else None
+    if sort not in PANELS or (support := support_of_box(found, dense)) < LEAST_SUPPORT:
+        return None
+    return replace(found, score=support)
 
 
-def _signs(found: Found, front: Front, rectangle: Rectangle, dense: Dense) -> FloatArray:
-    support = support_of_box(found, dense)
+def _signs(support: float, front: Front, rectangle: Rectangle) -> FloatArray:
     handle = bool(front.scene.handles_in(rectangle))
     return np.array([support, np.sqrt(support), rectangle.relief.mean(), handle])

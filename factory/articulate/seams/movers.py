@@ -8,7 +8,6 @@ import numpy as np
 
 from ...articulation import Articulation
 from ...mesh import Mesh
-from ...views.raster import Side
 from ...views.view import Views
 from ..assembly import assembled
 from ..rigid import rigid_articulation
@@ -37,10 +36,8 @@ def knobs_of(mesh: Mesh, articulator: str) -> Articulation:
         mesh: metres, z up.
         articulator: who is asked.
     """
-    reliefs = reliefs_of(Views(mesh))
-    found = {side: knobs_on(reliefs[side], cleared(reliefs[side])) for side in reliefs}
-    side: Side = max(found, key=lambda each: len(found[each]))
-    movers = found[side]
+    sides = reliefs_of(Views(mesh)).values()
+    movers = max((knobs_on(side, cleared(side)) for side in sides), key=len)
     if not movers:
         return rigid_articulation(mesh, articulator, ())
     made = cut_along(mesh, [movers]).mesh
