@@ -68,24 +68,8 @@ class View:
     def color(self) -> FloatArray:
         """Return base colours as shown (sRGB) in [0, 1], shape [rows, columns, 3]; 0: nothing."""
         picture = np.zeros((*self.face.shape, 3))
-        material = np.where(self.seen, self.mesh.face_material[self.face], -1)
-        for index, each in enumerate(self.mesh.materials):
-            here = material == index
-            if here.any():
-                picture[here] = self._painted(each, here)
+        picture[self.seen] = painted(self.mesh, self.face[self.seen], self.weights[self.seen])
         return picture
-
-    def _painted(self, material: Material, here: BoolArray) -> FloatArray:
-        plain = srgb_of(material.color[:3])
-        uv = self.mesh.corner_uv
-        if material.texture is None or uv is None:
-            return np.broadcast_to(plain, (int(here.sum()), 3))
-        image = _pixels(material.texture)
-        at = np.einsum("ij,ijk->ik", self.weights[here], uv[self.face[here]])
-        at = np.nan_to_num(at) % 1.0
-        rows = ((1.0 - at[:, 1]) * image.shape[0]).astype(np.int64) % image.shape[0]
-        columns = (at[:, 0] * image.shape[1]).astype(np.int64) % image.shape[1]
-        return np.asarray(image[rows, columns] / 255.0 * plain)
 
 
 def elevation(mesh: Mesh, side: Side, pixels: int = PIXELS, owner: IntArray | None = None) -> View:
@@ -132,6 +116,36 @@ class Views:
         if side not in self._known:
             self._known[side] = elevation(self.mesh, side, owner=self.owner)
         return self._known[side]
+
+
+def painted(mesh: Mesh, face: IntArray, weights: FloatArray) -> FloatArray:
+    """Return the base colour as shown (sRGB) in [0, 1] at points of a mesh, shape [n, 3].
+
+    Args:
+        mesh: any.
+        face: the triangle of each point, shape [n].
+        weights: of the triangle's corners, shape [n, 3].
+    """
+    colors = np.zeros((len(face), 3))
+    material = mesh.face_material[face]
+    for index, each in enumerate(mesh.materials):
+        here = material == index
+        if here.any():
+            colors[here] = _painted(mesh, each, face[here], weights[here])
+    return colors
+
+
+def _painted(mesh: Mesh, material: Material, face: IntArray, weights: FloatArray) -> FloatArray:
+    plain = srgb_of(material.color[:3])
+    uv = mesh.corner_uv
+    if material.texture is None or uv is None:
+        return np.broadcast_to(plain, (len(face), 3))
+    image = _pixels(material.texture)
+    at = np.einsum("ij,ijk->ik", weights, uv[face])
+    at = np.nan_to_num(at) % 1.0
+    rows = ((1.0 - at[:, 1]) * image.shape[0]).astype(np.int64) % image.shape[0]
+    columns = (at[:, 0] * image.shape[1]).astype(np.int64) % image.shape[1]
+    return np.asarray(image[rows, columns] / 255.0 * plain)
 
 
 @lru_cache(maxsize=2)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from asset_factory.factory.articulation import JointKind
+from asset_factory.factory.articulation import Articulation, JointKind
 
 from ..objects import CATEGORIES, make_object
 from ..objects.groups import LIDDED, OTHER, PANELLED
+from ..surfaces import skin_like
 from .sides import LabelledSides, labelled_sides
 from .still import STILL, make_still
 
@@ -18,13 +19,30 @@ SHARES = (0.5, 0.2, 0.17, 0.06)
 OPENED = 0.12
 
 
+def drawn_skin(rng: np.random.Generator) -> tuple[str, LabelledSides]:
+    """Return a generated object's kind and its sides, made one piece as image-to-3D gives it."""
+    while True:
+        kind, made, _ = _drawn(rng)
+        try:
+            return kind, labelled_sides(skin_like(made, int(rng.integers(2**31))))
+        except ValueError:
+            # Something that the rest hangs on lies within: another object is drawn.
+            continue
+
+
 def drawn_sides(rng: np.random.Generator) -> tuple[str, LabelledSides]:
-    """Return a generated object's kind and its sides."""
+    """Return a generated object's kind and its sides; parts may stand open."""
+    kind, made, opened = _drawn(rng)
+    return kind, labelled_sides(made, opened)
+
+
+def _drawn(rng: np.random.Generator) -> tuple[str, Articulation, dict[str, float]]:
+    """Return a generated object, its kind, and by how much of its range what stands open."""
     bound = rng.random()
     ends = np.cumsum(SHARES)
     if ends[1] <= bound < ends[2]:
         kind = str(rng.choice(STILL))
-        return kind, labelled_sides(make_still(kind, rng))
+        return kind, make_still(kind, rng), {}
     kinds = CATEGORIES
     for end, those in zip(ends, (PANELLED, LIDDED, (), OTHER), strict=True):
         if bound < end:
@@ -42,4 +60,4 @@ def drawn_sides(rng: np.random.Generator) -> tuple[str, LabelledSides]:
         for joint in chosen:
             if rng.random() < max(0.3, 1.0 / len(chosen)):
                 opened[joint.name] = float(rng.uniform(0.1, 1.0))
-    return kind, labelled_sides(made, opened)
+    return kind, made, opened

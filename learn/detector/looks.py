@@ -350,6 +350,8 @@ def _painted(
     made_paint = torch.where(use, textured, base)
     washed = draw.some(count, 0.15)[:, None] & ~made[:, None, None, None]
     real_paint = torch.where(washed, plain.expand_as(paint), paint)
+    worn = draw.some(count, 0.15)[:, None]
+    real_paint = torch.where(worn, (real_paint * (0.4 + grain)).clamp(0.0, 1.0), real_paint)
     return torch.where(made[:, None, None, None], made_paint, real_paint)
 
 

@@ -83,9 +83,16 @@ def joined(batches: list[tuple[ObjectBatch, Any]]) -> tuple[ObjectBatch, Any]:
 
 
 class Makers:
-    """Worker processes that make objects into a pool until they are stopped."""
+    """Worker processes that make objects into a pool until they are stopped.
 
-    def __init__(self, pool: Pool, workers: int, seed: int) -> None:
+    Args:
+        pool: for the objects.
+        workers: how many.
+        seed: of what they draw.
+        skinned: the objects are made one piece, as image-to-3D tools give them.
+    """
+
+    def __init__(self, pool: Pool, workers: int, seed: int, skinned: bool = False) -> None:
         context = get_context("spawn")
         self.memory = SharedMemory(create=True, size=SLOTS * _BYTES)
         self.free = context.Queue()
@@ -96,7 +103,7 @@ class Makers:
         self.workers = [
             context.Process(
                 target=make_into,
-                args=(self.memory.name, self.free, self.ready, seed, number),
+                args=(self.memory.name, self.free, self.ready, seed, number, skinned),
                 daemon=True,
             )
             for number in range(workers)
@@ -131,16 +138,17 @@ def _views(memory: SharedMemory, slot: int) -> tuple[Any, Any, Any]:
     return color, depth, part
 
 
-def make_into(name: str, free: Any, ready: Any, seed: int, number: int) -> None:
+def make_into(name: str, free: Any, ready: Any, seed: int, number: int, skinned: bool) -> None:
     """Make objects for ever; runs in a worker process."""
-    from .drawn import drawn_sides
+    from .drawn import drawn_sides, drawn_skin
     from .kinds import kind_number
 
     torch.set_num_threads(1)
     memory = SharedMemory(name=name)
-    rng = np.random.default_rng([seed, number])
+    rng = np.random.default_rng([seed, number, int(skinned)])
+    drawn = drawn_skin if skinned else drawn_sides
     while True:
-        kind, sides = drawn_sides(rng)
+        kind, sides = drawn(rng)
         slot = free.get()
         color, depth, part = _views(memory, slot)
         color[:] = sides.canvases.color

@@ -10,6 +10,7 @@ import argparse
 import copy
 import json
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -27,7 +28,7 @@ from asset_factory.factory.runtime.terminal import say
 from .evaluate import evaluate
 from .kinds import kind_number
 from .looks import show
-from .pack import Packed, read_pack, read_textures
+from .packed import Packed, read_pack, read_textures
 from .stream import Makers, Pool, joined
 from .targets import loss_of, targets_of
 
@@ -35,9 +36,11 @@ from .targets import loss_of, targets_of
 RATES = (5e-4, 1e-3)
 #: Share of the time in which rates rise.
 WARMING = 0.05
-#: Of a batch, real objects and objects of descriptions; the rest is made.
-REAL = 0.2
-DESCRIBED = 0.08
+#: Of a batch: real objects, real ones made one piece, objects of descriptions, generated ones made
+#: one piece; the rest is generated.
+SHARES = (0.19, 0.19, 0.06, 0.12)
+#: Of the workers, those that make generated objects one piece; each takes five times as long.
+SKINNERS = 0.25
 #: Weights that are kept follow those that learn by this share a step.
 FOLLOW = 0.998
 SAID_EVERY_S = 20.0
@@ -71,27 +74,38 @@ def train(options: Any) -> None:
     torch.backends.cuda.matmul.allow_tf32 = True
     torch.backends.cudnn.allow_tf32 = True
     torch.manual_seed(options.seed)
+    skinners = round(SKINNERS * options.workers)
     made = Pool(options.pool, device)
-    makers = Makers(made, options.workers, options.seed)
-    real, described, held_out = _packed(options.pack, device)
-    say(f"{real.made} real, {described.made} described, {held_out.made} held out objects")
+    skinned = Pool(options.pool // 4, device)
+    makers = (
+        Makers(made, options.workers - skinners, options.seed),
+        Makers(skinned, skinners, options.seed, skinned=True),
+    )
+    learned, held_out = _packed(options.pack, device)
+    say(f"{[each.made for each in learned]} to learn from, {[each.made for each in held_out]} not")
     network = _begun(options).to(device, memory_format=torch.channels_last)
-    while made.made < options.first:
-        makers.collect(MOST_COLLECTED)
+    while made.made < options.first or skinned.made < options.first / 16:
+        for each in makers:
+            each.collect(MOST_COLLECTED)
         time.sleep(0.05)
     say(f"{made.made} objects made after {time.monotonic() - start:.0f} s")
     source = Pools(
-        (made, real, described),
+        (*learned, skinned, made),
         torch.from_numpy(read_textures(options.pack)).to(device),
         torch.Generator(device).manual_seed(options.seed),
     )
     kept, steps = _fitted(network, source, makers, start + 60.0 * options.minutes, options)
-    makers.stop()
+    for each in makers:
+        each.stop()
     _keep(kept, options.out)
-    figures = evaluate(kept, held_out)
-    say("\n".join(f"{name}: {value}" for name, value in figures.items()))
-    seen = {"steps": steps, "batch": options.batch, "made": made.made}
-    (options.out / "figures.json").write_text(json.dumps(figures | seen, indent=1))
+    figures: dict[str, Any] = {"steps": steps, "batch": options.batch, "made": made.made}
+    figures |= {"made one piece": skinned.made}
+    for name, pool in zip(("held out", "held out, one piece"), held_out, strict=True):
+        if not pool.made:
+            continue
+        figures[name] = evaluate(kept, pool)
+        say("\n".join(f"{name}: {key}: {value}" for key, value in figures[name].items()))
+    (options.out / "figures.json").write_text(json.dumps(figures, indent=1))
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,12 +113,12 @@ class Pools:
     """Where batches come from.
 
     Attributes:
-        pools: made, real and described objects.
+        pools: real, real made one piece, described, generated made one piece, generated objects.
         textures: uint8, [m, 3, size, size].
         generator: of random numbers.
     """
 
-    pools: tuple[Pool, Pool, Pool]
+    pools: tuple[Pool, ...]
     textures: Any
     generator: Any
 
@@ -120,7 +134,7 @@ def _begun(options: Any) -> Any:
 
 
 def _fitted(
-    network: Any, source: Pools, makers: Makers, end: float, options: Any
+    network: Any, source: Pools, makers: Sequence[Makers], end: float, options: Any
 ) -> tuple[Any, int]:
     """Return the weights that followed those that learned until ``end``, and the steps taken."""
     kept = copy.deepcopy(network).eval()
@@ -142,12 +156,14 @@ def _fitted(
         _follow(kept, network, min(FOLLOW, step / (step + 50.0)))
         for name, value in terms.items():
             sums[name] = sums.get(name, 0.0) + value.detach()
-        makers.collect(MOST_COLLECTED)
+        for each in makers:
+            each.collect(MOST_COLLECTED)
         step += 1
         if now - said > SAID_EVERY_S:
-            _say(step, step - told, sums, now - said, source.pools[0].made)
+            _say(step, step - told, sums, now - said, source.pools[-1].made)
             if (step - told) / (now - said) < SLOW and done > 0.1:
-                makers.stop()
+                for each in makers:
+                    each.stop()
             said = now
             sums = {}
             told = step
@@ -168,19 +184,24 @@ def _rate(done: float) -> float:
     return 0.5 * (1.0 + float(torch.cos(torch.tensor(torch.pi * (done - WARMING) / (1 - WARMING)))))
 
 
-def _packed(path: Path, device: Any) -> tuple[Pool, Pool, Pool]:
+def _packed(path: Path, device: Any) -> tuple[tuple[Pool, ...], tuple[Pool, ...]]:
+    """Return real, skinned real and described objects; held-out real and skinned ones."""
     packed = list(read_pack(path))
     pools = []
-    for chosen in (
-        [each for each in packed if each.truth.real and not each.held_out],
-        [each for each in packed if not each.truth.real],
-        [each for each in packed if each.held_out],
+    for held_out, real, skinned in (
+        (False, True, False),
+        (False, True, True),
+        (False, False, False),
+        (True, True, False),
+        (True, True, True),
     ):
+        wanted = (held_out, real, skinned)
+        chosen = [e for e in packed if (e.held_out, e.truth.real, e.skinned) == wanted]
         pool = Pool(len(chosen), device)
         for each in chosen:
             pool.add(each.color, each.depth, each.part, _seen_through(each), each.truth)
         pools.append(pool)
-    return pools[0], pools[1], pools[2]
+    return tuple(pools[:3]), tuple(pools[3:])
 
 
 def _seen_through(packed: Packed) -> Any:
@@ -209,16 +230,11 @@ def _begin(network: Any, weights: dict[str, Any]) -> None:
 
 def _loss(network: Any, source: Pools, count: int) -> tuple[Any, dict[str, Any]]:
     """Return how far the network is from the truth on one batch, and the terms of that."""
-    made, real, described = source.pools
     generator = source.generator
-    real_count = round(REAL * count)
-    described_count = round(DESCRIBED * count)
+    counts = [round(share * count) for share in SHARES]
+    counts.append(count - sum(counts))
     batch, whole = joined(
-        [
-            made.draw(count - real_count - described_count, generator),
-            real.draw(real_count, generator),
-            described.draw(described_count, generator),
-        ]
+        [pool.draw(each, generator) for pool, each in zip(source.pools, counts, strict=True)]
     )
     with torch.no_grad():
         shown = show(batch, source.textures, generator)

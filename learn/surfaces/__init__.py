@@ -2,6 +2,6 @@
 
 from .artist import artist_like, mirrored, stretched
 from .fused import fused_like
-from .skins import skin_like
+from .skins import coloured_skin, skin_like
 
-__all__ = ["artist_like", "fused_like", "mirrored", "skin_like", "stretched"]
+__all__ = ["artist_like", "coloured_skin", "fused_like", "mirrored", "skin_like", "stretched"]

@@ -80,7 +80,7 @@ def hidden_faces(mesh: Labelled, rng: np.random.Generator) -> BoolArray:
     Points on the surface are drawn into depth pictures; a face counts as hidden if hardly any of
     its points is in front.
     """
-    points, face = mesh.sampled(rng.random(POINTS), rng)
+    points, face, _ = mesh.sampled(rng.random(POINTS), rng)
     low = points.min(axis=0)
     extents = points.max(axis=0) - low
     points = (points - low - extents / 2.0) / extents.max()

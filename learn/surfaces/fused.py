@@ -62,7 +62,7 @@ def fused_like(
         count = round(POINTS * finer**2)
         # Evenly spread over the area: chance would leave holes, too.
         shares = (np.arange(count) + rng.random(count)) / count
-        points, below = original.sampled(shares, rng)
+        points, below, _ = original.sampled(shares, rng)
         owner = original.part[below]
         vertices, faces, nearest = skin(points, owner, round(finer * cells), reach, rng)
         label = original.label[below[nearest]]

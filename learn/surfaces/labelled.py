@@ -150,15 +150,20 @@ class Labelled:
         factor = np.maximum(1.0 + reach / half, least)[piece]
         return replace(own, vertices=middle + (own.vertices - middle) * factor)
 
-    def sampled(self, shares: FloatArray, rng: np.random.Generator) -> tuple[FloatArray, IntArray]:
-        """Return points on each face, and at these shares of all area [m]; and their faces."""
+    def sampled(
+        self, shares: FloatArray, rng: np.random.Generator
+    ) -> tuple[FloatArray, IntArray, FloatArray]:
+        """Return points on each face, and at these shares of all area [m]; faces; weights there.
+
+        Weights are those of the face's corners, shape [point_count, 3].
+        """
         areas = self.areas
         far = np.searchsorted(np.cumsum(areas / areas.sum()), shares)
         face = np.concatenate([np.arange(len(areas)), np.minimum(far, len(areas) - 1)])
         u, v = rng.random((2, len(face)))
         root = np.sqrt(u)
         weights = np.stack([1.0 - root, root * (1.0 - v), root * v], axis=1)
-        return np.einsum("ni,nij->nj", weights, self.corners[face]), face
+        return np.einsum("ni,nij->nj", weights, self.corners[face]), face, weights
 
 
 def joined(several: Sequence[Labelled]) -> Labelled:

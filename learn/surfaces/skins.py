@@ -6,6 +6,9 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.geometry.components import connected_components
+from asset_factory.factory.mesh import FloatArray, IntArray, Mesh
+from asset_factory.factory.views.view import painted
 
 from .fused import skin, without_parts
 from .labelled import Labelled
@@ -24,6 +27,8 @@ DEPTHS = (1, 2)
 #: Share of skins that are simplified, and to how many faces.
 SIMPLIFIED = 0.75
 FACES = (6_000, 60_000)
+#: Pieces are told apart by so many numbers.
+MOST_PIECES = 9_999
 
 
 def skin_like(
@@ -47,6 +52,41 @@ def skin_like(
     """
     rng = np.random.default_rng([seed, 0x5C1])
     original = Labelled.of(articulation)
+    vertices, faces, below, _ = _skinned(original, rng, cells, engraved)
+    label = original.label[below]
+    hidden = set(np.setdiff1d(original.part, label[:, 0]).tolist())
+    made = Labelled(vertices, faces, label).articulation(articulation, "a skin of one piece")
+    return without_parts(made, hidden) if hidden else made
+
+
+def coloured_skin(mesh: Mesh, seed: int, cells: int | None = None) -> tuple[Mesh, FloatArray]:
+    """Return one closed skin around a mesh, in its bounding box, and each face's colour.
+
+    Seams between the mesh's own pieces are engraved as :func:`skin_like` engraves those of parts.
+
+    Args:
+        mesh: with at least one triangle.
+        seed: of everything that varies.
+        cells: along the longest side; drawn by default.
+
+    Returns:
+        The skin, and colours as shown (sRGB) in [0, 1], shape [face_count, 3].
+    """
+    rng = np.random.default_rng([seed, 0xC01])
+    piece = connected_components(mesh) % MOST_PIECES
+    label = np.stack([piece, piece, mesh.face_material], axis=1)
+    original = Labelled(mesh.vertices, mesh.faces, label)
+    vertices, faces, below, weights = _skinned(original, rng, cells, ENGRAVED)
+    low = vertices.min(axis=0)
+    share = (vertices - low) / (vertices.max(axis=0) - low)
+    placed = mesh.vertices.min(axis=0) + share * mesh.extents
+    return Mesh.from_triangles(placed, faces), painted(mesh, below, weights)
+
+
+def _skinned(
+    original: Labelled, rng: np.random.Generator, cells: int | None, engraved: float
+) -> tuple[FloatArray, IntArray, IntArray, FloatArray]:
+    """Return vertices [m] and faces; the original face that each shows, and where in it."""
     finest = float(np.exp(rng.uniform(*np.log(CELLS))))
     chosen = round(finest) if cells is None else cells
     area = float(original.areas.sum())
@@ -56,34 +96,25 @@ def skin_like(
     chosen = int(chosen * np.sqrt(count / wanted))
 
     shares = (np.arange(count) + rng.random(count)) / count
-    points, below = original.sampled(shares, rng)
+    points, below, weights = original.sampled(shares, rng)
     groove = int(rng.integers(DEPTHS[0], DEPTHS[1] + 1)) if rng.random() < engraved else 0
     bumps = float(rng.choice([0.0, 0.1, 0.3]))
+    reach = float(rng.uniform(*REACH))
     vertices, faces, nearest = skin(
-        points,
-        original.part[below],
-        chosen,
-        float(rng.uniform(*REACH)),
-        rng,
-        groove=groove,
-        bumps=bumps,
+        points, original.part[below], chosen, reach, rng, groove=groove, bumps=bumps
     )
-    label = original.label[below[nearest]]
     if rng.random() < SIMPLIFIED:
         most = int(np.exp(rng.uniform(*np.log(FACES))))
-        vertices, faces, label = _simplified(vertices, faces, label, most)
-
-    hidden = set(np.setdiff1d(original.part, label[:, 0]).tolist())
-    made = Labelled(vertices, faces, label).articulation(articulation, "a skin of one piece")
-    return without_parts(made, hidden) if hidden else made
+        vertices, faces, nearest = _simplified(vertices, faces, nearest, most)
+    return vertices, faces, below[nearest], weights[nearest]
 
 
 def _simplified(
-    vertices: np.ndarray, faces: np.ndarray, label: np.ndarray, most: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Simplify to about ``most`` faces, each labelled as the face nearest to its middle."""
+    vertices: FloatArray, faces: IntArray, shown: IntArray, most: int
+) -> tuple[FloatArray, IntArray, IntArray]:
+    """Simplify to about ``most`` faces; each shows what the face nearest to its middle did."""
     if len(faces) <= most:
-        return vertices, faces, label
+        return vertices, faces, shown
     import fast_simplification
 
     fewer, kept = fast_simplification.simplify(
@@ -93,4 +124,4 @@ def _simplified(
     fewer = np.asarray(fewer, dtype=np.float64)
     before = vertices[faces].mean(axis=1)
     _, nearest = cKDTree(before).query(fewer[kept].mean(axis=1))
-    return fewer, kept, label[nearest]
+    return fewer, kept, shown[nearest]

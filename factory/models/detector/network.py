@@ -209,15 +209,18 @@ class _Layer(nn.Module):  # type: ignore[misc]
         self, given: int, width: int, kernel: int, stride: int, groups: int = 1, cut: bool = True
     ) -> None:
         super().__init__()
-        self.conv = nn.Conv2d(given, width, kernel, stride, bias=False, groups=groups)
-        self.norm = nn.BatchNorm2d(width, eps=1e-3, momentum=0.05)
         total = kernel - stride
-        self.pads = (total // 2, total - total // 2) * 2
+        even = total // 2 if total % 2 == 0 else 0
+        self.conv = nn.Conv2d(given, width, kernel, stride, even, bias=False, groups=groups)
+        self.norm = nn.BatchNorm2d(width, eps=1e-3, momentum=0.05)
+        self.pads = (total // 2, total - total // 2) * 2 if total % 2 else None
         self.cut = cut
 
     def forward(self, picture: Tensor) -> Tensor:
         """Return the layer's picture."""
-        inner = self.norm(self.conv(functional.pad(picture, self.pads)))
+        if self.pads:
+            picture = functional.pad(picture, self.pads)
+        inner = self.norm(self.conv(picture))
         return functional.relu6(inner) if self.cut else inner
 
 

@@ -1,12 +1,13 @@
 """What the detector learns from: sides with their truth, and looks that keep it true."""
 
 import json
+from argparse import Namespace
 
 import numpy as np
 import pytest
 
 from asset_factory.factory.models.detector.canvas import CANVAS, SIDES, SORTS, WAYS, PanelWay, Sort
-from asset_factory.learn.detector.drawn import drawn_sides
+from asset_factory.learn.detector.drawn import drawn_sides, drawn_skin
 from asset_factory.learn.detector.kinds import kind_number
 from asset_factory.learn.detector.sides import WholeTruth, labelled_sides
 from asset_factory.learn.detector.still import STILL, make_still
@@ -20,7 +21,8 @@ from asset_factory.factory.models.detector.network import DenseAnswers, Detector
 from asset_factory.factory.views.raster import Side  # noqa: E402
 from asset_factory.learn.detector.evaluate import compared  # noqa: E402
 from asset_factory.learn.detector.looks import show  # noqa: E402
-from asset_factory.learn.detector.pack import read_pack, read_textures, write_pack  # noqa: E402
+from asset_factory.learn.detector.pack import write_pack  # noqa: E402
+from asset_factory.learn.detector.packed import read_pack, read_textures  # noqa: E402
 from asset_factory.learn.detector.stream import Pool  # noqa: E402
 from asset_factory.learn.detector.targets import loss_of, targets_of  # noqa: E402
 
@@ -152,8 +154,17 @@ def test_a_pack_keeps_objects_and_labels(tmp_path):
     textures = tmp_path / "textures"
     textures.mkdir()
     Image.new("RGB", (8, 8), (10, 200, 30)).save(textures / "green.jpg")
-    write_pack(tmp_path / "pack.zip", real, None, textures)
-    (packed,) = read_pack(tmp_path / "pack.zip")
+    options = {"out": tmp_path / "pack.zip", "real": real, "textures": textures}
+    write_pack(Namespace(**options, described=None, skins=1, workers=1))
+    packed, skinned = read_pack(tmp_path / "pack.zip")
+    assert not packed.skinned
+    assert skinned.skinned
+    assert (skinned.truth, skinned.held_out) == (packed.truth, packed.held_out)
+    assert (skinned.table == packed.table).all()
+    # One bumpy piece: seen in nearly the same place, and nowhere as flat as it was.
+    both = (skinned.depth[FRONT] >= 0) & (packed.depth[FRONT] >= 0)
+    assert both.mean() > 0.9 * (packed.depth[FRONT] >= 0).mean()
+    assert len(np.unique(skinned.depth[FRONT])) > 2 * len(np.unique(packed.depth[FRONT]))
     assert packed.truth == WholeTruth(kind_number("fridge"), True, FRONT, True)
     (row,) = packed.table
     assert SORTS[int(row[6])] is Sort.DOOR
@@ -169,6 +180,19 @@ def test_drawn_objects_are_of_every_sort():
         _, sides = drawn_sides(np.random.default_rng(seed))
         sorts |= {SORTS[int(row[6])] for row in sides.instances.table()}
     assert {Sort.DOOR, Sort.DRAWER, Sort.LID, Sort.OTHER} <= sorts
+
+
+def test_skins_keep_what_opens():
+    kinds, tables = zip(
+        *[
+            (kind, sides.instances.table())
+            for kind, sides in (drawn_skin(np.random.default_rng(seed)) for seed in range(4))
+        ],
+        strict=True,
+    )
+    still = [kind in STILL for kind in kinds]
+    assert not all(still)
+    assert [len(table) == 0 for table in tables] == still
 
 
 def test_what_is_told_where_nothing_is_known_is_not_held_against_it():
