@@ -84,16 +84,8 @@ def _with_skins(
     """Return an object, and its sides as made one piece so many times; one if it is held out."""
     number, found = numbered
     forms = min(count, 1) if is_held_out(found.name) else count
-    return found, [skinned_sides(found, 1000 * number + form) for form in range(forms)]
-
-
-def skinned_sides(found: RealObject, seed: int) -> LabelledSides:
-    """Return the sides of a labelled mesh that was made one bumpy, coloured piece."""
-    skin, colors = coloured_skin(found.mesh, seed)
-    canvases = look_at(skin)
-    shown = np.rint(255.0 * colors).astype(np.uint8)[canvases.face]
-    color = np.where(canvases.face[..., None] >= 0, shown, 0).astype(np.uint8)
-    return replace(found.sides, canvases=replace(canvases, color=color))
+    skins = [coloured_skin(found.mesh, 1000 * number + form) for form in range(forms)]
+    return found, [replace(found.sides, canvases=look_at(skin)) for skin in skins]
 
 
 def _add(

@@ -57,6 +57,7 @@ def main() -> None:
     parser.add_argument("out", type=Path)
     parser.add_argument("--backbone", type=Path, help="EfficientNet-Lite0, safetensors")
     parser.add_argument("--start", type=Path, help="a checkpoint to go on from")
+    parser.add_argument("--share", type=float, default=1.0, help="of the way from --start, to keep")
     parser.add_argument("--minutes", type=float, default=7.0)
     parser.add_argument("--batch", type=int, default=64)
     parser.add_argument("--workers", type=int, default=15)
@@ -97,6 +98,10 @@ def train(options: Any) -> None:
     kept, steps = _fitted(network, source, makers, start + 60.0 * options.minutes, options)
     for each in makers:
         each.stop()
+    if options.start:
+        # Weights part of the way are as good, and surer of what is unlike all that was learned
+        # from (Wortsman et al., Robust fine-tuning of zero-shot models, CVPR 2022).
+        _follow(kept, _begun(options).to(device), options.share)
     _keep(kept, options.out)
     figures: dict[str, Any] = {"steps": steps, "batch": options.batch, "made": made.made}
     figures |= {"made one piece": skinned.made}

@@ -102,10 +102,10 @@ def _agreement(asked: Asked) -> Fit:
         "panel that only the detector sees, and a lid. `factory/articulate/detected` asks them."
     )
     data = (
-        f"the meshes of {asked.real.name} that the detector did not learn from, and the objects "
-        "of the develop half, each made one piece"
+        f"the meshes of {asked.real.name} that the detector did not learn from, as they are and "
+        "made one piece, and the objects of the develop half made one piece"
     )
-    return Fit(stored, what, data, report(rated))
+    return Fit(stored, what, data, report(stored, rated))
 
 
 def _parser() -> argparse.ArgumentParser:

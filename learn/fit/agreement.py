@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+from scipy.special import expit
 
 from asset_factory.factory.articulate.articulator import Articulator
 from asset_factory.factory.articulate.detected.agreement import LID, PANEL, PROPOSED, SIGNS
@@ -28,6 +30,7 @@ from ..detector.real import real_objects
 from ..detector.sides import Instances, labelled_sides
 from ..evaluate.cases import in_settings, make_case, real_requests
 from ..evaluate.listing import read_list
+from ..surfaces import coloured_skin
 from .perceptron import Examples, FitSettings, Weighing, fit_examples
 from .writing import networks_stored
 
@@ -37,6 +40,8 @@ SAME_PART = 0.5
 #: from it on and 12 are spurious; from 0.5 on 73 and 11.
 LEAST = 0.4
 STEPS = 200
+#: Ranges of probability that the card tells of.
+RANGES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.01)
 #: Sorts of true parts that a panel, and a lid, may be.
 _TRUE = {
     PANEL: (Sort.DOOR, Sort.DRAWER, Sort.FLAP),
@@ -62,7 +67,9 @@ class LabelledMesh:
 
 
 def labelled_meshes(real: Path, root: Path) -> Iterator[LabelledMesh]:
-    """Yield labelled real meshes that the detector did not see, and objects made one piece.
+    """Yield labelled real meshes that the detector did not see, as they are and made one piece.
+
+    After them come generated and published objects made one piece.
 
     Args:
         real: folder of labelled meshes.
@@ -71,8 +78,9 @@ def labelled_meshes(real: Path, root: Path) -> Iterator[LabelledMesh]:
     Raises:
         ConfigError: an object of the list is not there.
     """
-    for each in real_objects(real, held_out=True):
+    for seed, each in enumerate(real_objects(real, held_out=True)):
         yield LabelledMesh(each.mesh, each.sides.instances)
+        yield LabelledMesh(coloured_skin(each.mesh, seed), each.sides.instances)
     requests = real_requests(root, read_list(None), "develop")
     fused = [replace(request, fused=True) for request in requests]
     for request in in_settings(fused, ("closed",), ("front",)):
@@ -121,7 +129,7 @@ def _rate_proposed(
         shown = cells.support(joint.child, detection.dense)
         if part.kind in ASKED and shown is not None:
             right = _right(_boxes(cells, joint.child), each.truth, _TRUE[PROPOSED])
-            _add(rated[PROPOSED], [shown, part.confidence or 0.0], right)
+            _add(rated[PROPOSED], [shown], right)
 
 
 def _add(rows: list[tuple[float, ...]], signs: Sequence[float], right: bool | None) -> None:
@@ -135,13 +143,24 @@ def fit_agreement(rated: Rated) -> Arrays:
     return networks_stored(networks, SIGNS, {"least": np.array([LEAST])})
 
 
-def report(rated: Rated) -> str:
-    """Return how many parts there are, and how many of them are right."""
-    said = [
+def report(stored: Arrays, rated: Rated) -> str:
+    """Return how many parts there are, how many are right, and how many of those so probable."""
+    return "; ".join(
         f"{name}: {sum(row[-1] for row in rows):.0f} of {len(rows)} right"
+        + "".join(_reliability(Perceptron.read(stored, name, SIGNS[name]), rows))
         for name, rows in rated.items()
-    ]
-    return ", ".join(said)
+    )
+
+
+def _reliability(network: Perceptron, rows: Sequence[tuple[float, ...]]) -> Iterator[str]:
+    """Yield by range of probability how many of the parts are right."""
+    table = np.array(rows)
+    chances = expit([network.scores(signs)[0] for signs in table[:, :-1]])
+    for low, high in pairwise(RANGES):
+        here = (chances >= low) & (chances < high)
+        if here.any():
+            right = f"{table[here, -1].sum():.0f} of {here.sum()}"
+            yield f", of those from {low} to {high:.1f} on {right}"
 
 
 def _fitted(rows: Sequence[tuple[float, ...]]) -> Perceptron:

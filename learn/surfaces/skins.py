@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import io
+
 import numpy as np
 from scipy.spatial import cKDTree
 
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.geometry.components import connected_components
-from asset_factory.factory.mesh import FloatArray, IntArray, Mesh
+from asset_factory.factory.mesh import FloatArray, IntArray, Material, Mesh, Texture
 from asset_factory.factory.views.view import painted
 
 from .fused import skin, without_parts
@@ -59,8 +61,8 @@ def skin_like(
     return without_parts(made, hidden) if hidden else made
 
 
-def coloured_skin(mesh: Mesh, seed: int, cells: int | None = None) -> tuple[Mesh, FloatArray]:
-    """Return one closed skin around a mesh, in its bounding box, and each face's colour.
+def coloured_skin(mesh: Mesh, seed: int, cells: int | None = None) -> Mesh:
+    """Return one closed skin around a mesh, in its bounding box and under its colours.
 
     Seams between the mesh's own pieces are engraved as :func:`skin_like` engraves those of parts.
 
@@ -68,9 +70,6 @@ def coloured_skin(mesh: Mesh, seed: int, cells: int | None = None) -> tuple[Mesh
         mesh: with at least one triangle.
         seed: of everything that varies.
         cells: along the longest side; drawn by default.
-
-    Returns:
-        The skin, and colours as shown (sRGB) in [0, 1], shape [face_count, 3].
     """
     rng = np.random.default_rng([seed, 0xC01])
     piece = connected_components(mesh) % MOST_PIECES
@@ -80,7 +79,23 @@ def coloured_skin(mesh: Mesh, seed: int, cells: int | None = None) -> tuple[Mesh
     low = vertices.min(axis=0)
     share = (vertices - low) / (vertices.max(axis=0) - low)
     placed = mesh.vertices.min(axis=0) + share * mesh.extents
-    return Mesh.from_triangles(placed, faces), painted(mesh, below, weights)
+    return _coloured(placed, faces, painted(mesh, below, weights))
+
+
+def _coloured(vertices: FloatArray, faces: IntArray, colors: FloatArray) -> Mesh:
+    """Return a mesh whose texture holds a pixel for each face, by colours (sRGB) in [0, 1]."""
+    from PIL import Image
+
+    side = int(np.ceil(np.sqrt(len(faces))))
+    pixels = np.zeros((side * side, 3), np.uint8)
+    pixels[: len(faces)] = np.rint(255.0 * colors)
+    written = io.BytesIO()
+    Image.fromarray(pixels.reshape(side, side, 3)).save(written, "PNG")
+    row, column = np.divmod(np.arange(len(faces)), side)
+    middle = np.stack([(column + 0.5) / side, 1.0 - (row + 0.5) / side], axis=1)
+    uv = np.broadcast_to(middle[:, None], (len(faces), 3, 2))
+    material = Material("skin", (1.0, 1.0, 1.0, 1.0), Texture(written.getvalue(), ".png"))
+    return Mesh(vertices, faces, uv, None, np.zeros(len(faces), np.int64), (material,))
 
 
 def _skinned(

@@ -1,4 +1,4 @@
-"""How likely a part is there: what the detector sees of it, and how sure its proposer is."""
+"""How likely a part is there by what the detector sees of it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PROPOSED = "proposed"
 PANEL = "panel"
 LID = "lid"
 PANEL_SIGNS = ("support", "root of support", "seams in relief", "handle")
-SIGNS = {PROPOSED: ("support", "confidence"), PANEL: PANEL_SIGNS, LID: ("support",)}
+SIGNS = {PROPOSED: ("support",), PANEL: PANEL_SIGNS, LID: ("support",)}
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Agreement:
     """Logistic models, fitted to meshes that the detector did not learn from.
 
     Attributes:
-        proposed: of a part that somebody else proposes with some confidence.
+        proposed: of a part that somebody else proposes.
         panel: of a door, drawer or flap that only the detector sees.
         lid: of such a lid.
         least: probability below which a part stays fixed.
@@ -37,9 +37,9 @@ class Agreement:
     lid: Perceptron
     least: float
 
-    def of_proposed(self, support: float, confidence: float) -> float:
+    def of_proposed(self, support: float) -> float:
         """Return the probability of a part that somebody else proposes."""
-        return _chance(self.proposed, support, confidence)
+        return _chance(self.proposed, support)
 
     def of_panel(self, signs: FloatArray) -> float:
         """Return the probability of a panel for which :data:`PANEL_SIGNS` speak."""

@@ -29,8 +29,8 @@ from ..stated.placing import SeenMesh
 from ..straight import straightening
 from .agreement import Agreement
 from .merging import HINGE_OF, DetectedPart, seen_parts
-from .panels import is_evident, panels_of
-from .rating import CellParts, support_of_box
+from .panels import panels_of
+from .rating import CARRIED, CellParts, support_of_box
 
 if TYPE_CHECKING:
     from ...models.detector.detect import Detection
@@ -39,9 +39,6 @@ if TYPE_CHECKING:
 LEAST_SCORE = 0.5
 #: What is thinner than this share of its longest extent holds nothing.
 THINNEST = 0.005
-#: What opens with so much probability, and shows nothing that is sure enough, opens where seams
-#: close all around a handle. Of eight such among 257 objects made one piece six are right.
-SURELY = 0.9
 #: Panels that are less probable are not told of.
 LEAST_CHANCE = 0.05
 #: What sides and network are so sure of moves, seen or not, as does what rules of shape find:
@@ -53,8 +50,6 @@ STRANGE = frozenset({"gadget", "window", "box", "door"})
 MOST_TOLD = 4
 #: The detector is asked about these kinds of part; others open nothing that it knows.
 ASKED = frozenset({PartKind.PART, PartKind.DOOR, PartKind.DRAWER, PartKind.FLAP, PartKind.LID})
-#: These come and go with others that move.
-CARRIED = frozenset({PartKind.KNOB, PartKind.BUTTON, PartKind.RACK, PartKind.TURNTABLE})
 
 
 @dataclass(frozen=True)
@@ -106,12 +101,11 @@ class DetectedArticulator:
         moves = bool(guess.movable_joints)
         if detection.kind not in STRANGE:
             cells = CellParts.of(guess, faces)
-            guess, moves = self._agreed(guess, cells, detection.dense, least)
-        if self.least is None and not sure and not moves and detection.opens >= SURELY:
-            sure = [part for part in rated if part.evident]
+            guess, moves = self._agreed(guess, cells, detection.dense, least, sure)
         left = [part for part in rated if part not in sure]
         cells = CellParts.of(guess, faces)
         beside = [part for part in sure if not any(cells.has_moving(f) for f in part.found)]
+        guess = _without_pulls(guess, cells, beside)
         made = [*self._with(guess, beside), *([guess] if moves else [])]
         if len(sure) > len(guess.movable_joints):
             made += self._with(rigid_articulation(mesh, self.name, ()), sure)
@@ -137,13 +131,10 @@ class DetectedArticulator:
         dense = detection.dense
         closed = MeshOrigin.of(seen.mesh).is_shell
         panels = []
-        evident = set()
         for found, signs in panels_of(dense, seen, closed=closed):
             chance = self.agreement.of_panel(signs)
             if chance >= LEAST_CHANCE:
                 panels.append(replace(found, score=chance))
-                if is_evident(signs):
-                    evident.add(id(panels[-1]))
         lids = [each for each in detection.parts(self._least_score) if each.sort is Sort.LID]
         rated = []
         for part in seen_parts([*panels, *lids], extents):
@@ -153,12 +144,16 @@ class DetectedArticulator:
                 support = max(support_of_box(each, dense) for each in part.found)
                 probability = self.agreement.of_lid(support)
                 stated = stated if stated.hinge is not None else _hinged(stated, seen)
-            shut = id(part.found[0]) in evident
-            rated.append(replace(part, stated=stated, probability=probability, evident=shut))
+            rated.append(replace(part, stated=stated, probability=probability))
         return sorted(rated, key=lambda part: -part.probability)
 
     def _agreed(
-        self, guess: Articulation, cells: CellParts, dense: Dense, least: float
+        self,
+        guess: Articulation,
+        cells: CellParts,
+        dense: Dense,
+        least: float,
+        sure: Sequence[DetectedPart],
     ) -> tuple[Articulation, bool]:
         """Return a guess without parts that a side shows and the detector does not see.
 
@@ -177,8 +172,11 @@ class DetectedArticulator:
                 alone |= part.kind not in ASKED | CARRIED or _is_believed(part)
                 continue
             confidence = part.confidence or 0.0
-            chance = self.agreement.of_proposed(support, confidence)
-            if _is_believed(part):
+            chance = self.agreement.of_proposed(support)
+            if _is_ruled(part) or (
+                confidence >= BELIEVED
+                and not any(cells.hides(joint.child, f) for each in sure for f in each.found)
+            ):
                 chance = max(chance, confidence, least)
             if chance >= least:
                 kept.append(joint.child)
@@ -226,10 +224,28 @@ def _hinged(lid: StatedPart, seen: SeenMesh) -> StatedPart:
     return structs.replace(lid, hinge=HINGE_OF[first], alternatives=(other,))
 
 
+def _without_pulls(
+    guess: Articulation, cells: CellParts, beside: Sequence[DetectedPart]
+) -> Articulation:
+    """Return a guess without knobs on panels that come beside it: these are pulled by them."""
+    kept = [
+        joint.child
+        for joint in guess.joints
+        if guess.parts[joint.child].kind not in CARRIED
+        or not any(cells.lies_in(joint.child, f) for part in beside for f in part.found)
+    ]
+    return keep_parts(guess, kept) if len(kept) < len(guess.joints) else guess
+
+
 def _is_believed(part: Part) -> bool:
     """Tell whether a part moves though the detector does not see it."""
+    return _is_ruled(part) or (part.confidence or 0.0) >= BELIEVED
+
+
+def _is_ruled(part: Part) -> bool:
+    """Tell whether rules of shape found a part and say what it is."""
     ruled = part.source is not None and part.source.proposer is Proposer.RULES
-    return (ruled and part.kind is not PartKind.PART) or (part.confidence or 0.0) >= BELIEVED
+    return ruled and part.kind is not PartKind.PART
 
 
 def _said(part: DetectedPart, least: float) -> str:

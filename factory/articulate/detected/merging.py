@@ -52,13 +52,11 @@ class DetectedPart:
         stated: as a person would state it.
         found: where it is seen; of a lid on every side that shows it.
         probability: that it is there.
-        evident: seams close all around it and a handle is in it, whoever sees it.
     """
 
     stated: StatedPart
     found: tuple[Found, ...]
     probability: float = 1.0
-    evident: bool = False
 
 
 def seen_parts(found: Sequence[Found], extents: FloatArray) -> tuple[DetectedPart, ...]:

@@ -25,8 +25,6 @@ LEAST_SCORE = 0.1
 #: much cells must speak for one.
 MOST_CLOSED = 120
 LEAST_SUPPORT = 0.02
-#: The edges of a panel that seams close show so far in the shape.
-CLOSED = 0.9
 
 
 def panels_of(dense: Dense, seen: SeenMesh, *, closed: bool) -> Iterator[tuple[Found, FloatArray]]:
@@ -54,11 +52,6 @@ def panels_of(dense: Dense, seen: SeenMesh, *, closed: bool) -> Iterator[tuple[F
                 left, low, right, high = shares_of(found.box, extents).tolist()
                 meant = snap(front, frame, (left, low, right, high))
                 yield found, _signs(support_of_box(found, dense), front, meant)
-
-
-def is_evident(signs: FloatArray) -> bool:
-    """Tell whether seams close all around a panel, and a handle is in it."""
-    return bool(signs[2] >= CLOSED and signs[3])
 
 
 def _shares(front: Front, frame: StatedFrame, rectangle: Rectangle) -> FloatArray:

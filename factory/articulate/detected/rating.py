@@ -10,9 +10,12 @@ from scipy.special import expit
 from ...articulation import Articulation
 from ...geometry.posing import face_parts
 from ...mesh import BoolArray, FloatArray, IntArray
-from ...models.detector.canvas import CANVAS, OPENING, SIDES, STRIDE
+from ...models.detector.canvas import CANVAS, OPENING, SIDES, STRIDE, Sort
 from ...models.detector.decode import Dense, Found
+from ...part import PartKind
 
+#: These kinds of part come and go with others that move.
+CARRIED = frozenset({PartKind.KNOB, PartKind.BUTTON, PartKind.RACK, PartKind.TURNTABLE})
 #: A part that fewer cells show is not seen.
 LEAST_CELLS = 2
 #: Two parts of which one has so much of the other's cells on a side are in one place.
@@ -50,8 +53,21 @@ class CellParts:
         views = np.flatnonzero(shown.sum(axis=(1, 2)) >= LEAST_CELLS).tolist()
         return max((_support_of_cells(shown[view], dense, view) for view in views), default=None)
 
+    def hides(self, part: int, found: Found) -> bool:
+        """Tell whether a part is where another is seen."""
+        view = SIDES.index(found.side)
+        seen = (self.owner[view] >= 0) & box_cells(found.box)
+        return bool((self.shown(part)[view] & seen).sum() > SAME_PLACE * max(seen.sum(), 1))
+
+    def lies_in(self, part: int, found: Found) -> bool:
+        """Tell whether a panel is seen all around a part."""
+        if found.sort is Sort.LID:
+            return False
+        shown = self.shown(part)[SIDES.index(found.side)]
+        return bool((shown & box_cells(found.box)).sum() > shown.sum() / 2.0)
+
     def has_moving(self, found: Found) -> bool:
-        """Tell whether parts that move are where another is seen."""
+        """Tell whether parts that move are where another is seen; knobs on panels are not asked."""
         view = SIDES.index(found.side)
         box = box_cells(found.box)
         seen = self.owner[view] >= 0
@@ -59,6 +75,9 @@ class CellParts:
         if (moving & box).sum() > SAME_PLACE * max((seen & box).sum(), 1):
             return True
         for joint in self.articulation.joints:
+            kind = self.articulation.parts[joint.child].kind
+            if kind in CARRIED and found.sort is not Sort.LID:
+                continue
             shown = self.shown(joint.child)
             here = shown[view].sum()
             faces_side = here >= SAME_PLACE * shown.sum(axis=(1, 2)).max()

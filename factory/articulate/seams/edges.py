@@ -8,7 +8,7 @@ import numpy as np
 
 from ...mesh import FloatArray
 from ...views.raster import Side
-from .fronts import AROUND, Front
+from .fronts import AROUND, Front, thickness
 from .rectangles import FrontPanel
 
 #: A panel that ends so near the outline is seen from beside [pixels].
@@ -23,6 +23,25 @@ COVERED = 0.7
 ALONE = 0.85
 #: Two that differ by less are one [pixels].
 SAME = 3.0
+#: Nothing lies behind a panel that is at most so thick, as a share of its shorter side, of an
+#: object that is no deeper than that share of it.
+LEAF = 0.16
+SHALLOW = 0.5
+
+
+def leaf_thickness(front: Front, panel: FrontPanel) -> float | None:
+    """Return how thick a panel is that is seen from behind as well [m]; ``None`` of others.
+
+    A door between two rooms: whatever is in its rectangle moves with it.
+    """
+    window = panel.rectangle.window
+    pixel = front.relief.raster.pixel
+    shorter = float(panel.rectangle.size.min()) * pixel
+    both = front.relief.seen[window] & front.behind.seen[:, ::-1][window]
+    if not both.any() or front.relief.depth > SHALLOW * shorter:
+        return None
+    thick = float(np.median(thickness(front.relief, front.behind)[window][both])) * pixel
+    return thick if thick <= LEAF * shorter else None
 
 
 def seen_thickness(

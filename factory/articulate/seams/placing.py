@@ -13,7 +13,7 @@ from ...part import Handle, OpensBy, Panel, PartKind, Proposer
 from ...views.raster import Side
 from ..proposal import Motion, Proposal
 from .cutting import Region
-from .edges import seen_thickness
+from .edges import leaf_thickness, seen_thickness
 from .fronts import Front
 from .rectangles import FrontPanel
 
@@ -137,10 +137,12 @@ def panel_mover(
     low = raster.low[::-1] + panel.rectangle.low * raster.pixel
     high = raster.low[::-1] + panel.rectangle.high * raster.pixel
     rim = raster.near + rim_depth(front, panel) * raster.pixel
-    thickness = seen_thickness(fronts, side, panel, rim)
+    leaf = leaf_thickness(front, panel) if way is not OpensBy.OUT else None
+    thickness = leaf or seen_thickness(fronts, side, panel, rim)
     if thickness is None:
         thickness = max(THICKNESS * behind, LEAST_THICKNESS * raster.pixel)
-    region = box_before(raster.side, low, high, rim + thickness)
+    back = rim + thickness if leaf is None else raster.near + behind
+    region = box_before(raster.side, low, high, back)
     middle = (low + high) / 2.0
     across, height = {
         OpensBy.LEFT: (low[1], middle[0]),

@@ -132,6 +132,12 @@ class Rectangle:
         return float(self.size[0] * self.size[1])
 
     @property
+    def window(self) -> tuple[slice, slice]:
+        """Return the rows and columns in it."""
+        rows, columns = zip(self.low, self.high + 1, strict=True)
+        return slice(*rows), slice(*columns)
+
+    @property
     def closed(self) -> float:
         """Return how well all four sides are covered, 0 to 1."""
         return float(0.5 * self.sides.mean() + 0.5 * self.sides.min())

@@ -102,7 +102,7 @@ def boxed_in(front: Front, part: StatedPart, place: int, box: Rectangle) -> Stat
             f"{label_of(part, place)}: its box on the {part.side} is thinner than "
             f"{THINNEST * front.relief.raster.pixel * 1000.0:.3g} mm: too thin to be seen",
         )
-    shown = front.relief.seen[slices_of(box)]
+    shown = front.relief.seen[box.window]
     share = float(shown.mean()) if shown.size else 0.0
     if share < LEAST_SHOWN or part.view is None:
         raise InputRejected(
@@ -116,9 +116,3 @@ def boxed_in(front: Front, part: StatedPart, place: int, box: Rectangle) -> Stat
         )
     panel = FrontPanel(box, front.scene.handles_in(box))
     return StatedBox(part, place, part.view, front, panel)
-
-
-def slices_of(box: Rectangle) -> tuple[slice, slice]:
-    """Return the rows and columns of a rectangle."""
-    rows, columns = zip(box.low, box.high + 1, strict=True)
-    return slice(*rows), slice(*columns)

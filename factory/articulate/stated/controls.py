@@ -16,7 +16,7 @@ from ..seams.cutting import Region
 from ..seams.fronts import thickness
 from ..seams.knobs import knobs_on
 from ..seams.placing import TURN, OpeningPart, box_before
-from .boxed import StatedBox, slices_of
+from .boxed import StatedBox
 from .snapping import AT_OUTLINE
 
 #: How far a button is pressed [m].
@@ -109,7 +109,7 @@ def _standing(part: StatedBox) -> tuple[float, BoolArray]:
     A wheel or a lever may hide most of what carries it: that is then the deeper one of two groups
     of depths, or, where there is one depth only, whatever is behind the part's own thickness.
     """
-    slices = slices_of(part.panel.rectangle)
+    slices = part.panel.rectangle.window
     seen = part.front.relief.seen[slices]
     height = part.front.relief.height[slices]
     carrier = float(np.median(part.front.face.height[slices]))
@@ -140,7 +140,7 @@ def _cap(part: StatedBox) -> OpeningPart:
     right, up, away = raster.side.frame
     height, across = raster.low[::-1] + box.low * raster.pixel
     middle = raster.low[0] + float(box.low[1] + box.high[1]) / 2.0 * raster.pixel
-    rows, columns = slices_of(box)
+    rows, columns = box.window
     nearest = float(part.front.face.height[rows, columns].max())
     width = float(box.high[1] - box.low[1]) / 2.0
     depth = raster.near + (width - nearest) * raster.pixel

@@ -10,7 +10,7 @@ from ...mesh import FloatArray
 from ...part import OpensBy, Panel
 from ..seams.cutting import Region
 from ..seams.placing import OpeningPart
-from .boxed import StatedBox, slices_of
+from .boxed import StatedBox
 
 #: A panel slopes by more than this [rad], and departs from its plane by at most so many pixels, at
 #: its middle half.
@@ -80,7 +80,7 @@ def tilted(mover: OpeningPart, part: StatedBox) -> OpeningPart:
 
 def _plane_of(part: StatedBox) -> _Plane | None:
     """Return the plane of what a box shows; ``None`` if it is upright to the view, or no plane."""
-    rows, columns = slices_of(part.panel.rectangle)
+    rows, columns = part.panel.rectangle.window
     raster = part.front.relief.raster
     seen = part.front.relief.seen[rows, columns]
     row, column = np.nonzero(seen)

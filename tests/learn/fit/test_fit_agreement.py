@@ -33,12 +33,11 @@ def labelled(made):
 
 def test_a_true_door_is_right_and_one_where_nothing_opens_is_not():
     made = make_object("fridge", 4)
-    sure = tuple(replace(part, confidence=0.7, kind=PartKind.DOOR) for part in made.parts)
+    sure = tuple(replace(part, kind=PartKind.DOOR) for part in made.parts)
     proposed = replace(made, parts=sure)
     (rows,) = (rate_parts(Says(proposed), [labelled(made)])["proposed"],)
     assert rows
     assert {row[-1] for row in rows} == {1.0}
-    assert {row[1] for row in rows} == {0.7}
     shut = LabelledMesh(made.mesh, Instances.of(np.zeros((0, 10))))
     rated = rate_parts(Says(proposed), [shut])
     assert {row[-1] for row in (*rated["proposed"], *rated["panel"])} == {0.0}
@@ -63,6 +62,6 @@ def test_what_is_fitted_believes_what_was_right():
     agreement = agreement_of(fit_agreement(rated))
     assert agreement.of_lid(0.9) > 0.9
     assert agreement.of_lid(0.1) < 0.1
-    assert agreement.of_proposed(0.9, 0.5) > 0.9
-    assert agreement.of_proposed(0.1, 0.5) < 0.1
+    assert agreement.of_proposed(0.9) > 0.9
+    assert agreement.of_proposed(0.1) < 0.1
     assert agreement.of_panel(np.array([0.9, 0.5, 0.5, 0.5])) > 0.9

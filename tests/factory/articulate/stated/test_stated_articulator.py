@@ -46,6 +46,16 @@ def test_a_door_is_hinged_where_it_is_said():
         assert box_of(made, 1)[0][2] == pytest.approx(1.1, abs=FINE)
 
 
+@pytest.mark.parametrize(("depth", "whole"), [(0.06, True), (0.5, False)])
+def test_a_door_that_nothing_lies_behind_moves_whole(depth, whole):
+    frame = block((0.0, 0.0, 0.0), (1.0, depth, 2.0))
+    part = {"kind": "door", "side": "front", "box": [0.1, 0.05, 0.9, 0.95], "hinge": "left"}
+    (made, *_) = articulated(mesh_of(frame, 0.1), part)
+    low, high = box_of(made, 1)
+    assert low[1] == pytest.approx(0.0)
+    assert high[1] == pytest.approx(depth, abs=1e-6) if whole else high[1] < 0.1
+
+
 def test_without_a_hinge_both_are_tried_the_handles_other_side_first():
     first, second = articulated(fridge(), {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1]})
     assert first.joints[0].origin[0] == pytest.approx(0.6, abs=FINE)
