@@ -119,12 +119,9 @@ class Views:
 
 
 def painted(mesh: Mesh, face: IntArray, weights: FloatArray) -> FloatArray:
-    """Return the base colour as shown (sRGB) in [0, 1] at points of a mesh, shape [n, 3].
+    """Return base colours as shown (sRGB) in [0, 1] at points of triangles, shape [n, 3].
 
-    Args:
-        mesh: any.
-        face: the triangle of each point, shape [n].
-        weights: of the triangle's corners, shape [n, 3].
+    Points are told by their triangle, shape [n], and the weights of its corners, shape [n, 3].
     """
     colors = np.zeros((len(face), 3))
     material = mesh.face_material[face]

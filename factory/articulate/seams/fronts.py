@@ -15,7 +15,6 @@ from .evidence import Seams, level_seams, upright_seams
 from .handles import Face, Protrusion, cleared
 from .rectangles import SHORTEST, Lines, Rectangle, lines_of, rectangles_of
 from .relief import Relief
-from .twins import parted
 
 #: A handle belongs to a panel if it is that far inside [pixels].
 INSIDE = 1.0
@@ -78,7 +77,7 @@ class Front:
         rows = lines_of(self.level, first_row, last_row)
         upright = upright_seams(self.relief, self.face)
         columns = lines_of(upright.turned(), first_column, last_column)
-        face = with_strips(parted(self.face, columns), rows, columns)
+        face = with_strips(self.face, rows, columns)
         return FrontScene(face, rows, columns)
 
     def rectangles(self) -> tuple[Rectangle, ...]:

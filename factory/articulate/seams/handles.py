@@ -44,8 +44,6 @@ FEWEST = 3
 FEWEST_LONG = 4
 SPACING_LONG = 2.5
 LONGEST = 0.08
-#: What is wider than so many times its height is a bar, not two knobs that have grown together.
-LONGEST_KNOB = 3.0
 #: Twins on opposite sides differ by less than that share of the picture.
 TWIN = 0.03
 #: What stands off less than that share of the highest handle of a side is none.
@@ -91,11 +89,6 @@ class Protrusion:
     def size(self) -> FloatArray:
         """Return the rows and columns."""
         return np.asarray(self.high - self.low + 1.0)
-
-    def split(self, column: int) -> tuple[Protrusion, Protrusion]:
-        """Return both sides of a column."""
-        left = replace(self, high=np.array([self.high[0], column - 1]))
-        return left, replace(self, low=np.array([self.low[0], column + 1]))
 
     def holds(self, other: Protrusion) -> bool:
         """Return whether another stands on it: then it is a panel in front of its frame."""

@@ -210,10 +210,10 @@ class _Layer(nn.Module):  # type: ignore[misc]
     ) -> None:
         super().__init__()
         total = kernel - stride
-        even = total // 2 if total % 2 == 0 else 0
+        self.pads = (total // 2, total - total // 2) * 2 if total % 2 else None
+        even = 0 if self.pads else total // 2
         self.conv = nn.Conv2d(given, width, kernel, stride, even, bias=False, groups=groups)
         self.norm = nn.BatchNorm2d(width, eps=1e-3, momentum=0.05)
-        self.pads = (total // 2, total - total // 2) * 2 if total % 2 else None
         self.cut = cut
 
     def forward(self, picture: Tensor) -> Tensor:
