@@ -28,7 +28,7 @@ from ..stated.articulator import StatedArticulator, seen_from
 from ..stated.placing import SeenMesh
 from ..straight import straightening
 from .agreement import Agreement
-from .merging import HINGE_OF, DetectedPart, seen_parts
+from .merging import HINGE_OF, DetectedPart, likely_hinges, seen_parts
 from .panels import panels_of
 from .rating import CARRIED, CellParts, support_of_box
 
@@ -143,7 +143,7 @@ class DetectedArticulator:
             if stated.kind is StatedKind.LID:
                 support = max(support_of_box(each, dense) for each in part.found)
                 probability = self.agreement.of_lid(support)
-                stated = stated if stated.hinge is not None else _hinged(stated, seen)
+                stated = stated if stated.hinge is not None else _hinged(part, seen)
             rated.append(replace(part, stated=stated, probability=probability))
         return sorted(rated, key=lambda part: -part.probability)
 
@@ -213,13 +213,14 @@ class DetectedArticulator:
         return rigid_articulation(mesh, self.name, (f"{looks} {sure}; {opens}", *guess.notes))
 
 
-def _hinged(lid: StatedPart, seen: SeenMesh) -> StatedPart:
+def _hinged(part: DetectedPart, seen: SeenMesh) -> StatedPart:
     """Return a lid hinged where hinges, latch and wheels are seen, or at the next likely side."""
+    lid = part.stated
     box = (0.0, 0.0, 1.0, 1.0) if lid.view is None else lid.view.box
     raster = seen.around[Side.FRONT].relief.raster
     height = seen.mesh.bounds[0, 2] + box[1] * seen.mesh.extents[2]
     row = int((height - raster.low[1]) / raster.pixel)
-    first, second, *_ = lid_hinges(seen.around, row)
+    first, second, *_ = likely_hinges(part.found, lid_hinges(seen.around, row))
     other = StatedAlternative(hinge=HINGE_OF[second])
     return structs.replace(lid, hinge=HINGE_OF[first], alternatives=(other,))
 

@@ -142,8 +142,21 @@ def _lid(lids: Sequence[Found], sizes: FloatArray) -> StatedPart:
 
     Where they contradict one another on its hinge, none is told.
     """
-    direction = np.zeros(3)
-    said = 0.0
+    told = _hinges_told(lids)
+    direction = told.sum(axis=0)
+    agreed = float(np.linalg.norm(direction)) > AGREED * float(np.abs(told).sum())
+    hinge = HINGE_OF.get(side_facing(direction)) if agreed else None
+    upright = [each for each in lids if each.side is not Side.TOP]
+    if not upright:
+        above = max(lids, key=lambda each: each.score)
+        return StatedPart(StatedKind.LID, above.side, _box(above, sizes), hinge)
+    best = max(upright, key=lambda each: each.score)
+    return StatedPart(StatedKind.LID, best.side, _box(best, sizes), hinge)
+
+
+def _hinges_told(lids: Sequence[Found]) -> FloatArray:
+    """Return where each way of each side says that the hinge is, as long as it is sure, [n, 3]."""
+    told = []
     for each in lids:
         right, up, away = each.side.frame
         far = up if each.side is Side.TOP else away
@@ -154,17 +167,14 @@ def _lid(lids: Sequence[Found], sizes: FloatArray) -> StatedPart:
             PanelWay.BOTTOM: -far,
         }
         for way, where in toward.items():
-            weight = each.score * float(each.ways[WAYS.index(way)])
-            direction += weight * where
-            said += weight
-    agreed = float(np.linalg.norm(direction)) > AGREED * said
-    hinge = HINGE_OF.get(side_facing(direction)) if agreed else None
-    upright = [each for each in lids if each.side is not Side.TOP]
-    if not upright:
-        above = max(lids, key=lambda each: each.score)
-        return StatedPart(StatedKind.LID, above.side, _box(above, sizes), hinge)
-    best = max(upright, key=lambda each: each.score)
-    return StatedPart(StatedKind.LID, best.side, _box(best, sizes), hinge)
+            told.append(each.score * float(each.ways[WAYS.index(way)]) * where)
+    return np.array(told)
+
+
+def likely_hinges(lids: Sequence[Found], sides: Sequence[Side]) -> list[Side]:
+    """Return sides at which a lid may be hinged, those first on whose axis its sides agree."""
+    weight = np.abs(_hinges_told(lids)).sum(axis=0)
+    return sorted(sides, key=lambda side: -float(weight @ np.abs(side.frame[2])))
 
 
 def _shows(box: Box) -> bool:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from asset_factory.factory.articulate.detected.merging import seen_parts
+from asset_factory.factory.articulate.detected.merging import likely_hinges, seen_parts
 from asset_factory.factory.intake.stated import Hinge, StatedKind
 from asset_factory.factory.models.detector.canvas import (
     CANVAS,
@@ -83,6 +83,19 @@ def test_a_lid_that_all_sides_show_is_one_hinged_where_most_say():
     assert lid.side is Side.FRONT
     assert lid.hinge is Hinge.BACK
     assert lid.box[1] == pytest.approx(0.7)
+
+
+def test_sides_that_contradict_one_another_still_say_along_which_axis_a_lid_is_hinged():
+    top = [0.0, 0.7, 1.0, 1.0]
+    found = [
+        seen(Side.RIGHT, top, Sort.LID, PanelWay.TOP, 0.9),
+        seen(Side.LEFT, top, Sort.LID, PanelWay.TOP, 0.9),
+        seen(Side.TOP, [0, 0, 1, 1], Sort.LID, PanelWay.TOP, 0.8),
+    ]
+    (lid,) = stated_parts(found, TALL)
+    assert lid.hinge is None
+    by_rules = [Side.FRONT, Side.RIGHT, Side.BACK, Side.LEFT]
+    assert likely_hinges(found, by_rules)[:2] == [Side.RIGHT, Side.LEFT]
 
 
 def test_a_lid_that_only_the_top_shows_is_in_the_top():
