@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from msgspec import structs
 
-from ...articulation import Articulation, Weights
+from ...articulation import Articulation, Joint, JointKind, Weights
 from ...errors import InputRejected
 from ...geometry.posing import rotated
-from ...intake.stated import Stated, StatedAlternative, StatedKind, StatedPart
+from ...intake.stated import Hinge, Stated, StatedAlternative, StatedKind, StatedPart
 from ...mesh import Mesh
 from ...models.detector.canvas import Sort, look_at
 from ...models.detector.decode import Dense
@@ -46,6 +46,9 @@ LEAST_CHANCE = 0.05
 BELIEVED = 0.85
 #: Kinds of object of which the detector learned too little to fix anything.
 STRANGE = frozenset({"gadget", "window", "box", "door"})
+#: The line that a lid turns about is this far from its middle to its side, and so square to it.
+AT_SIDE = 0.5
+LEVEL = 0.3
 #: Parts that are told of those that are seen and left fixed.
 MOST_TOLD = 4
 #: The detector is asked about these kinds of part; others open nothing that it knows.
@@ -103,6 +106,7 @@ class DetectedArticulator:
             cells = CellParts.of(guess, faces)
             guess, moves = self._agreed(guess, cells, detection.dense, least, sure)
         left = [part for part in rated if part not in sure]
+        guess = _without_misplaced(guess, CellParts.of(guess, faces), sure)
         cells = CellParts.of(guess, faces)
         beside = [part for part in sure if not any(cells.has_moving(f) for f in part.found)]
         guess = _without_pulls(guess, cells, beside)
@@ -144,7 +148,8 @@ class DetectedArticulator:
                 support = max(support_of_box(each, dense) for each in part.found)
                 probability = self.agreement.of_lid(support)
                 stated = stated if stated.hinge is not None else _hinged(part, seen)
-            rated.append(replace(part, stated=stated, probability=probability))
+            agreed = stated is part.stated
+            rated.append(replace(part, stated=stated, probability=probability, agreed=agreed))
         return sorted(rated, key=lambda part: -part.probability)
 
     def _agreed(
@@ -223,6 +228,33 @@ def _hinged(part: DetectedPart, seen: SeenMesh) -> StatedPart:
     first, second, *_ = likely_hinges(part.found, lid_hinges(seen.around, row))
     other = StatedAlternative(hinge=HINGE_OF[second])
     return structs.replace(lid, hinge=HINGE_OF[first], alternatives=(other,))
+
+
+def _without_misplaced(
+    guess: Articulation, cells: CellParts, sure: Sequence[DetectedPart]
+) -> Articulation:
+    """Return a guess without lids that it hinges elsewhere than all sides agree on."""
+    lids = [part for part in sure if part.stated.kind is StatedKind.LID and part.agreed]
+    kept = [
+        joint.child
+        for joint in guess.joints
+        if not any(
+            cells.hides(joint.child, found) and not _hinged_at(guess, joint, part.stated.hinge)
+            for part in lids
+            for found in part.found
+        )
+    ]
+    return keep_parts(guess, kept) if len(kept) < len(guess.joints) else guess
+
+
+def _hinged_at(guess: Articulation, joint: Joint, hinge: Hinge | None) -> bool:
+    """Tell whether a joint turns a part about a line at one side of its box."""
+    outward = -next(side for side, name in HINGE_OF.items() if name is hinge).frame[2]
+    low, high = guess.part_mesh(joint.child).bounds
+    half = float(np.abs(outward) @ (high - low)) / 2.0
+    off = float(outward @ (joint.origin - (low + high) / 2.0))
+    turns = joint.kind is not JointKind.PRISMATIC
+    return turns and abs(float(joint.axis @ outward)) < LEVEL and off > AT_SIDE * half
 
 
 def _without_pulls(

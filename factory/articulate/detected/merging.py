@@ -52,11 +52,13 @@ class DetectedPart:
         stated: as a person would state it.
         found: where it is seen; of a lid on every side that shows it.
         probability: that it is there.
+        agreed: the sides that show it do not contradict one another on its hinge.
     """
 
     stated: StatedPart
     found: tuple[Found, ...]
     probability: float = 1.0
+    agreed: bool = True
 
 
 def seen_parts(found: Sequence[Found], extents: FloatArray) -> tuple[DetectedPart, ...]:

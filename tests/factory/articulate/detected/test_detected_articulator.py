@@ -110,6 +110,19 @@ def test_a_part_that_a_network_believes_gives_way_to_drawers_that_are_seen_there
     assert [part.kind for part in made.parts[1:]] == [PartKind.DRAWER] * drawers
 
 
+@pytest.mark.parametrize("share", [0.0, 1.0])
+def test_a_lid_that_is_proposed_with_its_hinge_elsewhere_is_hung_where_its_sides_say(share):
+    truth = make_object("chest", 1)
+    (joint,) = truth.movable_joints
+    lid = truth.part_mesh(joint.child).bounds
+    moved = joint.origin + share * np.array([0.0, lid[0, 1] - joint.origin[1], 0.0])
+    sure = tuple(replace(part, confidence=0.9, kind=PartKind.PART) for part in truth.parts)
+    proposed = replace(truth, parts=sure, joints=(replace(joint, origin=moved),))
+    (made,) = detected(proposed)[0].articulation.movable_joints
+    assert made.origin[1] == pytest.approx(joint.origin[1], abs=0.15 * np.ptp(lid[:, 1]))
+    assert abs(made.axis[0]) > 0.99
+
+
 def test_a_knob_on_a_door_that_is_seen_is_its_pull():
     truth = make_object("fridge", 4)
     said = unmoving("fridge", 4)
