@@ -3,7 +3,7 @@
     python benchmarks/openings.py OUT
 
 Predicts what opens on each mesh of ``train_static`` that the detector did not learn from, as it is
-and made one bumpy, coloured piece as image-to-3D tools give it (``OUT/skins``, GLB files). The
+and made one bumpy, coloured piece as image-to-3D tools give it (``OUT/one_piece``, GLB files). The
 data's own ``score.py`` compares with the labels; ``results/held_out_openings.toml`` is written.
 Left out are meshes that are drawn open, and those that open and have no label.
 """
@@ -11,7 +11,6 @@ Left out are meshes that are drawn open, and those that open and have no label.
 from __future__ import annotations
 
 import argparse
-import csv
 import io
 import json
 import subprocess
@@ -27,7 +26,8 @@ from results_file import renew
 
 from asset_factory.factory.articulate.predict import predict
 from asset_factory.factory.config import BuildConfig
-from asset_factory.learn.detector.real import is_held_out, real_objects
+from asset_factory.factory.mesh import Mesh
+from asset_factory.learn.detector.real import real_objects
 from asset_factory.learn.surfaces import coloured_skin
 
 COLUMNS = ("", "joints right", "of", "spurious", "of those that stay shut something opens on")
@@ -36,18 +36,17 @@ COLUMNS = ("", "joints right", "of", "spurious", "of those that stay shut someth
 def main() -> int:
     """Predict and score; returns the exit code."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("output", type=Path, help="folder of skins and predictions")
+    parser.add_argument("output", type=Path, help="folder of meshes and predictions")
     parser.add_argument("--data", type=Path, default=DATA, help="folder of train_static, generated")
     parser.add_argument("--workers", type=int, default=2)
     asked = parser.parse_args()
     source = asked.data / "train_static"
-    labels = labels_of(source)
+    labels = write_inputs(source, asked.output / "one_piece")
     names = [name for name in labels if ":" not in name]
-    write_skins(source, names, asked.output / "skins")
     rows = []
     for what, meshes in (
         ("as artists made them", source),
-        ("made one piece", asked.output / "skins"),
+        ("made one piece", asked.output / "one_piece"),
     ):
         predictions = asked.output / what.replace(" ", "_")
         predictions.mkdir(exist_ok=True)
@@ -59,39 +58,31 @@ def main() -> int:
     return 0
 
 
-def labels_of(source: Path) -> dict[str, Any]:
-    """Return the labels of held-out meshes; those that stay shut have none."""
+def write_inputs(source: Path, folder: Path) -> dict[str, Any]:
+    """Write held-out meshes as one piece; return labels by name, none of those that stay shut."""
     labels = json.loads((source / "openings.json").read_text())
-    fronts = json.loads((source / "fronts.json").read_text())
-    drawn_open = {name.split()[0] for name in fronts["open_as_given"]}
-    taken = {}
-    with (source / "INVENTORY.csv").open(newline="") as inventory:
-        for row in csv.DictReader(inventory):
-            name = Path(row["file"]).stem
-            if not is_held_out(name) or name in drawn_open:
-                continue
-            if row["opens"] == "no" or (row["opens"] == "yes" and name in labels):
-                taken |= {key: labels.get(key, []) for key in (name, f"{name}:optional")}
+    folder.mkdir(parents=True, exist_ok=True)
+    taken: dict[str, Any] = {}
+    for seed, each in enumerate(real_objects(source, held_out=True)):
+        if each.opens and each.name not in labels:
+            continue
+        taken |= {key: labels.get(key, []) for key in (each.name, f"{each.name}:optional")}
+        if not (written := folder / f"{each.name}.glb").exists():
+            write_glb(coloured_skin(each.mesh, seed), written)
     return taken
 
 
-def write_skins(source: Path, names: list[str], folder: Path) -> None:
-    """Write each mesh as one bumpy, coloured piece."""
+def write_glb(mesh: Mesh, path: Path) -> None:
+    """Write a mesh of one textured material."""
     import trimesh
     from PIL import Image
 
-    folder.mkdir(parents=True, exist_ok=True)
-    for seed, each in enumerate(real_objects(source, held_out=True)):
-        if each.name not in names or (folder / f"{each.name}.glb").exists():
-            continue
-        skin = coloured_skin(each.mesh, seed)
-        corners = skin.vertices[skin.faces].reshape(-1, 3)[:, [0, 2, 1]] * [1.0, 1.0, -1.0]
-        picture = Image.open(io.BytesIO(skin.materials[0].texture.data))
-        paint = trimesh.visual.material.PBRMaterial(baseColorTexture=picture)
-        look = trimesh.visual.TextureVisuals(skin.corner_uv.reshape(-1, 2), material=paint)
-        faces = np.arange(len(corners)).reshape(-1, 3)
-        made = trimesh.Trimesh(corners, faces, visual=look, process=False)
-        made.export(folder / f"{each.name}.glb")
+    corners = mesh.vertices[mesh.faces].reshape(-1, 3)[:, [0, 2, 1]] * [1.0, 1.0, -1.0]
+    picture = Image.open(io.BytesIO(mesh.materials[0].texture.data))
+    paint = trimesh.visual.material.PBRMaterial(baseColorTexture=picture)
+    look = trimesh.visual.TextureVisuals(mesh.corner_uv.reshape(-1, 2), material=paint)
+    faces = np.arange(len(corners)).reshape(-1, 3)
+    trimesh.Trimesh(corners, faces, visual=look, process=False).export(path)
 
 
 def write_prediction(file: Path, folder: Path) -> None:

@@ -19,7 +19,7 @@ SHARES = (0.5, 0.2, 0.17, 0.06)
 OPENED = 0.12
 
 
-def drawn_skin(rng: np.random.Generator) -> tuple[str, LabelledSides]:
+def drawn_one_piece(rng: np.random.Generator) -> tuple[str, LabelledSides]:
     """Return a generated object's kind and its sides, made one piece as image-to-3D gives it."""
     while True:
         kind, made, _ = _drawn(rng)

@@ -1,7 +1,7 @@
 """Real objects and textures in one small file, to be carried to where training runs.
 
 ``python -m asset_factory.learn.detector.pack OUT --real train_static --described train_infinigen
---textures train_textures --skins 2``.
+--textures train_textures --one-piece 2``.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def main() -> None:
     parser.add_argument("--real", type=Path, required=True)
     parser.add_argument("--described", type=Path)
     parser.add_argument("--textures", type=Path, required=True)
-    parser.add_argument("--skins", type=int, default=0, help="so many of every real object")
+    parser.add_argument("--one-piece", type=int, default=0, help="so many of each real object")
     parser.add_argument("--workers", type=int, default=2)
     write_pack(parser.parse_args())
 
@@ -56,14 +56,15 @@ def write_pack(options: argparse.Namespace) -> None:
         get_context("spawn").Pool(options.workers) as workers,
     ):
         shown = workers.imap(
-            partial(_with_skins, count=options.skins), enumerate(real_objects(options.real))
+            partial(_with_forms, count=options.one_piece), enumerate(real_objects(options.real))
         )
-        for number, (found, skins) in enumerate(shown):
+        for number, (found, forms) in enumerate(shown):
             note = {"kind": kind_number(found.kind), "opens": found.opens, "front": found.front}
             note |= {"held_out": is_held_out(found.name), "real": True}
             _add(pack, f"real_{number:04d}_{found.name}", note, found.sides)
-            for form, sides in enumerate(skins):
-                _add(pack, f"skin{form}_{number:04d}_{found.name}", note | {"skinned": True}, sides)
+            note |= {"one_piece": True}
+            for form, sides in enumerate(forms):
+                _add(pack, f"one_piece{form}_{number:04d}_{found.name}", note, sides)
         for number, (name, articulation) in enumerate(descriptions):
             sides = labelled_sides(closed(articulation))
             counts = np.bincount(
@@ -78,7 +79,7 @@ def write_pack(options: argparse.Namespace) -> None:
     say(f"{options.out}: written")
 
 
-def _with_skins(
+def _with_forms(
     numbered: tuple[int, RealObject], count: int
 ) -> tuple[RealObject, list[LabelledSides]]:
     """Return an object, and its sides as made one piece so many times; one if it is held out."""

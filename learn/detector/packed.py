@@ -29,14 +29,14 @@ class Packed:
     Attributes:
         truth: about it as a whole.
         held_out: not trained on.
-        skinned: a mesh of pieces that was made one piece.
+        one_piece: a mesh of pieces that was made one piece.
         color, depth, part: see :class:`~asset_factory.learn.detector.looks.ObjectBatch`.
         table: of moving parts, [n, 10].
     """
 
     truth: WholeTruth
     held_out: bool
-    skinned: bool
+    one_piece: bool
     color: npt.NDArray[np.uint8]
     depth: npt.NDArray[np.int16]
     part: npt.NDArray[np.uint8]
@@ -58,11 +58,11 @@ def read_pack(path: Path) -> Iterator[Packed]:
             part = np.frombuffer(lzma.decompress(pack.read(f"{folder}/part")), np.uint8)
             table = np.frombuffer(pack.read(f"{folder}/table"), np.float32).reshape(-1, 10)
             held_out = note.pop("held_out")
-            skinned = note.pop("skinned", False)
+            one_piece = note.pop("one_piece", False)
             yield Packed(
                 WholeTruth(**note),
                 held_out,
-                skinned,
+                one_piece,
                 color.reshape(*shape, 3),
                 np.where(depth < 0, NOTHING, depth * COARSE).astype(np.int16),
                 part.reshape(shape),

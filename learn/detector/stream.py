@@ -89,10 +89,10 @@ class Makers:
         pool: for the objects.
         workers: how many.
         seed: of what they draw.
-        skinned: the objects are made one piece, as image-to-3D tools give them.
+        one_piece: the objects are made one piece, as image-to-3D tools give them.
     """
 
-    def __init__(self, pool: Pool, workers: int, seed: int, skinned: bool = False) -> None:
+    def __init__(self, pool: Pool, workers: int, seed: int, one_piece: bool = False) -> None:
         context = get_context("spawn")
         self.memory = SharedMemory(create=True, size=SLOTS * _BYTES)
         self.free = context.Queue()
@@ -103,7 +103,7 @@ class Makers:
         self.workers = [
             context.Process(
                 target=make_into,
-                args=(self.memory.name, self.free, self.ready, seed, number, skinned),
+                args=(self.memory.name, self.free, self.ready, seed, number, one_piece),
                 daemon=True,
             )
             for number in range(workers)
@@ -138,15 +138,15 @@ def _views(memory: SharedMemory, slot: int) -> tuple[Any, Any, Any]:
     return color, depth, part
 
 
-def make_into(name: str, free: Any, ready: Any, seed: int, number: int, skinned: bool) -> None:
+def make_into(name: str, free: Any, ready: Any, seed: int, number: int, one_piece: bool) -> None:
     """Make objects for ever; runs in a worker process."""
-    from .drawn import drawn_sides, drawn_skin
+    from .drawn import drawn_one_piece, drawn_sides
     from .kinds import kind_number
 
     torch.set_num_threads(1)
     memory = SharedMemory(name=name)
-    rng = np.random.default_rng([seed, number, int(skinned)])
-    drawn = drawn_skin if skinned else drawn_sides
+    rng = np.random.default_rng([seed, number, int(one_piece)])
+    drawn = drawn_one_piece if one_piece else drawn_sides
     while True:
         kind, sides = drawn(rng)
         slot = free.get()

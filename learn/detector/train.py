@@ -40,7 +40,7 @@ WARMING = 0.05
 #: one piece; the rest is generated.
 SHARES = (0.19, 0.19, 0.06, 0.12)
 #: Of the workers, those that make generated objects one piece; each takes five times as long.
-SKINNERS = 0.25
+ONE_PIECE_WORKERS = 0.25
 #: Weights that are kept follow those that learn by this share a step.
 FOLLOW = 0.998
 SAID_EVERY_S = 20.0
@@ -75,23 +75,23 @@ def train(options: Any) -> None:
     torch.backends.cuda.matmul.allow_tf32 = True
     torch.backends.cudnn.allow_tf32 = True
     torch.manual_seed(options.seed)
-    skinners = round(SKINNERS * options.workers)
+    some = round(ONE_PIECE_WORKERS * options.workers)
     made = Pool(options.pool, device)
-    skinned = Pool(options.pool // 4, device)
+    one_piece = Pool(options.pool // 4, device)
     makers = (
-        Makers(made, options.workers - skinners, options.seed),
-        Makers(skinned, skinners, options.seed, skinned=True),
+        Makers(made, options.workers - some, options.seed),
+        Makers(one_piece, some, options.seed, one_piece=True),
     )
     learned, held_out = _packed(options.pack, device)
     say(f"{[each.made for each in learned]} to learn from, {[each.made for each in held_out]} not")
     network = _begun(options).to(device, memory_format=torch.channels_last)
-    while made.made < options.first or skinned.made < options.first / 16:
+    while made.made < options.first or one_piece.made < options.first / 16:
         for each in makers:
             each.collect(MOST_COLLECTED)
         time.sleep(0.05)
     say(f"{made.made} objects made after {time.monotonic() - start:.0f} s")
     source = Pools(
-        (*learned, skinned, made),
+        (*learned, one_piece, made),
         torch.from_numpy(read_textures(options.pack)).to(device),
         torch.Generator(device).manual_seed(options.seed),
     )
@@ -104,7 +104,7 @@ def train(options: Any) -> None:
         _follow(kept, _begun(options).to(device), options.share)
     _keep(kept, options.out)
     figures: dict[str, Any] = {"steps": steps, "batch": options.batch, "made": made.made}
-    figures |= {"made one piece": skinned.made}
+    figures |= {"made one piece": one_piece.made}
     for name, pool in zip(("held out", "held out, one piece"), held_out, strict=True):
         if not pool.made:
             continue
@@ -190,18 +190,17 @@ def _rate(done: float) -> float:
 
 
 def _packed(path: Path, device: Any) -> tuple[tuple[Pool, ...], tuple[Pool, ...]]:
-    """Return real, skinned real and described objects; held-out real and skinned ones."""
+    """Return real, real one-piece and described objects; held-out real and one-piece ones."""
     packed = list(read_pack(path))
     pools = []
-    for held_out, real, skinned in (
+    for wanted in (
         (False, True, False),
         (False, True, True),
         (False, False, False),
         (True, True, False),
         (True, True, True),
     ):
-        wanted = (held_out, real, skinned)
-        chosen = [e for e in packed if (e.held_out, e.truth.real, e.skinned) == wanted]
+        chosen = [e for e in packed if (e.held_out, e.truth.real, e.one_piece) == wanted]
         pool = Pool(len(chosen), device)
         for each in chosen:
             pool.add(each.color, each.depth, each.part, _seen_through(each), each.truth)

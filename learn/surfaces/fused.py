@@ -25,7 +25,7 @@ MOST_FACES = 14000
 REACH = (0.35, 0.8)
 MARGIN = 4
 #: More than any part's number.
-_NOBODY = 10_000
+NOBODY = 10_000
 #: A grid point and all 26 around it.
 AROUND = np.ones((3, 3, 3), dtype=bool)
 
@@ -153,8 +153,8 @@ def _engraved(solid: BoolArray, place: FloatArray, owner: IntArray, depth: int) 
     part = np.full(solid.shape, -1, dtype=np.int64)
     part[tuple(index.T)] = owner
     high = ndimage.maximum_filter(part, size=3)
-    low = -ndimage.maximum_filter(np.where(part >= 0, -part, -_NOBODY), size=3)
-    border = (high >= 0) & (low < _NOBODY) & (low != high)
+    low = -ndimage.maximum_filter(np.where(part >= 0, -part, -NOBODY), size=3)
+    border = (high >= 0) & (low < NOBODY) & (low != high)
     outer = solid & ~ndimage.binary_erosion(solid, iterations=depth)
     return np.asarray(solid & ~(border & outer))
 

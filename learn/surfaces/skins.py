@@ -12,7 +12,7 @@ from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.mesh import FloatArray, IntArray, Material, Mesh, Texture
 from asset_factory.factory.views.view import painted
 
-from .fused import skin, without_parts
+from .fused import NOBODY, skin, without_parts
 from .labelled import Labelled
 
 #: Cells along the longest side, lowest and highest; drawn evenly by their logarithm.
@@ -29,8 +29,6 @@ DEPTHS = (1, 2)
 #: Share of skins that are simplified, and to how many faces.
 SIMPLIFIED = 0.75
 FACES = (6_000, 60_000)
-#: Pieces are told apart by so many numbers.
-MOST_PIECES = 9_999
 
 
 def skin_like(
@@ -72,7 +70,7 @@ def coloured_skin(mesh: Mesh, seed: int, cells: int | None = None) -> Mesh:
         cells: along the longest side; drawn by default.
     """
     rng = np.random.default_rng([seed, 0xC01])
-    piece = connected_components(mesh) % MOST_PIECES
+    piece = connected_components(mesh) % NOBODY
     label = np.stack([piece, piece, mesh.face_material], axis=1)
     original = Labelled(mesh.vertices, mesh.faces, label)
     vertices, faces, below, weights = _skinned(original, rng, cells, ENGRAVED)

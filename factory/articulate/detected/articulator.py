@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -106,10 +106,10 @@ class DetectedArticulator:
             cells = CellParts.of(guess, faces)
             guess, moves = self._agreed(guess, cells, detection.dense, least, sure)
         left = [part for part in rated if part not in sure]
-        guess = _without_misplaced(guess, CellParts.of(guess, faces), sure)
+        guess = _without(guess, _misplaced(CellParts.of(guess, faces), sure))
         cells = CellParts.of(guess, faces)
         beside = [part for part in sure if not any(cells.has_moving(f) for f in part.found)]
-        guess = _without_pulls(guess, cells, beside)
+        guess = _without(guess, _pulls(cells, beside))
         made = [*self._with(guess, beside), *([guess] if moves else [])]
         if len(sure) > len(guess.movable_joints):
             made += self._with(rigid_articulation(mesh, self.name, ()), sure)
@@ -148,8 +148,7 @@ class DetectedArticulator:
                 support = max(support_of_box(each, dense) for each in part.found)
                 probability = self.agreement.of_lid(support)
                 stated = stated if stated.hinge is not None else _hinged(part, seen)
-            agreed = stated is part.stated
-            rated.append(replace(part, stated=stated, probability=probability, agreed=agreed))
+            rated.append(replace(part, stated=stated, probability=probability))
         return sorted(rated, key=lambda part: -part.probability)
 
     def _agreed(
@@ -172,13 +171,14 @@ class DetectedArticulator:
         for joint in guess.joints:
             part = guess.parts[joint.child]
             support = cells.support(joint.child, dense) if part.kind in ASKED else None
+            confidence = part.confidence or 0.0
+            ruled = _is_ruled(part)
             if support is None:
                 kept.append(joint.child)
-                alone |= part.kind not in ASKED | CARRIED or _is_believed(part)
+                alone |= part.kind not in ASKED | CARRIED or ruled or confidence >= BELIEVED
                 continue
-            confidence = part.confidence or 0.0
             chance = self.agreement.of_proposed(support)
-            if _is_ruled(part) or (
+            if ruled or (
                 confidence >= BELIEVED
                 and not any(cells.hides(joint.child, f) for each in sure for f in each.found)
             ):
@@ -230,21 +230,24 @@ def _hinged(part: DetectedPart, seen: SeenMesh) -> StatedPart:
     return structs.replace(lid, hinge=HINGE_OF[first], alternatives=(other,))
 
 
-def _without_misplaced(
-    guess: Articulation, cells: CellParts, sure: Sequence[DetectedPart]
-) -> Articulation:
-    """Return a guess without lids that it hinges elsewhere than all sides agree on."""
+def _without(guess: Articulation, gone: Collection[int]) -> Articulation:
+    """Return a guess in which these parts stay fixed."""
+    return keep_parts(guess, {j.child for j in guess.joints} - set(gone)) if gone else guess
+
+
+def _misplaced(cells: CellParts, sure: Sequence[DetectedPart]) -> list[int]:
+    """Return the parts hinged elsewhere than all sides of a lid in their place agree on."""
+    guess = cells.articulation
     lids = [part for part in sure if part.stated.kind is StatedKind.LID and part.agreed]
-    kept = [
+    return [
         joint.child
         for joint in guess.joints
-        if not any(
+        if any(
             cells.hides(joint.child, found) and not _hinged_at(guess, joint, part.stated.hinge)
             for part in lids
             for found in part.found
         )
     ]
-    return keep_parts(guess, kept) if len(kept) < len(guess.joints) else guess
 
 
 def _hinged_at(guess: Articulation, joint: Joint, hinge: Hinge | None) -> bool:
@@ -257,22 +260,15 @@ def _hinged_at(guess: Articulation, joint: Joint, hinge: Hinge | None) -> bool:
     return turns and abs(float(joint.axis @ outward)) < LEVEL and off > AT_SIDE * half
 
 
-def _without_pulls(
-    guess: Articulation, cells: CellParts, beside: Sequence[DetectedPart]
-) -> Articulation:
-    """Return a guess without knobs on panels that come beside it: these are pulled by them."""
-    kept = [
+def _pulls(cells: CellParts, beside: Sequence[DetectedPart]) -> list[int]:
+    """Return the knobs on panels that come beside a guess: these are pulled by them."""
+    guess = cells.articulation
+    return [
         joint.child
         for joint in guess.joints
-        if guess.parts[joint.child].kind not in CARRIED
-        or not any(cells.lies_in(joint.child, f) for part in beside for f in part.found)
+        if guess.parts[joint.child].kind in CARRIED
+        and any(cells.lies_in(joint.child, f) for part in beside for f in part.found)
     ]
-    return keep_parts(guess, kept) if len(kept) < len(guess.joints) else guess
-
-
-def _is_believed(part: Part) -> bool:
-    """Tell whether a part moves though the detector does not see it."""
-    return _is_ruled(part) or (part.confidence or 0.0) >= BELIEVED
 
 
 def _is_ruled(part: Part) -> bool:

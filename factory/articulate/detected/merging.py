@@ -52,13 +52,16 @@ class DetectedPart:
         stated: as a person would state it.
         found: where it is seen; of a lid on every side that shows it.
         probability: that it is there.
-        agreed: the sides that show it do not contradict one another on its hinge.
     """
 
     stated: StatedPart
     found: tuple[Found, ...]
     probability: float = 1.0
-    agreed: bool = True
+
+    @property
+    def agreed(self) -> bool:
+        """Tell whether its sides agree on its hinge: else it has another to try."""
+        return not self.stated.alternatives
 
 
 def seen_parts(found: Sequence[Found], extents: FloatArray) -> tuple[DetectedPart, ...]:
@@ -158,7 +161,7 @@ def _lid(lids: Sequence[Found], sizes: FloatArray) -> StatedPart:
 
 def _hinges_told(lids: Sequence[Found]) -> FloatArray:
     """Return where each way of each side says that the hinge is, as long as it is sure, [n, 3]."""
-    told = []
+    told: list[FloatArray] = []
     for each in lids:
         right, up, away = each.side.frame
         far = up if each.side is Side.TOP else away
@@ -168,8 +171,7 @@ def _hinges_told(lids: Sequence[Found]) -> FloatArray:
             PanelWay.TOP: far,
             PanelWay.BOTTOM: -far,
         }
-        for way, where in toward.items():
-            told.append(each.score * float(each.ways[WAYS.index(way)]) * where)
+        told += [each.score * each.ways[WAYS.index(way)] * at for way, at in toward.items()]
     return np.array(told)
 
 

@@ -55,9 +55,13 @@ class CellParts:
 
     def hides(self, part: int, found: Found) -> bool:
         """Tell whether a part is where another is seen."""
+        return self._fills(self.shown(part), found)
+
+    def _fills(self, cells: BoolArray, found: Found) -> bool:
+        """Tell whether cells, shape [5, 64, 64], are a share of those where a part is seen."""
         view = SIDES.index(found.side)
         seen = (self.owner[view] >= 0) & box_cells(found.box)
-        return bool((self.shown(part)[view] & seen).sum() > SAME_PLACE * max(seen.sum(), 1))
+        return bool((cells[view] & seen).sum() > SAME_PLACE * max(seen.sum(), 1))
 
     def lies_in(self, part: int, found: Found) -> bool:
         """Tell whether a panel is seen all around a part."""
@@ -68,12 +72,10 @@ class CellParts:
 
     def has_moving(self, found: Found) -> bool:
         """Tell whether parts that move are where another is seen; knobs on panels are not asked."""
+        if self._fills(self.owner > 0, found):
+            return True
         view = SIDES.index(found.side)
         box = box_cells(found.box)
-        seen = self.owner[view] >= 0
-        moving = seen & (self.owner[view] > 0)
-        if (moving & box).sum() > SAME_PLACE * max((seen & box).sum(), 1):
-            return True
         for joint in self.articulation.joints:
             kind = self.articulation.parts[joint.child].kind
             if kind in CARRIED and found.sort is not Sort.LID:

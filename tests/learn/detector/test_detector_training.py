@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from asset_factory.factory.models.detector.canvas import CANVAS, SIDES, SORTS, WAYS, PanelWay, Sort
-from asset_factory.learn.detector.drawn import drawn_sides, drawn_skin
+from asset_factory.learn.detector.drawn import drawn_one_piece, drawn_sides
 from asset_factory.learn.detector.kinds import kind_number
 from asset_factory.learn.detector.sides import WholeTruth, labelled_sides
 from asset_factory.learn.detector.still import STILL, make_still
@@ -155,16 +155,16 @@ def test_a_pack_keeps_objects_and_labels(tmp_path):
     textures.mkdir()
     Image.new("RGB", (8, 8), (10, 200, 30)).save(textures / "green.jpg")
     options = {"out": tmp_path / "pack.zip", "real": real, "textures": textures}
-    write_pack(Namespace(**options, described=None, skins=1, workers=1))
-    packed, skinned = read_pack(tmp_path / "pack.zip")
-    assert not packed.skinned
-    assert skinned.skinned
-    assert (skinned.truth, skinned.held_out) == (packed.truth, packed.held_out)
-    assert (skinned.table == packed.table).all()
+    write_pack(Namespace(**options, described=None, one_piece=1, workers=1))
+    packed, fused = read_pack(tmp_path / "pack.zip")
+    assert not packed.one_piece
+    assert fused.one_piece
+    assert (fused.truth, fused.held_out) == (packed.truth, packed.held_out)
+    assert (fused.table == packed.table).all()
     # One bumpy piece: seen in nearly the same place, and nowhere as flat as it was.
-    both = (skinned.depth[FRONT] >= 0) & (packed.depth[FRONT] >= 0)
+    both = (fused.depth[FRONT] >= 0) & (packed.depth[FRONT] >= 0)
     assert both.mean() > 0.9 * (packed.depth[FRONT] >= 0).mean()
-    assert len(np.unique(skinned.depth[FRONT])) > 2 * len(np.unique(packed.depth[FRONT]))
+    assert len(np.unique(fused.depth[FRONT])) > 2 * len(np.unique(packed.depth[FRONT]))
     assert packed.truth == WholeTruth(kind_number("fridge"), True, FRONT, True)
     (row,) = packed.table
     assert SORTS[int(row[6])] is Sort.DOOR
@@ -182,11 +182,11 @@ def test_drawn_objects_are_of_every_sort():
     assert {Sort.DOOR, Sort.DRAWER, Sort.LID, Sort.OTHER} <= sorts
 
 
-def test_skins_keep_what_opens():
+def test_objects_made_one_piece_keep_what_opens():
     kinds, tables = zip(
         *[
             (kind, sides.instances.table())
-            for kind, sides in (drawn_skin(np.random.default_rng(seed)) for seed in range(4))
+            for kind, sides in (drawn_one_piece(np.random.default_rng(seed)) for seed in range(4))
         ],
         strict=True,
     )

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.samples.says import Says
 
 pytest.importorskip("torch")
 
@@ -13,18 +14,6 @@ from asset_factory.factory.part import PartKind
 from asset_factory.learn.detector.sides import Instances, labelled_sides
 from asset_factory.learn.fit.agreement import LabelledMesh, fit_agreement, rate_parts
 from asset_factory.learn.objects import make_object
-
-
-class Says:
-    """An articulator that always says the same."""
-
-    name = "says"
-
-    def __init__(self, said):
-        self.said = said
-
-    def articulate(self, mesh):
-        return self.said
 
 
 def labelled(made):

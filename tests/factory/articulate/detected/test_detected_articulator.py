@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.samples.says import Says
 
 pytest.importorskip("torch")
 
@@ -26,18 +27,6 @@ from asset_factory.learn.detector.still import make_still
 from asset_factory.learn.objects import make_object
 
 WEIGHTS = (Weights("detector.safetensors", "0" * 64, "Apache-2.0"),)
-
-
-class Says:
-    """An articulator that always says the same."""
-
-    name = "auto"
-
-    def __init__(self, said):
-        self.said = said
-
-    def articulate(self, mesh):
-        return self.said
 
 
 def detected(said):
