@@ -150,6 +150,7 @@ class Articulation:
         articulator: who said so, e.g. ``geometric``.
         notes: guesses and departures a person should know of, one sentence each.
         weights: of the trained networks that said so, if any did.
+        looks_like: the category that the object was taken for; ``None``: for none.
 
     Raises:
         InvalidArticulation: names the part or joint, the fault and a remedy.
@@ -161,6 +162,7 @@ class Articulation:
     articulator: str
     notes: tuple[str, ...] = field(default=())
     weights: tuple[Weights, ...] = field(default=())
+    looks_like: str | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "weights", tuple(self.weights))

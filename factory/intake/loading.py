@@ -15,6 +15,7 @@ from ..errors import InputRejected
 from ..geometry.clean import clean
 from ..geometry.soup import Soup
 from ..mesh import IntArray, Mesh
+from .categories import category_of
 from .files import InputFiles
 from .formats.catalog import FORMATS, Reader, format_of
 from .intake import Intake, Provenance
@@ -25,7 +26,7 @@ from .orientation import rotation_to_z_up
 from .placing import check_config, given_scale, given_up
 from .reads import ReadLog
 from .sidecar import Sidecar, read_sidecar
-from .sizes import category_of, scale_by_size
+from .sizes import scale_by_size, scale_of_unit_cube
 from .stated import read_stated
 
 _MOST_NOTES = 32
@@ -115,8 +116,10 @@ def load_mesh(
     transform[:3, :3] = rotation_to_z_up(up)
     mesh = visual.mesh if up == "z" else visual.mesh.transformed(transform)
     category = _choose_category(path, sidecar, notes)
-    scale = given_scale(mesh.extents, config, sidecar, path.name) or scale_by_size(
-        mesh.extents, category
+    scale = (
+        given_scale(mesh.extents, config, sidecar, path.name)
+        or scale_of_unit_cube(mesh.extents, category)
+        or scale_by_size(mesh.extents, category)
     )
     if scale.note:
         notes.append(scale.note)

@@ -12,10 +12,10 @@ from typing import Any
 from asset_factory.sim_checks.read.document import inside
 
 from ..errors import ConfigError, InputRejected
+from .categories import category_table, normalised
 from .files import InputFiles
 from .orientation import parse_up
 from .reads import ABSENT
-from .sizes import normalised, size_table
 
 _TEXTS = ("category", "up", "license", "annotation")
 _NUMBERS = ("height", "scale", "density")
@@ -123,7 +123,7 @@ def _require_known_category(path: Path, values: Mapping[str, Any]) -> None:
     category = values.get("category")
     if category is None or not {"height", "scale"}.isdisjoint(values):
         return
-    known = size_table()
+    known = category_table()
     if normalised(category) not in known:
         near = get_close_matches(normalised(category), known, n=1)
         meant = f"did you mean {near[0]!r}?" if near else "configs/categories.toml lists those."

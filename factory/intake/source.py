@@ -13,11 +13,11 @@ from asset_factory.sim_checks.report import KILLED, OUT_OF_TIME
 from ..config import BuildConfig
 from ..errors import InputRejected, Unjudged
 from ..runtime.store import digest_bytes
+from .categories import guess_category
 from .intake import Intake
 from .load import LOAD, load
 from .naming import full_name, safe_name
 from .reads import ReadLog, Reads, content_digest, unchanged
-from .sizes import guess_category
 
 #: How often an input is read that somebody is writing at the same time.
 MOST_READINGS = 3

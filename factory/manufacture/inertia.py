@@ -12,7 +12,7 @@ the union of all closed components. Open surfaces: laminae of an assumed thickne
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import manifold3d
 import numpy as np
@@ -33,6 +33,8 @@ MIN_MASS_KG = 0.005
 MIN_GYRATION_M = 0.001
 #: A closed surface of less mean thickness is a sheet with two sides [m].
 SHEET_THICKNESS_M = 1e-4
+#: Nothing is made denser than steel to weigh what is usual [kg/m3].
+STEEL = 7850.0
 #: Share of the child's mass given to a link without geometry, and the radius of its sphere [m].
 CARRIER_SHARE = 0.05
 CARRIER_RADIUS_M = 0.02
@@ -110,6 +112,22 @@ def carrier_inertial(child: Inertial, origin: FloatArray) -> Inertial:
     return Inertial(
         mass, np.asarray(origin, dtype=np.float64), np.eye(3) * 0.4 * mass * CARRIER_RADIUS_M**2
     )
+
+
+def weighing(inertials: Sequence[Inertial], total: float, density: float) -> list[Inertial]:
+    """Return links that together weigh ``total`` [kg], distributed as they are.
+
+    Args:
+        inertials: of all links, of a material of ``density`` [kg/m3].
+        total: less where the material would become denser than steel.
+        density: more than 0.
+    """
+    factor = min(total / sum(each.mass for each in inertials), STEEL / density)
+    factors = [max(factor, MIN_MASS_KG / each.mass) for each in inertials]
+    return [
+        replace(each, mass=by * each.mass, tensor=by * each.tensor)
+        for each, by in zip(inertials, factors, strict=True)
+    ]
 
 
 def _inertial(moments: _Moments, reference: FloatArray) -> Inertial:

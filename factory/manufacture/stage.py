@@ -11,6 +11,8 @@ from asset_factory.sim_checks import Finding, Severity
 from ..articulation import Articulation
 from ..asset import Asset, Inertial, PartBody, Target
 from ..config import BuildConfig, HullsConfig
+from ..geometry.posing import closed
+from ..intake.categories import UNKNOWN, Category, usual_of
 from ..intake.intake import Intake
 from ..runtime.keys import Stage
 from ..runtime.packing import contents
@@ -18,7 +20,7 @@ from ..runtime.stages import Stages
 from .decompose.decompose import PartHulls, decompose
 from .decompose.fewer import fewer
 from .decompose.room import Rooms
-from .inertia import carrier_inertial, part_inertial
+from .inertia import carrier_inertial, part_inertial, weighing
 from .plan import Plan, as_planned
 from .separate import Separation, separate
 from .solids.kept import solid_parts
@@ -43,25 +45,40 @@ def manufacture(
     Args:
         articulation: parts and joints.
         plan: what a repair wants done differently.
-        intake: the input's name and density.
+        intake: the input's name, category and density.
         stages: with the settings; told how long each stage took, and asked whether it was done
             before.
     """
     whole = as_planned(articulation, Plan(given_up=plan.given_up, rehung=plan.rehung))
-    built = solid_parts(whole, stages, plan.build_fronts)
+    usual = usual_of(intake.provenance.category or articulation.looks_like)
+    built = solid_parts(whole, stages, plan.build_fronts, usual)
     planned = as_planned(
         built.articulation, replace(plan, given_up=frozenset(), rehung=frozenset())
     )
     with stages.clock.stage("decompose"):
         pieces, joined = _hulls(planned, built.pieces, plan, stages)
-    density = intake.provenance.density or stages.config.inertia.density
+    stated = intake.provenance.density
+    density = stated or stages.config.inertia.density
+    bulk = None if stated else usual.bulk
     # By content: other settings of the decomposition that give the same hulls change nothing more.
     shapes = contents((planned.mesh.vertices, planned.mesh.faces, planned.parts, planned.joints))
-    key = FINISH.key(stages.config, *shapes, *contents(pieces), sorted(plan.separate), density)
-    finish = partial(_finished, planned, pieces, plan, density, stages)
+    key = FINISH.key(
+        stages.config, *shapes, *contents(pieces), sorted(plan.separate), density, bulk
+    )
+    finish = partial(_finished, planned, pieces, plan, density, bulk, stages)
     finished = stages.recall("finish", _Finished, key, finish)
+    notes = (*planned.notes, *_assumptions(usual, intake, bulk))
+    planned = replace(planned, notes=notes)
     asset = Asset(intake.name, planned, finished.bodies, (), built.surfaces)
     return asset, (*_own_findings(asset), *joined, *finished.findings)
+
+
+def _assumptions(usual: Category, intake: Intake, bulk: float | None) -> Iterator[str]:
+    """Yield a sentence for what is assumed of an object because of its category."""
+    if usual is not UNKNOWN and not intake.provenance.category:
+        yield f"its category was taken to be {usual.name}, by its looks"
+    if bulk is not None:
+        yield f"its mass is that of a usual {usual.name}: {bulk:g} kg per m3 of the box around it"
 
 
 def _hulls(
@@ -127,7 +144,12 @@ def _targets(asset: Asset, stages: Stages) -> _Targets:
 
 
 def _finished(
-    planned: Articulation, pieces: tuple[PartHulls, ...], plan: Plan, density: float, stages: Stages
+    planned: Articulation,
+    pieces: tuple[PartHulls, ...],
+    plan: Plan,
+    density: float,
+    bulk: float | None,
+    stages: Stages,
 ) -> _Finished:
     config = stages.config
     clock = stages.clock
@@ -137,7 +159,7 @@ def _finished(
         )
         pieces = separation.pieces
     with clock.stage("inertia"):
-        inertials = _inertials(planned, pieces, density, config)
+        inertials = _inertials(planned, pieces, density, bulk, config)
         bodies = tuple(
             PartBody(
                 piece.hulls, inertial, find_handle(planned, index), piece.method, piece.degraded
@@ -197,9 +219,16 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
 
 
 def _inertials(
-    articulation: Articulation, pieces: tuple[PartHulls, ...], density: float, config: BuildConfig
+    articulation: Articulation,
+    pieces: tuple[PartHulls, ...],
+    density: float,
+    bulk: float | None,
+    config: BuildConfig,
 ) -> list[Inertial]:
-    """Weigh every part; a carrier weighs a share of its load, so children come first."""
+    """Weigh every part, and all together; see :class:`Category` for bulk [kg/m3].
+
+    A carrier weighs a share of its load, so children come first.
+    """
     inertials: dict[int, Inertial] = {}
     for part in reversed(range(len(articulation.parts))):
         if len(articulation.parts[part].faces):
@@ -208,4 +237,8 @@ def _inertials(
         else:
             carried = next(joint.child for joint in articulation.joints if joint.parent == part)
             inertials[part] = carrier_inertial(inertials[carried], articulation.link_frame(part))
-    return [inertials[part] for part in range(len(articulation.parts))]
+    ordered = [inertials[part] for part in range(len(articulation.parts))]
+    if bulk is None:
+        return ordered
+    box = float(closed(articulation).mesh.extents.prod())
+    return weighing(ordered, bulk * box, density)

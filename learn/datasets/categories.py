@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable
 from pathlib import Path, PurePosixPath
 
-from asset_factory.factory.intake.sizes import normalised
+from asset_factory.factory.intake.categories import normalised
 
 INVENTORY = "INVENTORY.csv"
 MAX_BYTES = 64 * 1024 * 1024

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from asset_factory.factory.intake.sizes import normalised
+from asset_factory.factory.intake.categories import normalised
 
 from .item import SourceItem, find_items
 

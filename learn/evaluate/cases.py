@@ -14,10 +14,10 @@ from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import ConfigError, InputRejected
 from asset_factory.factory.geometry.posing import closed, posed, turned
+from asset_factory.factory.intake.categories import guess_category
 from asset_factory.factory.intake.discover import find_inputs, is_description
 from asset_factory.factory.intake.files import InputFiles
 from asset_factory.factory.intake.sidecar import read_sidecar
-from asset_factory.factory.intake.sizes import guess_category
 from asset_factory.factory.runtime.store import Store, digest_file
 
 from .listing import Listed

@@ -19,6 +19,7 @@ from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, IntArray, Mesh, concatenate
 from ...runtime.store import digest_bytes
 from ..annotation import Annotation
+from ..categories import category_of
 from ..files import InputFiles
 from ..intake import Intake, Provenance
 from ..licenses import require_allowed
@@ -29,7 +30,7 @@ from ..placing import check_config, given_scale, given_up
 from ..reads import ReadLog, content_digest
 from ..rejecting import rejecting
 from ..sidecar import Sidecar, read_sidecar
-from ..sizes import Scale, category_of, scale_by_size
+from ..sizes import Scale, scale_by_size
 from .imported import Imported
 from .mjcf import import_mjcf
 from .urdf import import_urdf

@@ -22,6 +22,7 @@ from ...geometry.soup import plain_soup
 from ...mesh import FloatArray, IntArray, Mesh, concatenate
 from ...runtime.store import digest_bytes
 from ..annotation import Annotation
+from ..categories import guess_category, normalised
 from ..files import InputFiles
 from ..intake import Intake, Provenance
 from ..licenses import require_allowed
@@ -31,7 +32,6 @@ from ..orientation import rotation_to_z_up
 from ..reads import ReadLog
 from ..rejecting import rejecting
 from ..sidecar import read_sidecar
-from ..sizes import guess_category, normalised
 from .usd_tree import annotation_of
 
 _COLLIDER_WORDS = ("collision", "collider", "collisions", "colliders")

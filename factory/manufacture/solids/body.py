@@ -120,6 +120,14 @@ def make_body(work: Workpiece, part: int, most: int) -> None:
     keep_clear(work, part)
 
 
+def add_shelves(work: Workpiece) -> None:
+    """Add the shelves behind panels to the body."""
+    for part, boards in work.shelves.items():
+        frame = work.panels[part].side.frame
+        hulls = [board.turned(frame.T).hull() for board in boards]
+        work.hulls[0] += tuple(hull for hull in hulls if hull is not None)
+
+
 def _standing_points(work: Workpiece, part: int) -> FloatArray:
     """Return surface points of the body that holds panels and knobs, off these [m], [n, 3]."""
     points = surface_points(work, part)

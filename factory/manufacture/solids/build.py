@@ -12,10 +12,11 @@ from ...articulation import Articulation
 from ...asset import Hull, InnerSurface
 from ...config import SolidsConfig
 from ...geometry.posing import rotated
+from ...intake.categories import UNKNOWN, Category
 from ...mesh import FloatArray
 from ...runtime.keys import Stage
 from ..decompose.decompose import PartHulls
-from .body import hang_panels, make_body, make_rest, share_out
+from .body import add_shelves, hang_panels, make_body, make_rest, share_out
 from .carve import carve_panel, hollow_behind, make_slab, planes_of_panels
 from .clear import cleared
 from .frame import turned_hull, working_frame
@@ -49,17 +50,23 @@ class SolidParts:
     surfaces: tuple[InnerSurface, ...]
 
 
-def solids(articulation: Articulation, config: SolidsConfig, fronts: bool = False) -> SolidParts:
+def solids(
+    articulation: Articulation,
+    config: SolidsConfig,
+    fronts: bool = False,
+    usual: Category = UNKNOWN,
+) -> SolidParts:
     """Make patches of a one-piece mesh and bare fronts solid, and what holds them hollow.
 
     Args:
         articulation: of which at least one moved part is to be built, see ``parts_to_build``.
         config: of this stage.
         fronts: build every thin front, bare or not.
+        usual: what is usual of objects of its category.
     """
     parts = parts_to_build(articulation, fronts)
     turn = working_frame(articulation, parts)
-    work = _prepared(_rotated(articulation, turn), parts, config)
+    work = _prepared(_rotated(articulation, turn), parts, config, usual)
     if not work.whole.any():
         note = "the one-piece mesh encloses no volume: its parts are decomposed as they are"
         plain = replace(articulation, notes=(*articulation.notes, note))
@@ -96,7 +103,7 @@ def _notes(work: Workpiece, pieces: tuple[PartHulls | None, ...]) -> Iterator[st
 
 
 def _prepared(
-    articulation: Articulation, parts: tuple[int, ...], config: SolidsConfig
+    articulation: Articulation, parts: tuple[int, ...], config: SolidsConfig, usual: Category
 ) -> Workpiece:
     seen = recognize(articulation, parts, config.behind_m)
     others = [
@@ -122,6 +129,7 @@ def _prepared(
     return Workpiece(
         articulation,
         config,
+        usual,
         seen.views,
         joints,
         seen.panels,
@@ -149,6 +157,7 @@ def _made(work: Workpiece) -> None:
     hang_panels(work)
     make_rest(work, work.config.most_pieces // 2)
     make_body(work, 0, work.config.most_pieces)
+    add_shelves(work)
 
 
 def _shown(work: Workpiece) -> None:

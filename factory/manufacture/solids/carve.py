@@ -25,6 +25,7 @@ from .matter import INSIDE, PATH, Matter
 from .panel import FlatPanel, hinge_edge
 from .pieces import convex_pieces
 from .reach import FAR_M, reaching
+from .shelves import shelf_boards
 from .slab import FLUSH_M, FrontRelief, handles, relief
 from .work import Workpiece
 
@@ -38,6 +39,8 @@ FILLED = 0.5
 #: What lies this close behind a panel's back is its own inner side [m].
 BEHIND_BACK_M = 0.05
 MOST_PIECES = 10
+#: Cosine between the vertical and a side of a panel that stands.
+UPRIGHT = 0.9
 MOST_FITTED = 12
 #: Share of a panel's surface behind its slab that is worth pieces of its own.
 BARE_SHARE = 0.1
@@ -263,6 +266,8 @@ def hollow_behind(work: Workpiece, part: int) -> None:
         work.owner[span] = np.where(work.owner[span] == 0, -1, work.owner[span])
     if panel.slides:
         _give_box(work, panel, boxes)
+    elif work.usual.shelves is not None:
+        _give_shelves(work, panel, boxes, work.usual.shelves)
 
 
 def _taken(work: Workpiece, part: int) -> Iterator[Box]:
@@ -313,6 +318,16 @@ def _give_box(work: Workpiece, panel: FlatPanel, boxes: tuple[Box, ...]) -> None
     work.hulls[panel.part] += tuple(hull for hull in hulls if hull is not None)
     if boards:
         _keep_in(work, panel.part, max(float(board.high[2]) for board in boards) - panel.back)
+
+
+def _give_shelves(
+    work: Workpiece, panel: FlatPanel, boxes: tuple[Box, ...], spacing: float
+) -> None:
+    """Put shelves into the space behind a panel that does not lie."""
+    frame = panel.side.frame
+    up = int(np.argmax(np.abs(frame[:2, 2])))
+    if abs(frame[up, 2]) > UPRIGHT:
+        work.shelves[panel.part] = shelf_boards(boxes, spacing, up)
 
 
 def _keep_in(work: Workpiece, part: int, depth: float) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from ...articulation import Articulation
+from ...intake.categories import UNKNOWN, Category
 from ...mesh import Mesh
 from ...runtime.packing import contents
 from ...runtime.stages import Stages
@@ -14,13 +15,16 @@ from .build import SOLIDS, SolidParts, solids
 from .skin import parts_to_build
 
 
-def solid_parts(articulation: Articulation, stages: Stages, fronts: bool = False) -> SolidParts:
+def solid_parts(
+    articulation: Articulation, stages: Stages, fronts: bool = False, usual: Category = UNKNOWN
+) -> SolidParts:
     """Return an articulation whose one-piece parts are made solid; any other comes back as it is.
 
     Args:
         articulation: parts and joints.
         stages: with the settings and the cache.
         fronts: build every thin front, bare or not.
+        usual: what is usual of objects of its category.
     """
     config = stages.config.solids
     if not config.construct or not parts_to_build(articulation, fronts):
@@ -28,14 +32,17 @@ def solid_parts(articulation: Articulation, stages: Stages, fronts: bool = False
     mesh = articulation.mesh
     textures = [digest_bytes(each.texture.data) for each in mesh.materials if each.texture]
     plain = replace(articulation, mesh=_bare(mesh))
-    key = SOLIDS.key(stages.config, *contents(plain), *textures, fronts)
-    made = stages.recall("solids", SolidParts, key, _maker(articulation, stages, fronts))
+    key = SOLIDS.key(stages.config, *contents(plain), *textures, fronts, usual.shelves, usual.liner)
+    make = _maker(articulation, stages, fronts, usual)
+    made = stages.recall("solids", SolidParts, key, make)
     return _with_mesh(made, _dressed(made.articulation.mesh, mesh))
 
 
-def _maker(articulation: Articulation, stages: Stages, fronts: bool) -> Callable[[], SolidParts]:
+def _maker(
+    articulation: Articulation, stages: Stages, fronts: bool, usual: Category
+) -> Callable[[], SolidParts]:
     def make() -> SolidParts:
-        made = solids(articulation, stages.config.solids, fronts)
+        made = solids(articulation, stages.config.solids, fronts, usual)
         return _with_mesh(made, _bare(made.articulation.mesh))
 
     return make

@@ -17,6 +17,7 @@ from .box import Box
 from .drawer import WALL_M
 from .panel import FlatPanel
 from .seam import CutSkin
+from .shelves import THICKNESS_M as SHELF_M
 from .surfaces import boundary, flipped, inside_of, outline_of, outside_of, plate, rectangle, rim
 from .work import Workpiece
 
@@ -61,6 +62,10 @@ def panel_surfaces(work: Workpiece, part: int) -> None:
             walls = inside_of(hollows, hollows[0].low[2])
             depth = hollows[-1].high[2] - hollows[0].low[2]
             work.add(0, walls, "hollow", "walls", panel=panel, thickness=wall, depth=depth)
+        boards = work.shelves.get(part, ())
+        if boards:
+            surface = outside_of(boards)
+            work.add(0, surface, "shelf", "usual", panel=panel, thickness=SHELF_M)
     if inner:
         walls = inside_of(inner, inner[0].high[2])
         depth = inner[0].high[2] - inner[-1].low[2]
@@ -154,10 +159,10 @@ def meshed(work: Workpiece) -> Articulation:
     corners = [skin.corners]
     part = [skin.part]
     material = [mesh.face_material[skin.face]]
-    for index, triangles in sorted(work.added.items()):
+    for (index, lined), triangles in sorted(work.added.items()):
         inner = np.concatenate(triangles)
         inner = inner[areas_of(inner) > 1e-12]
-        material.append(np.full(len(inner), _material(work, index, materials)))
+        material.append(np.full(len(inner), _material(work, index, lined, materials)))
         corners.append(inner)
         part.append(np.full(len(inner), index))
     count = sum(len(each) for each in corners) - len(skin.face)
@@ -199,12 +204,18 @@ def _welded(
     return Mesh(points[first], index.reshape(-1, 3), uv, normals, material, materials)
 
 
-def _material(work: Workpiece, part: int, materials: list[Material]) -> int:
-    """Return where the plain material of a part's inner faces is; made if need be."""
-    name = f"inner_{work.name(part)}"
-    color = _color(work, part)
+def _material(work: Workpiece, part: int, lined: bool, materials: list[Material]) -> int:
+    """Add the plain material of a part's inner faces, and return where it is."""
+    liner = work.usual.liner if lined else None
+    name = f"{'inner' if liner is None else 'liner'}_{work.name(part)}"
+    color = _color(work, part) if liner is None else _painted(liner)
     materials.append(Material(name, color))
     return len(materials) - 1
+
+
+def _painted(color: str) -> tuple[float, float, float, float]:
+    """Return a colour written as ``#rrggbb``, linear."""
+    return _rounded(linear_of(np.array(list(bytes.fromhex(color[1:]))) / 255.0))
 
 
 def _color(work: Workpiece, part: int) -> tuple[float, float, float, float]:
@@ -213,5 +224,9 @@ def _color(work: Workpiece, part: int) -> tuple[float, float, float, float]:
     pixels = np.concatenate(seen)
     if not len(pixels):
         return (0.7, 0.7, 0.7, 1.0)
-    red, green, blue = (round(float(value), 4) for value in linear_of(pixels).mean(axis=0))
+    return _rounded(linear_of(pixels).mean(axis=0))
+
+
+def _rounded(color: FloatArray) -> tuple[float, float, float, float]:
+    red, green, blue = (round(float(value), 4) for value in color)
     return (red, green, blue, 1.0)

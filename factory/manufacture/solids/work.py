@@ -9,6 +9,7 @@ import numpy as np
 from ...articulation import Articulation, Joint
 from ...asset import Hull, InnerSurface
 from ...config import SolidsConfig
+from ...intake.categories import Category
 from ...mesh import BoolArray, FloatArray, IntArray
 from ...views.raster import Side
 from ...views.view import View
@@ -20,6 +21,9 @@ from .matter import Weights
 from .panel import FlatPanel
 from .seam import CutSkin
 
+#: Surfaces that have the colour of an object's inside.
+LINED = frozenset({"slab back", "frame", "hollow", "shelf"})
+
 
 @dataclass
 class Workpiece:
@@ -28,6 +32,7 @@ class Workpiece:
     Attributes:
         source: parts and joints, turned into the working frame.
         config: of this stage.
+        usual: what is usual of objects of its category.
         views: of its sides.
         joints: as they are now; hinges may have been moved.
         panels, bumps: by part.
@@ -40,8 +45,9 @@ class Workpiece:
         hollows: per panel, boxes behind it in its side's frame.
         lids: per panel, boxes within it.
         boards: per panel, of a drawer's box.
+        shelves: per panel, behind it.
         hulls: per part, made so far.
-        added: per part, triangles [m], shape [n, 3, 3].
+        added: per part, and whether its inside has a colour of its own, triangles [m], [n, 3, 3].
         points: per part, of its surface [m], shape [n, 3]; see ``carve.surface_points``.
         filled: per panel, whether the space right behind it was filled.
         records: of every surface that was invented.
@@ -50,6 +56,7 @@ class Workpiece:
 
     source: Articulation
     config: SolidsConfig
+    usual: Category
     views: dict[Side, View]
     joints: list[Joint]
     panels: dict[int, FlatPanel]
@@ -63,8 +70,9 @@ class Workpiece:
     hollows: dict[int, tuple[Box, ...]] = field(default_factory=dict)
     lids: dict[int, tuple[Box, ...]] = field(default_factory=dict)
     boards: dict[int, tuple[Box, ...]] = field(default_factory=dict)
+    shelves: dict[int, tuple[Box, ...]] = field(default_factory=dict)
     hulls: dict[int, tuple[Hull, ...]] = field(default_factory=dict)
-    added: dict[int, list[FloatArray]] = field(default_factory=dict)
+    added: dict[tuple[int, bool], list[FloatArray]] = field(default_factory=dict)
     points: dict[int, FloatArray] = field(default_factory=dict)
     filled: dict[int, bool] = field(default_factory=dict)
     records: list[InnerSurface] = field(default_factory=list)
@@ -126,7 +134,8 @@ class Workpiece:
         turned = triangles if panel is None else triangles @ panel.side.frame
         if panel is not None and np.linalg.det(panel.side.frame) < 0.0:
             turned = turned[:, ::-1]
-        self.added.setdefault(part, []).append(turned)
+        lined = self.usual.liner is not None and kind in LINED
+        self.added.setdefault((part, lined), []).append(turned)
         sizes = (None if each is None else round(float(each), 4) for each in (thickness, depth))
         self.records.append(InnerSurface(self.name(part), kind, rule, *sizes))
 

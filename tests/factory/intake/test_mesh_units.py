@@ -10,9 +10,10 @@ from mesh_cube import write_glb, write_off, write_stl
 
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.intake.categories import category_table, guess_category
 from asset_factory.factory.intake.loading import load_mesh
 from asset_factory.factory.intake.orientation import UP_AXES, rotation_to_z_up
-from asset_factory.factory.intake.sizes import guess_category, scale_by_size, size_table
+from asset_factory.factory.intake.sizes import scale_by_size
 
 FIXTURE = Path(__file__).parents[4] / "shared" / "fixtures" / "postprocess_e2e" / "up_dir.npz"
 
@@ -99,6 +100,9 @@ def test_height_is_option_then_sidecar_then_table(tmp_path):
         ("fridge.obj", (700, 700, 1800), 0.001, "category"),
         ("fridge.obj", (28, 28, 71), 0.0254, "category"),
         ("fridge.obj", (0.07, 0.07, 0.17), 10.0, "category"),
+        ("fridge.obj", (0.6, 0.5, 0.999), 1.7 / 0.999, "category"),
+        ("fridge.obj", (0.6, 0.5, 0.98), 1.0, "as_is"),
+        ("thing.obj", (0.6, 0.5, 1.0), 1.0, "as_is"),
         ("drawer.obj", (1.3, 1.6, 4.15), 0.9 / 4.15, "category"),  # Nobody's drawer of 4 inches.
         ("thing.obj", (0.1, 0.1, 4.9), 1.0, "as_is"),
         ("thing.obj", (10, 10, 490), 0.001, "guess"),
@@ -201,16 +205,16 @@ def test_an_annotation_outside_the_folder_is_external(tmp_path):
 
 
 def test_every_typical_size_is_plausible_and_every_alias_unique():
-    sizes = {size.category: size for size in size_table().values()}
+    sizes = {size.name: size for size in category_table().values()}
     assert len(sizes) >= 50
     for size in sizes.values():
         assert size.least <= size.typical <= size.most
 
 
-@given(st.sampled_from(sorted(size_table())), st.floats(1e-6, 1e6), st.floats(0.1, 10.0))
+@given(st.sampled_from(sorted(category_table())), st.floats(1e-6, 1e6), st.floats(0.1, 10.0))
 def test_the_chosen_scale_is_always_plausible(name, height, aspect):
     extents = np.array([height * aspect, height / 2.0, height])
-    size = size_table()[name]
+    size = category_table()[name]
     scale = scale_by_size(extents, name)
     measured = scale.factor * (extents.max() if size.measure == "extent" else extents[2])
     assert size.least * (1 - 1e-9) <= measured <= size.most * (1 + 1e-9)

@@ -14,8 +14,10 @@ from asset_factory.factory.errors import InvalidAsset
 from asset_factory.factory.manufacture.inertia import (
     MIN_GYRATION_M,
     MIN_MASS_KG,
+    STEEL,
     carrier_inertial,
     part_inertial,
+    weighing,
 )
 from asset_factory.factory.mesh import Material, Mesh, concatenate
 from asset_factory.learn.objects import make_object
@@ -203,6 +205,25 @@ def test_a_carrier_is_a_light_sphere_at_the_joint():
     assert found.mass == pytest.approx(0.05 * child.mass)
     np.testing.assert_array_equal(found.center, [0.1, 0.2, 0.3])
     assert len(np.unique(np.linalg.eigvalsh(found.tensor).round(12))) == 1
+
+
+def test_links_together_weigh_what_is_usual_distributed_as_they_are():
+    links = [inertial(UNIT), inertial(box((0.0, 0.1), (0.0, 0.1), (0.0, 0.1), PLAIN))]
+    heavier = weighing(links, 40.0, DENSITY)
+    assert sum(each.mass for each in heavier) == pytest.approx(40.0)
+    for before, after in zip(links, heavier, strict=True):
+        factor = after.mass / before.mass
+        assert factor == pytest.approx(heavier[0].mass / links[0].mass)
+        np.testing.assert_allclose(after.tensor, factor * before.tensor)
+        np.testing.assert_array_equal(after.center, before.center)
+
+
+def test_no_link_becomes_denser_than_steel_or_too_light_for_simulators():
+    links = [inertial(UNIT), inertial(box((0.0, 0.02), (0.0, 0.02), (0.0, 0.02), PLAIN))]
+    (heaviest, _) = weighing(links, 1e6, DENSITY)
+    assert heaviest.mass == pytest.approx(0.4 * 0.3 * 0.2 * STEEL)
+    (_, lightest) = weighing(links, 0.1, DENSITY)
+    assert lightest.mass == pytest.approx(MIN_MASS_KG)
 
 
 def lump(seed):
