@@ -19,6 +19,7 @@ from ...models.detector.decode import Dense
 from ...part import Part, PartKind, Proposer
 from ...views.raster import Side
 from ..articulator import Articulator
+from ..closing import with_closed_hinges
 from ..origin import MeshOrigin
 from ..proposal import Hypothesis
 from ..pruning import keep_parts
@@ -122,7 +123,7 @@ class DetectedArticulator:
         looks_like = detection.kind if detection.kinds.max() >= SURE_KIND else None
         return [
             replace(
-                each,
+                with_closed_hinges(each),
                 articulator=self.name,
                 notes=(*notes, *each.notes),
                 weights=(*each.weights, *self.weights),

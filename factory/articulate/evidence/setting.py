@@ -63,7 +63,7 @@ def setting_of(body: Body, chosen: Candidates, evidence: FloatArray) -> Setting:
     axis = chosen.axis[0]
     unit = _way(body, axis, evidence) if slides else 1.0
     farthest = FARTHEST_SLIDE * unit if slides else np.pi
-    share = _free_share(body, chosen, farthest)
+    share = free_way(body, chosen, farthest)
     names = SLIDE if slides else TURN
     own = [float(evidence[NAMES.index(name)]) for name in names]
     about = [*_about(body), _log(float(np.ptp(body.corners @ axis)), _span(body, axis)) / 2.0]
@@ -121,7 +121,7 @@ def _about(body: Body) -> list[float]:
     ]
 
 
-def _free_share(body: Body, chosen: Candidates, farthest: float) -> float:
+def free_way(body: Body, chosen: Candidates, farthest: float) -> float:
     """Return the share of the way before more than a few points meet the part's holder."""
     values = np.arange(1, STEPS + 1) / STEPS * farthest
     again = np.zeros(STEPS, dtype=np.int64)

@@ -1,0 +1,80 @@
+"""Hinges whose parts stand open in the mesh: their lower limit is the closed pose."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from modelled_furniture import METAL, board
+from plain_solids import cylinder
+
+from asset_factory.factory.articulate.closing import with_closed_hinges
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.geometry.posing import posed
+from asset_factory.factory.mesh import concatenate
+from asset_factory.factory.part import PartKind
+
+HINGE = Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, -1], [0.0, 0.0, 0.4], 0.0, np.pi)
+
+
+def cupboard(handle=0.05, kind=PartKind.DOOR):
+    """A case that is open in front, with a closed door hinged at its left."""
+    case = [
+        board((0.0, 0.0, 0.0), (0.02, 0.4, 0.8)),
+        board((0.58, 0.0, 0.0), (0.6, 0.4, 0.8)),
+        board((0.0, 0.38, 0.0), (0.6, 0.4, 0.8)),
+        board((0.0, 0.0, 0.0), (0.6, 0.4, 0.02)),
+        board((0.0, 0.0, 0.78), (0.6, 0.4, 0.8)),
+    ]
+    door = [
+        board((0.0, -0.02, 0.0), (0.6, -0.001, 0.8)),
+        board((0.54, -0.02 - handle, 0.3), (0.56, -0.02, 0.5), METAL),
+    ]
+    mesh = concatenate([*case, *door])
+    count = sum(len(each.faces) for each in case)
+    own = np.arange(len(mesh.faces)) >= count
+    parts = (Part("body", np.flatnonzero(~own)), Part("door", np.flatnonzero(own), kind=kind))
+    return Articulation(mesh, parts, (HINGE,), "test")
+
+
+def guessed(opened, whole):
+    """The object standing open, and a joint that a proposer sees from there on."""
+    standing = posed(whole, {"hinge": opened})
+    return replace(standing, joints=(replace(standing.joints[0], lower=0.0, upper=np.pi / 2),))
+
+
+@pytest.mark.parametrize("degrees", [40, 90, 120, 175])
+def test_a_door_that_stands_open_closes(degrees):
+    opened = np.radians(degrees)
+    (joint,) = with_closed_hinges(guessed(opened, cupboard())).joints
+    assert joint.lower == pytest.approx(-opened, abs=1e-6)
+    assert joint.range == pytest.approx(max(np.pi / 2, opened))
+
+
+def test_a_hinge_seen_the_wrong_way_round_is_turned():
+    seen = guessed(2.0, cupboard())
+    backward = replace(seen, joints=(replace(seen.joints[0], axis=[0, 0, 1]),))
+    (joint,) = with_closed_hinges(backward).joints
+    np.testing.assert_allclose(joint.axis, [0, 0, -1])
+    assert joint.lower == pytest.approx(-2.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("handle", [0.05, 0.3])
+def test_a_closed_door_stays_closed_however_far_its_handle_stands_out(handle):
+    whole = cupboard(handle)
+    assert with_closed_hinges(whole).joints == whole.joints
+
+
+def test_a_part_that_closes_nothing_stays_as_it_is_drawn():
+    seen = guessed(1.0, cupboard(kind=PartKind.KNOB))
+    assert with_closed_hinges(seen).joints == seen.joints
+
+
+def test_a_lever_is_not_taken_for_open_because_upright_it_would_be_smaller():
+    column = cylinder(2, (0.0, 0.0), 0.04, (0.0, 0.3), METAL)
+    lever = board((0.0, -0.02, 0.301), (0.4, 0.02, 0.32))
+    mesh = concatenate([column, lever])
+    own = np.arange(len(mesh.faces)) >= len(column.faces)
+    parts = (Part("body", np.flatnonzero(~own)), Part("lever", np.flatnonzero(own)))
+    joint = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, -1, 0], [0.0, 0.0, 0.31], 0.0, 1.5)
+    whole = Articulation(mesh, parts, (joint,), "test")
+    assert with_closed_hinges(whole).joints == whole.joints
