@@ -48,7 +48,13 @@ def with_closed_hinges(articulation: Articulation) -> Articulation:
         np.array([-1, *(joint.parent for joint in articulation.joints)]),
     )
     joints = tuple(_closed(articulation, partition, joint) for joint in articulation.joints)
-    return replace(articulation, joints=joints)
+    notes = tuple(
+        f"{articulation.parts[after.child].name!r} stands open by {np.degrees(-after.lower):.0f} "
+        "degrees in the mesh: its joint closes it"
+        for before, after in zip(articulation.joints, joints, strict=True)
+        if after is not before
+    )
+    return replace(articulation, joints=joints, notes=(*articulation.notes, *notes))
 
 
 def _closed(articulation: Articulation, partition: Partition, joint: Joint) -> Joint:

@@ -116,14 +116,14 @@ class DetectedArticulator:
         made = [*self._with(guess, beside), *([guess] if moves else [])]
         if len(sure) > len(guess.movable_joints):
             made += self._with(rigid_articulation(mesh, self.name, ()), sure)
-        open_ = [each for each in made if each.movable_joints] or [
+        open_ = [with_closed_hinges(each) for each in made if each.movable_joints] or [
             self._still(mesh, guess, detection)
         ]
         notes = tuple(_said(part, least) for part in left[:MOST_TOLD])
         looks_like = detection.kind if detection.kinds.max() >= SURE_KIND else None
         return [
             replace(
-                with_closed_hinges(each),
+                each,
                 articulator=self.name,
                 notes=(*notes, *each.notes),
                 weights=(*each.weights, *self.weights),

@@ -45,7 +45,9 @@ def guessed(opened, whole):
 @pytest.mark.parametrize("degrees", [40, 90, 120, 175])
 def test_a_door_that_stands_open_closes(degrees):
     opened = np.radians(degrees)
-    (joint,) = with_closed_hinges(guessed(opened, cupboard())).joints
+    found = with_closed_hinges(guessed(opened, cupboard()))
+    (joint,) = found.joints
+    assert found.notes[-1].startswith(f"'door' stands open by {degrees} degrees")
     assert joint.lower == pytest.approx(-opened, abs=1e-6)
     assert joint.range == pytest.approx(max(np.pi / 2, opened))
 
