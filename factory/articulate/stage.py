@@ -140,6 +140,7 @@ class _Tree:
     articulator: str
     notes: tuple[str, ...]
     weights: tuple[Weights, ...]
+    looks_like: str | None
     own: _Surface | None
     probability: float
 
@@ -175,13 +176,26 @@ def _tree(made: Hypothesis, intake: Intake) -> _Tree:
     tree = made.articulation
     own = None if tree.mesh is intake.mesh else _Surface.of(tree.mesh)
     return _Tree(
-        tree.parts, tree.joints, tree.articulator, tree.notes, tree.weights, own, made.probability
+        tree.parts,
+        tree.joints,
+        tree.articulator,
+        tree.notes,
+        tree.weights,
+        tree.looks_like,
+        own,
+        made.probability,
     )
 
 
 def _grown(tree: _Tree, intake: Intake) -> Hypothesis:
     mesh = intake.mesh if tree.own is None else tree.own.on(intake.mesh)
-    return Hypothesis(
-        Articulation(mesh, tree.parts, tree.joints, tree.articulator, tree.notes, tree.weights),
-        tree.probability,
+    articulation = Articulation(
+        mesh,
+        tree.parts,
+        tree.joints,
+        tree.articulator,
+        tree.notes,
+        tree.weights,
+        tree.looks_like,
     )
+    return Hypothesis(articulation, tree.probability)

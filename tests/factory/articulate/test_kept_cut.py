@@ -1,12 +1,15 @@
-"""A mesh that the articulator cut is kept as it was cut."""
+"""A mesh that the articulator cut is kept as it was cut, and all that it says beside."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import trimesh
 from one_piece import fridge
 
 from asset_factory.factory.articulate import stage
+from asset_factory.factory.articulate.proposal import Hypothesis
+from asset_factory.factory.articulate.rigid import rigid_articulation
 from asset_factory.factory.articulate.stage import hypotheses
 from asset_factory.factory.config import BuildConfig, IntakeConfig
 from asset_factory.factory.intake.load import load
@@ -39,3 +42,14 @@ def test_a_cut_mesh_comes_back_from_the_cache(tmp_path, monkeypatch):
     assert np.array_equal(again.mesh.corner_normals, first.mesh.corner_normals)
     assert [part.faces.tolist() for part in again.parts] == [p.faces.tolist() for p in first.parts]
     assert again.mesh.materials == intake.mesh.materials
+
+
+def test_what_an_object_looks_like_comes_back_too(tmp_path, monkeypatch):
+    file = tmp_path / "thing.stl"
+    trimesh.creation.box().export(file)
+    intake = load(file, IntakeConfig(up="z"))
+    seen = replace(rigid_articulation(intake.mesh, "auto", ()), looks_like="fridge")
+    monkeypatch.setattr(stage, "hypotheses_of", lambda *_: (Hypothesis.of(seen),))
+    for _ in range(2):
+        (found,) = hypotheses(intake, "key", Stages(CONFIG, Store(tmp_path / "cache")))
+        assert found.articulation.looks_like == "fridge"
