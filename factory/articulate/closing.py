@@ -15,7 +15,7 @@ from .evidence.body import Body, Partition, body_of
 from .evidence.candidates import GUESSED, Candidates
 from .evidence.frames import level_frame
 from .evidence.setting import free_way
-from .ranges import OPEN_DIFFERENCE, box_volume
+from .ranges import OPEN_DIFFERENCE, box_volumes
 
 #: Kinds of part that close something.
 CLOSING = frozenset({PartKind.PART, PartKind.DOOR, PartKind.FLAP, PartKind.LID})
@@ -84,12 +84,12 @@ def _smallest(articulation: Articulation, body: Body, joint: Joint) -> float | N
     both = inside | (owner == joint.parent)
     mesh = articulation.mesh.submesh(np.flatnonzero(both))
     moved = inside[both]
-    best = (1.0 - OPEN_DIFFERENCE) * box_volume(mesh, moved, joint, 0.0)
+    best = (1.0 - OPEN_DIFFERENCE) * float(box_volumes(mesh, moved, joint, [0.0])[0])
     found = None
     for sign in (-1.0, 1.0):
         steps = np.arange(1, round(_free(body, joint, sign) / STEP) + 1) * STEP * sign
-        volumes = np.array([box_volume(mesh, moved, joint, float(value)) for value in steps])
-        if len(steps) and volumes.min() < best:
+        volumes = box_volumes(mesh, moved, joint, np.append(steps, 0.0))
+        if volumes.min() < best:
             best = float(volumes.min())
             first = int(np.argmax(volumes <= (1.0 + AS_SMALL) * best))
             found = float(steps[first])

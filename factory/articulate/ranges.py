@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -192,7 +193,7 @@ def _opens_downwards(draft: Draft, joint: Joint, *, drawn: bool) -> tuple[bool |
     if drawn and -joint.lower <= near:
         return False, ""
     inside = np.isin(draft.face_part, list(draft.subtree(joint.child)))
-    low, high = (box_volume(draft.mesh, inside, joint, end) for end in (joint.lower, joint.upper))
+    low, high = box_volumes(draft.mesh, inside, joint, (joint.lower, joint.upper))
     alike = abs(low - high) <= CLEAR_DIFFERENCE * max(low, high)
     if drawn and joint.upper <= near:
         if low <= (1.0 - OPEN_DIFFERENCE) * high:
@@ -222,21 +223,25 @@ def _opens_downwards(draft: Draft, joint: Joint, *, drawn: bool) -> tuple[bool |
     )
 
 
-def box_volume(mesh: Mesh, inside: BoolArray, joint: Joint, value: float) -> float:
-    """Return the volume [m3] of an object's box with one joint moved; no box is flat.
+def box_volumes(
+    mesh: Mesh, inside: BoolArray, joint: Joint, values: Sequence[float] | FloatArray
+) -> FloatArray:
+    """Return the volume [m3] of an object's box with one joint moved to each value; none is flat.
 
     Args:
         mesh: the object [m].
         inside: of each face whether the joint moves it, shape [face_count].
         joint: of the object.
-        value: to which the joint is moved [rad] or [m].
+        values: to which the joint is moved [rad] or [m], shape [n].
     """
-    corners = mesh.vertices[mesh.faces]
-    motion = joint.motion(value)
-    moved = corners[inside].reshape(-1, 3) @ motion[:3, :3].T + motion[:3, 3]
-    points = np.concatenate([corners[~inside].reshape(-1, 3), moved])
-    extents = np.ptp(points, axis=0)
-    return float(np.prod(extents + 0.01 * np.linalg.norm(extents)))
+    moving, rest = (mesh.vertices[np.unique(mesh.faces[some])] for some in (inside, ~inside))
+    extents = []
+    for value in values:
+        motion = joint.motion(float(value))
+        moved = moving @ motion[:3, :3].T + motion[:3, 3]
+        extents.append(np.ptp(np.concatenate([rest, moved]), axis=0))
+    thick = np.array(extents) + 0.01 * np.linalg.norm(extents, axis=1, keepdims=True)
+    return np.asarray(thick.prod(axis=1))
 
 
 def _posed(draft: Draft, poses: FloatArray) -> Mesh:

@@ -7,13 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...articulate.ranges import CLEAR_DIFFERENCE, MOST_TURN, box_volume
+from ...articulate.ranges import CLEAR_DIFFERENCE, MOST_TURN, box_volumes
 from ...articulation import Articulation, Joint, JointKind
 from ...asset import Asset
 from ...geometry.posing import face_parts
 from ...manufacture.plan import Plan
 from ...manufacture.repair import RepairKind
 from ...manufacture.separate.sweep import free_until
+from ...mesh import FloatArray
 from .evidence import RepairEvidence, record_change
 from .mend import PLANED_M
 from .shorten import FREE_M, GAP_M
@@ -79,7 +80,7 @@ def opening(articulation: Articulation, joint: Joint) -> Joint:
     return joint if low < high else flipped
 
 
-def _sizes(articulation: Articulation, joint: Joint, values: Sequence[float]) -> list[float]:
+def _sizes(articulation: Articulation, joint: Joint, values: Sequence[float]) -> FloatArray:
     """Return the volume of the box around the object at each value of a joint [m3]."""
     inside = np.isin(face_parts(articulation), articulation.carried(joint.child))
-    return [box_volume(articulation.mesh, inside, joint, value) for value in values]
+    return box_volumes(articulation.mesh, inside, joint, values)
