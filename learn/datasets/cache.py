@@ -34,12 +34,7 @@ COMMON_MODULES = ("scipy.spatial", "scipy.sparse.csgraph", "asset_factory.learn.
 
 @dataclass(frozen=True)
 class Prepared:
-    """A dataset in the cache.
-
-    Attributes:
-        sampled objects: their files, in the order of ``report.read``.
-        report: what became of every object.
-    """
+    """A dataset in the cache: sampled objects' files, in the order of ``report.read``."""
 
     sampled_objects: tuple[Path, ...]
     report: SourceReport
@@ -62,17 +57,16 @@ def prepare(
     by the next pass; refusals are kept.
 
     Args:
-        kind: of dataset, one of ``SOURCES``.
+        kind: one of ``SOURCES``.
         path: its folder.
-        cache: where sampled objects are kept; made if it is not there.
+        cache: made if it is not there.
         split: a text file with the names of the objects wanted; all of them if ``None``.
         settings: of the reading.
         workers: processes at once; as many as there are processors if ``None``.
         on_progress: told how many objects are done, and how many there are.
 
     Raises:
-        ConfigError: no such kind, folder or split, a library that the kind needs is missing, or
-            nothing found there.
+        ConfigError: no such kind, folder or split, a library is missing, or nothing found there.
     """
     chosen = settings or SourceSettings()
     found = find_all(kind, path)

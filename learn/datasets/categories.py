@@ -18,8 +18,7 @@ def categories_of(root: Path) -> Callable[[str], str]:
 
     The inventory is ``INVENTORY.csv`` in ``root``, with columns ``path`` and ``category``; a path
     may begin with the folders that ``root`` lies in. An inventory that cannot be read is none.
-    Categories are written as the table of
-    sizes writes them: ``fridge`` for a refrigerator.
+    Categories are written as the table of sizes writes them: ``fridge`` for a refrigerator.
     """
     listed = _listed(root / INVENTORY)
     above = root.resolve().parts[1:]

@@ -53,12 +53,8 @@ def find_items(
 
     A folder that holds a main file is an object, and so is nothing below it. Several main files in
     ``root`` itself are an object each; elsewhere the first counts. Hidden files, and links that
-    lead out of ``root``, do not exist.
-
-    Args:
-        root: of the dataset.
-        mains: which of a folder's files could be an object's main file, best first.
-        category: of an object, by its name.
+    lead out of ``root``, do not exist. ``mains`` returns which of a folder's files could be an
+    object's main file, best first; ``category`` that of an object's name.
     """
     items: list[SourceItem] = []
     real = root.resolve()
@@ -86,9 +82,7 @@ def _regular(folder: Path, names: Sequence[str], real_root: Path) -> list[Path]:
 def files_below(folder: Path, root: Path | None = None) -> tuple[Path, ...]:
     """Return the files in and below a folder, in a fixed order.
 
-    Args:
-        folder: of an object.
-        root: links that lead out of this folder do not exist; ``folder`` itself if ``None``.
+    Links that lead out of ``root`` (``folder`` itself by default) do not exist.
     """
     real = (root or folder).resolve()
     found: list[Path] = []

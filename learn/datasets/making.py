@@ -26,12 +26,7 @@ def make_sampled(
 ) -> ItemRefusal | None:
     """Read one object and keep it as points; made to be called in a process that may be killed.
 
-    Args:
-        kind: of dataset.
-        item: the object.
-        settings: of the reading.
-        key: of its sampled object; decides its points, too.
-        path: of its sampled object.
+    The ``key`` of its sampled object decides its points, too.
     """
     try:
         sampled = sampled_item(kind, item, settings, seed=int(key[-16:], 16))

@@ -31,11 +31,7 @@ def generated(
 def described(
     folder: Path, names: Collection[str] | None = None
 ) -> Iterator[tuple[str, Articulation]]:
-    """Yield every readable object of a folder of URDF or MJCF folders, with names.
-
-    Args:
-        folder: of folders.
-        names: of the objects that are wanted; all of them by default.
+    """Yield every readable object of a folder of URDF or MJCF folders, or those named, with names.
 
     Raises:
         ConfigError: there is none.

@@ -52,11 +52,8 @@ def annotated_joint(
 ) -> AnnotatedJoint:
     """Return the joint of one bone.
 
-    Args:
-        parent: bone number.
-        child: bone number.
-        lines: ``(l, l x p)`` of the turn and of the slide, zero where there is none, shape [12].
-        ranges: of the turn [rad] and of the slide, from the pose that the object is in, shape [4].
+    ``lines`` are ``(l, l x p)`` of the turn and of the slide, zero where there is none, shape [12];
+    ``ranges`` of the turn [rad] and of the slide, from the pose that the object is in, shape [4].
     """
     if lines.shape != (12,) or ranges.shape != (4,):
         raise InputRejected(

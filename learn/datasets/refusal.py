@@ -11,12 +11,7 @@ from asset_factory.factory.runtime.store import write_whole
 
 @dataclass(frozen=True)
 class ItemRefusal:
-    """Why an object is passed over.
-
-    Attributes:
-        reason: a stable code.
-        message: one sentence.
-    """
+    """Why an object is passed over: a stable code, and one sentence."""
 
     reason: str
     message: str

@@ -37,7 +37,7 @@ def drawn_sides(rng: np.random.Generator) -> tuple[str, LabelledSides]:
 
 
 def _drawn(rng: np.random.Generator) -> tuple[str, Articulation, dict[str, float]]:
-    """Return a generated object, its kind, and by how much of its range what stands open."""
+    """Return a generated object's kind, the object, and open joints with their share of range."""
     bound = rng.random()
     ends = np.cumsum(SHARES)
     if ends[1] <= bound < ends[2]:

@@ -46,13 +46,9 @@ class ObjectBatch:
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """What the network is given of a batch, and the truth there.
+    """What the network is given of a batch, [n, 5, CUES, rows, columns], and the truth there.
 
-    Attributes:
-        cues: [n, 5, CUES, rows, columns].
-        part: [n, 5, rows, columns].
-        table: [n, most, 10].
-        front: number of the side that is the front now, [n].
+    ``front`` is the number of the side that is the front now; the rest is as in a batch.
     """
 
     cues: Tensor
@@ -64,10 +60,7 @@ class Shown:
 def show(batch: ObjectBatch, textures: Tensor, generator: Any) -> Shown:
     """Return a batch as some image-to-3D tool would make it.
 
-    Args:
-        batch: as kept.
-        textures: uint8, [m, 3, size, size].
-        generator: of random numbers, on the batch's device.
+    ``textures`` are uint8, [m, 3, size, size]; ``generator`` is on the batch's device.
     """
     draw = Drawing(generator, batch.color.device)
     color, depth, part, table, front = _placed(batch, draw)
@@ -208,8 +201,7 @@ def _top_turned(
 ) -> tuple[Tensor, ...]:
     """Return objects whose tops are turned as their sides are.
 
-    After a turn by one quarter the right side is the front, so that the right of the top is at its
-    lower edge.
+    After one quarter the right side is the front: the right of the top is at its lower edge.
     """
     color, depth, part, table = color.clone(), depth.clone(), part.clone(), table.clone()
     for quarters in (1, 2, 3):

@@ -84,13 +84,9 @@ class Instances:
 
 @dataclass(frozen=True, eq=False)
 class LabelledSides:
-    """Five sides of one object and the truth.
+    """Five sides of one object, and the moving parts on each.
 
-    Attributes:
-        canvases: how it looks.
-        part: number of the part of every pixel plus one, 0 where nothing is seen, uint8, shape
-            [5, 256, 256].
-        instances: moving parts.
+    ``part`` is the number of each pixel's part plus one, 0 where nothing is seen, [5, 256, 256].
     """
 
     canvases: Canvases
@@ -100,14 +96,7 @@ class LabelledSides:
 
 @dataclass(frozen=True)
 class WholeTruth:
-    """The truth about one object as a whole.
-
-    Attributes:
-        kind: by number.
-        opens: whether anything does.
-        front: number of the side that is its front.
-        real: an artist's surface, not ours.
-    """
+    """The truth about one object: kind and front by number; ``real`` of an artist's surface."""
 
     kind: int
     opens: bool
@@ -129,11 +118,9 @@ class _Meaning:
 def labelled_sides(
     articulation: Articulation, opened: Mapping[str, float] | None = None
 ) -> LabelledSides:
-    """Return the sides of an object.
+    """Return the sides of a closed object, its front towards -Y.
 
-    Args:
-        articulation: closed, its front towards -Y.
-        opened: shares of their ranges by which joints are opened before the object is looked at.
+    Joints are opened by the shares ``opened`` of their ranges before the object is looked at.
     """
     pictures = _pictures(articulation)
     meanings = _meanings(articulation, pictures)
@@ -230,11 +217,9 @@ def _lid_ways(joint: Joint, center: FloatArray, counts: list[int]) -> dict[int, 
 
 
 def way_toward(direction: FloatArray, side: Side) -> PanelWay:
-    """Return the edge, as a side shows it, at which a lid is hinged that is hinged over there.
+    """Return the edge, as a side shows it, at which a lid is hinged.
 
-    Args:
-        direction: from the middle of the lid to its hinge, shape [3]; its height does not count.
-        side: that is looked at.
+    ``direction`` is from the middle of the lid to its hinge, shape [3]; its height does not count.
     """
     right, up, away = side.frame
     level = direction * np.array([1.0, 1.0, 0.0])

@@ -27,12 +27,7 @@ SLOTS = 96
 
 
 class Pool:
-    """Objects on the training device; the oldest made way for new ones.
-
-    Args:
-        size: how many.
-        device: where.
-    """
+    """So many objects on the training device; the oldest make way for new ones."""
 
     def __init__(self, size: int, device: Any) -> None:
         self.size = size
@@ -85,11 +80,7 @@ def joined(batches: list[tuple[ObjectBatch, Any]]) -> tuple[ObjectBatch, Any]:
 class Makers:
     """Worker processes that make objects into a pool until they are stopped.
 
-    Args:
-        pool: for the objects.
-        workers: how many.
-        seed: of what they draw.
-        one_piece: the objects are made one piece, as image-to-3D tools give them.
+    With ``one_piece`` objects are made one piece, as image-to-3D tools give them.
     """
 
     def __init__(self, pool: Pool, workers: int, seed: int, one_piece: bool = False) -> None:

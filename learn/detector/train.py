@@ -115,12 +115,9 @@ def train(options: Any) -> None:
 
 @dataclass(frozen=True, eq=False)
 class Pools:
-    """Where batches come from.
+    """Where batches come from: ``textures`` are uint8, [m, 3, size, size].
 
-    Attributes:
-        pools: real, real made one piece, described, generated made one piece, generated objects.
-        textures: uint8, [m, 3, size, size].
-        generator: of random numbers.
+    Pools are of real, real made one piece, described, generated made one piece, generated objects.
     """
 
     pools: tuple[Pool, ...]

@@ -86,12 +86,9 @@ def in_settings(
 
 
 def real_requests(root: Path, objects: Sequence[Listed], half: str | None) -> tuple[Request, ...]:
-    """Return the objects of a list.
+    """Return the objects of a list, ``develop``, ``report`` or (``None``) both halves.
 
-    Args:
-        root: the folder of data that the list's paths start from.
-        objects: as :func:`~asset_factory.learn.evaluate.listing.read_list` gives them.
-        half: ``develop``, ``report``, or ``None`` for both.
+    Paths start from ``root``.
 
     Raises:
         ConfigError: an object is not there.
@@ -170,9 +167,7 @@ def skin_requests(folder: Path) -> tuple[Request, ...]:
 def make_case(request: Request, store: Store | None = None) -> Articulation:
     """Return the truth about an object, posed, turned and melted into one mesh.
 
-    Args:
-        request: which object, and how.
-        store: keeps objects; ``None`` reads them every time.
+    ``store`` keeps objects; ``None`` reads them every time.
 
     Raises:
         InputRejected: the description cannot be read, or nothing that moves is seen of the fused

@@ -18,10 +18,8 @@ COMPARED = ("type_accuracy", "axis_angle_deg", "axis_offset", "opens_right_way")
 def compared(rows: Iterable[Row]) -> list[dict[str, Any]]:
     """Return one entry per pair of methods, and figure that both have of some object.
 
-    Returns:
-        Dicts with ``figure``, ``one``, ``other`` (methods), ``objects``: cases in which both have
-        it, ``one_mean`` and
-        ``other_mean``: the means over those cases of the means over their parts (and repetitions).
+    Dicts have ``figure``, ``one``, ``other`` (methods), ``objects``: cases in which both have it,
+    ``one_mean`` and ``other_mean``: over those cases, of the means over parts and repetitions.
     """
     figures: dict[tuple[str, str], dict[str, list[float]]] = {}
     methods: list[str] = []

@@ -25,10 +25,7 @@ CSV_NAME = "cases.csv"
 def write_results(folder: Path, rows: Sequence[Row], settings: dict[str, Any]) -> dict[str, Any]:
     """Write both files, the same bytes for the same numbers; returns what the JSON file holds.
 
-    Args:
-        folder: made if it is not there.
-        rows: in any order.
-        settings: of the evaluation, without paths of this machine.
+    Rows come in any order; ``settings`` have no paths of this machine.
     """
     folder.mkdir(parents=True, exist_ok=True)
     lines = [_line(row) for row in in_order(rows)]

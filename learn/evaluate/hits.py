@@ -22,19 +22,12 @@ STRICT_OFFSET = 0.02
 def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[float, ...]]:
     """Return 1 or 0 per true moving part, in the bodies' order; 0 unless found and moving.
 
-    Args:
-        true: the truth.
-        predicted: the answer, over the same mesh.
-        pairing: of the two.
-
     Returns:
         ``type_of_all``: the type is right. ``axis_of_all``: an axis that both have is there, and
-            all such are within 5
-        degrees. ``joint_right``: both of these, and the axis of the turn, if there is one, within 5
-            % of the longest
-        side. Of the true parts that turn: ``place_of_all``, ``place_of_all_strict``: the prediction
-        turns about an axis within 5 % and 2 % of the longest side of the true one; which way it
-        points is not asked.
+        all such are within 5 degrees. ``joint_right``: both of these, and the axis of the turn, if
+        there is one, within 5 % of the longest side. Of the true parts that turn:
+        ``place_of_all``, ``place_of_all_strict``: the prediction turns about an axis within 5 % and
+        2 % of the longest side of the true one; which way it points is not asked.
     """
     names = ("type_of_all", "axis_of_all", "place_of_all", "place_of_all_strict", "joint_right")
     found = {name: np.zeros(len(true)) for name in names}
@@ -65,7 +58,7 @@ def angles(true: Bodies, predicted: Bodies, real: int, guess: int) -> list[float
 
 
 def offset(true: Bodies, predicted: Bodies, real: int, guess: int) -> float | None:
-    """Return the distance of two turn axes, at the true one's point next to the part [m].
+    """Return the distance of two turn axes [m], at the true one's point next to the part.
 
     ``None`` unless both turn.
     """

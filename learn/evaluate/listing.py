@@ -56,10 +56,7 @@ def half_of(shape: str) -> str:
 
 
 def read_list(path: Path | None = None) -> tuple[Listed, ...]:
-    """Read a list.
-
-    Args:
-        path: a CSV file with the columns ``COLUMNS``; the package's own by default.
+    """Read a CSV file with the columns ``COLUMNS``; the package's own by default.
 
     Raises:
         ConfigError: it is not there, a column or a value is missing, or a half is not the rule's.

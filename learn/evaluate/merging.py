@@ -17,10 +17,6 @@ def merged(articulation: Articulation, rng: np.random.Generator) -> Articulation
     parts, as for any mesh file that is read; materials, texture coordinates and normals are gone.
     Faces without area are too.
 
-    Args:
-        articulation: any.
-        rng: of the order of faces.
-
     Raises:
         InputRejected: no face has any area.
     """

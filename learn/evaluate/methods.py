@@ -31,13 +31,7 @@ METHODS = (
 
 @dataclass(frozen=True)
 class Method:
-    """One way to find moving parts.
-
-    Attributes:
-        name: of ``METHODS``.
-        config: of the network, for the methods that ask one.
-        folder: of ``<case>.npz`` files, for ``predictions``.
-    """
+    """One way to find moving parts, of ``METHODS``; ``folder`` holds ``predictions``' files."""
 
     name: str
     config: ParticulateConfig

@@ -48,13 +48,7 @@ class Pairing:
 
 
 def paired(true: Bodies, predicted: Bodies, areas: FloatArray) -> Pairing:
-    """Match two labellings of the same faces.
-
-    Args:
-        true: the truth.
-        predicted: the answer, over the same mesh.
-        areas: of its faces [m2], shape [face_count].
-    """
+    """Match two labellings of the same faces, whose ``areas`` [m2] have shape [face_count]."""
     from scipy.optimize import linear_sum_assignment
 
     shape = (len(true), len(predicted))

@@ -36,11 +36,7 @@ FIRST_SHARE = 0.25
 
 
 def physical(true: Articulation, predicted: Articulation) -> Score:
-    """Compare two articulations of the same mesh.
-
-    Args:
-        true: the truth.
-        predicted: the answer, faces in the same order and the same pose.
+    """Compare two articulations of the same mesh, faces in the same order and the same pose.
 
     Returns:
         Of the object: ``part_miou`` (mean of both directions, a part without match is 0),

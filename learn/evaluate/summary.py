@@ -24,14 +24,11 @@ GROUPS: dict[str, Callable[[Row], str]] = {
 def summarised(rows: Iterable[Row]) -> list[dict[str, Any]]:
     """Return one entry per grouping, group and method, in that order.
 
-    Returns:
-        Dicts with ``by``, ``group``, ``method``, ``objects`` (cases), ``failures``, ``unscored``,
-        ``values``: means
-        over cases and repetitions, ``parts``: ``{name: {count, mean, of_objects, median}}``, pooled
-        over all parts but for ``of_objects``, the mean of the objects' means, in which a keyboard
-        does not outvote all cabinets, and
-        ``spread``: standard deviation over repetitions of ``values`` and ``of_objects``, where
-            there are several.
+    Dicts have ``by``, ``group``, ``method``, ``objects`` (cases), ``failures``, ``unscored``,
+    ``values``: means over cases and repetitions, ``parts``: ``{name: {count, mean, of_objects,
+    median}}``, pooled over all parts but for ``of_objects``, the mean of the objects' means, in
+    which a keyboard does not outvote all cabinets, and ``spread``: standard deviation over
+    repetitions of ``values`` and ``of_objects``, where there are several.
     """
     ordered = in_order(rows)
     entries = []

@@ -15,12 +15,7 @@ _CHUNK = 256
 
 
 def on_mesh(truth: Articulation, mesh: Mesh) -> Articulation:
-    """Return the same parts and joints over another mesh of the same surface.
-
-    Args:
-        truth: over the mesh as it was.
-        mesh: the same, or with some of its triangles cut into smaller ones.
-    """
+    """Return the same parts and joints over the same mesh, some of its triangles perhaps cut."""
     if len(mesh.faces) == len(truth.mesh.faces):
         return truth
     part = face_parts(truth)[sources(truth.mesh, mesh)]

@@ -55,12 +55,7 @@ Rated = dict[str, list[tuple[float, ...]]]
 
 @dataclass(frozen=True, eq=False)
 class LabelledMesh:
-    """A mesh with the truth about its sides.
-
-    Attributes:
-        mesh: z up.
-        truth: what opens on each side.
-    """
+    """A mesh, z up, and what opens on each of its sides."""
 
     mesh: Mesh
     truth: Instances
@@ -69,11 +64,8 @@ class LabelledMesh:
 def labelled_meshes(real: Path, root: Path) -> Iterator[LabelledMesh]:
     """Yield labelled real meshes that the detector did not see, as they are and made one piece.
 
-    After them come generated and published objects made one piece.
-
-    Args:
-        real: folder of labelled meshes.
-        root: of the objects of the list for evaluation; those of its half to tune on are used.
+    After them come the objects of the evaluation's list in ``root``, of its half to tune on, made
+    one piece.
 
     Raises:
         ConfigError: an object of the list is not there.

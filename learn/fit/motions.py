@@ -51,11 +51,7 @@ LEAST_WORTH = 1e-4
 
 
 def fit_motions(samples: Sequence[MotionSample], steps: int) -> Arrays:
-    """Fit everything to the same motion samples.
-
-    Args:
-        samples: of many parts.
-        steps: of each optimisation at most.
+    """Fit everything to the same motion samples, in so many steps of each optimisation at most.
 
     Raises:
         ConfigError: nothing turns, or nothing slides, among the motion samples.

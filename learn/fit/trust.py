@@ -43,13 +43,7 @@ CHARACTERS = ("artist", "artist", "generated", "plain")
 
 @dataclass(frozen=True)
 class TrustTrial:
-    """One object with everything that was proposed for it.
-
-    Attributes:
-        truth: of the object.
-        proposals: of all proposers.
-        right: whether each is, shape [proposal_count].
-    """
+    """One object with all proposals for it, and whether each is right, shape [proposal_count]."""
 
     truth: Articulation
     proposals: tuple[Proposal, ...]
@@ -143,13 +137,7 @@ def best_threshold(
 def fit_trust(
     articulator: AutoArticulator, trials: Sequence[TrustTrial], least: float | None
 ) -> Arrays:
-    """Fit the trust in every source of proposals.
-
-    Args:
-        articulator: who proposed.
-        trials: objects with what it proposed.
-        least: the probability to ask for; ``None``: it is looked for.
-    """
+    """Fit the trust in every source of proposals; ``least`` is looked for where it is ``None``."""
     network = fit_signs(trials)
     if least is None:
         least = best_threshold(articulator, trials, network)

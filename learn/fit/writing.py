@@ -39,13 +39,7 @@ def networks_stored(
     inputs: Mapping[str, Sequence[str]],
     others: Mapping[str, FloatArray] | None = None,
 ) -> Arrays:
-    """Return small networks as a file holds them.
-
-    Args:
-        networks: by name.
-        inputs: names of the numbers that each is given, in order.
-        others: further arrays, by name.
-    """
+    """Return small networks as a file holds them, with the names of their inputs, in order."""
     arrays = dict(others or {})
     for name, network in networks.items():
         arrays |= network.arrays(name)
@@ -55,11 +49,7 @@ def networks_stored(
 def write_fit(path: Path, fit: Fit, arguments: Sequence[str], seed: int) -> None:
     """Write weights, and their card: a file of their name that ends in ``.md``.
 
-    Args:
-        path: of the weights.
-        fit: to write.
-        arguments: of :data:`COMMAND` that made them.
-        seed: of all chance.
+    ``arguments`` are those of :data:`COMMAND` that made them, ``seed`` is of all chance.
     """
     write_arrays(path, fit.stored.arrays, fit.stored.metadata)
     rows = {

@@ -23,12 +23,7 @@ KIND = (0.8, 0.25)
 
 @dataclass(frozen=True)
 class Truth:
-    """One object with the joints of those parts that have exactly one.
-
-    Attributes:
-        partition: its mesh, closed, and its parts; carriers have none.
-        joints: by part.
-    """
+    """One closed object, its parts (carriers have none), and the joints of parts with just one."""
 
     partition: Partition
     joints: dict[int, Joint]
@@ -73,11 +68,7 @@ def _way_down(articulation: Articulation, part: int) -> tuple[int, list[Joint]]:
 def made_up_guess(joint: Joint, middle: FloatArray, size: float, rng: np.random.Generator) -> Guess:
     """Return what somebody might believe who has a rough idea of the truth.
 
-    Args:
-        joint: the truth.
-        middle: of the part [m], shape [3].
-        size: the object's longest side [m].
-        rng: of the errors.
+    ``middle`` is the part's [m], shape [3], ``size`` the object's longest side [m].
     """
     aside = rng.normal(size=3)
     aside -= float(aside @ joint.axis) * joint.axis

@@ -102,11 +102,8 @@ def sample_object(
 def in_character(articulation: Articulation, character: str, seed: int) -> tuple[Articulation, str]:
     """Return the object with the surface of a certain origin, and which that is.
 
-    Args:
-        articulation: as ``make_object`` gives it.
-        character: one of :data:`CHARACTERS`. One with a part hidden from outside cannot
-            come from an image, and becomes ``artist``.
-        seed: of the change.
+    One of :data:`CHARACTERS` with a part hidden from outside cannot come from an image, and becomes
+    ``artist``.
 
     Raises:
         ValueError: no such character.

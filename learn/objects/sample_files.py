@@ -31,13 +31,12 @@ def write_sample(
 
     The GLB is the whole object (glTF's y up, metres), its sidecar names ``pred.npz`` as its
     annotation. The URDF says the same in the object frame, with visual meshes only; it has neither
-    masses nor collision shapes.
+    masses nor collision shapes. Files of these names are replaced.
 
     Args:
         articulation: any whose parts without faces carry one part each.
-        folder: made if need be; files of these names are replaced.
-        values: joint values [rad] or [m] by name; the pose that is written. A joint not named is at
-            0.
+        folder: made if need be.
+        values: of joints by name [rad] or [m], 0 for the others: the pose that is written.
 
     Raises:
         KeyError: a value for a joint that is not there.

@@ -28,18 +28,17 @@ class Batch:
     """Samples with equally many points, as arrays or tensors, network frame; root part first.
 
     Attributes:
-        points: shape [batch, n, 3], float32.
-        normals: shape [batch, n, 3], float32.
+        points, normals: shape [batch, n, 3], float32.
         features: shape [batch, n, channels], float32, or ``None``.
         part_ids: part of each point, shape [batch, n], int64.
         counts: parts of each sample, shape [batch], int64.
         parents: part each part hangs on, -1 for the root and for rows without a part, shape [batch,
             parts], int64.
         motion: class of each part, shape [batch, parts], int64.
-        revolute_direction: of its axis, zero where it does not turn, shape [batch, parts, 3].
-        revolute_range: limits from the pose shown [rad], shape [batch, parts, 2].
-        prismatic_direction: of its slide, zero where it does not slide, shape [batch, parts, 3].
-        prismatic_range: limits from the pose shown, shape [batch, parts, 2].
+        revolute_direction, prismatic_direction: zero where it does not turn, or slide, shape
+            [batch, parts, 3].
+        revolute_range, prismatic_range: limits from the pose shown [rad, longest side], shape
+            [batch, parts, 2].
         closest_points: for each point of a turning part the nearest point on its axis, shape
             [batch, n, 3].
     """
@@ -88,12 +87,7 @@ class Batch:
 
 
 def collate(samples: Sequence[Sample], parts: int) -> Batch:
-    """Return the samples as one batch of arrays.
-
-    Args:
-        samples: with equally many points, and at most ``parts`` parts each.
-        parts: rows for parts.
-    """
+    """Return samples of equally many points and at most ``parts`` parts as one batch of arrays."""
     rows: dict[str, Array] = {}
     for name, (shape, dtype, empty) in _PER_PART.items():
         rows[name] = np.full((len(samples), parts, *shape), empty, dtype=dtype)

@@ -59,16 +59,14 @@ class Sample:
     """What the network sees and should answer, in its frame: centred, longest side 1, z up.
 
     Attributes:
-        points: shape [point_count, 3].
-        normals: shape [point_count, 3].
+        points, normals: shape [point_count, 3].
         features: shape [point_count, channels]; ``None`` without.
         part_ids: shape [point_count]; 0 is the root.
         parents: shape [part_count]; -1 for the root.
         motion: :class:`MotionClass` per part, shape [part_count].
-        revolute_direction: unit, zero for parts that do not turn, shape [part_count, 3].
-        revolute_range: [rad], from this pose, shape [part_count, 2].
-        prismatic_direction: unit, zero for parts that do not slide, shape [part_count, 3].
-        prismatic_range: from this pose, shape [part_count, 2].
+        revolute_direction, prismatic_direction: unit, zero for parts that do not turn, or slide,
+            shape [part_count, 3].
+        revolute_range, prismatic_range: from this pose [rad, longest side], shape [part_count, 2].
         closest_points: nearest to each point on its part's axis, zero where that does not turn,
             shape [point_count, 3].
     """
@@ -90,8 +88,7 @@ class Sample:
 class _Body:
     """As much of a sampled object as an example looks at, while it is moved; float64.
 
-    ``rows`` says which of its points: those of the example first, then those that only stand for
-        the object.
+    Of ``rows``, its points, those of the example come first, then those that stand for the object.
     """
 
     rows: IntArray

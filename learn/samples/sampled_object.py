@@ -95,18 +95,10 @@ def sampled_from(
     points: int,
     rng: np.random.Generator,
 ) -> SampledObject:
-    """Return the training view of an object.
+    """Return the training view of an object; its joint values 0 need not be closed.
 
     A part that does not move is one with its parent: nobody could tell them apart. A part behind a
-    carrier turns *and* slides.
-
-    Args:
-        articulation: any; joint values 0 need not be closed.
-        name: of the object.
-        category: of it.
-        source: where it came from.
-        points: how many, half of them on sharp edges.
-        rng: source of chance.
+    carrier turns *and* slides. Half of the ``points`` are on sharp edges.
 
     Raises:
         InputRejected: ``too_many_parts``, ``no_movable_joint``, ``unsupported_joint``,

@@ -85,17 +85,12 @@ ALONG = 1e-6
 
 
 def artist_like(articulation: Articulation, seed: int) -> Articulation:
-    """Return the object as an artist's file might hold it; parts and joints mean the same.
+    """Return the object as an artist's file might hold it; same object and seed, same bytes.
 
-    Args:
-        articulation: labelled, best of closed solids that share no vertices, as ``make_object``
-            gives it; pieces that are not closed are carried along.
-        seed: same object and seed, same bytes.
-
-    Returns:
-        Parts and joints of the same names and tree. The whole may be stretched along its axes, and
-        mirrored left for right; joints follow. Plain colours stand for textures. Every part that
-        had faces still has some.
+    Parts and joints have the same names and tree. The whole may be stretched along its axes, and
+    mirrored left for right; joints follow. Plain colours stand for textures. Every part that had
+    faces still has some. Best of closed solids that share no vertices, as ``make_object`` gives
+    them; pieces that are not closed are carried along.
     """
     rng = np.random.default_rng([seed, 0xA2])
     if rng.random() < 0.5:
@@ -121,14 +116,10 @@ def _factors(articulation: Articulation, rng: np.random.Generator) -> FloatArray
 
 
 def stretched(articulation: Articulation, factors: npt.ArrayLike) -> Articulation:
-    """Scale an object by a factor per axis; by their mean where a joint lies aslant.
+    """Scale an object by factors above 0 along x, y and z; by their mean if a joint lies aslant.
 
     A part turns as rigidly after stretching as before, but two of its sides may come to meet what
     they missed.
-
-    Args:
-        articulation: any.
-        factors: along x, y and z, all above 0, shape [3].
     """
     wanted = np.asarray(factors, dtype=np.float64)
     if wanted.shape != (3,) or not (wanted > 0.0).all():

@@ -35,18 +35,13 @@ def fused_like(
 ) -> Articulation:
     """Return one closed surface around the whole object, labelled by the nearest part.
 
-    The mesh may be closed or not. Seams run along triangles of the skin, and vertices may be
-    shared by more than two sheets where surfaces touch.
+    Seams run along triangles of the skin, and vertices may be shared by more than two sheets where
+    surfaces touch. Parts and joints are the same, but for parts that nothing is seen of.
 
     Args:
-        articulation: any with a surface.
+        articulation: any with a surface, closed or not.
         seed: of the sampled points, bumps and, where not given, the resolution.
-        resolution: cells along the longest side of the bounding box; by default as many as keep it
-            fast.
-
-    Returns:
-        The same parts and joints over the skin of the outside, but for parts that nothing is seen
-        of.
+        resolution: cells along the longest side; by default as many as keep it fast.
 
     Raises:
         ValueError: what would have to be left out holds something that is seen, or is all that
@@ -237,11 +232,9 @@ def _bumps(points: FloatArray, rng: np.random.Generator, length: float) -> Float
 
 
 def without_parts(articulation: Articulation, gone: set[int]) -> Articulation:
-    """Return the object without some parts and their joints.
+    """Return the object without some parts, which have no faces, and their joints.
 
-    Args:
-        articulation: in which those parts have no faces.
-        gone: parts, and with them every carrier that is left without anything to carry.
+    With them goes every carrier that is left without anything to carry.
 
     Raises:
         ValueError: a part that stays hangs on one that should go, or nothing would be left to move.

@@ -36,15 +36,8 @@ def skin_like(
 ) -> Articulation:
     """Return one closed skin around the whole object, as large generative models give it.
 
-    Args:
-        articulation: any with a surface.
-        seed: of everything that varies.
-        cells: along the longest side; drawn by default.
-        engraved: how likely its seams are engraved.
-
-    Returns:
-        The same parts and joints over the skin of the outside, but for parts that nothing is seen
-        of.
+    Parts and joints are the same, but for parts that nothing is seen of. ``cells`` are along the
+    longest side, drawn by default; ``engraved`` is how likely the seams are engraved.
 
     Raises:
         ValueError: what would have to be left out holds something that is seen, or is all that
@@ -62,12 +55,8 @@ def skin_like(
 def coloured_skin(mesh: Mesh, seed: int, cells: int | None = None) -> Mesh:
     """Return one closed skin around a mesh, in its bounding box and under its colours.
 
-    Seams between the mesh's own pieces are engraved as :func:`skin_like` engraves those of parts.
-
-    Args:
-        mesh: with at least one triangle.
-        seed: of everything that varies.
-        cells: along the longest side; drawn by default.
+    Seams between the mesh's own pieces are engraved as :func:`skin_like` engraves those of parts;
+    ``cells`` are along the longest side, drawn by default.
     """
     rng = np.random.default_rng([seed, 0xC01])
     piece = connected_components(mesh) % NOBODY

@@ -44,11 +44,7 @@ _OF_SOURCES = {"weight": (1e-9, 1e9), "reuse": (1, _ANY), "points": (1, _ANY), "
 
 
 def require_within(config: TrainConfig, where: str) -> None:
-    """Refuse numbers with which nothing could be trained.
-
-    Args:
-        config: any.
-        where: it is from, for the message.
+    """Refuse numbers with which nothing could be trained; ``where`` they are from, for the message.
 
     Raises:
         ConfigError: names the first such setting, and what it can be.

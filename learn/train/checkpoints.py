@@ -20,13 +20,9 @@ _FORMAT = 1
 
 @dataclass(frozen=True)
 class State:
-    """A run after some steps, without random state.
-
-    All chance of a step follows from the seed and its number.
+    """A run after so many steps; all chance of a step follows from the seed and its number.
 
     Attributes:
-        step: steps done.
-        weights: of the network.
         mean: running mean of the weights.
         optimiser: its state.
         best: the highest score of a validation so far, and its step; ``None`` before the first.

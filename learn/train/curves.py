@@ -13,10 +13,7 @@ from asset_factory.factory.errors import ConfigError
 class Curve:
     """A table that grows by rows and starts with a step; texts, so equal runs give equal bytes.
 
-    Args:
-        path: the CSV file.
-        columns: after the step.
-        steps: how many are done: rows of later steps, from before a run was cut off, are dropped.
+    Rows after ``steps``, from before a run was cut off, are dropped.
     """
 
     def __init__(self, path: Path, columns: Sequence[str], steps: int) -> None:

@@ -21,15 +21,9 @@ _DEATHS = 3
 
 
 class DataLoader:
-    """The batches of a run, step by step, for one of its processes.
+    """The batches of a run from a step on, for one of its processes; tells of workers that died.
 
-    Args:
-        config: of the run.
-        pools: of its data.
-        step: the first one wanted.
-        rank: number of this process.
-        world: how many there are; each gets every ``world``-th sample of a step.
-        say: told of workers that died.
+    Of a step's samples, each of ``world`` processes gets every ``world``-th, from its ``rank`` on.
     """
 
     def __init__(

@@ -33,13 +33,9 @@ _TRIES = 20
 
 @dataclass(frozen=True)
 class Files:
-    """Sampled objects in files.
+    """Sampled objects in files, sorted, and how often they are drawn relative to the other pools.
 
-    Attributes:
-        paths: sorted.
-        weight: how often they are drawn, relative to the other pools.
-        report: what became of the objects that they were made of; ``None`` where they are sampled
-            objects by themselves.
+    ``report`` says what became of the objects that they were made of; ``None``: they are as found.
     """
 
     paths: tuple[Path, ...]
@@ -49,13 +45,7 @@ class Files:
 
 @dataclass(frozen=True)
 class Generator:
-    """Sampled objects that are made when they are wanted.
-
-    Attributes:
-        source: how they are used.
-        style: what they are like.
-        weight: how often they are drawn, relative to the other pools.
-    """
+    """Sampled objects that are made when they are wanted; ``weight`` as of files."""
 
     source: DataSource
     style: MixtureSettings
@@ -156,12 +146,7 @@ def digest(pools: Iterable[Pool]) -> str:
 
 
 class Dataset:
-    """Draws the samples of a run.
-
-    Args:
-        config: of the run.
-        pools: of its data.
-    """
+    """Draws the samples of a run."""
 
     def __init__(self, config: TrainConfig, pools: tuple[Pool, ...]) -> None:
         self._config = config
@@ -281,11 +266,7 @@ def _some(
 
 
 class _Kept:
-    """Sampled objects used last.
-
-    Args:
-        most: bytes of them.
-    """
+    """Sampled objects used last, of at most so many bytes."""
 
     def __init__(self, most: int) -> None:
         self._most = most

@@ -21,11 +21,7 @@ _MOST_MISSED = 20
 class Descent:
     """A network's optimiser, and the running mean of its weights, which is shipped.
 
-    Args:
-        network: whose weights are moved.
-        optimiser: of all its parameters.
-        clip: largest norm of the gradient; 0: any.
-        ema: see :class:`RunningMean`.
+    ``clip`` is the largest norm of the gradient, 0: any.
     """
 
     def __init__(self, network: Any, optimiser: Any, clip: float, ema: float) -> None:
@@ -65,9 +61,7 @@ class Descent:
     def step(self, step: int, rate: float) -> Tensor:
         """Move the weights along the gradients, unless those are not finite; returns their norm.
 
-        Args:
-            step: its number, from 0.
-            rate: of learning.
+        Steps count from 0.
 
         Raises:
             ConfigError: they have not been finite for many steps.

@@ -12,10 +12,8 @@ Tensor = Any
 class RunningMean:
     """A mean of a network's weights in which the last steps count most; of integers, the last.
 
-    Args:
-        network: whose weights.
-        decay: share of the mean that stays at each step; in the first steps less does, so that the
-            random start is forgotten.
+    ``decay`` is the share of the mean that stays at each step; in the first steps less does, so
+    that the random start is forgotten.
     """
 
     def __init__(self, network: Any, decay: float) -> None:

@@ -50,18 +50,14 @@ def run_training(
     resume: bool,
     start: Path | None,
 ) -> bool:
-    """Train a network, and leave everything about it in a folder.
+    """Train a network, and leave everything about it in a folder; returns whether it is done.
 
     Args:
         config: of the run.
         recipe: the TOML it was read from.
-        output: the folder: weights, checkpoints, curves, a card with figures, and a copy of the
-            recipe.
+        output: the folder: weights, checkpoints, curves, a card with figures, and the recipe.
         resume: go on with the run that is there.
         start: weights to begin with, for a run on other data.
-
-    Returns:
-        Whether all steps are done; otherwise it was asked to stop and can go on.
 
     Raises:
         ConfigError: the folder holds a run and ``resume`` is not asked for, or the other way round;
@@ -315,7 +311,7 @@ def _keep_freed_memory() -> None:
     """Have the C library keep the arrays of a step for the next one.
 
     By default glibc gives large ones back at once, and the system clears every page anew: a tenth
-        of a step on a CPU.
+    of a step on a CPU.
     """
     try:
         adjust = ctypes.CDLL(None).mallopt

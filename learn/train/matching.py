@@ -28,9 +28,8 @@ def match(
         root_first: part 0, the base, always answers to query 0.
 
     Returns:
-        int64, shape [batch, parts]: a permutation of the queries per sample; row ``k`` is the query
-        of part ``k``, for ``k`` below the sample's count, and after those come the others in
-        ascending order.
+        int64, shape [batch, parts]: a permutation of the queries per sample, by part; after the
+        sample's parts come the others in ascending order.
     """
     # In full precision: the sums over points are long.
     with torch.no_grad(), torch.autocast(mask_logits.device.type, enabled=False):

@@ -24,10 +24,7 @@ def recipe_names() -> tuple[str, ...]:
 
 
 def load_train_config(recipe: str) -> TrainConfig:
-    """Return the configuration of a recipe.
-
-    Args:
-        recipe: the name of a shipped one, or the path of a TOML file.
+    """Return the configuration of a shipped recipe, or of the TOML file at a path.
 
     Raises:
         ConfigError: no such recipe, unreadable TOML, a setting that does not exist or cannot be.

@@ -28,12 +28,7 @@ _BASE = 10000.0
 
 
 class Trainer:
-    """A network, its optimiser and the running mean of its weights.
-
-    Args:
-        config: of the run.
-        group: of processes; every one holds the same weights.
-    """
+    """A network, its optimiser and the running mean of its weights, the same in every process."""
 
     def __init__(self, config: TrainConfig, group: ProcessGroup) -> None:
         self._config = config
@@ -74,10 +69,7 @@ class Trainer:
     def step(self, step: int, batch: Batch, stop: bool = False) -> tuple[Tensor, bool]:
         """Learn from this process's share of a step's samples.
 
-        Args:
-            step: its number, from 0.
-            batch: arrays.
-            stop: whether this process was asked to stop.
+        Steps count from 0, the batch is of arrays; ``stop``: this process was asked to.
 
         Returns:
             ``COLUMNS`` of this process's share, the sum of which over the processes is the step's,
@@ -130,14 +122,11 @@ class Trainer:
 
 
 def quieten(network: Any, below: float) -> None:
-    """Make fast sinusoids' weights start small: ``below`` over angular frequency, if less.
+    """Make fast sinusoids' weights start small: ``below`` over their angular frequency, if less.
 
     Coordinates are expanded into sines and cosines of up to 1000 rad per unit of length. At first
     the fastest tell neighbouring points nothing in common; their weights would have to be unlearnt.
-
-    Args:
-        network: a Part Articulation Transformer.
-        below: [rad per unit of length].
+    ``below`` is in rad per unit of length.
     """
     frequencies = _SPREAD * torch.exp(-math.log(_BASE) * torch.arange(FREQUENCIES) / FREQUENCIES)
     factors = (below / frequencies).clamp(max=1.0)

@@ -81,13 +81,7 @@ class ScoredCloud:
 
 
 def cloud_of(articulation: Articulation, seed: int, count: int = POINTS) -> ScoredCloud:
-    """Return points spread evenly over a surface; its box is centred, its longest side 1.
-
-    Args:
-        articulation: any.
-        seed: of the points.
-        count: how many.
-    """
+    """Return points spread evenly over a surface; its box is centred, its longest side 1."""
     bodies = bodies_of(articulation)
     mesh = articulation.mesh
     size = float(mesh.extents.max())

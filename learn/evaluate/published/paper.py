@@ -13,11 +13,8 @@ def paper(true: ScoredCloud, predicted: ScoredCloud) -> Score:
 
     Boxes of the articulated state are around the articulated points. The paper does not say whether
     distances are squared, nor what an intersection over union of parts is; both are taken from the
-    release: squared, and of boxes.
-
-    Returns:
-        Names as in :func:`~asset_factory.learn.evaluate.published.state.compared`, plain at
-        rest and with ``articulated_`` at the upper limits.
+    release: squared, and of boxes. Names are those of :func:`.state.compared`, plain at rest and
+    with ``articulated_`` at the upper limits.
     """
     matching = matched(true, predicted)
     rest = compared(true, predicted, (true.points, predicted.points), matching)

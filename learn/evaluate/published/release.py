@@ -27,15 +27,11 @@ SAMPLES = 2048
 def release(true: ScoredCloud, predicted: ScoredCloud, seed: int = 0) -> Score:
     """Compare a prediction with the truth at rest and over five states.
 
-    Args:
-        true: the truth.
-        predicted: the prediction.
-        seed: of the points that estimate overlaps.
+    ``seed`` is of the points that estimate overlaps.
 
     Returns:
-        Names as in :func:`~asset_factory.learn.evaluate.published.state.compared`, plain at
-        rest, with ``articulated_`` as means over the states, in which the later states' ``giou``
-        counts twice.
+        Names as in :func:`.state.compared`, plain at rest, with ``articulated_`` as means over the
+        states, in which the later states' ``giou`` counts twice.
     """
     matching = matched(true, predicted)
     rest = compared(true, predicted, (true.points, predicted.points), matching)

@@ -18,13 +18,7 @@ def compared(
     at: tuple[FloatArray, FloatArray],
     matching: Matching,
 ) -> dict[str, float]:
-    """Return the agreement of boxes and points of matched parts.
-
-    Args:
-        true: the truth.
-        predicted: the prediction.
-        at: true and predicted points in this state.
-        matching: of the parts at rest.
+    """Return the agreement of boxes and points (true, predicted) of parts matched at rest.
 
     Returns:
         ``giou``, ``miou`` (of boxes along the axes), ``pc`` (Chamfer distance of parts), each also

@@ -63,11 +63,8 @@ class PartDraft:
         name: of the part; its joint is called ``<name>_joint``.
         look: of forms added without one.
         parent: the part that it hangs on; ``None`` for the body.
-        kind: of its joint.
-        axis: unit vector at rest; positive values open.
-        origin: a point on the axis at rest [m].
-        lower: closed [rad] or [m].
-        upper: fully open; neither is used where it turns without end.
+        kind, axis, origin: of its joint at rest [m]; positive values open.
+        lower, upper: closed and fully open [rad] or [m]; not used where it turns without end.
         slide: how far the part also slides along its axis [m]; above 0, it hangs on a carrier
             without faces that turns, and slides in it.
         pose: from the object with everything at value 0 to how it is left, shape [4, 4]; ``None``

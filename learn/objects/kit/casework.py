@@ -38,13 +38,9 @@ class _Front:
 
 
 class Leaf(NamedTuple):
-    """What turns in a case.
+    """What turns in a case: its hinge is at a ``side``, its panel spans x and z [m].
 
-    Attributes:
-        part: that it is.
-        cell: that it closes; of two leaves before one, its half of it.
-        side: of its hinge: ``left``, ``right``, ``top`` or ``bottom``.
-        x, z: spans of its panel [m].
+    Of two leaves before one cell, each closes its half of it.
     """
 
     part: PartDraft
@@ -56,12 +52,9 @@ class Leaf(NamedTuple):
 
 @dataclass
 class Casework:
-    """A case under construction.
+    """A case under construction, its outer spans [m] without fronts that lie on it.
 
     Attributes:
-        a: the object that it is part of.
-        style: of all fronts.
-        x, y, z: outer spans of the case, without fronts that lie on it [m].
         prefix: of the names of its parts.
         cells: that its front is divided into.
         doors: what turns in it.

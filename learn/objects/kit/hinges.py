@@ -47,8 +47,7 @@ def swing(
         chance: draws the limit.
         thickness: of the front [m].
         width: from the hinge to the free edge [m].
-        rooms: free space beside the hinge edge and beside the free edge [m]; infinite where nothing
-            is.
+        rooms: free beside the hinge edge and the free edge [m]; infinite where nothing is.
         taste: the wished setback in thicknesses: 0 for the front edge, 1 for the back edge.
         furthest: limit of ``upper`` [degrees].
     """

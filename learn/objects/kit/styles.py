@@ -110,12 +110,8 @@ def any_style(
 ) -> Style:
     """Return a style of casework.
 
-    Args:
-        chance: where it comes from.
-        panels: styles of the doors and their weights; :data:`PANELS` if not given.
-        inset: share whose fronts lie in their openings.
-        hollow: share that has an inside.
-        pull_at: heights of pulls to choose from, as shares of a door's height.
+    ``panels`` are styles of the doors and their weights (:data:`PANELS` if not given), ``inset``
+    and ``hollow`` shares of cases, ``pull_at`` heights to choose from as shares of a door's height.
     """
     pick = chance.pick
     happens = chance.happens
