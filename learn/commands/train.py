@@ -41,26 +41,18 @@ class Train:
 
 
 def run(command: Train) -> int:
-    """Train, or print the recipe; returns the exit code."""
-    recipe = printed_recipe(command)
-    if recipe is not None:
-        say(recipe, end="")
-        return Exit.OK
-    return Exit.OK if train(command) else Exit.INTERRUPTED
-
-
-def printed_recipe(command: Train) -> str | None:
-    """Return the recipe's text, where no output is asked for.
+    """Train, or print the recipe where no output is asked for; returns the exit code.
 
     Raises:
-        ConfigError: no such recipe, or flags that want an output.
+        ConfigError: no such recipe, or as :func:`train`.
     """
     from ..train.recipes import load_train_config, recipe_text
 
     if command.output is not None or command.resume or command.start is not None:
-        return None
+        return Exit.OK if train(command) else Exit.INTERRUPTED
     load_train_config(command.recipe)
-    return recipe_text(command.recipe)
+    say(recipe_text(command.recipe), end="")
+    return Exit.OK
 
 
 def train(command: Train) -> bool:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import torch  # noqa: TID253 - this module is only imported to train
+from filelock import FileLock, Timeout
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.network.shape import expected_tensors, parameter_count
@@ -25,7 +26,6 @@ from .curves import Curve, draw_curves, require_plotting
 from .data_loader import DataLoader
 from .dataset import digest, find_pools, held_out_samples, source_counts, source_lines
 from .distributed import ProcessGroup, joined
-from .folder import held
 from .progress import Watch, watching
 from .recipes import parse_train_config
 from .settings import TrainConfig
@@ -176,11 +176,9 @@ class _Run:
         watch.stepped(pending[-1][0], loss, values[-1][COLUMNS.index("rate")])
 
     def _score(self, step: int, watch: Watch) -> None:
-        if not self._held_out:
+        scores = self._validated()
+        if scores is None:
             return
-        scores = validate(
-            self._trainer.mean_network, self._held_out, self._config, self._group.device
-        )
         self._scores = scores
         figures = asdict(scores)
         self._table.add([(step, list(figures.values()))])
@@ -189,6 +187,13 @@ class _Run:
         if self._best is None or scores.part_iou > self._best[0]:
             self._best = (scores.part_iou, step)
             write_state(self._output / BEST, self._state(step))
+
+    def _validated(self) -> Scores | None:
+        """Return the scores of the mean weights; ``None`` where nothing is held out."""
+        if not self._held_out:
+            return None
+        network = self._trainer.mean_network
+        return validate(network, self._held_out, self._config, self._group.device)
 
     def _save(self, step: int) -> None:
         half = self._config.half
@@ -222,10 +227,7 @@ class _Run:
         """Write the picture and the card, of a run that is at its end."""
         config = self._config
         output = self._output
-        if self._scores is None and self._held_out:
-            self._scores = validate(
-                self._trainer.mean_network, self._held_out, config, self._group.device
-            )
+        scores = self._scores or self._validated()
         draw_curves(output / CURVE, output / VALIDATION, output / PICTURE)
         card = {
             **self._about(config.schedule.steps),
@@ -236,10 +238,8 @@ class _Run:
             "processes": self._group.world,
             "device": self._group.device,
             "held_out_examples": len(self._held_out),
-            "held_out": None if self._scores is None else asdict(self._scores),
-            "best": None
-            if self._best is None
-            else {"part_iou": self._best[0], "step": self._best[1]},
+            "held_out": scores and asdict(scores),
+            "best": self._best and dict(zip(("part_iou", "step"), self._best, strict=True)),
         }
         write_whole(output / CARD, (json.dumps(card, indent=2) + "\n").encode())
         watch.say(f"the weights are in {output / MODEL}")
@@ -262,7 +262,13 @@ def _prepare(
         raise ConfigError(f"{output}: holds no run to go on with; leave --resume out to begin one")
     if group.first:
         output.mkdir(parents=True, exist_ok=True)
-        stack.enter_context(held(output))
+        # Held against every other training until this process ends.
+        lock = FileLock(output / ".lock", blocking=False, fallback_to_soft=False)
+        try:
+            stack.enter_context(lock)
+        except Timeout:
+            wanted = "wait for it, or name another folder"
+            raise ConfigError(f"{output}: another process is training there; {wanted}") from None
         for left in output.glob(".writing-*"):
             left.unlink()
     group.wait()

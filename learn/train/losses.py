@@ -177,6 +177,10 @@ def losses(
 
     A loss that applies to nothing is 0, and so is its gradient.
     """
+
+    def mean(name: str, values: Tensor) -> Tensor:
+        return _sum(values, getattr(targets, name)) / max(getattr(counts, name), 1.0)
+
     parts = answers.parts
     masks = arranged_columns(answers.mask_logits, answers.queries).float()
     found = {"mask": _cross_entropy(masks, batch.part_ids) / counts.points}
@@ -187,26 +191,22 @@ def losses(
     pairs = functional.binary_cross_entropy_with_logits(
         parts.hierarchy_logits.float(), edges, pos_weight=weight, reduction="none"
     )
-    found["hierarchy"] = _sum(pairs, targets.pairs) / max(counts.pairs, 1.0)
+    found["hierarchy"] = mean("pairs", pairs)
     motion = functional.cross_entropy(
         parts.motion_logits.float().transpose(1, 2), batch.motion, reduction="none"
     )
-    found["motion"] = _sum(motion, targets.parts) / max(counts.parts, 1.0)
+    found["motion"] = mean("parts", motion)
     for kind in ("revolute", "prismatic"):
-        name = f"{kind}_direction"
-        limits = getattr(batch, f"{kind}_range")
-        error = _direction_error(
-            getattr(parts, name), getattr(batch, name), limits, settings.sign_free
-        )
-        found[name] = _sum(error, getattr(targets, name)) / max(getattr(counts, name), 1.0)
-    for name in ("revolute_range", "prismatic_range"):
-        error = (getattr(parts, name).float() - getattr(batch, name)).abs().mean(-1)
-        found[name] = _sum(error, getattr(targets, name)) / max(getattr(counts, name), 1.0)
-    error = _place_error(answers, batch)
-    found["closest_points"] = _sum(error, targets.closest_points) / max(counts.closest_points, 1.0)
-    found["auxiliary"] = (
-        _auxiliary(early, answers.queries, batch, counts, settings) if early else zero
-    )
+        way = f"{kind}_direction"
+        range_ = f"{kind}_range"
+        limits = getattr(batch, range_)
+        off = _direction_error(getattr(parts, way), getattr(batch, way), limits, settings.sign_free)
+        found[way] = mean(way, off)
+        found[range_] = mean(range_, (getattr(parts, range_).float() - limits).abs().mean(-1))
+    found["closest_points"] = mean("closest_points", _place_error(answers, batch))
+    found["auxiliary"] = zero
+    if early:
+        found["auxiliary"] = _auxiliary(early, answers.queries, batch, counts, settings)
     return found
 
 

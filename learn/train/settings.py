@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -9,7 +10,6 @@ from asset_factory.factory.models.network.shape import AxisForm, NetworkShape
 from asset_factory.factory.models.particulate.components import COMPONENT_FEATURES
 
 from ..samples.sample import DrawSettings
-from .schedule import ScheduleSettings
 
 KINDS = (
     "procedural",
@@ -142,6 +142,31 @@ class LossSettings:
     def weight(self, name: str) -> float:
         """Return the weight of one of ``NAMES``."""
         return float(getattr(self, name))
+
+
+@dataclass(frozen=True)
+class ScheduleSettings:
+    """Steps and rates.
+
+    Attributes:
+        steps: of the whole run.
+        rate: highest learning rate.
+        warm_up: steps in which it rises from 0.
+        last_rate: share of it that is left at the end of the cosine.
+    """
+
+    steps: int = 100_000
+    rate: float = 1e-4
+    warm_up: int = 1000
+    last_rate: float = 0.01
+
+    def rate_at(self, step: int) -> float:
+        """Return the rate of a step, counted from 0: a line up, then half a cosine down."""
+        if step < self.warm_up:
+            return self.rate * (step + 1) / self.warm_up
+        done = (step - self.warm_up) / max(1, self.steps - self.warm_up)
+        falling = 0.5 * (1.0 + math.cos(math.pi * min(1.0, done)))
+        return self.rate * (self.last_rate + (1.0 - self.last_rate) * falling)
 
 
 @dataclass(frozen=True)
