@@ -9,21 +9,20 @@ from __future__ import annotations
 
 import importlib.util
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.intake.naming import safe_name
 from asset_factory.factory.runtime.code import code_digest
-from asset_factory.factory.runtime.store import stage_key
+from asset_factory.factory.runtime.store import stage_key, write_json
 from asset_factory.sim_checks.processes.isolation import WarmChild, preload, processors
 
 from ..children import ask_children
 from .catalog import source
 from .item import SourceItem
 from .making import make_sampled
-from .refusal import ItemRefusal, read_refusal, write_refusal
-from .report import SourceReport, names_read
+from .report import ItemRefusal, SourceReport, names_read, read_refusal
 from .settings import SourceSettings
 from .split import read_split
 
@@ -144,5 +143,5 @@ def _found_or_made(
     if made.failure is not None:
         return ItemRefusal(made.failure, f"{item.name}: {made.detail}")
     if made.value is not None:
-        write_refusal(refused, made.value)
+        write_json(refused, asdict(made.value))
     return made.value or path

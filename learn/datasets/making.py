@@ -14,7 +14,7 @@ from asset_factory.factory.geometry.posing import UP, turned
 from ..samples.sampled_object import SampledObject, require_parts, sampled_from, write_sampled
 from .catalog import source
 from .item import SourceItem
-from .refusal import ItemRefusal
+from .report import ItemRefusal
 from .settings import FRONTS, SourceSettings
 
 #: What readers of a broken file trip over.

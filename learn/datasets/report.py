@@ -1,4 +1,4 @@
-"""What became of a dataset's objects."""
+"""What became of a dataset's objects; refusals are kept, so that nobody asks again."""
 
 from __future__ import annotations
 
@@ -6,9 +6,26 @@ import json
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
-from asset_factory.factory.runtime.store import write_whole
+import msgspec
+
+from asset_factory.factory.runtime.store import write_json
+
+
+@dataclass(frozen=True)
+class ItemRefusal:
+    """Why an object is passed over: a stable code, and one sentence."""
+
+    reason: str
+    message: str
+
+
+def read_refusal(path: Path) -> ItemRefusal | None:
+    """Return the refusal kept in a file; ``None`` if there is none, or it is damaged."""
+    try:
+        return msgspec.json.decode(path.read_bytes(), type=ItemRefusal)
+    except (OSError, msgspec.DecodeError):
+        return None
 
 
 @dataclass(frozen=True)
@@ -49,15 +66,10 @@ class SourceReport:
 
     def write(self, path: Path) -> None:
         """Write JSON, complete or not there."""
-        data: dict[str, Any] = {
-            "kind": self.kind,
-            "read": list(self.read),
-            "skipped": {
-                reason: dict(sorted(names.items()))
-                for reason, names in sorted(self.skipped.items())
-            },
+        skipped = {
+            reason: dict(sorted(names.items())) for reason, names in sorted(self.skipped.items())
         }
-        write_whole(path, (json.dumps(data, indent=1) + "\n").encode())
+        write_json(path, {"kind": self.kind, "read": list(self.read), "skipped": skipped})
 
 
 def names_read(path: Path) -> tuple[str, ...]:

@@ -18,7 +18,7 @@ from asset_factory.factory.models.particulate.prediction import MotionClass
 
 from .bodies import Bodies, BoolArray, bodies_of, face_centres
 from .hits import FOUND_IOU, angles, hits, offset
-from .pairing import Pairing, paired
+from .pairing import Pairing, paired, shared_areas
 from .score import Score
 
 #: Shares of their range by which joints are opened to compare where faces get to.
@@ -111,11 +111,7 @@ def _motion_aware(
             true.mobile, np.minimum(tolerance * size, TRAVEL_TOLERANCE * travel), tolerance * size
         )
         right = np.linalg.norm(at - guessed, axis=1) <= allowed[true.labels]
-        shape = pairing.shared.shape
-        cells = true.labels * shape[1] + predicted.labels
-        met = np.bincount(cells, weights=areas * right, minlength=shape[0] * shape[1]).reshape(
-            shape
-        )
+        met = shared_areas(true, predicted, areas * right)
         for index, (real, guess) in enumerate(pairing.pairs):
             if true.moving[real] == predicted.moving[guess]:
                 shared = met[real, guess]

@@ -23,8 +23,8 @@ from .cases import Request, make_case
 from .methods import Method
 from .physical import physical
 from .published.cloud import POINTS, cloud_of
-from .published.paper import paper
 from .published.release import release
+from .published.state import paper
 from .score import Score
 from .transfer import on_mesh
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -207,7 +207,7 @@ def _moved(sampled: SampledObject, body: _Body, turns: FloatArray, slides: Float
             mine = of_point == part
             points[mine] = points[mine] @ rotation[part].T + shift[part]
             normals[mine] = normals[mine] @ rotation[part].T
-    return _Body(body.rows, points, normals, axis, origin, slide, body.reach.copy())
+    return replace(body, points=points, normals=normals, axis=axis, origin=origin, slide=slide)
 
 
 def _facing(rng: np.random.Generator, settings: DrawSettings) -> float:
@@ -231,8 +231,8 @@ def _placed(body: _Body, yaw: float, rng: np.random.Generator, settings: DrawSet
     scale = rng.uniform(*settings.scale) / max(float((high - low).max()), 1e-9)
     shift = rng.normal(0.0, settings.shift, 3)
     middle = (low + high) / 2.0
-    return _Body(
-        rows=body.rows,
+    return replace(
+        body,
         points=(points - middle) * scale + shift,
         normals=body.normals @ turn,
         axis=body.axis @ turn,

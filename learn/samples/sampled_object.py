@@ -6,6 +6,7 @@ import zipfile
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from graphlib import CycleError, TopologicalSorter
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -178,15 +179,12 @@ def parents_first(parents: Sequence[int]) -> list[int]:
     Raises:
         ValueError: some hang on one another in a circle.
     """
-    placed: list[int] = []
-    waiting = list(range(len(parents)))
-    while waiting:
-        ready = [part for part in waiting if parents[part] < 0 or parents[part] in placed]
-        if not ready:
-            raise ValueError(f"parents {parents}: part {waiting[0]} does not hang on the root")
-        placed += ready
-        waiting = [part for part in waiting if part not in ready]
-    return placed
+    hung = {part: (parent,) if parent >= 0 else () for part, parent in enumerate(parents)}
+    try:
+        return list(TopologicalSorter(hung).static_order())
+    except CycleError as error:
+        looped = f"part {error.args[1][0]} does not hang on the root"
+        raise ValueError(f"parents {parents}: {looped}") from None
 
 
 def _moving_parts(articulation: Articulation) -> tuple[dict[int, tuple[Joint, ...]], list[int]]:

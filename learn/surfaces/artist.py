@@ -27,14 +27,14 @@ from .surfaces import (
     subdivided,
     without_sides,
 )
-from .united import all_united, grown, parts_united
+from .united import all_united, parts_united
 
 Pass = Callable[[Labelled, np.random.Generator], Labelled]
 
 
 def _spaced(mesh: Labelled, rng: np.random.Generator) -> Labelled:
     """Shrink pieces, so that hairlines open between them, or grow them, by up to 2 mm."""
-    return grown(mesh, float(rng.uniform(-1.0, 1.0)) * min(0.002, 0.004 * mesh.longest))
+    return mesh.grown(float(rng.uniform(-1.0, 1.0)) * min(0.002, 0.004 * mesh.longest))
 
 
 def _merged(mesh: Labelled, rng: np.random.Generator) -> Labelled:

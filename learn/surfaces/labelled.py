@@ -139,8 +139,11 @@ class Labelled:
         vertices = self.vertices[used % len(self.vertices)]
         return replace(self, vertices=vertices, faces=faces.reshape(-1, 3))
 
-    def grown(self, reach: float, least: float) -> Labelled:
-        """Stretch every piece by ``reach`` at either end [m], to no less than a share of it."""
+    def grown(self, reach: float, least: float = 0.5) -> Labelled:
+        """Stretch every piece about its middle by ``reach`` at either end [m].
+
+        Nothing shrinks to less than a share of it: thin pieces would turn inside out.
+        """
         own = self.with_own_vertices()
         low, high = own.boxes()
         half = np.maximum((high - low) / 2.0, 1e-9)
