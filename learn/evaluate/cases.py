@@ -21,8 +21,8 @@ from asset_factory.factory.intake.sizes import guess_category
 from asset_factory.factory.runtime.store import Store, digest_file
 
 from .listing import Listed
-from .merging import merged
 from .stored import imported
+from .transfer import merged
 
 POSES = ("closed", "open")
 YAWS = ("front", "random")

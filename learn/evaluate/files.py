@@ -13,9 +13,8 @@ import numpy as np
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.runtime.store import write_json, write_whole
 
-from .comparing import compared
 from .score import Score
-from .summary import in_order, rounded, summarised
+from .summary import compared, in_order, rounded, summarised
 from .trial import Row
 
 JSON_NAME = "evaluation.json"

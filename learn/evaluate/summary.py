@@ -1,8 +1,9 @@
-"""Rows to tables: means over objects, pooled numbers over parts, by whatever groups are wanted."""
+"""Rows to tables: means over objects, pooled numbers over parts, by groups; methods in pairs."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,8 @@ from .trial import Row
 
 #: Numbers of parts that have long tails: their median is told as well.
 ERRORS = ("axis_angle_deg", "axis_offset", "range_error_rad", "range_error_size")
+#: Figures of joints that were found; those of all joints can be compared as they are.
+COMPARED = ("type_accuracy", "axis_angle_deg", "axis_offset", "opens_right_way")
 DIGITS = 6
 
 GROUPS: dict[str, Callable[[Row], str]] = {
@@ -94,6 +97,36 @@ def _pooled(rows: Sequence[Row]) -> dict[str, dict[str, float]]:
             }
             if name in ERRORS:
                 found[name]["median"] = rounded(np.median(values))
+    return found
+
+
+def compared(rows: Iterable[Row]) -> list[dict[str, Any]]:
+    """Return one entry per pair of methods, and figure that both have of some object.
+
+    Dicts have ``figure``, ``one``, ``other`` (methods), ``objects``: cases in which both have it,
+    ``one_mean`` and ``other_mean``: over those cases, of the means over parts and repetitions.
+    """
+    figures: dict[tuple[str, str], dict[str, list[float]]] = {}
+    methods: list[str] = []
+    for row in in_order(rows):
+        method = row.trial.method.name
+        methods += [method] if method not in methods else []
+        for name in COMPARED:
+            values = () if row.score is None else row.score.pooled.get(name, ())
+            figures.setdefault((name, method), {}).setdefault(row.trial.request.name, []).extend(
+                values
+            )
+    found: list[dict[str, Any]] = []
+    for one, other in combinations(methods, 2):
+        for name in COMPARED:
+            ours = figures[name, one]
+            theirs = figures[name, other]
+            shared = [case for case in ours if ours[case] and theirs.get(case)]
+            if shared:
+                entry = {"figure": name, "one": one, "other": other, "objects": len(shared)}
+                for who, each in (("one_mean", ours), ("other_mean", theirs)):
+                    entry[who] = rounded(np.mean([np.mean(each[case]) for case in shared]))
+                found.append(entry)
     return found
 
 
