@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from asset_factory.factory.articulation import Joint
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import FloatArray
 
@@ -45,16 +44,16 @@ def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[f
         found["place_of_all_strict"][real] = share < STRICT_OFFSET
         found["joint_right"][real] = alike and parallel and (place is None or share < RIGHT_OFFSET)
     turning = np.array([true.turn(body) is not None for body in range(len(true))])
-    asked = {
-        name: true.moving & turning if name.startswith("place") else true.moving for name in names
-    }
+    moving = true.moving
+    asked = {name: moving & turning if name.startswith("place") else moving for name in names}
     return {name: tuple(found[name][asked[name]].tolist()) for name in names}
 
 
 def angles(true: Bodies, predicted: Bodies, real: int, guess: int) -> list[float]:
     """Return the angles between two bodies' axes, of turns and slides, either way [deg]."""
     both = (true.turn(real), predicted.turn(guess)), (true.slide(real), predicted.slide(guess))
-    return [_angle(one, other) for one, other in both if one is not None and other is not None]
+    cosines = [abs(one.axis @ other.axis) for one, other in both if one and other]
+    return [float(np.degrees(np.arccos(np.clip(each, 0.0, 1.0)))) for each in cosines]
 
 
 def offset(true: Bodies, predicted: Bodies, real: int, guess: int) -> float | None:
@@ -71,7 +70,3 @@ def offset(true: Bodies, predicted: Bodies, real: int, guess: int) -> float | No
     middle: FloatArray = np.average(face_centres(mesh)[own], axis=0, weights=face_areas(mesh)[own])
     at = ours.origin + ours.axis * float(ours.axis @ (middle - ours.origin)) - theirs.origin
     return float(np.linalg.norm(at - theirs.axis * float(theirs.axis @ at)))
-
-
-def _angle(true: Joint, predicted: Joint) -> float:
-    return float(np.degrees(np.arccos(np.clip(abs(true.axis @ predicted.axis), 0.0, 1.0))))

@@ -22,11 +22,8 @@ from asset_factory.factory.mesh import Mesh
 NAIVE = "naive"
 PREDICTIONS = "predictions"
 #: Those that see a mesh and nothing else.
-METHODS = (
-    NAIVE,
-    *(name for name in ARTICULATORS if name not in ("annotated", "rigid")),
-    PREDICTIONS,
-)
+_SEEING = [name for name in ARTICULATORS if name not in ("annotated", "rigid")]
+METHODS = (NAIVE, *_SEEING, PREDICTIONS)
 
 
 @dataclass(frozen=True)
@@ -64,10 +61,9 @@ class Method:
         if self.name == NAIVE:
             return RigidArticulator().articulate(mesh)
         if self.name == PREDICTIONS and self.folder is not None:
-            annotation = read_prediction(self.folder / f"{case}.npz", len(mesh.faces))
-            return AnnotatedArticulator(
-                annotation, np.eye(4), np.arange(len(mesh.faces))
-            ).articulate(mesh)
+            faces = len(mesh.faces)
+            annotation = read_prediction(self.folder / f"{case}.npz", faces)
+            return AnnotatedArticulator(annotation, np.eye(4), np.arange(faces)).articulate(mesh)
         return _articulator(self.name, self.config).articulate(mesh)
 
 

@@ -114,10 +114,8 @@ def _motion_aware(
         met = shared_areas(true, predicted, areas * right)
         for index, (real, guess) in enumerate(pairing.pairs):
             if true.moving[real] == predicted.moving[guess]:
-                shared = met[real, guess]
-                total[index] += shared / (
-                    pairing.true_area[real] + pairing.predicted_area[guess] - shared
-                )
+                both = pairing.true_area[real] + pairing.predicted_area[guess]
+                total[index] += met[real, guess] / (both - met[real, guess])
     return pairing.spread(total / len(STATES))
 
 
@@ -142,13 +140,9 @@ def _joint_errors(
 ) -> dict[str, tuple[float, ...]]:
     """Return per matched true moving part if its type is right; errors of axis and range."""
     names = (
-        "type_accuracy",
-        "axis_angle_deg",
-        "axis_offset",
-        "opens_right_way",
-        "range_error_rad",
+        "type_accuracy", "axis_angle_deg", "axis_offset", "opens_right_way", "range_error_rad",
         "range_error_size",
-    )
+    )  # fmt: skip
     errors: dict[str, list[float]] = {name: [] for name in names}
     mesh = true.articulation.mesh
     size = float(mesh.extents.max())
@@ -177,10 +171,7 @@ def _joint_errors(
             or turns[0] is None
             or turns[0].kind is JointKind.REVOLUTE
         ):
-            ways = [
-                _opening(bodies, body, centres[own])
-                for bodies, body in ((true, real), (predicted, guess))
-            ]
+            ways = _opening(true, real, centres[own]), _opening(predicted, guess, centres[own])
             along = float((areas[own] * np.einsum("ij,ij->i", *ways)).sum())
             errors["opens_right_way"].append(float(along > 0.0))
     return {name: tuple(values) for name, values in errors.items()}
@@ -204,7 +195,6 @@ def _with_aligned_turns(true: Bodies, predicted: Bodies, pairing: Pairing) -> Bo
             flipped.add(theirs.name)
     if not flipped:
         return predicted
-    joints = tuple(
-        replace(j, axis=-j.axis) if j.name in flipped else j for j in predicted.articulation.joints
-    )
-    return bodies_of(replace(predicted.articulation, joints=joints))
+    whole = predicted.articulation
+    joints = tuple(replace(j, axis=-j.axis) if j.name in flipped else j for j in whole.joints)
+    return bodies_of(replace(whole, joints=joints))

@@ -34,24 +34,21 @@ def summarised(rows: Iterable[Row]) -> list[dict[str, Any]]:
     repetitions of ``values`` and ``of_objects``, where there are several.
     """
     ordered = in_order(rows)
-    entries = []
+    entries: list[dict[str, Any]] = []
     for by, key in GROUPS.items():
-        methods = list(dict.fromkeys(row.trial.method.name for row in ordered))
-        for group in sorted({key(row) for row in ordered}):
-            for method in methods:
-                chosen = [
-                    row for row in ordered if key(row) == group and row.trial.method.name == method
-                ]
-                if chosen:
-                    entries.append({"by": by, "group": group, "method": method, **_figures(chosen)})
+        groups: dict[tuple[str, str], list[Row]] = {}
+        for row in ordered:
+            groups.setdefault((key(row), row.trial.method.name), []).append(row)
+        entries += [
+            {"by": by, "group": group, "method": method, **_figures(groups[group, method])}
+            for group, method in sorted(groups)
+        ]
     return entries
 
 
 def in_order(rows: Iterable[Row]) -> list[Row]:
     """Sort rows by method, case and repetition."""
-    return sorted(
-        rows, key=lambda row: (row.trial.method.name, row.trial.request.name, row.trial.repeat)
-    )
+    return sorted(rows, key=lambda r: (r.trial.method.name, r.trial.request.name, r.trial.repeat))
 
 
 def _figures(rows: Sequence[Row]) -> dict[str, Any]:
@@ -89,12 +86,9 @@ def _pooled(rows: Sequence[Row]) -> dict[str, dict[str, float]]:
         of_objects = [score.pooled[name] for score in scores if score.pooled[name]]
         values = [value for numbers in of_objects for value in numbers]
         if values:
-            mean = float(np.mean([np.mean(numbers) for numbers in of_objects]))
-            found[name] = {
-                "count": len(values),
-                "mean": rounded(np.mean(values)),
-                "of_objects": rounded(mean),
-            }
+            mean = np.mean([np.mean(numbers) for numbers in of_objects])
+            found[name] = {"count": len(values), "mean": rounded(np.mean(values))}
+            found[name]["of_objects"] = rounded(mean)
             if name in ERRORS:
                 found[name]["median"] = rounded(np.median(values))
     return found

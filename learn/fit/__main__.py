@@ -67,9 +67,8 @@ def _trust(asked: Asked) -> Fit:
 
     from .trust import described_turned, fit_trust, procedural, tried
 
-    articulator = load_auto(
-        ParticulateConfig(), AutoConfig(), Trust(linear(np.zeros(len(SIGNS))), 0.5)
-    )
+    trusting_none = Trust(linear(np.zeros(len(SIGNS))), 0.5)
+    articulator = load_auto(ParticulateConfig(), AutoConfig(), trusting_none)
     objects = chain(
         procedural(range(asked.seed, asked.seed + asked.seeds)),
         *(

@@ -43,11 +43,7 @@ STEPS = 200
 #: Ranges of probability that the card tells of.
 RANGES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.01)
 #: Sorts of true parts that a panel, and a lid, may be.
-_TRUE = {
-    PANEL: (Sort.DOOR, Sort.DRAWER, Sort.FLAP),
-    LID: (Sort.LID,),
-    PROPOSED: SORTS,
-}
+_TRUE = {PANEL: (Sort.DOOR, Sort.DRAWER, Sort.FLAP), LID: (Sort.LID,), PROPOSED: SORTS}
 
 #: Signs of each part, as ``SIGNS`` names them, and 1 or 0: whether it is right.
 Rated = dict[str, list[tuple[float, ...]]]

@@ -56,14 +56,10 @@ def fit_motions(samples: Sequence[MotionSample], steps: int) -> Arrays:
     Raises:
         ConfigError: nothing turns, or nothing slides, among the motion samples.
     """
-    ratings = {
-        "guided": fit_rating(samples, steps),
-        "blind": fit_rating([motion_sample.unguided() for motion_sample in samples], steps),
-    }
-    usual = {
-        "turn_range": fit_usual(samples, False, steps),
-        "slide_range": fit_usual(samples, True, steps),
-    }
+    blind = [each.unguided() for each in samples]
+    ratings = {"guided": fit_rating(samples, steps), "blind": fit_rating(blind, steps)}
+    ranges = {"turn_range": False, "slide_range": True}
+    usual = {name: fit_usual(samples, slides, steps) for name, slides in ranges.items()}
     others = {f"{name}.sure": np.array(each.sure) for name, each in ratings.items()}
     others |= {f"{name}.values": each.values for name, each in usual.items()}
     networks = {name: each.network for name, each in (ratings | usual).items()}
@@ -170,9 +166,8 @@ def _telling(motion_sample: MotionSample) -> IntArray:
     best = order[: MOST_CANDIDATES // 2]
     others = order[MOST_CANDIDATES // 2 :]
     rng = np.random.default_rng(_digest(motion_sample.name) + len(order))
-    return np.sort(
-        np.concatenate([best, rng.choice(others, MOST_CANDIDATES - len(best), replace=False)])
-    )
+    chosen = rng.choice(others, MOST_CANDIDATES - len(best), replace=False)
+    return np.sort(np.concatenate([best, chosen]))
 
 
 def _calibrated(said: Sequence[float], right: Sequence[float]) -> tuple[float, float]:

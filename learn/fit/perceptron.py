@@ -75,10 +75,7 @@ def fit_perceptron(numbers: Numbers, loss: Loss, settings: FitSettings) -> Perce
 
     def unpacked(flat: FloatArray) -> dict[str, FloatArray]:
         parts = np.split(flat, np.cumsum(sizes)[:-1])
-        return {
-            name: part.reshape(shape)
-            for part, (name, shape) in zip(parts, shapes.items(), strict=True)
-        }
+        return {name: part.reshape(shapes[name]) for name, part in zip(shapes, parts, strict=True)}
 
     def objective(flat: FloatArray) -> tuple[float, FloatArray]:
         weights = unpacked(flat.astype(numbers.dtype))

@@ -99,15 +99,11 @@ def is_right(proposal: Proposal, truth: Articulation, areas: FloatArray) -> bool
 def _moves_alike(proposal: Proposal, joint: Joint, size: float) -> bool:
     motion = proposal.motion
     slides = joint.kind is JointKind.PRISMATIC
-    if (motion.kind is JointKind.PRISMATIC) != slides or abs(
-        float(motion.axis @ joint.axis)
-    ) < SAME_AXIS:
-        return False
+    alike = (motion.kind is JointKind.PRISMATIC) == slides
+    parallel = abs(float(motion.axis @ joint.axis)) >= SAME_AXIS
     offset = motion.origin - joint.origin
-    return (
-        slides
-        or float(np.linalg.norm(offset - (offset @ joint.axis) * joint.axis)) < SAME_PLACE * size
-    )
+    aside = float(np.linalg.norm(offset - (offset @ joint.axis) * joint.axis))
+    return alike and parallel and (slides or aside < SAME_PLACE * size)
 
 
 def fit_signs(trials: Sequence[TrustTrial]) -> Perceptron:
@@ -126,11 +122,12 @@ def best_threshold(
     scores = []
     for least in LEAST:
         trusting = replace(articulator, trust=Trust(network, float(least)))
-        values = [
-            physical(t.truth, trusting.decide(Views(t.truth.mesh), t.proposals)).values
-            for t in trials
-        ]
-        scores.append(np.mean([v["part_miou"] + v["articulated_iou"] for v in values]))
+        near = []
+        for trial in trials:
+            answer = trusting.decide(Views(trial.truth.mesh), trial.proposals)
+            values = physical(trial.truth, answer).values
+            near.append(values["part_miou"] + values["articulated_iou"])
+        scores.append(np.mean(near))
     return float(LEAST[np.flatnonzero(np.array(scores) >= max(scores) - NEARLY)[-1]])
 
 

@@ -113,9 +113,7 @@ def _judged(
     nearest = joint.origin + joint.axis * float(joint.axis @ (middle - joint.origin))
     place = np.where(candidates.slides | slides, 0.0, _distance(nearest[None], candidates) / size)
     same_kind = candidates.slides == slides
-    either_way = joint.kind is JointKind.CONTINUOUS or (
-        joint.turns and joint.upper - joint.lower > ROUND
-    )
+    either_way = joint.kind is JointKind.CONTINUOUS or (joint.turns and joint.range > ROUND)
     worth = same_kind * ((cosine > 0.0) | either_way)
     worth = worth * np.exp(-np.maximum(angle - ANGLE_FREE, 0.0) / ANGLE_WORTH)
     worth = worth * np.exp(-np.maximum(place - PLACE_FREE, 0.0) / PLACE_WORTH)
@@ -149,4 +147,4 @@ def _range(
         return None, 0.0
     setting = setting_of(body, single(candidates, best), numbers[best])
     endless = joint.kind is JointKind.CONTINUOUS
-    return setting, np.inf if endless else (joint.upper - joint.lower) / setting.unit
+    return setting, np.inf if endless else joint.range / setting.unit

@@ -73,9 +73,8 @@ class ScoredCloud:
             parent = self.parents[part]
             pose = np.eye(4) if parent < 0 else poses[parent]
             for joint in own:
-                pose = pose @ joint.motion(
-                    share * joint.range + (0.0 if from_rest else joint.lower)
-                )
+                start = 0.0 if from_rest else joint.lower
+                pose = pose @ joint.motion(start + share * joint.range)
             poses[part] = pose
         return poses
 

@@ -68,13 +68,10 @@ def solid_giou(
     rng: np.random.Generator,
 ) -> tuple[FloatArray, FloatArray]:
     """Return each pair's, seen from the predicted part and from the true one."""
-    ours, theirs = (
-        [box_of(part) for part in cloud.parts(cloud.points)] for cloud in (predicted, true)
-    )
-    moved, truly = (
-        cloud.poses(share, from_rest=True, one_motion=True)[cloud.present]
-        for cloud in (predicted, true)
-    )
+    ours = [box_of(part) for part in predicted.parts(predicted.points)]
+    theirs = [box_of(part) for part in true.parts(true.points)]
+    moved = predicted.poses(share, from_rest=True, one_motion=True)[predicted.present]
+    truly = true.poses(share, from_rest=True, one_motion=True)[true.present]
     there = matching.each(lambda i, j: _overlap(ours[i], theirs[j], moved[i], truly[j], rng))
     back = matching.each(lambda i, j: _overlap(theirs[j], ours[i], moved[i], truly[j], rng))
     return there, back
