@@ -40,24 +40,14 @@ _FILES = (
 
 #: Kinds for demonstrations: of convex forms only, each with corners of its own.
 DEMO_CATEGORIES: tuple[str, ...] = (
-    "cabinet",
-    "fridge",
-    "oven",
-    "microwave",
-    "dishwasher",
-    "laptop",
-    "chest",
-    "trash_can",
-)
+    "cabinet", "fridge", "oven", "microwave", "dishwasher", "laptop", "chest", "trash_can",
+)  # fmt: skip
 #: How far short of its place every form of the demo ends [m].
 HAIRLINE_M = 5e-5
 
 _MAKERS: dict[str, Maker] = {name: maker for file in _FILES for name, maker in file.MAKERS.items()}
 
-CATEGORIES: tuple[str, ...] = (
-    *DEMO_CATEGORIES,
-    *(name for name in _MAKERS if name not in DEMO_CATEGORIES),
-)
+CATEGORIES: tuple[str, ...] = tuple(dict.fromkeys((*DEMO_CATEGORIES, *_MAKERS)))
 
 
 def make_object(category: str, seed: int) -> Articulation:

@@ -95,9 +95,8 @@ def write_annotation(articulation: Articulation, frame: FloatArray, path: Path) 
     label = np.zeros(len(articulation.mesh.faces), dtype=np.int32)
     for index, part in enumerate(articulation.parts):
         label[part.faces] = number[index]
-    edges = [
-        (number[j.parent], number[j.child]) for j in articulation.joints if j.child not in carried
-    ]
+    hung = [joint for joint in articulation.joints if joint.child not in carried]
+    edges = [(number[joint.parent], number[joint.child]) for joint in hung]
     turns = np.zeros(count, dtype=bool)
     slides = np.zeros(count, dtype=bool)
     plucker = np.zeros((count, 6))

@@ -46,9 +46,8 @@ def write_sample(
     (folder / "links").mkdir(parents=True, exist_ok=True)
     write_glb(shown.mesh, Y_UP, folder / "object.glb")
     write_annotation(shown, Y_UP, folder / "pred.npz")
-    write_sidecar(
-        folder / "object.toml", {"scale": 1.0, "annotation": "pred.npz", "license": LICENSE}
-    )
+    sidecar: dict[str, str | float] = {"scale": 1.0, "annotation": "pred.npz", "license": LICENSE}
+    write_sidecar(folder / "object.toml", sidecar)
     robot = Element("robot", name="object")
     for index, part in enumerate(shown.parts):
         link = SubElement(robot, "link", name=part.name)

@@ -23,10 +23,9 @@ def _strip(rows: npt.ArrayLike, along: Span, axis: int = Z) -> Form:
     Places lie on y across Z and X, on x across Y; edges on x, z and z.
     """
     place, left, right = np.asarray(rows, dtype=np.float64).T
-    lines = [
-        np.stack((edge, place) if axis == Z else (place, edge), axis=1) for edge in (left, right)
-    ]
-    return ribbon(lines[0], lines[1], along, axis)
+    order = (1, 0) if axis == Z else (0, 1)
+    one, other = (np.stack((place, edge), axis=1)[:, order] for edge in (left, right))
+    return ribbon(one, other, along, axis)
 
 
 def scissors(a: Assembly) -> None:
@@ -152,10 +151,8 @@ def pocket_knife(a: Assembly) -> None:
     for i in range(count):
         reach = a.draw(0.7, 0.9) * (long - 0.012)
         end = base + a.draw(0.0, 0.24) * high
-        heel = [
-            (0.004, z - 0.15 * high, z + 0.15 * high),
-            (0.015, base, z + a.draw(0.3, 0.55) * high),
-        ]
+        hump = z + a.draw(0.3, 0.55) * high
+        heel = [(0.004, z - 0.15 * high, z + 0.15 * high), (0.015, base, hump)]
         point = [(0.7 * reach, base, z + 0.5 * high), (reach, end, end + 0.001)]
         rows = np.array([*heel, *point])
         right = i % 2 == 1

@@ -139,9 +139,8 @@ def toilet(a: Assembly) -> None:
     the lid too.
     """
     rim, wide, front, back = a.draws((0.36, 0.44), (0.17, 0.2), (0.26, 0.36), (0.15, 0.2))
-    room, thick, lid_thick, gap = a.draws(
-        (0.06, 0.13), (0.012, 0.025), (0.01, 0.025), (0.001, 0.004)
-    )
+    room, thick = a.draws((0.06, 0.13), (0.012, 0.025))
+    lid_thick, gap = a.draws((0.01, 0.025), (0.001, 0.004))
     skin, metal = a.picks((WHITE, BLACK), (WHITE, STEEL))
     body = a.body(skin)
     body.add(_bowl(a, rim, wide, front, back))

@@ -213,9 +213,8 @@ def bottle(a: Assembly) -> None:
 
 def dispenser(a: Assembly) -> None:
     """Build a soap or lotion bottle with a pump that goes down and turns."""
-    wide, high, collar, stroke = a.draws(
-        (0.025, 0.045), (0.09, 0.18), (0.011, 0.016), (0.012, 0.025)
-    )
+    wide, high = a.draws((0.025, 0.045), (0.09, 0.18))
+    collar, stroke = a.draws((0.011, 0.016), (0.012, 0.025))
     skin, pump_skin = a.picks((WHITE, BLUE, GREEN, STEEL), (BLACK, WHITE, STEEL))
     outer = _side_curve(a, 0.9 * wide, wide * a.draw(1.0, 1.2), 0.45 * wide, high)
     body = a.body(skin)

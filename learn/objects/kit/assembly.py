@@ -15,7 +15,7 @@ from asset_factory.factory.mesh import FloatArray, IntArray, Material, Mesh
 from .chance import Chance
 from .looks import WHITE, laid_over
 from .shapes import Form
-from .spans import Point
+from .spans import Point, Span
 
 #: Directions of axes; what hangs at the back of its lid opens about LEFT.
 LEFT = (-1.0, 0.0, 0.0)
@@ -134,10 +134,8 @@ class Assembly(Chance):
         **how: Unpack[Hanging],
     ) -> PartDraft:
         """Add a part that turns between ``lower`` and ``upper`` [rad] and is left at ``rest``."""
-        part = self._hung(name, JointKind.REVOLUTE, axis, at, **how)
-        part.lower = lower - rest
-        part.upper = upper - rest
-        part.slide = slide
+        limits = (lower - rest, upper - rest)
+        part = self._hung(name, JointKind.REVOLUTE, axis, at, limits, slide, **how)
         if rest:
             turn = np.eye(4)
             turn[:3, :3] = rotation_about(part.axis, rest)
@@ -150,19 +148,13 @@ class Assembly(Chance):
         self, name: str, axis: Vector, at: Vector, slide: float = 0.0, **how: Unpack[Hanging]
     ) -> PartDraft:
         """Add a part that turns without end, and slides along its axis by up to ``slide`` [m]."""
-        part = self._hung(name, JointKind.CONTINUOUS, axis, at, **how)
-        part.lower = -np.pi
-        part.upper = np.pi
-        part.slide = slide
-        return part
+        return self._hung(name, JointKind.CONTINUOUS, axis, at, (-np.pi, np.pi), slide, **how)
 
     def slider(
         self, name: str, axis: Vector, at: Vector, upper: float, **how: Unpack[Hanging]
     ) -> PartDraft:
         """Return a part that slides by up to ``upper`` [m]."""
-        part = self._hung(name, JointKind.PRISMATIC, axis, at, **how)
-        part.upper = upper
-        return part
+        return self._hung(name, JointKind.PRISMATIC, axis, at, (0.0, upper), **how)
 
     def screw(
         self,
@@ -184,12 +176,16 @@ class Assembly(Chance):
         kind: JointKind,
         axis: Vector,
         at: Vector,
+        limits: Span,
+        slide: float = 0.0,
         on: PartDraft | None = None,
         look: Material | None = None,
         place: Place | None = None,
     ) -> PartDraft:
         parent = on or self.root
         part = PartDraft(name, look or parent.look, parent, kind)
+        part.lower, part.upper = limits
+        part.slide = slide
         part.axis = np.asarray(axis, dtype=np.float64)
         part.origin = np.asarray(at, dtype=np.float64)
         part.pose = parent.pose

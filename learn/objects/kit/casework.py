@@ -9,7 +9,7 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from .assembly import FRONT, LEFT, RIGHT, Assembly, Hanging, PartDraft
+from .assembly import DOWN, FRONT, LEFT, RIGHT, UP, Assembly, Hanging, PartDraft
 from .boards import carcass, frame, stand, tray
 from .hinges import swing
 from .layouts import Cell, Divider, Node, divided
@@ -20,12 +20,7 @@ from .spans import Point, Span, X, about, between, mid, size, span, within
 from .styles import Style
 
 #: Edges of a front, and which way one turns that is hinged there; positive angles open towards -Y.
-EDGES: dict[str, Point] = {
-    "left": (0.0, 0.0, -1.0),
-    "right": (0.0, 0.0, 1.0),
-    "bottom": RIGHT,
-    "top": LEFT,
-}
+EDGES: dict[str, Point] = {"left": DOWN, "right": UP, "bottom": RIGHT, "top": LEFT}
 
 
 @dataclass(frozen=True)

@@ -35,9 +35,8 @@ def wood(seed: int, size: int = 64) -> Material:
     rings = 0.5 + 0.5 * np.sin(2.0 * np.pi * 7.0 * (v + bend) + phase[2])
     tone = 0.75 + 0.18 * rings + 0.05 * rng.uniform(-1.0, 1.0, (size, 1))
     colors = np.clip(tone[..., None] * np.array([190.0, 140.0, 88.0]), 0.0, 255.0)
-    return Material(
-        "wood", (1.0, 1.0, 1.0, 1.0), Texture(png(np.round(colors).astype(np.uint8)), ".png")
-    )
+    image = png(np.round(colors).astype(np.uint8))
+    return Material("wood", (1.0, 1.0, 1.0, 1.0), Texture(image, ".png"))
 
 
 def laid_over(

@@ -91,10 +91,8 @@ def _bar(pull: Pull, along: Span) -> list[Form]:
         forms = [box(along, about(r, middle), about(wide))]
     inset = min(0.02 if pull.kind == "bar" else r, along[1] / 2)
     foot = (middle, pull.root)
-    return [
-        *forms,
-        *(box(about(0.7 * r, end), foot, about(0.7 * r)) for end in within(along, inset)),
-    ]
+    feet = (box(about(0.7 * r, end), foot, about(0.7 * r)) for end in within(along, inset))
+    return [*forms, *feet]
 
 
 def _knob(pull: Pull) -> list[Form]:

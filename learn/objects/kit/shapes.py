@@ -165,12 +165,8 @@ def cylinder(axis: int, center: Flat, radius: float, along: Span, sides: int = 1
 def hoop(axis: int, center: Flat, radii: Span, along: Span, sides: int = 24) -> Form:
     """Return a flat ring about a coordinate axis, between two radii; else as :func:`cylinder`."""
     at = (*center[:axis], 0.0, *center[axis:])
-    profile = [
-        (radii[0], along[0]),
-        (radii[1], along[0]),
-        (radii[1], along[1]),
-        (radii[0], along[1]),
-    ]
+    inner, outer = ([(radius, end) for end in along] for radius in radii)
+    profile = [inner[0], *outer, inner[1]]
     return lathe(profile, at, axis, sides, looped=True)  # type: ignore[arg-type]
 
 
