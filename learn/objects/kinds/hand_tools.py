@@ -171,8 +171,7 @@ def cutter(a: Assembly) -> None:
     wall = 0.002
     slit = 0.0035
     y = (0.0, long)
-    body = a.body(a.pick(RED, BLACK, BLUE, GREEN))
-    body.add(block(about(half), y, (0.0, wall), 0.003))
+    body = a.body(a.pick(RED, BLACK, BLUE, GREEN), block(about(half), y, (0.0, wall), 0.003))
     body.add(box(about(half - wall), span(long - 0.004, -0.002), (wall, thick - wall)))
     side = box((half - wall, half), within(y, 0.003), (wall, thick))
     edge = box((slit, half - wall), within(y, 0.004), (thick - wall, thick - 0.0002))

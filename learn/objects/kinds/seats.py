@@ -142,8 +142,7 @@ def toilet(a: Assembly) -> None:
     room, thick = a.draws((0.06, 0.13), (0.012, 0.025))
     lid_thick, gap = a.draws((0.01, 0.025), (0.001, 0.004))
     skin, metal = a.picks((WHITE, BLACK), (WHITE, STEEL))
-    body = a.body(skin)
-    body.add(_bowl(a, rim, wide, front, back))
+    body = a.body(skin, _bowl(a, rim, wide, front, back))
     pin = back + a.draw(0.01, 0.03)
     wall = pin + room
     body.add(box(about(0.6 * wide), (0.8 * back, wall), (rim - a.draw(0.1, 0.3), rim - 0.001)))

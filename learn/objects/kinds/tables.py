@@ -76,8 +76,7 @@ def folding_table(a: Assembly) -> None:
     width, depth, height, thick = a.draws((0.3, 0.8), (0.6, 1.2), (0.6, 0.8), (0.015, 0.03))
     x, y = upto(width, depth)
     under = height - thick
-    body = a.body(any_color(a))
-    body.add(box(x, y, (under, height)))
+    body = a.body(any_color(a), box(x, y, (under, height)))
     frame_x = within(x, 0.04)
     frame_y = within(y, 0.08)
     stand(a, a.weighted(UNDER), frame_x, frame_y, under, any_color(a))

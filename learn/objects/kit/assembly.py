@@ -117,9 +117,10 @@ class Assembly(Chance):
         self.parts: list[PartDraft] = []
         self.hairline = hairline
 
-    def body(self, look: Material) -> PartDraft:
-        """Return the part that does not move, from now on in this look."""
+    def body(self, look: Material, *forms: Form) -> PartDraft:
+        """Return the part that does not move, from now on in this look, with more forms."""
         self.root.look = look
+        self.root.add(*forms)
         return self.root
 
     def hinge(
