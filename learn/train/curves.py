@@ -64,9 +64,8 @@ def require_plotting() -> None:
     try:
         import matplotlib  # noqa: F401
     except ImportError as error:
-        raise ConfigError(
-            "curves are drawn with matplotlib: pip install 'asset-factory[train]'"
-        ) from error
+        wanted = "pip install 'asset-factory[train]'"
+        raise ConfigError(f"curves are drawn with matplotlib: {wanted}") from error
 
 
 def draw_curves(training: Path, validation: Path, target: Path) -> None:

@@ -108,13 +108,11 @@ class _Worker:
         while (drawn := self._drawn.get()) is None:
             self.stop()
             self._deaths += 1
-            died = (
-                f"step {step}: a worker that draws samples died with code {self._process.exitcode}"
-            )
+            code = self._process.exitcode
+            died = f"step {step}: a worker that draws samples died with code {code}"
             if self._deaths >= _DEATHS:
-                raise ConfigError(
-                    f"{died}, {_DEATHS} times in a row; it may want more memory, or fewer workers"
-                )
+                wanted = "it may want more memory, or fewer workers"
+                raise ConfigError(f"{died}, {_DEATHS} times in a row; {wanted}")
             # A sample follows from its step and number alone: another worker draws the same.
             self._say(f"{died}; another one takes its place")
             self._start(step)

@@ -119,9 +119,8 @@ class _Run:
         steps = config.schedule.steps
         if group.first:
             self._curve = Curve(self._output / CURVE, COLUMNS, first)
-            self._table = Curve(
-                self._output / VALIDATION, [each.name for each in fields(Scores)], first
-            )
+            scores = [each.name for each in fields(Scores)]
+            self._table = Curve(self._output / VALIDATION, scores, first)
         with watching(steps, first, quiet=not group.first) as watch:
             for line in source_lines((*self._pools, *self._held_out_pools)):
                 watch.say(line)
@@ -255,9 +254,8 @@ def _prepare(
     begun = (output / RECIPE).is_file()
     group.wait()
     if begun and not resume:
-        raise ConfigError(
-            f"{output}: holds a run already; go on with --resume, or name another folder"
-        )
+        wanted = "go on with --resume, or name another folder"
+        raise ConfigError(f"{output}: holds a run already; {wanted}")
     if not begun and resume:
         raise ConfigError(f"{output}: holds no run to go on with; leave --resume out to begin one")
     if group.first:

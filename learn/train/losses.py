@@ -240,12 +240,10 @@ def _direction_error(said: Tensor, true: Tensor, limits: Tensor, sign_free: bool
     if not sign_free:
         return straight
     width = limits[..., 1] - limits[..., 0]
-    either = (limits.sum(-1).abs() <= 2.0 * _SYMMETRIC * width) | (
-        width >= 2.0 * math.pi - _SYMMETRIC
-    )
-    return torch.where(
-        either, torch.minimum(straight, (said.float() + true).abs().mean(-1)), straight
-    )
+    round_ = width >= 2.0 * math.pi - _SYMMETRIC
+    either = round_ | (limits.sum(-1).abs() <= 2.0 * _SYMMETRIC * width)
+    turned = (said.float() + true).abs().mean(-1)
+    return torch.where(either, torch.minimum(straight, turned), straight)
 
 
 def _place_error(answers: Answers, batch: Batch) -> Tensor:

@@ -62,9 +62,8 @@ def _permutation(cost: Any, root_first: bool) -> Any:
 
 def arranged(tensor: Tensor, queries: Tensor) -> Tensor:
     """Return the rows of [batch, parts, ...] in the order that :func:`match` found."""
-    index = queries.reshape(*queries.shape, *[1] * (tensor.dim() - 2)).expand(
-        *queries.shape, *tensor.shape[2:]
-    )
+    deep = tensor.shape[2:]
+    index = queries.reshape(*queries.shape, *[1] * len(deep)).expand(*queries.shape, *deep)
     return tensor.gather(1, index)
 
 

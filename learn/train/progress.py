@@ -70,12 +70,7 @@ def watching(steps: int, done: int, quiet: bool) -> Iterator[Watch]:
     if quiet or not console.is_terminal:
         yield Watch(console, steps, done, None)
         return
-    columns = (
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeRemainingColumn(),
-        TextColumn("{task.description}"),
-    )
-    with Progress(*columns, console=console) as progress:
+    columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, TextColumn("{task.description}"), console=console) as progress:
         task = progress.add_task("starting", total=steps, completed=done)
         yield Watch(progress.console, steps, done, (progress, task))

@@ -92,9 +92,8 @@ def parse_train_config(text: str, where: str) -> TrainConfig:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise ConfigError(f"{where}: {error}") from error
-    data, held_out = (
-        _sources(table.pop(name, []), f"{where}: {name}") for name in ("data", "held_out")
-    )
+    data = _sources(table.pop("data", []), f"{where}: data")
+    held_out = _sources(table.pop("held_out", []), f"{where}: held_out")
     config = replace(overlay(TrainConfig(), table, where), data=data, held_out=held_out)
     _check(config, where)
     return config
@@ -127,11 +126,9 @@ def _sources(tables: Any, where: str) -> tuple[DataSource, ...]:
 def _check(config: TrainConfig, where: str) -> None:
     network = config.network
     if network.features == "partfield":
-        raise ConfigError(
-            f"{where}: network.features: PartField is not computed while training; "
-            "want 'none' or 'components', "
-            "which need no other network"
-        )
+        wanted = "want 'none' or 'components', which need no other network"
+        said = "network.features: PartField is not computed while training"
+        raise ConfigError(f"{where}: {said}; {wanted}")
     allowed = {
         "network.features": (network.features, FEATURES),
         "network.axes": (network.axes, tuple(AxisForm)),
@@ -139,18 +136,15 @@ def _check(config: TrainConfig, where: str) -> None:
     }
     for name, (value, values) in allowed.items():
         if value not in values:
-            raise ConfigError(
-                f"{where}: {name} must be {' or '.join(map(repr, values))}, not {value!r}"
-            )
+            wanted = " or ".join(map(repr, values))
+            raise ConfigError(f"{where}: {name} must be {wanted}, not {value!r}")
     _require_within(config, where)
     if network.hidden % network.heads:
-        raise ConfigError(
-            f"{where}: network.heads: {network.heads} do not divide the width {network.hidden}"
-        )
+        said = f"{network.heads} do not divide the width {network.hidden}"
+        raise ConfigError(f"{where}: network.heads: {said}")
     if not config.data:
-        raise ConfigError(
-            f"{where}: no [[data]]; want at least one source, of kind {', '.join(KINDS)}"
-        )
+        kinds = ", ".join(KINDS)
+        raise ConfigError(f"{where}: no [[data]]; want at least one source, of kind {kinds}")
 
 
 def _require_within(config: TrainConfig, where: str) -> None:
@@ -159,11 +153,8 @@ def _require_within(config: TrainConfig, where: str) -> None:
     Raises:
         ConfigError: names the first such setting, and what it can be.
     """
-    shares = {
-        f"draw.{each.name}": (0.0, 1.0)
-        for each in fields(config.draw)
-        if each.name.endswith("_share")
-    }
+    drawn = (each.name for each in fields(config.draw))
+    shares = {f"draw.{name}": (0.0, 1.0) for name in drawn if name.endswith("_share")}
     weights = {f"loss.{each.name}": (0.0, _ANY) for each in fields(config.loss)}
     for name, bounds in {**shares, **weights, **_BOUNDS}.items():
         holder: Any = config
@@ -174,9 +165,8 @@ def _require_within(config: TrainConfig, where: str) -> None:
         section, _, field = name.partition(".")
         pair = getattr(getattr(config, section), field)
         if len(pair) != 2 or (name == "draw.scale" and pair[0] > pair[1]):
-            raise ConfigError(
-                f"{where}: {name} must be two numbers, the lower one first, not {list(pair)}"
-            )
+            wanted = "two numbers, the lower one first"
+            raise ConfigError(f"{where}: {name} must be {wanted}, not {list(pair)}")
     for list_name in ("data", "held_out"):
         for number, source in enumerate(getattr(config, list_name), start=1):
             for name, bounds in _OF_SOURCES.items():

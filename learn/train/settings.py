@@ -12,15 +12,9 @@ from asset_factory.factory.models.particulate.components import COMPONENT_FEATUR
 from ..samples.sample import DrawSettings
 
 KINDS = (
-    "procedural",
-    "sampled",
-    "description",
-    "partnet",
-    "particulate",
-    "predictions",
-    "registry",
+    "procedural", "sampled", "description", "partnet", "particulate", "predictions", "registry",
     "usd",
-)
+)  # fmt: skip
 FEATURES = ("none", "components")
 PRECISIONS = ("float32", "bfloat16")
 
@@ -279,6 +273,5 @@ class TrainConfig:
     @property
     def validation_draw(self) -> DrawSettings:
         """Return how validation samples are drawn: as training's, but upright and whole."""
-        return replace(
-            self.training_draw, points=self.validation.points, fused_share=0.0, merged_share=0.0
-        )
+        points = self.validation.points
+        return replace(self.training_draw, points=points, fused_share=0.0, merged_share=0.0)

@@ -61,10 +61,8 @@ class Trainer:
         for weights in (self.network.state_dict(), self.descent.mean.weights):
             bad = [name for name, each in weights.items() if not bool(torch.isfinite(each).all())]
             if bad:
-                raise ConfigError(
-                    f"step {step}: {bad[0]} is not finite any more, nothing of it is kept; "
-                    "want a lower schedule.rate"
-                )
+                wanted = "nothing of it is kept; want a lower schedule.rate"
+                raise ConfigError(f"step {step}: {bad[0]} is not finite any more, {wanted}")
 
     def step(self, step: int, batch: Batch, stop: bool = False) -> tuple[Tensor, bool]:
         """Learn from this process's share of a step's samples.
@@ -87,9 +85,8 @@ class Trainer:
         # Counted before anything is sent to a GPU: to ask one for a number is to wait for it.
         counted = [count(each, targets_of(each, config.loss), config.loss) for each in host]
         micro = [each.to(group.device) for each in host]
-        *sums, stops = group.sums(
-            [*(sum(column) for column in zip(*counted, strict=True)), float(stop)]
-        )
+        mine = [sum(column) for column in zip(*counted, strict=True)]
+        *sums, stops = group.sums([*mine, float(stop)])
         counts = Counts(*sums)
         self.descent.optimiser.zero_grad(set_to_none=True)
         values = torch.zeros(len(NAMES) + 1, device=group.device)
@@ -108,12 +105,10 @@ class Trainer:
         return torch.cat([values, torch.stack(last)]), stops > 0
 
     def _precision(self) -> AbstractContextManager[Any]:
-        device = self._group.device
         lowered = self._config.run.precision == "bfloat16"
+        enabled = lowered and self._group.device.startswith("cuda")
         autocast: AbstractContextManager[Any]
-        autocast = torch.autocast(
-            "cuda", torch.bfloat16, enabled=lowered and device.startswith("cuda")
-        )
+        autocast = torch.autocast("cuda", torch.bfloat16, enabled=enabled)
         return autocast
 
     def _seed_dropout(self, step: int) -> None:
