@@ -116,10 +116,8 @@ def _named(items: tuple[SourceItem, ...], split: Path) -> tuple[SourceItem, ...]
     wanted = read_split(split)
     chosen = tuple(item for item in items if item.name in wanted)
     if not chosen:
-        raise ConfigError(
-            f"split {split}: names none of the dataset's objects, "
-            f"which are called e.g. {items[0].name}"
-        )
+        called = f"which are called e.g. {items[0].name}"
+        raise ConfigError(f"split {split}: names none of the dataset's objects, {called}")
     return chosen
 
 

@@ -51,7 +51,5 @@ def front_advice(paths: Iterable[Path], front: str) -> str:
     if way == "-y":
         return f"{said}, as they should"
     quarters = (FRONTS[way] + FRONTS[front]) % 4
-    return (
-        f"{said}, want -y: try --front "
-        f"{next(name for name, turns in FRONTS.items() if turns % 4 == quarters)}"
-    )
+    better = next(name for name, turns in FRONTS.items() if turns % 4 == quarters)
+    return f"{said}, want -y: try --front {better}"

@@ -33,9 +33,8 @@ def make_sampled(
     except InputRejected as error:
         return ItemRefusal(error.code, error.message)
     except FileNotFoundError as error:
-        return ItemRefusal(
-            "missing_file", f"{item.name}: {Path(str(error.filename)).name} is not there"
-        )
+        missing = Path(str(error.filename)).name
+        return ItemRefusal("missing_file", f"{item.name}: {missing} is not there")
     except (AssetFactoryError, *TRIPPED) as error:
         # Whatever a reader trips over is a fault of the object's: it costs that object, never the
         # run.

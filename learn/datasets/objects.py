@@ -21,11 +21,9 @@ def generated(
     """Yield an object per category and seed, with names; every other one as an artist makes it."""
     for category in categories:
         for seed in seeds:
-            made = make_object(category, seed)
-            yield (
-                f"generated/{category}_{seed}",
-                in_character(made, "artist" if seed % 2 else "plain", seed)[0],
-            )
+            character = "artist" if seed % 2 else "plain"
+            made, _ = in_character(make_object(category, seed), character, seed)
+            yield f"generated/{category}_{seed}", made
 
 
 def described(
@@ -38,10 +36,8 @@ def described(
     """
     items = [each for each in find_descriptions(folder) if names is None or each.name in names]
     if not items:
-        raise ConfigError(
-            f"{folder}: holds no URDF and no MJCF that is asked for, "
-            "want a folder of folders with one each"
-        )
+        wanted = "want a folder of folders with one each"
+        raise ConfigError(f"{folder}: holds no URDF and no MJCF that is asked for, {wanted}")
     for item in items:
         try:
             yield item.name, read_description(item, SourceSettings())

@@ -49,9 +49,8 @@ class SourceReport:
     @property
     def counts(self) -> dict[str, int]:
         """Return skipped objects by reason, most frequent first."""
-        return dict(
-            Counter({reason: len(names) for reason, names in self.skipped.items()}).most_common()
-        )
+        counted = Counter({reason: len(names) for reason, names in self.skipped.items()})
+        return dict(counted.most_common())
 
     def lines(self) -> list[str]:
         """Return lines for people: the objects read, and each reason with its first object."""

@@ -80,10 +80,8 @@ class Batch:
         return self._map(moved)
 
     def _map(self, change: Any) -> Batch:
-        values = {each.name: getattr(self, each.name) for each in fields(self)}
-        return Batch(
-            **{name: None if value is None else change(value) for name, value in values.items()}
-        )
+        values = (getattr(self, each.name) for each in fields(self))
+        return Batch(*(None if value is None else change(value) for value in values))
 
 
 def collate(samples: Sequence[Sample], parts: int) -> Batch:
@@ -107,13 +105,9 @@ def collate(samples: Sequence[Sample], parts: int) -> Batch:
 
 def join(batches: Sequence[Batch], order: Sequence[int]) -> Batch:
     """Return the batches of arrays, one after the other, their rows put in an order."""
-    joined: dict[str, Array] = {}
-    for each in fields(Batch):
-        values = [getattr(batch, each.name) for batch in batches]
-        joined[each.name] = (
-            None if values[0] is None else np.concatenate(values)[np.asarray(order, dtype=np.int64)]
-        )
-    return Batch(**joined)
+    rows = np.asarray(order, dtype=np.int64)
+    columns = ([getattr(batch, each.name) for batch in batches] for each in fields(Batch))
+    return Batch(*(None if each[0] is None else np.concatenate(each)[rows] for each in columns))
 
 
 def _stacked(samples: Sequence[Sample], name: str, dtype: Any) -> Array:

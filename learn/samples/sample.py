@@ -119,6 +119,7 @@ def draw(sampled: SampledObject, rng: np.random.Generator, settings: DrawSetting
         components = _components(sampled, rng, settings)[seen]
         features = component_features(body.points, body.normals, components)[: len(rows)]
     limits = np.where(sampled.endless[:, None], sampled.turn, sampled.turn - turns[:, None])
+    reach = (sampled.slide - slides[:, None]) * body.reach[:, None]
     return Sample(
         points=points.astype(np.float32),
         normals=body.normals[: len(rows)].astype(np.float32),
@@ -129,9 +130,7 @@ def draw(sampled: SampledObject, rng: np.random.Generator, settings: DrawSetting
         revolute_direction=body.axis.astype(np.float32),
         revolute_range=limits.astype(np.float32),
         prismatic_direction=body.slide.astype(np.float32),
-        prismatic_range=((sampled.slide - slides[:, None]) * body.reach[:, None]).astype(
-            np.float32
-        ),
+        prismatic_range=reach.astype(np.float32),
         closest_points=np.where(turning[part_ids][:, None], closest, 0.0).astype(np.float32),
     )
 
@@ -169,11 +168,8 @@ def _state(
 ) -> tuple[FloatArray, FloatArray]:
     """Turn [rad] and slide [m] of every part."""
     count = len(sampled.parents)
-    share = (
-        rng.random((2, count))
-        * (rng.random((2, count)) >= closed_share)
-        * (rng.random() >= closed_share)
-    )
+    share = rng.random((2, count)) * (rng.random((2, count)) >= closed_share)
+    share *= rng.random() >= closed_share
     low, high = np.stack([sampled.turn, sampled.slide]).transpose(2, 0, 1).astype(np.float64)
     value = low + share * (high - low)
     value[0, sampled.endless] = rng.uniform(-np.pi, np.pi, int(sampled.endless.sum()))

@@ -202,21 +202,15 @@ def _moving_parts(articulation: Articulation) -> tuple[dict[int, tuple[Joint, ..
             chains[joint.child] = (joint,) if above is None else (above, joint)
             first = chains[joint.child][0]
             if (above is not None and above.turns == joint.turns) or group[first.parent] in waiting:
-                name = articulation.parts[joint.child].name
-                raise InputRejected(
-                    "unsupported_joint", f"part {name!r}: want at most one turn and one slide"
-                )
+                said = f"part {articulation.parts[joint.child].name!r}: want at most one turn"
+                raise InputRejected("unsupported_joint", f"{said} and one slide")
     return chains, group
 
 
 def write_sampled(path: Path, sampled: SampledObject) -> None:
     """Write one uncompressed npz file, complete or not there."""
     buffer = BytesIO()
-    np.savez(
-        buffer,
-        allow_pickle=False,
-        **{each.name: getattr(sampled, each.name) for each in fields(sampled)},
-    )
+    np.savez(buffer, allow_pickle=False, **vars(sampled))
     path.parent.mkdir(parents=True, exist_ok=True)
     write_whole(path, buffer.getvalue())
 
@@ -229,9 +223,8 @@ def read_sampled(path: Path) -> SampledObject:
     """
     try:
         with path.open("rb") as file, zipfile.ZipFile(file) as archive:
-            require_at_most(
-                path.name, sum(entry.file_size for entry in archive.infolist()), MOST_BYTES, "bytes"
-            )
+            size = sum(entry.file_size for entry in archive.infolist())
+            require_at_most(path.name, size, MOST_BYTES, "bytes")
             file.seek(0)
             stored = np.load(file, allow_pickle=False)
             found: dict[str, Any] = {each.name: stored[each.name] for each in fields(SampledObject)}
@@ -240,9 +233,8 @@ def read_sampled(path: Path) -> SampledObject:
     except InputRejected:
         raise
     except (OSError, ValueError, KeyError, EOFError, MemoryError, RuntimeError, *_DAMAGED) as error:
-        raise InputRejected(
-            "bad_sample", f"{path}: cannot be read as a sampled object: {error}"
-        ) from error
+        said = f"{path}: cannot be read as a sampled object: {error}"
+        raise InputRejected("bad_sample", said) from error
 
 
 def _check(sampled: SampledObject) -> None:
@@ -262,9 +254,8 @@ def _check(sampled: SampledObject) -> None:
         if not np.isfinite(value).all():
             raise ValueError(f"{name}: holds numbers that are not finite")
     if not points or not 1 <= parts <= MOST_PARTS:
-        raise ValueError(
-            f"{points} points and {parts} parts: want points, and 1 to {MOST_PARTS} parts"
-        )
+        most = f"want points, and 1 to {MOST_PARTS} parts"
+        raise ValueError(f"{points} points and {parts} parts: {most}")
     if not 0 <= int(sampled.part_ids.min()) <= int(sampled.part_ids.max()) < parts:
         raise ValueError(f"part_ids: want 0 to {parts - 1}")
     if not 0 <= int(sampled.components.min()) <= int(sampled.components.max()) < _MOST_COMPONENTS:

@@ -127,29 +127,22 @@ def stretched(articulation: Articulation, factors: npt.ArrayLike) -> Articulatio
     if any(np.abs(joint.axis).max() < 1.0 - ALONG for joint in articulation.movable_joints):
         wanted = np.full(3, float(np.prod(wanted)) ** (1.0 / 3.0))
     joints = tuple(_stretched(joint, wanted) for joint in articulation.joints)
-    return replace(
-        articulation, mesh=articulation.mesh.transformed(np.diag([*wanted, 1.0])), joints=joints
-    )
+    mesh = articulation.mesh.transformed(np.diag([*wanted, 1.0]))
+    return replace(articulation, mesh=mesh, joints=joints)
 
 
 def mirrored(articulation: Articulation) -> Articulation:
     """Return the object as its mirror image, left for right (x negated); opening stays positive."""
     flip = np.array([-1.0, 1.0, 1.0])
     joints = tuple(
-        replace(
-            joint,
-            axis=(-1.0 if joint.turns else 1.0) * flip * joint.axis,
-            origin=flip * joint.origin,
-        )
-        for joint in articulation.joints
+        replace(each, axis=(-flip if each.turns else flip) * each.axis, origin=flip * each.origin)
+        for each in articulation.joints
     )
-    return replace(
-        articulation, mesh=articulation.mesh.transformed(np.diag([*flip, 1.0])), joints=joints
-    )
+    mesh = articulation.mesh.transformed(np.diag([*flip, 1.0]))
+    return replace(articulation, mesh=mesh, joints=joints)
 
 
 def _stretched(joint: Joint, factors: FloatArray) -> Joint:
     along = 1.0 if joint.turns else float(factors[np.abs(joint.axis).argmax()])
-    return replace(
-        joint, origin=factors * joint.origin, lower=joint.lower * along, upper=joint.upper * along
-    )
+    moved = replace(joint, origin=factors * joint.origin)
+    return replace(moved, lower=joint.lower * along, upper=joint.upper * along)
