@@ -72,25 +72,20 @@ def train(command: Train) -> bool:
     if command.output is None:
         raise ConfigError("--output: missing; name a folder for the weights and checkpoints")
     if command.resume and command.start is not None:
-        raise ConfigError(
-            "--from and --resume: a run that goes on has its own weights; give one of them"
-        )
-    config = replace(
-        config, run=replace(config.run, **{name: v for name, v in given.items() if v is not None})
-    )
+        said = "a run that goes on has its own weights"
+        raise ConfigError(f"--from and --resume: {said}; give one of them")
+    run = {name: value for name, value in given.items() if value is not None}
+    config = replace(config, run=replace(config.run, **run))
     try:
         from ..train.loop import run_training
     except ImportError as error:
-        raise ConfigError(
-            f"training needs {error.name}: pip install 'asset-factory[train]'"
-        ) from error
+        wanted = "pip install 'asset-factory[train]'"
+        raise ConfigError(f"training needs {error.name}: {wanted}") from error
+    output = command.output
     try:
-        return run_training(
-            config, recipe, command.output, resume=command.resume, start=command.start
-        )
+        return run_training(config, recipe, output, resume=command.resume, start=command.start)
     except OSError as error:
-        begun = (command.output / "config.toml").is_file()
+        begun = (output / "config.toml").is_file()
         more = "; what was stored before is whole, and --resume goes on" if begun else ""
-        raise ConfigError(
-            f"{error.filename or command.output}: {error.strerror or error}{more}"
-        ) from error
+        said = f"{error.filename or output}: {error.strerror or error}"
+        raise ConfigError(f"{said}{more}") from error

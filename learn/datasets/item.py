@@ -74,9 +74,8 @@ def find_items(
 
 def _regular(folder: Path, names: Sequence[str], real_root: Path) -> list[Path]:
     candidates = [folder / name for name in sorted(names) if not name.startswith(".")]
-    return [
-        path for path in candidates if path.is_file() and path.resolve().is_relative_to(real_root)
-    ]
+    there = (path for path in candidates if path.is_file())
+    return [path for path in there if path.resolve().is_relative_to(real_root)]
 
 
 def files_below(folder: Path, root: Path | None = None) -> tuple[Path, ...]:

@@ -60,9 +60,7 @@ def annotated_joint(
         raise bad_annotation(f"bone {child}: {shapes}; want 12, 4")
     turn, moment, slide = (np.asarray(lines[i : i + 3], dtype=np.float64) for i in (0, 3, 6))
     low, high, near, far = (float(value) for value in ranges.astype(np.float64))
-    kind = {(True, True): "both", (True, False): "revolute", (False, True): "prismatic"}.get(
-        (bool(turn.any()), bool(slide.any())), "fixed"
-    )
+    kind = ("fixed", "revolute", "prismatic", "both")[turn.any() + 2 * slide.any()]
     endless = high - low >= FULL_TURN
     ends = (near, far) if kind == "prismatic" else (None, None) if endless else (low, high)
     return AnnotatedJoint(

@@ -67,11 +67,8 @@ def _drawn(rng: np.random.Generator) -> tuple[str, Articulation, dict[str, float
     made = make_object(kind, int(rng.integers(2**31)))
     opened = {}
     if rng.random() < OPENED:
-        chosen = [
-            joint
-            for joint in made.movable_joints
-            if joint.kind is not JointKind.CONTINUOUS and joint.upper > 0.0
-        ]
+        ended = (joint for joint in made.movable_joints if joint.kind is not JointKind.CONTINUOUS)
+        chosen = [joint for joint in ended if joint.upper > 0.0]
         for joint in chosen:
             if rng.random() < max(0.3, 1.0 / len(chosen)):
                 opened[joint.name] = float(rng.uniform(0.1, 1.0))

@@ -73,9 +73,6 @@ def read_pack(path: Path) -> Iterator[Packed]:
 def read_textures(path: Path) -> npt.NDArray[np.uint8]:
     """Return the textures of a file, [m, 3, size, size]."""
     with zipfile.ZipFile(path) as pack:
-        found = [
-            np.asarray(Image.open(io.BytesIO(pack.read(name))))
-            for name in pack.namelist()
-            if name.startswith("texture/")
-        ]
+        names = [name for name in pack.namelist() if name.startswith("texture/")]
+        found = [np.asarray(Image.open(io.BytesIO(pack.read(name)))) for name in names]
     return np.stack(found).transpose(0, 3, 1, 2)

@@ -107,6 +107,12 @@ class WholeTruth:
 _Pictures = tuple[Canvases, npt.NDArray[np.uint8], dict[Side, Raster]]
 
 
+#: What opens so; whatever else turns about an upright edge is a door.
+_PANELS = dict.fromkeys(PanelWay, Sort.DOOR) | {
+    PanelWay.OUT: Sort.DRAWER, PanelWay.BOTTOM: Sort.FLAP, PanelWay.TOP: Sort.FLAP,
+}  # fmt: skip
+
+
 @dataclass(frozen=True)
 class _Meaning:
     """What a joint's part is, and on which sides it counts."""
@@ -126,11 +132,8 @@ def labelled_sides(
     meanings = _meanings(articulation, pictures)
     shares = dict(opened or {})
     if shares:
-        values = {
-            joint.name: shares[joint.name] * joint.upper
-            for joint in articulation.joints
-            if joint.name in shares
-        }
+        opening = (joint for joint in articulation.joints if joint.name in shares)
+        values = {joint.name: shares[joint.name] * joint.upper for joint in opening}
         articulation = posed(articulation, values)
         pictures = _pictures(articulation)
     canvases, part, _ = pictures
@@ -200,12 +203,7 @@ def _meanings(articulation: Articulation, pictures: _Pictures) -> dict[int, _Mea
         side = UPRIGHT[view]
         way = _way(part[view] == joint.child + 1, view, rasters[side], joint)
         if counts[view] and way is not None:
-            sort = {
-                PanelWay.OUT: Sort.DRAWER,
-                PanelWay.BOTTOM: Sort.FLAP,
-                PanelWay.TOP: Sort.FLAP,
-            }.get(way, Sort.DOOR)
-            found[joint.child] = _Meaning(sort, {view: way})
+            found[joint.child] = _Meaning(_PANELS[way], {view: way})
     return found
 
 

@@ -96,29 +96,21 @@ def real_requests(root: Path, objects: Sequence[Listed], half: str | None) -> tu
     chosen = [listed for listed in objects if half in (None, listed.half)]
     for listed in chosen:
         if not (root / listed.path).is_file():
-            raise ConfigError(
-                f"{root / listed.path}: no such file; "
-                "want the folder of data that the list is about"
-            )
+            wanted = "want the folder of data that the list is about"
+            raise ConfigError(f"{root / listed.path}: no such file; {wanted}")
     return tuple(
         Request(
-            object=listed.name,
-            source=listed.source,
-            category=listed.category,
-            file=root / listed.path,
-            digest=listed.digest,
-            front_yaw=listed.front_yaw,
+            each.name, each.source, each.category, file=root / each.path, digest=each.digest,
+            front_yaw=each.front_yaw,
         )
-        for listed in chosen
-    )
+        for each in chosen
+    )  # fmt: skip
 
 
 def procedural_requests(categories: Sequence[str], seeds: Sequence[int]) -> tuple[Request, ...]:
     """Return the procedural objects, one per category and seed."""
-    return tuple(
-        Request(f"{category}_{seed}", "procedural", category, seed=seed)
-        for category, seed in product(categories, seeds)
-    )
+    made = product(categories, seeds)
+    return tuple(Request(f"{kind}_{seed}", "procedural", kind, seed=seed) for kind, seed in made)
 
 
 def folder_requests(folder: Path) -> tuple[Request, ...]:
@@ -135,9 +127,8 @@ def folder_requests(folder: Path) -> tuple[Request, ...]:
         or read_sidecar(path, InputFiles(path.parent, config)).annotation is not None
     ]
     if not found:
-        raise ConfigError(
-            f"{folder}: holds no URDF, no MJCF and no mesh with an annotation; want at least one"
-        )
+        said = "holds no URDF, no MJCF and no mesh with an annotation"
+        raise ConfigError(f"{folder}: {said}; want at least one")
     return tuple(
         Request(
             object=path.relative_to(folder).with_suffix("").as_posix().replace("/", "__"),
@@ -210,17 +201,13 @@ def _fused(whole: Articulation, seed: int) -> Articulation:
 
 
 def _opened(whole: Articulation, rng: np.random.Generator) -> Articulation:
-    return posed(
-        whole, {j.name: j.lower + j.range * float(rng.uniform()) for j in whole.movable_joints}
-    )
+    joints = whole.movable_joints
+    return posed(whole, {j.name: j.lower + j.range * float(rng.uniform()) for j in joints})
 
 
 def _rng(request: Request, purpose: str) -> np.random.Generator:
     """Return random numbers for one purpose, the same for the same object, pose and yaw."""
-    parts = {"pose": (), "skin": (), "yaw": (request.pose,), "order": (request.pose, request.yaw)}[
-        purpose
-    ]
+    parts = {"yaw": (request.pose,), "order": (request.pose, request.yaw)}.get(purpose, ())
     text = "/".join((request.object, purpose, *parts))
-    return np.random.default_rng(
-        int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "little")
-    )
+    digest = hashlib.sha256(text.encode()).digest()
+    return np.random.default_rng(int.from_bytes(digest[:8], "little"))

@@ -28,12 +28,8 @@ def write_results(folder: Path, rows: Sequence[Row], settings: dict[str, Any]) -
     """
     folder.mkdir(parents=True, exist_ok=True)
     lines = [_line(row) for row in in_order(rows)]
-    data = {
-        "settings": settings,
-        "summary": summarised(rows),
-        "paired": compared(rows),
-        "cases": lines,
-    }
+    data = {"settings": settings, "summary": summarised(rows), "paired": compared(rows)}
+    data["cases"] = lines
     write_json(folder / JSON_NAME, data)
     write_whole(folder / CSV_NAME, _table(lines).encode())
     return data

@@ -38,9 +38,8 @@ class Method:
         if self.name not in METHODS:
             raise ConfigError(f"--method: no method {self.name!r}; there are {', '.join(METHODS)}")
         if self.name == PREDICTIONS and (self.folder is None or not self.folder.is_dir()):
-            raise ConfigError(
-                f"--predictions: {self.folder or 'not given'}; want the folder of <case>.npz files"
-            )
+            given = self.folder or "not given"
+            raise ConfigError(f"--predictions: {given}; want the folder of <case>.npz files")
 
     @property
     def is_random(self) -> bool:

@@ -61,15 +61,14 @@ def _figures(rows: Sequence[Row]) -> dict[str, Any]:
         "parts": _pooled(rows),
     }
     if len(repeats) > 1:
-        each = [[row for row in rows if row.trial.repeat == repeat] for repeat in repeats]
-        single = [
-            {**_means(one), **{name: part["of_objects"] for name, part in _pooled(one).items()}}
-            for one in each
-        ]
-        shared = sorted(set.intersection(*(set(one) for one in single)))
-        figures["spread"] = {
-            name: rounded(np.std([one[name] for one in single], ddof=1)) for name in shared
-        }
+        single = []
+        for repeat in repeats:
+            own = [row for row in rows if row.trial.repeat == repeat]
+            parts = {name: part["of_objects"] for name, part in _pooled(own).items()}
+            single.append(_means(own) | parts)
+        shared = sorted(set.intersection(*map(set, single)))
+        spread = {name: np.std([each[name] for each in single], ddof=1) for name in shared}
+        figures["spread"] = {name: rounded(value) for name, value in spread.items()}
     return figures
 
 
@@ -107,9 +106,8 @@ def compared(rows: Iterable[Row]) -> list[dict[str, Any]]:
         methods += [method] if method not in methods else []
         for name in COMPARED:
             values = () if row.score is None else row.score.pooled.get(name, ())
-            figures.setdefault((name, method), {}).setdefault(row.trial.request.name, []).extend(
-                values
-            )
+            cases = figures.setdefault((name, method), {})
+            cases.setdefault(row.trial.request.name, []).extend(values)
     found: list[dict[str, Any]] = []
     for one, other in combinations(methods, 2):
         for name in COMPARED:

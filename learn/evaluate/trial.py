@@ -120,8 +120,6 @@ def run_trials(trials: Iterable[Trial], workers: int, limits: Limits) -> Iterato
 
 def _reason(outcome: Outcome[Score]) -> str:
     error = outcome.error
-    return (
-        f"{error.code}: {error}"
-        if isinstance(error, InputRejected)
-        else f"{outcome.failure}: {outcome.detail}"
-    )
+    if isinstance(error, InputRejected):
+        return f"{error.code}: {error}"
+    return f"{outcome.failure}: {outcome.detail}"

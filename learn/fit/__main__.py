@@ -44,10 +44,8 @@ def main(arguments: list[str] | None = None) -> int:
 def _motions(asked: Asked) -> Fit:
     from .motions import fit_motions, measured, report
 
-    objects = chain(
-        generated(range(asked.seed, asked.seed + asked.seeds)),
-        *(described(folder) for folder in asked.data),
-    )
+    seeds = range(asked.seed, asked.seed + asked.seeds)
+    objects = chain(generated(seeds), *(described(folder) for folder in asked.data))
     samples = list(measured(islice(objects, 0, None, asked.every)))
     stored = fit_motions(samples, asked.steps)
     what = (

@@ -108,11 +108,8 @@ def fit_usual(samples: Sequence[MotionSample], slides: bool, steps: int) -> Usua
     Raises:
         ConfigError: no motion sample is of that kind.
     """
-    known = [
-        (x, x.setting)
-        for x in samples
-        if x.setting is not None and x.setting.slides == slides and x.range > 0.0
-    ]
+    told = ((x, x.setting) for x in samples if x.setting is not None and x.range > 0.0)
+    known = [(x, setting) for x, setting in told if setting.slides == slides]
     if not known:
         what = "slides" if slides else "turns"
         raise ConfigError(f"motions: nothing {what} among what is to be learned from")
@@ -122,12 +119,8 @@ def fit_usual(samples: Sequence[MotionSample], slides: bool, steps: int) -> Usua
     finite = np.where(np.isinf(ranges), 1.0, ranges)
     step = np.abs(np.log(finite[:, None] / grid[None])).argmin(axis=1)
     step = np.where(np.isinf(ranges), len(grid), step)
-    values = np.array(
-        [
-            np.median(ranges[step == k]) if (step == k).any() else value
-            for k, value in enumerate(grid)
-        ]
-    )
+    here = [ranges[step == k] for k in range(len(grid))]
+    values = np.array([np.median(x) if len(x) else grid[k] for k, x in enumerate(here)])
     values = values if slides else np.append(values, np.inf)
     weights = _weights_of([motion_sample for motion_sample, _ in known])
     examples = Examples(numbers, np.eye(len(values))[step], weights)

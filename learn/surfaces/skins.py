@@ -102,9 +102,8 @@ def _skinned(
     groove = int(rng.integers(DEPTHS[0], DEPTHS[1] + 1)) if rng.random() < engraved else 0
     bumps = float(rng.choice([0.0, 0.1, 0.3]))
     reach = float(rng.uniform(*REACH))
-    vertices, faces, nearest = skin(
-        points, original.part[below], chosen, reach, rng, groove=groove, bumps=bumps
-    )
+    owner = original.part[below]
+    vertices, faces, nearest = skin(points, owner, chosen, reach, rng, groove=groove, bumps=bumps)
     if rng.random() < SIMPLIFIED:
         most = int(np.exp(rng.uniform(*np.log(FACES))))
         vertices, faces, nearest = _simplified(vertices, faces, nearest, most)
@@ -119,9 +118,8 @@ def _simplified(
         return vertices, faces, shown
     import fast_simplification
 
-    fewer, kept = fast_simplification.simplify(
-        np.asarray(vertices, dtype=np.float32), np.asarray(faces, dtype=np.int32), target_count=most
-    )
+    rough = vertices.astype(np.float32), faces.astype(np.int32)
+    fewer, kept = fast_simplification.simplify(*rough, target_count=most)
     kept = np.asarray(kept, dtype=np.int64)
     fewer = np.asarray(fewer, dtype=np.float64)
     before = vertices[faces].mean(axis=1)

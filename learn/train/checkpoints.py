@@ -100,11 +100,8 @@ def fill(network: Any, weights: dict[str, Tensor], path: Path) -> None:
     found = {name: tuple(tensor.shape) for name, tensor in weights.items()}
     missing = [f"{name}: missing" for name in wanted if name not in found]
     extra = [f"{name}: not in the network" for name in found if name not in wanted]
-    other = [
-        f"{name}: shape {list(found[name])}, want {list(wanted[name])}"
-        for name in wanted
-        if name in found and found[name] != wanted[name]
-    ]
+    unlike = [name for name in wanted if name in found and found[name] != wanted[name]]
+    other = [f"{name}: shape {list(found[name])}, want {list(wanted[name])}" for name in unlike]
     differences = other + missing + extra
     if differences:
         more = f"; and {len(differences) - 8} more" if len(differences) > 8 else ""

@@ -19,11 +19,8 @@ class Curve:
     def __init__(self, path: Path, columns: Sequence[str], steps: int) -> None:
         self._path = path
         header = ["step", *columns]
-        kept = [
-            row
-            for row in _read(path)
-            if row[0].isdigit() and int(row[0]) <= steps and len(row) == len(header)
-        ]
+        before = (row for row in _read(path) if row[0].isdigit() and int(row[0]) <= steps)
+        kept = [row for row in before if len(row) == len(header)]
         write_whole(path, _lines([header, *kept]))
 
     def add(self, rows: Iterable[tuple[int, Sequence[float]]]) -> None:

@@ -40,14 +40,9 @@ class DataLoader:
         self._numbers = range(rank, config.batch, world)
         lanes = sorted({number % config.lanes for number in self._numbers})
         workers = min(config.run.workers, len(lanes))
-        self._shares = [
-            [
-                number
-                for number in self._numbers
-                if lanes.index(number % config.lanes) % workers == worker
-            ]
-            for worker in range(workers)
-        ]
+        self._shares: list[list[int]] = [[] for _ in range(workers)]
+        for number in self._numbers if workers else ():
+            self._shares[lanes.index(number % config.lanes) % workers].append(number)
         order = [number for share in self._shares for number in share]
         self._order = sorted(range(len(order)), key=order.__getitem__)
         self._supply = Dataset(config, pools) if not workers else None

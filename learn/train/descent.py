@@ -39,9 +39,8 @@ class RunningMean:
             self.weights[name].copy_(now[name])
         names = [name for name in self.weights if name not in whole]
         with torch.no_grad():
-            torch._foreach_lerp_(
-                [self.weights[name] for name in names], [now[name] for name in names], 1.0 - decay
-            )
+            means = [self.weights[name] for name in names]
+            torch._foreach_lerp_(means, [now[name] for name in names], 1.0 - decay)
 
     def load(self, weights: dict[str, Tensor]) -> None:
         """Go on from a stored mean."""

@@ -125,10 +125,8 @@ class _Run:
             for line in source_lines((*self._pools, *self._held_out_pools)):
                 watch.say(line)
             if state is not None and state.data != self._data:
-                watch.say(
-                    "the data are not those that this run began with: "
-                    "its curve will not repeat exactly"
-                )
+                said = "the data are not those that this run began with"
+                watch.say(f"{said}: its curve will not repeat exactly")
             finished = first >= steps or self._steps(first, watch)
             if finished and group.first:
                 self._finish(watch)

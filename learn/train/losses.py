@@ -46,11 +46,9 @@ def taught(batch: Batch, settings: LossSettings) -> Batch:
     limits = batch.revolute_range
     largest = direction.gather(-1, direction.abs().argmax(-1, keepdim=True))
     turned = largest < 0.0
-    return replace(
-        batch,
-        revolute_direction=torch.where(turned, -direction, direction),
-        revolute_range=torch.where(turned, -limits.flip(-1), limits),
-    )
+    direction = torch.where(turned, -direction, direction)
+    limits = torch.where(turned, -limits.flip(-1), limits)
+    return replace(batch, revolute_direction=direction, revolute_range=limits)
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
@@ -136,8 +135,6 @@ def _optimiser(network: Any, config: TrainConfig) -> Any:
     settings = config.optimiser
     matrices = [each for each in network.parameters() if each.dim() > 1]
     others = [each for each in network.parameters() if each.dim() <= 1]
-    groups: Sequence[dict[str, Any]] = (
-        {"params": matrices, "weight_decay": settings.weight_decay},
-        {"params": others, "weight_decay": 0.0},
-    )
-    return torch.optim.AdamW(groups, lr=config.schedule.rate, betas=settings.betas, fused=True)
+    groups = [{"params": matrices}, {"params": others, "weight_decay": 0.0}]
+    shared = {"betas": settings.betas, "weight_decay": settings.weight_decay}
+    return torch.optim.AdamW(groups, lr=config.schedule.rate, fused=True, **shared)

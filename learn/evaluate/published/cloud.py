@@ -102,9 +102,5 @@ def cloud_of(articulation: Articulation, seed: int, count: int = POINTS) -> Scor
 
 def _in_box(joint: Joint, size: float, middle: FloatArray) -> Joint:
     length = size if joint.kind is JointKind.PRISMATIC else 1.0
-    return replace(
-        joint,
-        origin=(joint.origin - middle) / size,
-        lower=joint.lower / length,
-        upper=joint.upper / length,
-    )
+    moved = replace(joint, origin=(joint.origin - middle) / size)
+    return replace(moved, lower=joint.lower / length, upper=joint.upper / length)
