@@ -36,8 +36,7 @@ def make_sampled(
         missing = Path(str(error.filename)).name
         return ItemRefusal("missing_file", f"{item.name}: {missing} is not there")
     except (AssetFactoryError, *TRIPPED) as error:
-        # Whatever a reader trips over is a fault of the object's: it costs that object, never the
-        # run.
+        # Whatever a reader trips over is the object's fault: it costs that object, never the run.
         return ItemRefusal("unreadable", f"{item.name}: {type(error).__name__}: {error}"[:400])
     write_sampled(path, sampled)
     return None

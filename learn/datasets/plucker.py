@@ -28,8 +28,7 @@ def arrays_of(path: Path, max_bytes: int) -> Arrays:
     """Return the arrays of an ``.npz``, unpickled nothing.
 
     Raises:
-        InputRejected: ``missing_file``, ``too_large``, or ``bad_annotation``: damaged, or a number
-            is not finite.
+        InputRejected: ``missing_file``, ``too_large``, or ``bad_annotation``: damaged, not finite.
     """
     if not path.is_file():
         raise InputRejected("missing_file", f"{path.name}: is not there")

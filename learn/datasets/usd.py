@@ -1,8 +1,7 @@
 """USD assets with rigid bodies and physics joints, as GRScenes and Lightwheel ship them.
 
 The schema: https://openusd.org/release/api/usd_physics_page_front.html. Geometry and joints are
-taken at the authored pose; what the physics engine would do with them afterwards (gravity, drives)
-does not matter here.
+taken at the authored pose, whatever the physics engine would do with them (gravity, drives).
 """
 
 from __future__ import annotations

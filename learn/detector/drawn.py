@@ -27,8 +27,7 @@ OTHER = (
     "office_chair", "bookcase", "table", "clock", "monitor", "fan", "desk_lamp", "cart", "camera",
     "bottle", "valve", "door", "printer", "stapler", "switch_panel", "hood",
 )  # fmt: skip
-#: Shares of objects with panels, with lids, that stay still, others that move; the rest is of any
-#: kind.
+#: Shares of objects with panels, with lids, that stay still, others that move; else of any kind.
 SHARES = (0.5, 0.2, 0.17, 0.06)
 #: Share of objects some of whose parts stand open.
 OPENED = 0.12

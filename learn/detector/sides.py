@@ -24,8 +24,7 @@ from asset_factory.factory.models.detector.canvas import (
 )
 from asset_factory.factory.views.raster import Raster, Side
 
-#: A part that turns as a panel fills so much of its box; a lid covers so much of what is seen from
-#: above.
+#: A part that turns as a panel fills so much of its box; a lid covers so much of the top.
 FILLED = 0.35
 OVER = 0.35
 #: Of a canvas: the least area of a panel, and the fewest pixels of a control.

@@ -39,10 +39,8 @@ class Request:
         object: its name, unique among objects.
         source: where it is from.
         category: what it is.
-        pose: ``closed``: every joint at its closed end; ``open``: every joint anywhere in its
-            range.
-        yaw: ``front``: the front towards -Y where there is one; ``random``: turned by any angle
-            about the vertical.
+        pose: every joint at its closed end (``closed``), or anywhere in its range (``open``).
+        yaw: the front towards -Y if there is one (``front``), or turned about z (``random``).
         file: of its description, or its mesh with an annotation; ``None`` for a procedural object.
         digest: of that file; empty if any will do, which is then not kept.
         front_yaw: turn that brings its front to -Y [deg]; ``None`` where that is unknown.
@@ -161,8 +159,7 @@ def make_case(request: Request, store: Store | None = None) -> Articulation:
     ``store`` keeps objects; ``None`` reads them every time.
 
     Raises:
-        InputRejected: the description cannot be read, or nothing that moves is seen of the fused
-            object.
+        InputRejected: it cannot be read, or nothing that moves is seen of the fused object.
         ConfigError: it is not the file that the list speaks of.
     """
     whole = closed(_original(request, store))

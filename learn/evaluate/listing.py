@@ -27,11 +27,9 @@ class Listed:
         source: where it is from; a folder's name.
         category: what it is, a best guess.
         digest: SHA-256 of the description file.
-        shape: path of the first object of the list with the same surface; its own if it is the
-            first.
+        shape: path of the first object of the list with the same surface, perhaps its own.
         half: ``develop`` to make choices on, ``report`` to be looked at when all choices are made.
-        front_yaw: turn about z that brings its front to -Y [deg]; ``None`` where no side is its
-            front.
+        front_yaw: turn about z that brings its front to -Y [deg]; ``None`` without a front.
     """
 
     path: str

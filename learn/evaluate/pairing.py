@@ -16,11 +16,9 @@ class Pairing:
     """The assignment of bodies that maximises the sum of intersections over unions.
 
     Attributes:
-        shared: area that a true and a predicted body have in common [m2], shape [true_count,
-            predicted_count].
+        shared: area in both a true and a predicted body [m2], shape [true_count, predicted_count].
         true_area, predicted_area: of each body [m2].
-        pairs: rows of (true, predicted) body that share something, ascending, shape [pair_count,
-            2].
+        pairs: rows of (true, predicted) body that share something, ascending, shape [n, 2].
     """
 
     shared: FloatArray

@@ -26,8 +26,7 @@ STATES = (0.25, 0.5, 0.75, 1.0)
 #: Farthest that a face may be from where it truly is, as a share of the object's longest side.
 TOLERANCE = 0.05
 STRICT_TOLERANCE = 0.02
-#: And as a share of how far its part went, or else parts that move little could not be told from
-#: parts that do not.
+#: And as a share of how far its part went: what moves little is told from what does not.
 TRAVEL_TOLERANCE = 0.5
 #: A joint that turns so far [rad] comes back to where it was.
 WHOLE_TURN = 2.0 * np.pi - 0.01

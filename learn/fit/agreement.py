@@ -60,8 +60,7 @@ class LabelledMesh:
 def labelled_meshes(real: Path, root: Path) -> Iterator[LabelledMesh]:
     """Yield labelled real meshes that the detector did not see, as they are and made one piece.
 
-    After them come the objects of the evaluation's list in ``root``, of its half to tune on, made
-    one piece.
+    After them come the objects in ``root`` of the list's half to tune on, made one piece.
 
     Raises:
         ConfigError: an object of the list is not there.

@@ -40,8 +40,7 @@ RANGED = {
     "outer": Weighing(0.2, 0.1),
     "base": Weighing(0.0, 0.01),
 }
-#: Steps of range: a quarter of an octave apart, from 5.6 degrees to a turn, and from a tenth of the
-#: unit to twice it.
+#: Steps of range, a quarter of an octave apart: 5.6 degrees to a turn, 0.1 to 2 of the unit.
 TURN_STEPS = np.pi / 2.0 * 2.0 ** (np.arange(-16, 9) / 4.0)
 SLIDE_STEPS = 2.0 ** (np.arange(-14, 6) / 4.0)
 #: Of each part's candidates so many teach at most: half of them the best, the rest at random.

@@ -39,8 +39,7 @@ class FitSettings:
     Attributes:
         width: of its hidden layer; 0: a linear model.
         answers: how many scores it gives.
-        weights: of a :class:`Perceptron`, those that are fitted, in its order; the others are
-            nothing.
+        weights: of a :class:`Perceptron`, those that are fitted, in its order; others are 0.
         steps: of the optimisation at most.
         seed: of the first weights.
     """

@@ -34,8 +34,7 @@ SAME_AXIS = np.cos(np.radians(10.0))
 SAME_PLACE = 0.05
 PENALTY = 1.0
 STEPS = 1000
-#: Thresholds whose score is lower than the best by no more than this are as good: the one that
-#: moves less is taken.
+#: Thresholds that score less than the best by no more than this are as good: the highest is taken.
 NEARLY = 0.02
 LEAST = np.round(np.arange(0.1, 0.75, 0.05), 2)
 CHARACTERS = ("artist", "artist", "generated", "plain")

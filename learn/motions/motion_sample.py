@@ -27,8 +27,7 @@ from .truth import made_up_guess, truth_of
 MOST_PARTS = 5
 #: What turns so far has no way that is the wrong one [rad].
 ROUND = 6.0
-#: Errors that are no errors, and that halve what a candidate is worth by a factor e: of the axis
-#: [deg], of its place.
+#: Errors of axis [deg] and of place that count for none, and that divide a worth by e.
 ANGLE_FREE = 0.5
 ANGLE_WORTH = 4.0
 PLACE_FREE = 0.004

@@ -9,8 +9,7 @@ from asset_factory.factory.mesh import FloatArray, IntArray
 
 #: Share of the parts that are spoilt.
 SPOILT = 0.5
-#: Components lost each with this probability; those that come along have at most this share of the
-#: part's area.
+#: Components are lost with this probability, come along up to this share of the part's area.
 LOST = 0.3
 COMPANION = 0.4
 #: Radius of a bite as a share of the part's diagonal.

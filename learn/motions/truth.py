@@ -11,12 +11,10 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.geometry.posing import closed, face_parts, turned
 from asset_factory.factory.mesh import FloatArray
 
-#: How wrong made-up guesses are: of the axis [rad], of its place as a share of the object's longest
-#: side.
+#: How wrong made-up guesses are: of the axis [rad], of its place as a share of the longest side.
 ANGLE_SPREAD = np.radians(15.0)
 PLACE_SPREAD = 0.1
-#: How often their sense is wrong, and what they say of the true kind's probability (mean and
-#: spread).
+#: How often their sense is wrong, and their probability of the true kind (mean and spread).
 WRONG_WAY = 0.3
 KIND = (0.8, 0.25)
 

@@ -1,7 +1,6 @@
 """Objects as files: GLB, OBJ with MTL, sidecar and annotation. Same object, same bytes.
 
-The frame of a file is the rotation and uniform scale from the object frame [m] to its own frame and
-units, shape [4, 4].
+A file's frame is the rotation and uniform scale from the object frame [m] to its own, shape [4, 4].
 """
 
 from __future__ import annotations

@@ -17,8 +17,7 @@ from asset_factory.factory.geometry.posing import posed
 from ..surfaces.labelled import plain
 from .export import write_annotation, write_glb, write_obj, write_sidecar
 
-#: What the motors of any piece of furniture stay below, [N m] or [N], and [rad/s] or [m/s]; a URDF
-#: must say something.
+#: What any furniture's motors stay below, [N m] or [N], and [rad/s] or [m/s]; a URDF wants it.
 EFFORT = "100"
 VELOCITY = "10"
 LICENSE = "Apache-2.0"

@@ -32,15 +32,11 @@ class Batch:
         features: shape [batch, n, channels], float32, or ``None``.
         part_ids: part of each point, shape [batch, n], int64.
         counts: parts of each sample, shape [batch], int64.
-        parents: part each part hangs on, -1 for the root and for rows without a part, shape [batch,
-            parts], int64.
+        parents: part each part hangs on, -1 for none, shape [batch, parts], int64.
         motion: class of each part, shape [batch, parts], int64.
-        revolute_direction, prismatic_direction: zero where it does not turn, or slide, shape
-            [batch, parts, 3].
-        revolute_range, prismatic_range: limits from the pose shown [rad, longest side], shape
-            [batch, parts, 2].
-        closest_points: for each point of a turning part the nearest point on its axis, shape
-            [batch, n, 3].
+        revolute_direction, prismatic_direction: zero where it does not, [batch, parts, 3].
+        revolute_range, prismatic_range: from the pose [rad, longest side], [batch, parts, 2].
+        closest_points: on the part's axis, nearest to each point; zero without, [batch, n, 3].
     """
 
     points: Array

@@ -64,11 +64,9 @@ class Sample:
         part_ids: shape [point_count]; 0 is the root.
         parents: shape [part_count]; -1 for the root.
         motion: :class:`MotionClass` per part, shape [part_count].
-        revolute_direction, prismatic_direction: unit, zero for parts that do not turn, or slide,
-            shape [part_count, 3].
+        revolute_direction, prismatic_direction: unit, or zero, shape [part_count, 3].
         revolute_range, prismatic_range: from this pose [rad, longest side], shape [part_count, 2].
-        closest_points: nearest to each point on its part's axis, zero where that does not turn,
-            shape [point_count, 3].
+        closest_points: on the part's axis, nearest to each point; zero without, [point_count, 3].
     """
 
     points: Float32Array

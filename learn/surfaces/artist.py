@@ -75,8 +75,7 @@ PASSES: tuple[tuple[Pass, tuple[float, float, float]], ...] = (
 )
 #: How often an object is one of boards, of shells and of sheets.
 STYLES = (0.4, 0.5, 0.1)
-#: Standard deviation of the logarithm of each axis' factor, where an object is stretched; twice
-#: that is the most.
+#: Standard deviation of the logarithm of each axis' factor; twice that is the most.
 STRETCH = 0.2
 #: A wider range [rad] is that of a knob or a wheel.
 ALL_ROUND = 3.5
@@ -118,8 +117,7 @@ def _factors(articulation: Articulation, rng: np.random.Generator) -> FloatArray
 def stretched(articulation: Articulation, factors: npt.ArrayLike) -> Articulation:
     """Scale an object by factors above 0 along x, y and z; by their mean if a joint lies aslant.
 
-    A part turns as rigidly after stretching as before, but two of its sides may come to meet what
-    they missed.
+    A part turns as rigidly as before, but two of its sides may come to meet what they missed.
     """
     wanted = np.asarray(factors, dtype=np.float64)
     if wanted.shape != (3,) or not (wanted > 0.0).all():

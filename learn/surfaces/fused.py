@@ -16,12 +16,10 @@ from .labelled import BoolArray, Labelled
 
 #: Points on the original surface, from which the skin and its labels come; more for a finer skin.
 POINTS = 24000
-#: Cells along the longest side, lowest and highest; fewer where that would make more than about so
-#: many triangles.
+#: Cells along the longest side, lowest and highest; fewer if those made too many triangles.
 RESOLUTION = (40, 80)
 MOST_FACES = 14000
-#: The skin lies this many cells outside the surface, lowest and highest; twice that is the widest
-#: gap it closes.
+#: The skin lies this many cells outside the surface; twice that is the widest gap it closes.
 REACH = (0.35, 0.8)
 MARGIN = 4
 #: More than any part's number.
@@ -44,8 +42,7 @@ def fused_like(
         resolution: cells along the longest side; by default as many as keep it fast.
 
     Raises:
-        ValueError: what would have to be left out holds something that is seen, or is all that
-            moves.
+        ValueError: what would be left out holds something that is seen, or is all that moves.
     """
     rng = np.random.default_rng([seed, 0xF5])
     cells = _cells(articulation.mesh.extents, rng) if resolution is None else resolution
@@ -73,8 +70,7 @@ def fused_like(
 def _cells(extents: FloatArray, rng: np.random.Generator) -> int:
     """Return how many along the longest side."""
     x, y, z = extents / extents.max()
-    # A cell on the box becomes two triangles, and an object has more surface than its box where it
-    # has any shape.
+    # A cell on the box becomes two triangles, and objects of any shape have more than their box.
     most = np.sqrt(MOST_FACES / (2.5 * 2.0 * (x * y + y * z + z * x)))
     return int(min(rng.integers(RESOLUTION[0], RESOLUTION[1] + 1), max(most, RESOLUTION[0] / 2)))
 

@@ -40,8 +40,7 @@ def skin_like(
     longest side, drawn by default; ``engraved`` is how likely the seams are engraved.
 
     Raises:
-        ValueError: what would have to be left out holds something that is seen, or is all that
-            moves.
+        ValueError: what would be left out holds something that is seen, or is all that moves.
     """
     rng = np.random.default_rng([seed, 0x5C1])
     original = Labelled.of(articulation)
@@ -52,17 +51,16 @@ def skin_like(
     return without_parts(made, hidden) if hidden else made
 
 
-def coloured_skin(mesh: Mesh, seed: int, cells: int | None = None) -> Mesh:
+def coloured_skin(mesh: Mesh, seed: int) -> Mesh:
     """Return one closed skin around a mesh, in its bounding box and under its colours.
 
-    Seams between the mesh's own pieces are engraved as :func:`skin_like` engraves those of parts;
-    ``cells`` are along the longest side, drawn by default.
+    Seams between the mesh's own pieces are engraved as :func:`skin_like` engraves those of parts.
     """
     rng = np.random.default_rng([seed, 0xC01])
     piece = connected_components(mesh) % NOBODY
     label = np.stack([piece, piece, mesh.face_material], axis=1)
     original = Labelled(mesh.vertices, mesh.faces, label)
-    vertices, faces, below, weights = _skinned(original, rng, cells, ENGRAVED)
+    vertices, faces, below, weights = _skinned(original, rng, None, ENGRAVED)
     low = vertices.min(axis=0)
     share = (vertices - low) / (vertices.max(axis=0) - low)
     placed = mesh.vertices.min(axis=0) + share * mesh.extents

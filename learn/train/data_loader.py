@@ -92,8 +92,7 @@ class _Worker:
         self._process = context.Process(target=_work, args=arguments, daemon=True)
         with one_thread():
             self._process.start()
-        # With the worker's end open in no other process, its death ends what is read here, even
-        # within a batch.
+        # With the worker's end open nowhere else, its death ends what is read, even within a batch.
         writing.close()
         self._drawn: Queue[tuple[int, Batch | str] | None] = Queue(self._config.run.ahead)
         self._reader = Thread(target=_read, args=(self._pipe, self._drawn), daemon=True)
@@ -141,8 +140,7 @@ def _work(
     config: TrainConfig, pools: tuple[Pool, ...], step: int, numbers: Sequence[int], pipe: Any
 ) -> None:
     """Draw the samples of one step after another until the trainer is gone."""
-    # Interrupts go to a whole group of processes; the trainer finishes its step and then stops this
-    # one.
+    # Interrupts go to all processes; the trainer finishes its step and then stops this one.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     dataset = Dataset(config, pools)

@@ -1,7 +1,6 @@
 """Which sample is the n-th of a step: a function of seed, step and number, nothing else.
 
-So nothing about the sources has to be stored to go on with a run, and the number of workers changes
-no sample.
+So nothing about sources is stored to go on with a run, and the number of workers changes nothing.
 """
 
 from __future__ import annotations
@@ -179,8 +178,7 @@ class Dataset:
         """Return the seed of the procedural object behind a sample, but for the attempt.
 
         Each lane has its own stream of objects, of which ``reuse`` samples are drawn from each, in
-        an order in which objects from a window of steps are mixed; a worker that takes a whole lane
-        makes each object once.
+        an order in which objects of a window of steps are mixed; a whole lane makes each once.
         """
         config = self._config
         lane = number % config.lanes

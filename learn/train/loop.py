@@ -108,12 +108,10 @@ class _Run:
             fill(self._trainer.network, weights, start)
             self._trainer.descent.mean.load(weights)
             if group.first:
-                # Resumed before its first checkpoint, a run would otherwise begin with random
-                # weights.
+                # Resumed before its first checkpoint, a run would begin with random weights.
                 write_state(self._output / LAST, self._state(0))
         if group.first and not (self._output / RECIPE).is_file():
-            # Not before data and weights are found: what could not begin leaves no run to go on
-            # with.
+            # After data and weights are found: what cannot begin leaves no run to go on with.
             write_whole(self._output / RECIPE, self._recipe.encode())
         first = 0 if state is None else state.step
         steps = config.schedule.steps
@@ -196,8 +194,7 @@ class _Run:
         half = self._config.half
         weights = self._trainer.descent.mean.weights
         kept = {name: each.half() if half else each.float() for name, each in weights.items()}
-        # The checkpoint last: cut off in between, the run goes on from the one before and writes
-        # both again.
+        # The checkpoint last: cut off in between, the run goes on from the one before.
         write_safetensors(self._output / MODEL, kept, self._about(step))
         write_state(self._output / LAST, self._state(step))
 
@@ -312,8 +309,7 @@ def _asked_to_stop() -> Iterator[list[int]]:
 def _keep_freed_memory() -> None:
     """Have the C library keep the arrays of a step for the next one.
 
-    By default glibc gives large ones back at once, and the system clears every page anew: a tenth
-    of a step on a CPU.
+    By default glibc gives large ones back, and the system clears every page: a tenth of a step.
     """
     try:
         adjust = ctypes.CDLL(None).mallopt

@@ -59,8 +59,7 @@ class LossTargets:
         parts: shape [batch, parts].
         pairs: pairs of those parts, shape [batch, parts, parts].
         edges: row is parent of column, shape [batch, parts, parts].
-        revolute_direction, prismatic_direction, revolute_range, prismatic_range: shape [batch,
-            parts].
+        revolute_direction, prismatic_direction and both ranges: shape [batch, parts].
         closest_points: shape [batch, n].
     """
 
@@ -145,8 +144,7 @@ def forward(network: Any, batch: Batch, settings: LossSettings) -> tuple[Answers
     """Run the network on a batch, and match its queries with the true parts.
 
     Returns:
-        Its answers, and the mask logits of some of the points after every block but the last, where
-        those teach.
+        Its answers, and mask logits of some points after every block but the last, if those teach.
     """
     hidden = network.embed(batch.points, batch.normals, batch.features)
     queries = network.first_queries().expand(len(batch), -1, -1)

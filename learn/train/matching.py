@@ -33,8 +33,7 @@ def match(
     """
     # In full precision: the sums over points are long.
     with torch.no_grad(), torch.autocast(mask_logits.device.type, enabled=False):
-        # An answer that overflowed is matched anyhow: its loss is no number, which whoever takes
-        # the step sees.
+        # An answer that overflowed is matched anyhow: its loss, no number, is seen by the step.
         costs = np.nan_to_num(assignment_costs(mask_logits.detach(), part_ids).cpu().numpy())
     queries = [
         _permutation(cost[:count], root_first)

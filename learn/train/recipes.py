@@ -17,8 +17,7 @@ from asset_factory.factory.presets import overlay
 from .settings import FEATURES, KINDS, PRECISIONS, DataSource, TrainConfig
 
 _ANY = math.inf
-#: Least and most of each setting, both allowed; ``<section>.<name>``, with no section for the run's
-#: own.
+#: Least and most of each setting, both allowed: ``<section>.<name>``, or the run's own.
 _BOUNDS: dict[str, tuple[float, float]] = {
     "seed": (0, 2**63 - 1),
     **dict.fromkeys(("batch", "lanes"), (1, _ANY)),

@@ -70,8 +70,7 @@ class Trainer:
 
         Returns:
             ``COLUMNS`` of this process's share, the sum of which over the processes is the step's,
-            but for the last two, which only the first process fills; and whether any process was
-            asked to stop.
+            but for the last two, which only the first fills; and whether any was asked to stop.
         """
         config = self._config
         group = self._group

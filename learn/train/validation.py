@@ -26,8 +26,7 @@ class Scores:
     Attributes:
         loss: weighted sum of the losses.
         point_accuracy: share of the points whose part is right.
-        part_iou: mean over true parts of the overlap with the predicted part that the best
-            assignment gives them.
+        part_iou: mean over true parts of the overlap with what the best assignment gives.
         class_accuracy: share of the parts whose motion class is right.
         revolute_angle, prismatic_angle: median angle between directions, either sign [deg].
     """

@@ -3,8 +3,7 @@
 Past the first state, boxes of parts that move are those at rest, moved as solids: their overlap is
 estimated from random points, the box around both is taken at rest, a lower limit other than 0 is
 forgotten, a part that turns and slides only turns, and on the way from the true parts to the
-predicted ones the two lists of motions are exchanged. A hinge on the wrong side scores full marks
-by this.
+predicted ones the two lists of motions are exchanged. A hinge on the wrong side scores in full.
 """
 
 from __future__ import annotations

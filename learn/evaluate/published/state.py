@@ -23,8 +23,7 @@ def compared(
 
     Returns:
         ``giou``, ``miou`` (of boxes along the axes), ``pc`` (Chamfer distance of parts), each also
-        with ``_matched``, which leaves parts without partner out; ``oc`` (Chamfer distance of the
-        whole).
+        with ``_matched``, which leaves parts without partner out; ``oc`` (of the whole).
     """
     theirs = true.parts(at[0])
     ours = predicted.parts(at[1])

@@ -102,8 +102,7 @@ def pliers(a: Assembly) -> None:
 def stapler(a: Assembly) -> None:
     """Build a base with its anvil, a magazine and a cover that turn about a pin at the back.
 
-    Cover and magazine both hang on the base, each on its own: what opens the magazine lifts the
-    cover too.
+    Cover and magazine both hang on the base: what opens the magazine lifts the cover too.
     """
     long, half, foot, rise = a.draws((0.09, 0.2), (0.014, 0.022), (0.005, 0.011), (0.014, 0.024))
     mag, gap, hump, steep = a.draws((0.009, 0.013), (0.001, 0.006), (0.012, 0.03), (0.3, 0.9))

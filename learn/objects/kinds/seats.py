@@ -135,8 +135,7 @@ def _egg(wide: float, front: float, back: float, inset: float = 0.0) -> FloatArr
 def toilet(a: Assembly) -> None:
     """Build a bowl with a seat and a lid; most have a cistern with a lever or buttons.
 
-    Seat and lid both turn about the pins behind the bowl, each on its own: who lifts the seat lifts
-    the lid too.
+    Both turn about the pins behind the bowl, each on its own: who lifts the seat lifts the lid.
     """
     rim, wide, front, back = a.draws((0.36, 0.44), (0.17, 0.2), (0.26, 0.36), (0.15, 0.2))
     room, thick = a.draws((0.06, 0.13), (0.012, 0.025))

@@ -67,8 +67,7 @@ class PartDraft:
         lower, upper: closed and fully open [rad] or [m]; not used where it turns without end.
         slide: how far the part also slides along its axis [m]; above 0, it hangs on a carrier
             without faces that turns, and slides in it.
-        pose: from the object with everything at value 0 to how it is left, shape [4, 4]; ``None``
-            if that is the same.
+        pose: from the object with everything at value 0 to how it is left, [4, 4]; or ``None``.
         carry: the same from the face that the part is described on.
         forms: what it consists of, as it is left, each with its look.
     """
@@ -107,8 +106,7 @@ class Assembly(Chance):
     Attributes:
         root: the part that does not move, ``body``.
         parts: the others, parents before children.
-        hairline: every form ends this far short of its size [m], so that forms that meet share
-            no corner.
+        hairline: every form ends this far short [m], so that forms that meet share no corner.
     """
 
     def __init__(self, rng: np.random.Generator, hairline: float = 0.0) -> None:

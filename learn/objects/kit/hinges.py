@@ -40,8 +40,7 @@ def swing(
     """Return a place for the axis of a front ``width`` wide [m].
 
     A corner at distance ``a`` across from an axis set back by ``s`` reaches ``sqrt(a^2 + b^2)``,
-    ``b`` being the thickness behind the axis; in front of the axis the hinge edge itself swings out
-    by ``s``.
+    ``b`` being the thickness behind the axis; in front of it the hinge edge swings out by ``s``.
 
     Args:
         chance: draws the limit.

@@ -16,8 +16,7 @@ import numpy as np
 from .chance import Chance
 from .spans import Span
 
-#: What fills a cell (a name), or how it is cut: ``h`` left to right, ``v`` bottom to top, with
-#: shares.
+#: What fills a cell (a name), or its cut, ``h`` left to right or ``v`` bottom up, with shares.
 Node = str | tuple[str, tuple[tuple[float, "Node"], ...]]
 #: Half the space left where two drawers have no board between them [m].
 BARE = 0.001

@@ -59,8 +59,7 @@ def laid_over(
 def png(pixels: npt.NDArray[np.uint8]) -> bytes:
     """Return an RGB image, top row first, shape [height, width, 3], as a PNG file.
 
-    The stream is stored, not compressed: compressors differ between machines, and the bytes must
-    not.
+    The stream is stored: compressors differ between machines, and the bytes must not.
     """
     height, width = pixels.shape[:2]
     raw = b"".join(b"\0" + row.tobytes() for row in pixels)

@@ -13,8 +13,7 @@ from .chance import Chance
 from .shapes import Form, box, cylinder, lathe, pipe, prism
 from .spans import Profile, Span, X, Y, about, ends, span, within
 
-#: Kinds of pull and how often each is drawn; ``none`` is a front that is pushed or pulled by its
-#: edge.
+#: Kinds of pull and how often each is drawn; ``none``: the front is moved by its edge.
 KINDS: dict[str, float] = {
     "bar": 0.2, "rail": 0.12, "bow": 0.16, "knob": 0.16, "ball": 0.07, "cup": 0.06,
     "lip": 0.05, "recess": 0.06, "strap": 0.04, "none": 0.08,

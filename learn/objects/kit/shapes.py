@@ -70,8 +70,7 @@ def loft(rings: npt.ArrayLike, looped: bool = False) -> Form:
     """Build a surface over rings of equally many corners, closed by a fan at either end.
 
     Rings have shape [ring_count, corner_count, 3] [m], the first and the last one flat and convex;
-    ``looped``, the last is joined to the first instead. Faces look outwards, whichever way round
-    the rings are given.
+    ``looped``, the last is joined to the first. Faces look outwards, whichever way rings go.
     """
     corners = np.asarray(rings, dtype=np.float64)
     vertices = corners.reshape(-1, 3)
@@ -192,8 +191,7 @@ def pipe(
         radius: one, or one per point of the path.
         sides: corners of each ring; 4 makes a square bar.
         looped: the end of the path is joined to its start.
-        up: the section's second direction leans towards it; by default, across the plane in which
-            the path bends.
+        up: the section's second direction leans towards it; by default, across the path's plane.
         flat: how high the section is in that direction, as a share of how wide.
     """
     points = np.asarray(path, dtype=np.float64)

@@ -34,8 +34,7 @@ class Style:
         reveal: how much of the case's edge an overlaid front leaves bare [m].
         inset: fronts lie in their openings instead of covering the case's edges.
         recess: how far inset fronts lie behind the case's edges [m].
-        hollow: the case has an inside; otherwise it is as deep as its fronts, as generated meshes
-            are.
+        hollow: the case has an inside; else it is as deep as its fronts, as generated ones.
         bare: stacked drawers have no boards between them.
         panel: style of the doors.
         upper: style of the doors in the upper half of the case.
