@@ -51,16 +51,13 @@ def truth_of(articulation: Articulation, yaw: float) -> Truth:
 
 def _way_down(articulation: Articulation, part: int) -> tuple[int, list[Joint]]:
     """Return the nearest part with faces that a part hangs on, and movable joints between."""
-    above = {joint.child: joint for joint in articulation.joints}
-    at = part
     found = []
-    while at in above:
-        joint = above[at]
+    while (joint := articulation.parent_joint(part)) is not None:
         found += [joint] if joint.movable else []
-        at = joint.parent
-        if at == 0 or len(articulation.parts[at].faces):
+        part = joint.parent
+        if len(articulation.parts[part].faces):
             break
-    return at, found
+    return part, found
 
 
 def made_up_guess(joint: Joint, middle: FloatArray, size: float, rng: np.random.Generator) -> Guess:
