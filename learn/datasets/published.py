@@ -57,7 +57,8 @@ def read_published(item: SourceItem, settings: SourceSettings) -> Articulation |
     count = int(max(labels.max(), bones["bone_structure"].max(initial=0))) + 1
     names = tuple(f"part_{bone}" for bone in range(count))
     annotation = Annotation(labels, names, _joints(bones, axes, ranges), "pred.npz")
-    kept = _without_repeats(visual.mesh.faces)
+    # The release writes visuals twice: of all faces on the same vertices the first is kept.
+    kept = np.sort(distinct_rows(np.sort(visual.mesh.faces, axis=1))[0])
     articulator = AnnotatedArticulator(annotation, np.eye(4), visual.source_faces[kept])
     return articulator.articulate(visual.mesh.submesh(kept))
 
@@ -104,9 +105,3 @@ def _joints(bones: Arrays, axes: Arrays, ranges: Arrays) -> tuple[AnnotatedJoint
         )
         for parent, child in bones["bone_structure"].reshape(-1, 2).astype(int).tolist()
     )
-
-
-def _without_repeats(faces: IntArray) -> IntArray:
-    """Return the first of all faces on the same vertices: the release writes visuals twice."""
-    first, _ = distinct_rows(np.sort(faces, axis=1))
-    return np.sort(first)

@@ -164,7 +164,9 @@ def make_case(request: Request, store: Store | None = None) -> Articulation:
     """
     whole = closed(_original(request, store))
     if request.pose == "open":
-        whole = _opened(whole, _rng(request, "pose"))
+        rng = _rng(request, "pose")
+        values = {j.name: j.lower + j.range * float(rng.uniform()) for j in whole.movable_joints}
+        whole = posed(whole, values)
     if request.yaw == "random":
         whole = turned(whole, float(_rng(request, "yaw").uniform(0.0, FULL_TURN)))
     elif request.front_yaw:
@@ -195,11 +197,6 @@ def _fused(whole: Articulation, seed: int) -> Articulation:
         return skin_like(whole, seed, cells=CELLS, engraved=1.0)
     except ValueError as error:
         raise InputRejected("nothing_seen", f"cannot be made one skin: {error}") from error
-
-
-def _opened(whole: Articulation, rng: np.random.Generator) -> Articulation:
-    joints = whole.movable_joints
-    return posed(whole, {j.name: j.lower + j.range * float(rng.uniform()) for j in joints})
 
 
 def _rng(request: Request, purpose: str) -> np.random.Generator:

@@ -143,34 +143,24 @@ def require_parts(name: str, count: int, most: int = MOST_PARTS) -> None:
 def _motions(chains: dict[int, tuple[Joint, ...]], parent: dict[int, int]) -> dict[str, Any]:
     """Return what a sample says of its parts' motions, the root first; movers as in ``chains``."""
     count = 1 + len(chains)
-    parents = np.full(count, -1)
-    motion = np.zeros(count, dtype=np.int64)
-    axis, origin, slide_direction = (np.zeros((count, 3)) for _ in range(3))
-    turn = np.zeros((count, 2))
-    slide = np.zeros((count, 2))
-    endless = np.zeros(count, dtype=np.bool_)
+    widths = {"axis": 3, "origin": 3, "turn": 2, "slide_direction": 3, "slide": 2}
+    told: dict[str, Any] = {name: np.zeros((count, width)) for name, width in widths.items()}
+    told |= {"parents": np.full(count, -1), "motion": np.zeros(count, dtype=np.int64)}
+    told["endless"] = np.zeros(count, dtype=np.bool_)
     for row, (part, chain) in enumerate(chains.items(), start=1):
-        parents[row] = parent[part]
+        told["parents"][row] = parent[part]
+        told["motion"][row] = sum(1 if joint.turns else 2 for joint in chain)
         for joint in chain:
+            limits = (joint.lower, joint.upper)
             if joint.turns:
-                axis[row] = joint.axis
-                origin[row] = joint.origin
-                turn[row] = (joint.lower, joint.upper)
-                endless[row] = joint.kind == "continuous"
+                told["axis"][row] = joint.axis
+                told["origin"][row] = joint.origin
+                told["turn"][row] = limits
+                told["endless"][row] = joint.kind == "continuous"
             else:
-                slide_direction[row] = joint.axis
-                slide[row] = (joint.lower, joint.upper)
-        motion[row] = sum(1 if joint.turns else 2 for joint in chain)
-    return {
-        "parents": parents,
-        "motion": motion,
-        "axis": axis,
-        "origin": origin,
-        "turn": turn,
-        "endless": endless,
-        "slide_direction": slide_direction,
-        "slide": slide,
-    }
+                told["slide_direction"][row] = joint.axis
+                told["slide"][row] = limits
+    return told
 
 
 def parents_first(parents: Sequence[int]) -> list[int]:

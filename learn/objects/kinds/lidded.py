@@ -128,19 +128,12 @@ def safe(a: Assembly) -> None:
     """Build a strong box: on its door a dial, a wheel, a lever or keys, which move with it."""
     sizes = a.draws((0.28, 0.75), (0.25, 0.65), (0.22, 1.2))
     style = any_style(a, {"slab": 1.0}, 0.6, 0.75)
-    style = replace(
-        style,
-        board=a.draw(0.02, 0.07),
-        front=a.draw(0.02, 0.06),
-        gap=a.draw(0.001, 0.004),
-        behind=0.001,
-        reveal=0.0,
-        recess=0.0,
-        taste=0.0 if style.inset else 0.5,
-        shelves=1 if sizes[2] > 0.4 else 0,
-        face=style.body,
-        pull=replace(style.pull, kind="none"),
-    )
+    board, front, gap = a.draws((0.02, 0.07), (0.02, 0.06), (0.001, 0.004))
+    taste = 0.0 if style.inset else 0.5
+    pull = replace(style.pull, kind="none")
+    style = replace(style, board=board, front=front, gap=gap, taste=taste, pull=pull, behind=0.001)
+    shelves = 1 if sizes[2] > 0.4 else 0
+    style = replace(style, reveal=0.0, recess=0.0, shelves=shelves, face=style.body)
     metal = any_metal(a)
     case = furniture(a, style, sizes, "door:door", "feet", a.pick(0.0, 0.02), BLACK)
     door = case.doors[0]
