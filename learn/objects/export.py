@@ -96,35 +96,30 @@ def write_annotation(articulation: Articulation, frame: FloatArray, path: Path) 
         label[part.faces] = number[index]
     hung = [joint for joint in articulation.joints if joint.child not in carried]
     edges = [(number[joint.parent], number[joint.child]) for joint in hung]
-    turns = np.zeros(count, dtype=bool)
-    slides = np.zeros(count, dtype=bool)
-    plucker = np.zeros((count, 6))
-    axis = np.zeros((count, 3))
-    turn_range = np.zeros((count, 2))
-    slide_range = np.zeros((count, 2))
-    for joint in articulation.movable_joints:
-        child = number[joint.child]
-        direction = turn @ joint.axis / scale
-        if joint.kind is JointKind.PRISMATIC:
-            slides[child] = True
-            axis[child] = direction
-            slide_range[child] = np.array([joint.lower, joint.upper]) * scale
-        else:
-            point = turn @ joint.origin + frame[:3, 3]
-            turns[child] = True
-            plucker[child] = np.concatenate([direction, np.cross(direction, point)])
-            turn_range[child] = joint.lower, joint.upper
     arrays: dict[str, npt.NDArray[Any]] = {
         # Files hold the faces material by material.
         "face_part_ids": label[np.argsort(articulation.mesh.face_material, kind="stable")],
         "motion_hierarchy": np.array(edges, dtype=np.int64).reshape(-1, 2),
-        "is_part_revolute": turns,
-        "is_part_prismatic": slides,
-        "revolute_plucker": np.round(plucker, 9) + 0.0,
-        "revolute_range": np.round(turn_range, 9).astype(np.float32),
-        "prismatic_axis": (np.round(axis, 9) + 0.0).astype(np.float32),
-        "prismatic_range": np.round(slide_range, 9).astype(np.float32),
+        "is_part_revolute": np.zeros(count, dtype=bool),
+        "is_part_prismatic": np.zeros(count, dtype=bool),
+        "revolute_plucker": np.zeros((count, 6)),
+        "revolute_range": np.zeros((count, 2), dtype=np.float32),
+        "prismatic_axis": np.zeros((count, 3), dtype=np.float32),
+        "prismatic_range": np.zeros((count, 2), dtype=np.float32),
     }
+    for joint in articulation.movable_joints:
+        child = number[joint.child]
+        limits = np.array([joint.lower, joint.upper])
+        direction = turn @ joint.axis / scale
+        kind = "prismatic" if joint.kind is JointKind.PRISMATIC else "revolute"
+        if kind == "prismatic":
+            limits = limits * scale
+            arrays["prismatic_axis"][child] = np.round(direction, 9) + 0.0
+        else:
+            moment = np.cross(direction, turn @ joint.origin + frame[:3, 3])
+            arrays["revolute_plucker"][child] = np.round([*direction, *moment], 9) + 0.0
+        arrays[f"is_part_{kind}"][child] = True
+        arrays[f"{kind}_range"][child] = np.round(limits, 9)
     with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as archive:
         for name, array in arrays.items():
             buffer = BytesIO()
