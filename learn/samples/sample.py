@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from asset_factory.factory.articulation import rotation_about
-from asset_factory.factory.mesh import Float32Array, FloatArray, IntArray
+from asset_factory.factory.mesh import FloatArray, IntArray
 from asset_factory.factory.models.particulate.components import component_features
 from asset_factory.factory.models.particulate.prediction import MotionClass
 
 from .sampled_object import SampledObject, parents_first
 
 QUARTER = np.pi / 2.0
+#: An array; in a batch on its way through the network a tensor.
+Array = Any
 
 
 @dataclass(frozen=True)
@@ -59,7 +62,7 @@ class Sample:
     """What the network sees and should answer, in its frame: centred, longest side 1, z up.
 
     Attributes:
-        points, normals: shape [point_count, 3].
+        points, normals: shape [point_count, 3], float32; numbers of parts are int64.
         features: shape [point_count, channels]; ``None`` without.
         part_ids: shape [point_count]; 0 is the root.
         parents: shape [part_count]; -1 for the root.
@@ -69,17 +72,17 @@ class Sample:
         closest_points: on the part's axis, nearest to each point; zero without, [point_count, 3].
     """
 
-    points: Float32Array
-    normals: Float32Array
-    features: Float32Array | None = field(repr=False)
-    part_ids: IntArray
-    parents: IntArray
-    motion: IntArray
-    revolute_direction: Float32Array
-    revolute_range: Float32Array
-    prismatic_direction: Float32Array
-    prismatic_range: Float32Array
-    closest_points: Float32Array
+    points: Array
+    normals: Array
+    features: Array | None
+    part_ids: Array
+    parents: Array
+    motion: Array
+    revolute_direction: Array
+    revolute_range: Array
+    prismatic_direction: Array
+    prismatic_range: Array
+    closest_points: Array
 
 
 @dataclass(frozen=True)
