@@ -95,19 +95,11 @@ def targets_of(batch: Batch, settings: LossSettings) -> LossTargets:
 
 
 @dataclass(frozen=True)
-class Counts:
-    """How many of each a step has, all its parts together; last the fields of LossTargets."""
+class Counts(LossTargets):
+    """How many of each a step has, all its parts together, and how many points."""
 
     points: float
     auxiliary: float
-    parts: float
-    pairs: float
-    edges: float
-    revolute_direction: float
-    prismatic_direction: float
-    revolute_range: float
-    prismatic_range: float
-    closest_points: float
 
     @property
     def edge_weight(self) -> float:
@@ -120,7 +112,7 @@ def count(batch: Batch, targets: LossTargets, settings: LossSettings) -> list[fl
     points = batch.part_ids.shape[1]
     auxiliary = math.ceil(points / settings.auxiliary_points)
     rows = [float(getattr(targets, each.name).sum()) for each in fields(LossTargets)]
-    return [float(len(batch) * points), float(len(batch) * auxiliary), *rows]
+    return [*rows, float(len(batch) * points), float(len(batch) * auxiliary)]
 
 
 @dataclass(frozen=True)
