@@ -57,17 +57,11 @@ def read_pack(path: Path) -> Iterator[Packed]:
             depth = np.cumsum(steps.reshape(shape), axis=2, dtype=np.int32)
             part = np.frombuffer(lzma.decompress(pack.read(f"{folder}/part")), np.uint8)
             table = np.frombuffer(pack.read(f"{folder}/table"), np.float32).reshape(-1, 10)
-            held_out = note.pop("held_out")
-            one_piece = note.pop("one_piece", False)
-            yield Packed(
-                WholeTruth(**note),
-                held_out,
-                one_piece,
-                color.reshape(*shape, 3),
-                np.where(depth < 0, NOTHING, depth * COARSE).astype(np.int16),
-                part.reshape(shape),
-                table,
-            )
+            depths = np.where(depth < 0, NOTHING, depth * COARSE).astype(np.int16)
+            flags = note.pop("held_out"), note.pop("one_piece", False)
+            part = part.reshape(shape)
+            color = color.reshape(*shape, 3)
+            yield Packed(WholeTruth(**note), *flags, color, depths, part, table)
 
 
 def read_textures(path: Path) -> npt.NDArray[np.uint8]:
