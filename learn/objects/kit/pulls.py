@@ -26,10 +26,7 @@ class Pull:
 
     Attributes:
         kind: one of :data:`KINDS`.
-        length: along it [m]; of a knob, nothing.
-        reach: how far it stands out [m].
-        thickness: of its bar [m].
-        look: of all of it.
+        length, reach, thickness: along it, off its face, and of its bar [m].
         root: how far its feet reach into its panel, so that they meet it under any relief [m].
     """
 
