@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -107,8 +108,7 @@ def run(command: Evaluate) -> int:
     settings = _settings(command, len(requests))
     trials = [
         Trial(request, method, repeat, command.convention, command.points, command.cache)
-        for method in methods
-        for request in requests
+        for method, request in product(methods, requests)
         for repeat in range(command.repeats if method.is_random else 1)
     ]
     limits = Limits(wall_s=command.timeout, memory_bytes=BuildConfig().asset_memory_bytes)

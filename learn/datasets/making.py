@@ -59,14 +59,8 @@ def sampled_item(kind: str, item: SourceItem, settings: SourceSettings, seed: in
 def turned_sampled(sampled: SampledObject, yaw: float) -> SampledObject:
     """Turn an object and its joints about the vertical through the origin by ``yaw`` [rad]."""
     turn = rotation_about(UP, yaw).T
-    return replace(
-        sampled,
-        points=sampled.points @ turn,
-        normals=sampled.normals @ turn,
-        axis=sampled.axis @ turn,
-        origin=sampled.origin @ turn,
-        slide_direction=sampled.slide_direction @ turn,
-    )
+    vectors = ("points", "normals", "axis", "origin", "slide_direction")
+    return replace(sampled, **{name: getattr(sampled, name) @ turn for name in vectors})
 
 
 def _drawn(
@@ -76,11 +70,6 @@ def _drawn(
         from ..surfaces import skin_like
 
         articulation = skin_like(articulation, seed % 2**32)
-    return sampled_from(
-        articulation,
-        name=item.name,
-        category=item.category,
-        source=kind,
-        points=settings.points,
-        rng=np.random.default_rng([settings.seed, seed]),
-    )
+    about = {"name": item.name, "category": item.category, "source": kind}
+    rng = np.random.default_rng([settings.seed, seed])
+    return sampled_from(articulation, **about, points=settings.points, rng=rng)

@@ -50,9 +50,7 @@ def sampled_from_points(item: SourceItem, settings: SourceSettings) -> SampledOb
         points=points,
         normals=stored["normals"],
         part_ids=number[bones],
-        sharp=stored["point_from_sharp"]
-        if "point_from_sharp" in stored
-        else np.zeros(len(points), dtype=np.bool_),
+        sharp=stored.get("point_from_sharp", np.zeros(len(points), dtype=np.bool_)),
         components=np.zeros(len(points), dtype=np.int64),
         parents=np.array([-1, *(number[parents[bone]] for bone in kept[1:])]),
         motion=turns[rows] * 1 + slides[rows] * 2,

@@ -67,13 +67,10 @@ def _trust(asked: Asked) -> Fit:
 
     trusting_none = Trust(linear(np.zeros(len(SIGNS))), 0.5)
     articulator = load_auto(ParticulateConfig(), AutoConfig(), trusting_none)
-    objects = chain(
-        procedural(range(asked.seed, asked.seed + asked.seeds)),
-        *(
-            described_turned(folder, read_split(split))
-            for folder, split in zip(asked.data, asked.split, strict=True)
-        ),
-    )
+    made = procedural(range(asked.seed, asked.seed + asked.seeds))
+    folders = zip(asked.data, asked.split, strict=True)
+    others = (described_turned(folder, read_split(split)) for folder, split in folders)
+    objects = chain(made, *others)
     trials = list(tried(articulator, objects))
     stored = fit_trust(articulator, trials, asked.least)
     right = np.concatenate([trial.right for trial in trials])

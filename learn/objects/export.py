@@ -25,21 +25,12 @@ def write_glb(mesh: Mesh, frame: FloatArray, path: Path) -> None:
     """Write one node, a primitive per material, images embedded, colours linear."""
     buffer = Buffer()
     placed = mesh.transformed(frame)
-    primitives = [
-        {
-            **primitive(buffer, placed, np.flatnonzero(mesh.face_material == index)),
-            "material": index,
-        }
-        for index in range(len(mesh.materials))
-    ]
+    owned = [np.flatnonzero(mesh.face_material == index) for index in range(len(mesh.materials))]
+    meshes = [{**primitive(buffer, placed, own), "material": i} for i, own in enumerate(owned)]
     images = tuple(None if m.texture is None else m.texture.data for m in mesh.materials)
-    document: dict[str, Any] = {
-        "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": primitives}],
-        **gltf_materials(buffer, mesh.materials, images),
-    }
+    document: dict[str, Any] = {"scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}]}
+    document |= {"meshes": [{"primitives": meshes}]}
+    document |= gltf_materials(buffer, mesh.materials, images)
     if "textures" in document:
         # Pixels stay pixels, and repeat.
         document["samplers"] = [{"magFilter": 9728, "wrapS": 10497, "wrapT": 10497}]

@@ -247,8 +247,6 @@ def without_parts(articulation: Articulation, gone: set[int]) -> Articulation:
     if lost or 0 in leaving or not any(joint.movable for joint in joints):
         names = [articulation.parts[index].name for index in sorted(gone)]
         raise ValueError(f"want to drop {names}, but the rest needs them")
-    return replace(
-        articulation,
-        parts=tuple(articulation.parts[index] for index in kept),
-        joints=tuple(replace(j, parent=number[j.parent], child=number[j.child]) for j in joints),
-    )
+    parts = tuple(articulation.parts[index] for index in kept)
+    hung = tuple(replace(j, parent=number[j.parent], child=number[j.child]) for j in joints)
+    return replace(articulation, parts=parts, joints=hung)

@@ -63,11 +63,9 @@ def read_state(path: Path) -> State:
     except ConfigError:
         raise
     except Exception as error:  # torch names many reasons, with as many types
-        raise ConfigError(
-            f"{path}: not a checkpoint of a training, or damaged: {error}; "
-            f"another run can begin --from {BEST} or from "
-            "the weights beside it"
-        ) from error
+        said = f"not a checkpoint of a training, or damaged: {error}"
+        other = f"another run can begin --from {BEST} or from the weights beside it"
+        raise ConfigError(f"{path}: {said}; {other}") from error
 
 
 def read_weights(path: Path) -> dict[str, Tensor]:

@@ -107,9 +107,8 @@ class Descent:
         else:
             self._missed += 1
         if self._missed >= _MOST_MISSED:
-            raise ConfigError(
-                f"step {step}: the gradients of {_MOST_MISSED} steps in a row are not finite, "
-                "so nothing is learnt; "
-                "the checkpoint is from before; want a lower schedule.rate, or look at the data"
-            )
+            said = f"the gradients of {_MOST_MISSED} steps in a row are not finite"
+            wanted = "want a lower schedule.rate, or look at the data"
+            kept = "so nothing is learnt; the checkpoint is from before"
+            raise ConfigError(f"step {step}: {said}, {kept}; {wanted}")
         return norm.detach()

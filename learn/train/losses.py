@@ -21,18 +21,8 @@ from .matching import arranged, arranged_columns, match
 from .settings import LossSettings
 
 Tensor = Any
-NAMES = (
-    "mask",
-    "dice",
-    "hierarchy",
-    "motion",
-    "revolute_direction",
-    "prismatic_direction",
-    "revolute_range",
-    "prismatic_range",
-    "closest_points",
-    "auxiliary",
-)
+NAMES = tuple(each.name for each in fields(LossSettings) if each.type == "float")
+"""Losses, by the settings that are their weights."""
 _DICE_EPS = 1e-6
 _SYMMETRIC = 0.02
 """A range whose middle is this near to 0, as a share of its width, reads the same both ways."""

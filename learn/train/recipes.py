@@ -19,30 +19,21 @@ from .settings import FEATURES, KINDS, PRECISIONS, DataSource, TrainConfig
 _ANY = math.inf
 #: Least and most of each setting, both allowed: ``<section>.<name>``, or the run's own.
 _BOUNDS: dict[str, tuple[float, float]] = {
-    "seed": (0, 2**63 - 1),
-    **dict.fromkeys(("batch", "lanes"), (1, _ANY)),
-    **dict.fromkeys(
-        ("network.hidden", "network.blocks", "network.heads", "network.mlp_ratio"), (1, _ANY)
-    ),
-    "network.max_parts": (2, _ANY),
-    "network.dropout": (0, 0.99),
-    "draw.points": (1, _ANY),
-    **dict.fromkeys(("draw.context", "draw.shift", "draw.stretch"), (0, _ANY)),
-    "draw.scale": (1e-3, 1e3),
-    "schedule.steps": (1, _ANY),
-    "schedule.rate": (0, 1),
-    "schedule.warm_up": (0, _ANY),
-    "schedule.last_rate": (0, 1),
-    "loss.auxiliary_points": (1, _ANY),
-    "optimiser.betas": (0, 0.99999),
-    **dict.fromkeys(("optimiser.weight_decay", "optimiser.clip"), (0, _ANY)),
-    "optimiser.ema": (0, 1),
-    **dict.fromkeys(("validation.objects", "validation.points", "validation.batch"), (1, _ANY)),
-    **dict.fromkeys(("run.log_every", "run.checkpoint_every", "run.ahead"), (1, _ANY)),
-    **dict.fromkeys(
-        ("run.micro_batch", "run.workers", "run.threads", "run.cache_mb", "run.validate_every"),
-        (0, _ANY),
-    ),
+    name: bounds
+    for bounds, names in {
+        (0, 2**63 - 1): "seed",
+        (1, _ANY): "batch lanes network.hidden network.blocks network.heads network.mlp_ratio "
+        "draw.points schedule.steps loss.auxiliary_points validation.objects validation.points "
+        "validation.batch run.log_every run.checkpoint_every run.ahead",
+        (2, _ANY): "network.max_parts",
+        (0, 0.99): "network.dropout",
+        (0, _ANY): "draw.context draw.shift draw.stretch schedule.warm_up optimiser.weight_decay "
+        "optimiser.clip run.micro_batch run.workers run.threads run.cache_mb run.validate_every",
+        (1e-3, 1e3): "draw.scale",
+        (0, 1): "schedule.rate schedule.last_rate optimiser.ema",
+        (0, 0.99999): "optimiser.betas",
+    }.items()
+    for name in names.split()
 }
 _OF_SOURCES = {"weight": (1e-9, 1e9), "reuse": (1, _ANY), "points": (1, _ANY), "objects": (0, _ANY)}
 

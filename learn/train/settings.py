@@ -79,16 +79,10 @@ class NetworkSettings:
     @property
     def shape(self) -> NetworkShape:
         """Return the sizes as the network wants them."""
-        return NetworkShape(
-            hidden=self.hidden,
-            blocks=self.blocks,
-            heads=self.heads,
-            mlp_ratio=self.mlp_ratio,
-            raw_coords=self.raw_coords,
-            max_parts=self.max_parts,
-            features=COMPONENT_FEATURES if self.features == "components" else 0,
-            axis_form=AxisForm(self.axes),
-        )
+        same = ("hidden", "blocks", "heads", "mlp_ratio", "raw_coords", "max_parts")
+        sizes: dict[str, Any] = {name: getattr(self, name) for name in same}
+        features = COMPONENT_FEATURES if self.features == "components" else 0
+        return NetworkShape(**sizes, features=features, axis_form=AxisForm(self.axes))
 
 
 @dataclass(frozen=True)
