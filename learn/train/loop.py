@@ -272,21 +272,17 @@ def _prepare(
 
 
 def _require_same(config: TrainConfig, stored: str, output: Path) -> None:
-    before = parse_train_config(stored, str(output / RECIPE))
-    for each in fields(TrainConfig):
-        old = getattr(before, each.name)
-        new = getattr(config, each.name)
-        if each.name in _FREE or old == new:
+    before = asdict(parse_train_config(stored, str(output / RECIPE)))
+    for section, new in asdict(config).items():
+        old = before[section]
+        if section in _FREE or old == new:
             continue
-        changed = each.name
-        if hasattr(old, "__dataclass_fields__"):
-            olds = asdict(old)
-            news = asdict(new)
-            changed = ", ".join(f"{each.name}.{name}" for name in olds if olds[name] != news[name])
-        raise ConfigError(
-            f"{output}: the run there has another {changed}; go on with its own {RECIPE}, "
-            "or begin another run from its weights with --from"
-        )
+        changed = section
+        if isinstance(old, dict):
+            changed = ", ".join(f"{section}.{name}" for name in old if old[name] != new[name])
+        other = "or begin another run from its weights with --from"
+        said = f"the run there has another {changed}; go on with its own {RECIPE}"
+        raise ConfigError(f"{output}: {said}, {other}")
 
 
 @contextmanager
