@@ -19,11 +19,8 @@ def ask_children(
 ) -> Iterator[R]:
     """Yield the answers about things as they come; an exception of one ends them all.
 
-    Args:
-        ask: one child about one thing; called in a thread.
-        things: any number.
-        workers: children at once.
-        resident_bytes: a child that holds more after a call is replaced.
+    ``ask`` is called in a thread, with one of ``workers`` children; one that holds more than
+    ``resident_bytes`` after a call is replaced.
     """
     with ExitStack() as stack, ThreadPoolExecutor(workers, thread_name_prefix="asking") as pool:
         free: SimpleQueue[WarmChild] = SimpleQueue()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -107,8 +108,7 @@ def run(command: Evaluate) -> int:
     settings = _settings(command, len(requests))
     trials = [
         Trial(request, method, repeat, command.convention, command.points, command.cache)
-        for method in methods
-        for request in requests
+        for method, request in product(methods, requests)
         for repeat in range(command.repeats if method.is_random else 1)
     ]
     limits = Limits(wall_s=command.timeout, memory_bytes=BuildConfig().asset_memory_bytes)
@@ -140,15 +140,11 @@ def _require_sound(command: Evaluate) -> None:
         raise ConfigError(f"--timeout must be more than 0, not {command.timeout:g} s")
     if command.kind != "procedural" and command.data is None:
         raise ConfigError(f"--data: not given; --set {command.kind} wants the folder of objects")
-    for flag, names in (
-        ("--method", command.method),
-        ("--pose", command.pose),
-        ("--yaw", command.yaw),
-    ):
+    for flag in ("method", "pose", "yaw"):
+        names = getattr(command, flag)
         if not names or len(set(names)) < len(names):
-            raise ConfigError(
-                f"{flag}: {' '.join(names) or 'nothing'}; want at least one, each once"
-            )
+            said = " ".join(names) or "nothing"
+            raise ConfigError(f"--{flag}: {said}; want at least one, each once")
 
 
 def _requests(command: Evaluate) -> tuple[Request, ...]:
@@ -160,10 +156,8 @@ def _requests(command: Evaluate) -> tuple[Request, ...]:
         known = sorted({request.category for request in requests})
         unknown = [name for name in command.category if name not in known]
         if unknown:
-            raise ConfigError(
-                f"--category: none of these objects is a {unknown[0]!r}; "
-                f"there are {', '.join(known)}"
-            )
+            said = f"none of these objects is a {unknown[0]!r}"
+            raise ConfigError(f"--category: {said}; there are {', '.join(known)}")
         requests = tuple(request for request in requests if request.category in command.category)
     if not requests:
         raise ConfigError("no object is left to evaluate; want another list or half")
@@ -194,11 +188,8 @@ def _methods(command: Evaluate) -> tuple[Method, ...]:
 
     from ..evaluate.methods import Method
 
-    config = on_device(
-        ParticulateConfig(
-            checkpoint=command.checkpoint, features=command.features, device=command.device
-        )
-    )
+    given = {name: getattr(command, name) for name in ("checkpoint", "features", "device")}
+    config = on_device(ParticulateConfig(**given))
     if command.network_points is not None:
         config = replace(config, points=command.network_points)
     require_usable(config, needed="particulate" in command.method)

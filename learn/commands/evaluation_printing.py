@@ -60,11 +60,10 @@ COLUMNS: dict[str, tuple[Column, ...]] = {
 def followed(rows: Iterable[Row], total: int) -> list[Row]:
     """Collect rows as they come, with a progress bar on a terminal; failures are told at once."""
     console = Terminal(stderr=True)
-    watched = (
-        track(rows, "evaluating", total=total, console=console) if console.is_terminal else rows
-    )
+    if console.is_terminal:
+        rows = track(rows, "evaluating", total=total, console=console)
     collected = []
-    for row in watched:
+    for row in rows:
         collected.append(row)
         if row.failure:
             told = f"{row.trial.method.name}: {row.trial.request.name}: {row.failure}"
@@ -109,9 +108,8 @@ def _paired(entries: list[dict[str, Any]]) -> Table:
     table = Table("where both found joints", "cases", "method", "mean", "method", "mean")
     for entry in entries:
         one, other = (f"{entry[f'{who}_mean']:.3f}" for who in ("one", "other"))
-        table.add_row(
-            entry["figure"], str(entry["objects"]), entry["one"], one, entry["other"], other
-        )
+        cases = str(entry["objects"])
+        table.add_row(entry["figure"], cases, entry["one"], one, entry["other"], other)
     return table
 
 

@@ -41,26 +41,18 @@ class Train:
 
 
 def run(command: Train) -> int:
-    """Train, or print the recipe; returns the exit code."""
-    recipe = printed_recipe(command)
-    if recipe is not None:
-        say(recipe, end="")
-        return Exit.OK
-    return Exit.OK if train(command) else Exit.INTERRUPTED
-
-
-def printed_recipe(command: Train) -> str | None:
-    """Return the recipe's text, where no output is asked for.
+    """Train, or print the recipe where no output is asked for; returns the exit code.
 
     Raises:
-        ConfigError: no such recipe, or flags that want an output.
+        ConfigError: no such recipe, or as :func:`train`.
     """
     from ..train.recipes import load_train_config, recipe_text
 
     if command.output is not None or command.resume or command.start is not None:
-        return None
+        return Exit.OK if train(command) else Exit.INTERRUPTED
     load_train_config(command.recipe)
-    return recipe_text(command.recipe)
+    say(recipe_text(command.recipe), end="")
+    return Exit.OK
 
 
 def train(command: Train) -> bool:
@@ -80,25 +72,20 @@ def train(command: Train) -> bool:
     if command.output is None:
         raise ConfigError("--output: missing; name a folder for the weights and checkpoints")
     if command.resume and command.start is not None:
-        raise ConfigError(
-            "--from and --resume: a run that goes on has its own weights; give one of them"
-        )
-    config = replace(
-        config, run=replace(config.run, **{name: v for name, v in given.items() if v is not None})
-    )
+        said = "a run that goes on has its own weights"
+        raise ConfigError(f"--from and --resume: {said}; give one of them")
+    run = {name: value for name, value in given.items() if value is not None}
+    config = replace(config, run=replace(config.run, **run))
     try:
         from ..train.loop import run_training
     except ImportError as error:
-        raise ConfigError(
-            f"training needs {error.name}: pip install 'asset-factory[train]'"
-        ) from error
+        wanted = "pip install 'asset-factory[train]'"
+        raise ConfigError(f"training needs {error.name}: {wanted}") from error
+    output = command.output
     try:
-        return run_training(
-            config, recipe, command.output, resume=command.resume, start=command.start
-        )
+        return run_training(config, recipe, output, resume=command.resume, start=command.start)
     except OSError as error:
-        begun = (command.output / "config.toml").is_file()
+        begun = (output / "config.toml").is_file()
         more = "; what was stored before is whole, and --resume goes on" if begun else ""
-        raise ConfigError(
-            f"{error.filename or command.output}: {error.strerror or error}{more}"
-        ) from error
+        said = f"{error.filename or output}: {error.strerror or error}"
+        raise ConfigError(f"{said}{more}") from error

@@ -9,21 +9,20 @@ from __future__ import annotations
 
 import importlib.util
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.intake.naming import safe_name
 from asset_factory.factory.runtime.code import code_digest
-from asset_factory.factory.runtime.store import stage_key
+from asset_factory.factory.runtime.store import stage_key, write_json
 from asset_factory.sim_checks.processes.isolation import WarmChild, preload, processors
 
 from ..children import ask_children
 from .catalog import source
 from .item import SourceItem
 from .making import make_sampled
-from .refusal import ItemRefusal, read_refusal, write_refusal
-from .report import SourceReport, names_read
+from .report import ItemRefusal, SourceReport, names_read, read_refusal
 from .settings import SourceSettings
 from .split import read_split
 
@@ -34,12 +33,7 @@ COMMON_MODULES = ("scipy.spatial", "scipy.sparse.csgraph", "asset_factory.learn.
 
 @dataclass(frozen=True)
 class Prepared:
-    """A dataset in the cache.
-
-    Attributes:
-        sampled objects: their files, in the order of ``report.read``.
-        report: what became of every object.
-    """
+    """A dataset in the cache: sampled objects' files, in the order of ``report.read``."""
 
     sampled_objects: tuple[Path, ...]
     report: SourceReport
@@ -62,17 +56,16 @@ def prepare(
     by the next pass; refusals are kept.
 
     Args:
-        kind: of dataset, one of ``SOURCES``.
+        kind: one of ``SOURCES``.
         path: its folder.
-        cache: where sampled objects are kept; made if it is not there.
+        cache: made if it is not there.
         split: a text file with the names of the objects wanted; all of them if ``None``.
         settings: of the reading.
         workers: processes at once; as many as there are processors if ``None``.
         on_progress: told how many objects are done, and how many there are.
 
     Raises:
-        ConfigError: no such kind, folder or split, a library that the kind needs is missing, or
-            nothing found there.
+        ConfigError: no such kind, folder or split, a library is missing, or nothing found there.
     """
     chosen = settings or SourceSettings()
     found = find_all(kind, path)
@@ -123,10 +116,8 @@ def _named(items: tuple[SourceItem, ...], split: Path) -> tuple[SourceItem, ...]
     wanted = read_split(split)
     chosen = tuple(item for item in items if item.name in wanted)
     if not chosen:
-        raise ConfigError(
-            f"split {split}: names none of the dataset's objects, "
-            f"which are called e.g. {items[0].name}"
-        )
+        called = f"which are called e.g. {items[0].name}"
+        raise ConfigError(f"split {split}: names none of the dataset's objects, {called}")
     return chosen
 
 
@@ -150,5 +141,5 @@ def _found_or_made(
     if made.failure is not None:
         return ItemRefusal(made.failure, f"{item.name}: {made.detail}")
     if made.value is not None:
-        write_refusal(refused, made.value)
+        write_json(refused, asdict(made.value))
     return made.value or path

@@ -29,8 +29,7 @@ class SourceKind:
         read: one of them; raises InputRejected with a reason code.
         wants: what an object of this kind is, for people.
         front: where its objects look, see :class:`SourceSettings`.
-        modules: libraries without which some of its objects are refused: a refusal does not outlive
-            their coming.
+        modules: libraries without which some objects are refused, until the libraries come.
     """
 
     find: Callable[[Path], tuple[SourceItem, ...]]

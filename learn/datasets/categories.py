@@ -18,8 +18,7 @@ def categories_of(root: Path) -> Callable[[str], str]:
 
     The inventory is ``INVENTORY.csv`` in ``root``, with columns ``path`` and ``category``; a path
     may begin with the folders that ``root`` lies in. An inventory that cannot be read is none.
-    Categories are written as the table of
-    sizes writes them: ``fridge`` for a refrigerator.
+    Categories are written as the table of sizes writes them: ``fridge`` for a refrigerator.
     """
     listed = _listed(root / INVENTORY)
     above = root.resolve().parts[1:]
@@ -45,11 +44,7 @@ def _listed(path: Path) -> dict[str, str]:
         if path.stat().st_size > MAX_BYTES:
             return {}
         with path.open(newline="", encoding="utf-8") as file:
-            rows = [
-                (row.get("path") or "", row.get("category") or "") for row in csv.DictReader(file)
-            ]
+            rows = [row for row in csv.DictReader(file) if row.get("path") and row.get("category")]
     except (OSError, UnicodeDecodeError, csv.Error):
         return {}
-    return {
-        PurePosixPath(path).as_posix(): category for path, category in rows if path and category
-    }
+    return {PurePosixPath(row["path"]).as_posix(): row["category"] for row in rows}

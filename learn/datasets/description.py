@@ -28,8 +28,8 @@ def read_description(item: SourceItem, settings: SourceSettings) -> Articulation
 
 def _mains(files: Sequence[Path]) -> list[Path]:
     """Sort URDF before MJCF, the file called like its folder first."""
-    found = [path for path in files if is_description(path)]
-    return sorted(
-        found,
-        key=lambda path: (path.suffix.lower() != ".urdf", path.stem != path.parent.name, path.name),
-    )
+
+    def rank(path: Path) -> tuple[bool, bool, str]:
+        return path.suffix.lower() != ".urdf", path.stem != path.parent.name, path.name
+
+    return sorted((path for path in files if is_description(path)), key=rank)

@@ -39,12 +39,7 @@ def opening_way(sampled: SampledObject) -> str | None:
 
 
 def front_advice(paths: Iterable[Path], front: str) -> str:
-    """Return a sentence on which way sampled objects open, and what ``front`` would make that -Y.
-
-    Args:
-        paths: of sampled objects.
-        front: that they were made with.
-    """
+    """Return a sentence on which way sampled objects open that were made with ``front``."""
     seen = (opening_way(read_sampled(path)) for path in paths)
     ways = Counter(way for way in seen if way is not None)
     if not ways:
@@ -56,7 +51,5 @@ def front_advice(paths: Iterable[Path], front: str) -> str:
     if way == "-y":
         return f"{said}, as they should"
     quarters = (FRONTS[way] + FRONTS[front]) % 4
-    return (
-        f"{said}, want -y: try --front "
-        f"{next(name for name, turns in FRONTS.items() if turns % 4 == quarters)}"
-    )
+    better = next(name for name, turns in FRONTS.items() if turns % 4 == quarters)
+    return f"{said}, want -y: try --front {better}"

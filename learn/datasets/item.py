@@ -18,13 +18,9 @@ LOOKS = frozenset({
 
 @dataclass(frozen=True)
 class SourceItem:
-    """An object as files.
+    """An object as files, of which ``main`` says what it is; its category may be empty.
 
-    Attributes:
-        name: unique within its source: its folder, relative to the source's, or its file's stem.
-        category: of household object, or empty.
-        main: the file that says what the object is.
-        files: everything that it may consist of; ``main`` is one of them.
+    Its name is its folder, relative to the source's, or its file's stem.
     """
 
     name: str
@@ -53,12 +49,8 @@ def find_items(
 
     A folder that holds a main file is an object, and so is nothing below it. Several main files in
     ``root`` itself are an object each; elsewhere the first counts. Hidden files, and links that
-    lead out of ``root``, do not exist.
-
-    Args:
-        root: of the dataset.
-        mains: which of a folder's files could be an object's main file, best first.
-        category: of an object, by its name.
+    lead out of ``root``, do not exist. ``mains`` returns which of a folder's files could be an
+    object's main file, best first; ``category`` that of an object's name.
     """
     items: list[SourceItem] = []
     real = root.resolve()
@@ -78,17 +70,14 @@ def find_items(
 
 def _regular(folder: Path, names: Sequence[str], real_root: Path) -> list[Path]:
     candidates = [folder / name for name in sorted(names) if not name.startswith(".")]
-    return [
-        path for path in candidates if path.is_file() and path.resolve().is_relative_to(real_root)
-    ]
+    there = (path for path in candidates if path.is_file())
+    return [path for path in there if path.resolve().is_relative_to(real_root)]
 
 
 def files_below(folder: Path, root: Path | None = None) -> tuple[Path, ...]:
     """Return the files in and below a folder, in a fixed order.
 
-    Args:
-        folder: of an object.
-        root: links that lead out of this folder do not exist; ``folder`` itself if ``None``.
+    Links that lead out of ``root`` (``folder`` itself by default) do not exist.
     """
     real = (root or folder).resolve()
     found: list[Path] = []

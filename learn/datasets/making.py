@@ -14,7 +14,7 @@ from asset_factory.factory.geometry.posing import UP, turned
 from ..samples.sampled_object import SampledObject, require_parts, sampled_from, write_sampled
 from .catalog import source
 from .item import SourceItem
-from .refusal import ItemRefusal
+from .report import ItemRefusal
 from .settings import FRONTS, SourceSettings
 
 #: What readers of a broken file trip over.
@@ -26,24 +26,17 @@ def make_sampled(
 ) -> ItemRefusal | None:
     """Read one object and keep it as points; made to be called in a process that may be killed.
 
-    Args:
-        kind: of dataset.
-        item: the object.
-        settings: of the reading.
-        key: of its sampled object; decides its points, too.
-        path: of its sampled object.
+    The ``key`` of its sampled object decides its points, too.
     """
     try:
         sampled = sampled_item(kind, item, settings, seed=int(key[-16:], 16))
     except InputRejected as error:
         return ItemRefusal(error.code, error.message)
     except FileNotFoundError as error:
-        return ItemRefusal(
-            "missing_file", f"{item.name}: {Path(str(error.filename)).name} is not there"
-        )
+        missing = Path(str(error.filename)).name
+        return ItemRefusal("missing_file", f"{item.name}: {missing} is not there")
     except (AssetFactoryError, *TRIPPED) as error:
-        # Whatever a reader trips over is a fault of the object's: it costs that object, never the
-        # run.
+        # Whatever a reader trips over is the object's fault: it costs that object, never the run.
         return ItemRefusal("unreadable", f"{item.name}: {type(error).__name__}: {error}"[:400])
     write_sampled(path, sampled)
     return None
@@ -66,14 +59,8 @@ def sampled_item(kind: str, item: SourceItem, settings: SourceSettings, seed: in
 def turned_sampled(sampled: SampledObject, yaw: float) -> SampledObject:
     """Turn an object and its joints about the vertical through the origin by ``yaw`` [rad]."""
     turn = rotation_about(UP, yaw).T
-    return replace(
-        sampled,
-        points=sampled.points @ turn,
-        normals=sampled.normals @ turn,
-        axis=sampled.axis @ turn,
-        origin=sampled.origin @ turn,
-        slide_direction=sampled.slide_direction @ turn,
-    )
+    vectors = ("points", "normals", "axis", "origin", "slide_direction")
+    return replace(sampled, **{name: getattr(sampled, name) @ turn for name in vectors})
 
 
 def _drawn(
@@ -83,11 +70,6 @@ def _drawn(
         from ..surfaces import skin_like
 
         articulation = skin_like(articulation, seed % 2**32)
-    return sampled_from(
-        articulation,
-        name=item.name,
-        category=item.category,
-        source=kind,
-        points=settings.points,
-        rng=np.random.default_rng([settings.seed, seed]),
-    )
+    about = {"name": item.name, "category": item.category, "source": kind}
+    rng = np.random.default_rng([settings.seed, seed])
+    return sampled_from(articulation, **about, points=settings.points, rng=rng)

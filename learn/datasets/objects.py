@@ -21,31 +21,23 @@ def generated(
     """Yield an object per category and seed, with names; every other one as an artist makes it."""
     for category in categories:
         for seed in seeds:
-            made = make_object(category, seed)
-            yield (
-                f"generated/{category}_{seed}",
-                in_character(made, "artist" if seed % 2 else "plain", seed)[0],
-            )
+            character = "artist" if seed % 2 else "plain"
+            made, _ = in_character(make_object(category, seed), character, seed)
+            yield f"generated/{category}_{seed}", made
 
 
 def described(
     folder: Path, names: Collection[str] | None = None
 ) -> Iterator[tuple[str, Articulation]]:
-    """Yield every readable object of a folder of URDF or MJCF folders, with names.
-
-    Args:
-        folder: of folders.
-        names: of the objects that are wanted; all of them by default.
+    """Yield every readable object of a folder of URDF or MJCF folders, or those named, with names.
 
     Raises:
         ConfigError: there is none.
     """
     items = [each for each in find_descriptions(folder) if names is None or each.name in names]
     if not items:
-        raise ConfigError(
-            f"{folder}: holds no URDF and no MJCF that is asked for, "
-            "want a folder of folders with one each"
-        )
+        wanted = "want a folder of folders with one each"
+        raise ConfigError(f"{folder}: holds no URDF and no MJCF that is asked for, {wanted}")
     for item in items:
         try:
             yield item.name, read_description(item, SourceSettings())

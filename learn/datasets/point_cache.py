@@ -9,7 +9,7 @@ from asset_factory.factory.mesh import FloatArray, IntArray
 
 from ..samples.sampled_object import SampledObject, require_parts
 from .item import SourceItem
-from .plucker import FULL_TURN, Arrays, arrays_of
+from .plucker import FULL_TURN, Arrays, arrays_of, bad_annotation
 from .settings import SourceSettings
 
 
@@ -25,21 +25,13 @@ def sampled_from_points(item: SourceItem, settings: SourceSettings) -> SampledOb
     lines = stored["link_axes_plucker"].astype(np.float64)
     ranges = stored["link_range"].astype(np.float64)
     count = len(lines)
-    if (
-        bones.shape != (len(points),)
-        or not len(bones)
-        or not 0 <= bones.min() <= bones.max() < count
-    ):
-        raise InputRejected(
-            "bad_annotation",
-            f"{item.main.name}: point_to_bone does not fit its points and {count} bones",
-        )
+    name = item.main.name
+    fitting = bones.shape == (len(points),) and len(bones)
+    if not fitting or not 0 <= bones.min() <= bones.max() < count:
+        raise bad_annotation(f"{name}: point_to_bone does not fit its points and {count} bones")
     if lines.shape != (count, 12) or ranges.shape != (count, 4):
-        raise InputRejected(
-            "bad_annotation",
-            f"{item.main.name}: link_axes_plucker, link_range: want 12 and 4 columns",
-        )
-    parents, order = _tree(stored, count, item.main.name)
+        raise bad_annotation(f"{name}: link_axes_plucker, link_range: want 12 and 4 columns")
+    parents, order = _tree(stored, count, name)
     turns, slides = (np.asarray(lines[:, i : i + 3].any(axis=1)) for i in (0, 6))
     kept = [bone for bone in order if parents[bone] < 0 or turns[bone] or slides[bone]]
     require_parts(item.name, len(kept))
@@ -58,9 +50,7 @@ def sampled_from_points(item: SourceItem, settings: SourceSettings) -> SampledOb
         points=points,
         normals=stored["normals"],
         part_ids=number[bones],
-        sharp=stored["point_from_sharp"]
-        if "point_from_sharp" in stored
-        else np.zeros(len(points), dtype=np.bool_),
+        sharp=stored.get("point_from_sharp", np.zeros(len(points), dtype=np.bool_)),
         components=np.zeros(len(points), dtype=np.int64),
         parents=np.array([-1, *(number[parents[bone]] for bone in kept[1:])]),
         motion=turns[rows] * 1 + slides[rows] * 2,
@@ -78,19 +68,16 @@ def _tree(stored: Arrays, count: int, file: str) -> tuple[IntArray, list[int]]:
     parents = np.full(count, -1)
     for parent, child in stored["bone_structure"].reshape(-1, 2).astype(np.int64):
         if not (0 <= parent < count and 0 <= child < count) or parents[child] >= 0:
-            raise InputRejected(
-                "not_a_tree",
-                f"{file}: bone {child} hangs on two bones, or on one that there is not",
-            )
+            said = f"{file}: bone {child} hangs on two bones, or on one that there is not"
+            raise InputRejected("not_a_tree", said)
         parents[child] = parent
     roots = np.flatnonzero(parents < 0)
     order = [int(root) for root in roots]
     for bone in order:
         order += [int(child) for child in np.flatnonzero(parents == bone)]
     if len(roots) != 1 or len(order) != count:
-        raise InputRejected(
-            "not_a_tree", f"{file}: {len(roots)} bones hang on none; want one tree of all {count}"
-        )
+        said = f"{file}: {len(roots)} bones hang on none; want one tree of all {count}"
+        raise InputRejected("not_a_tree", said)
     return parents, order
 
 

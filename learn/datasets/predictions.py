@@ -36,9 +36,8 @@ def read_prediction_item(item: SourceItem, settings: SourceSettings) -> Articula
     if intake.annotation_path is None:
         labels = labels_beside(item.main, item.files)
         if labels is None:
-            raise InputRejected(
-                "no_annotation", f"{item.main.name}: has no labels; want {item.main.stem}.pred.npz"
-            )
+            wanted = f"want {item.main.stem}.pred.npz"
+            raise InputRejected("no_annotation", f"{item.main.name}: has no labels; {wanted}")
         intake = replace(intake, annotation_path=labels)
     return articulate(intake, BuildConfig(articulator="annotated"))
 
@@ -70,7 +69,6 @@ def _has_labels(mesh: Path, files: Sequence[Path]) -> bool:
 
 def _alone(item: SourceItem) -> SourceItem:
     """Keep, of a folder of many objects, the files named like this one or like all."""
-    files = tuple(
-        p for p in item.files if p.name.startswith(f"{item.main.stem}.") or p.name == LONE
-    )
-    return replace(item, files=files)
+    start = f"{item.main.stem}."
+    own = (path for path in item.files if path.name.startswith(start) or path.name == LONE)
+    return replace(item, files=tuple(own))

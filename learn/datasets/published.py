@@ -17,7 +17,6 @@ import numpy as np
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.articulation import Articulation
-from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.geometry.rows import distinct_rows
 from asset_factory.factory.intake.annotation import AnnotatedJoint, Annotation
 from asset_factory.factory.intake.limits import require_at_most
@@ -27,7 +26,7 @@ from asset_factory.factory.mesh import IntArray
 from ..samples.sampled_object import SampledObject
 from .categories import categories_of
 from .item import SourceItem, find_items
-from .plucker import Arrays, annotated_joint, arrays_of
+from .plucker import Arrays, annotated_joint, arrays_of, bad_annotation
 from .point_cache import sampled_from_points
 from .settings import SourceSettings
 
@@ -56,13 +55,10 @@ def read_published(item: SourceItem, settings: SourceSettings) -> Articulation |
     axes, ranges = (arrays_of(folder / name, settings.max_bytes) for name in (AXES, RANGES))
     labels = _face_labels(folder / MESH, bones, visual.source_face_count)
     count = int(max(labels.max(), bones["bone_structure"].max(initial=0))) + 1
-    annotation = Annotation(
-        labels,
-        tuple(f"part_{bone}" for bone in range(count)),
-        _joints(bones, axes, ranges),
-        "pred.npz",
-    )
-    kept = _without_repeats(visual.mesh.faces)
+    names = tuple(f"part_{bone}" for bone in range(count))
+    annotation = Annotation(labels, names, _joints(bones, axes, ranges), "pred.npz")
+    # The release writes visuals twice: of all faces on the same vertices the first is kept.
+    kept = np.sort(distinct_rows(np.sort(visual.mesh.faces, axis=1))[0])
     articulator = AnnotatedArticulator(annotation, np.eye(4), visual.source_faces[kept])
     return articulator.articulate(visual.mesh.submesh(kept))
 
@@ -91,19 +87,12 @@ def _face_labels(path: Path, bones: Arrays, face_count: int) -> IntArray:
             first += [int(corners[0].split("/")[0])] * (len(corners) - 2)
     labels = bones["vert_to_bone"].reshape(-1).astype(np.int64)
     vertices = np.asarray(first, dtype=np.int64) - 1
-    if (
-        len(vertices) != face_count
-        or not len(labels)
-        or not 0 <= vertices.min() <= vertices.max() < len(labels)
-    ):
-        raise InputRejected(
-            "bad_annotation",
-            f"{path.name}: its faces do not fit the {len(labels)} labelled vertices",
-        )
+    fitting = len(vertices) == face_count and len(labels)
+    if not fitting or not 0 <= vertices.min() <= vertices.max() < len(labels):
+        labelled = f"{len(labels)} labelled vertices"
+        raise bad_annotation(f"{path.name}: its faces do not fit the {labelled}")
     if labels.min() < 0:
-        raise InputRejected(
-            "bad_annotation", f"{META}: vert_to_bone holds {labels.min()}, want 0 and more"
-        )
+        raise bad_annotation(f"{META}: vert_to_bone holds {labels.min()}, want 0 and more")
     require_at_most(META, int(labels.max()), 4096, "bones")
     return labels[vertices]
 
@@ -112,16 +101,7 @@ def _joints(bones: Arrays, axes: Arrays, ranges: Arrays) -> tuple[AnnotatedJoint
     nothing = np.zeros(12)
     return tuple(
         annotated_joint(
-            int(parent),
-            int(child),
-            axes.get(str(child), nothing),
-            ranges.get(str(child), nothing[:4]),
+            parent, child, axes.get(str(child), nothing), ranges.get(str(child), nothing[:4])
         )
-        for parent, child in bones["bone_structure"].reshape(-1, 2)
+        for parent, child in bones["bone_structure"].reshape(-1, 2).astype(int).tolist()
     )
-
-
-def _without_repeats(faces: IntArray) -> IntArray:
-    """Return the first of all faces on the same vertices: the release writes visuals twice."""
-    first, _ = distinct_rows(np.sort(faces, axis=1))
-    return np.sort(first)

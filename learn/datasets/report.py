@@ -1,4 +1,4 @@
-"""What became of a dataset's objects."""
+"""What became of a dataset's objects; refusals are kept, so that nobody asks again."""
 
 from __future__ import annotations
 
@@ -6,21 +6,34 @@ import json
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
-from asset_factory.factory.runtime.store import write_whole
+import msgspec
+
+from asset_factory.factory.runtime.store import write_json
+
+
+@dataclass(frozen=True)
+class ItemRefusal:
+    """Why an object is passed over: a stable code, and one sentence."""
+
+    reason: str
+    message: str
+
+
+def read_refusal(path: Path) -> ItemRefusal | None:
+    """Return the refusal kept in a file; ``None`` if there is none, or it is damaged."""
+    try:
+        return msgspec.json.decode(path.read_bytes(), type=ItemRefusal)
+    except (OSError, msgspec.DecodeError):
+        return None
 
 
 @dataclass(frozen=True)
 class SourceReport:
-    """One pass over a dataset.
+    """One pass over a dataset: names of objects read, and of those skipped, each with a sentence.
 
-    Attributes:
-        kind: of dataset.
-        read: names of the objects that are sampled objects now.
-        skipped: why the others are not, by reason code: names, each with a sentence.
-        made: how many of ``read`` were not in the cache before.
-        gone: names that a former pass read and that are not among the dataset's objects any more.
+    ``made`` of those read were not in the cache before; ``gone`` are names that a former pass read
+    and that are not among the dataset's objects any more.
     """
 
     kind: str
@@ -32,9 +45,8 @@ class SourceReport:
     @property
     def counts(self) -> dict[str, int]:
         """Return skipped objects by reason, most frequent first."""
-        return dict(
-            Counter({reason: len(names) for reason, names in self.skipped.items()}).most_common()
-        )
+        counted = Counter({reason: len(names) for reason, names in self.skipped.items()})
+        return dict(counted.most_common())
 
     def lines(self) -> list[str]:
         """Return lines for people: the objects read, and each reason with its first object."""
@@ -49,15 +61,10 @@ class SourceReport:
 
     def write(self, path: Path) -> None:
         """Write JSON, complete or not there."""
-        data: dict[str, Any] = {
-            "kind": self.kind,
-            "read": list(self.read),
-            "skipped": {
-                reason: dict(sorted(names.items()))
-                for reason, names in sorted(self.skipped.items())
-            },
+        skipped = {
+            reason: dict(sorted(names.items())) for reason, names in sorted(self.skipped.items())
         }
-        write_whole(path, (json.dumps(data, indent=1) + "\n").encode())
+        write_json(path, {"kind": self.kind, "read": list(self.read), "skipped": skipped})
 
 
 def names_read(path: Path) -> tuple[str, ...]:

@@ -32,12 +32,9 @@ def is_held_out(name: str, share: float) -> bool:
 
 
 def write_split(path: Path, names: Iterable[str], share: float) -> tuple[Path, Path]:
-    """Return two lists: ``<stem>.train.txt`` and ``<stem>.held_out.txt``; returns their paths.
+    """Write ``<path>.train.txt`` and ``<path>.held_out.txt``; return both.
 
-    Args:
-        path: folder and stem of both.
-        names: of the objects.
-        share: of them to hold out, about.
+    About ``share`` of the names are held out.
     """
     ordered = sorted(names)
     paths = path.with_name(f"{path.name}.train.txt"), path.with_name(f"{path.name}.held_out.txt")

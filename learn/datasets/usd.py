@@ -1,8 +1,7 @@
 """USD assets with rigid bodies and physics joints, as GRScenes and Lightwheel ship them.
 
 The schema: https://openusd.org/release/api/usd_physics_page_front.html. Geometry and joints are
-taken at the authored pose; what the physics engine would do with them afterwards (gravity, drives)
-does not matter here.
+taken at the authored pose, whatever the physics engine would do with them (gravity, drives).
 """
 
 from __future__ import annotations
@@ -51,9 +50,8 @@ def read_usd(item: SourceItem, settings: SourceSettings) -> Articulation:
     articulator = AnnotatedArticulator(annotation, transform, np.arange(len(mesh.faces)))
     articulation = articulator.articulate(mesh)
     if not articulation.movable_joints:
-        raise InputRejected(
-            "no_movable_joint", f"{item.name}: nothing moves; want a joint to learn from", value=0.0
-        )
+        message = f"{item.name}: nothing moves; want a joint to learn from"
+        raise InputRejected("no_movable_joint", message, value=0.0)
     return articulation
 
 
@@ -61,10 +59,7 @@ def _mains(files: Sequence[Path]) -> list[Path]:
     """Return the file called like its folder first, then the names that asset packs use."""
 
     def rank(path: Path) -> tuple[bool, int, str]:
-        return (
-            path.stem != path.parent.name,
-            MAIN_LAYERS.index(path.stem) if path.stem in MAIN_LAYERS else len(MAIN_LAYERS),
-            path.name,
-        )
+        place = (*MAIN_LAYERS, path.stem).index(path.stem)
+        return path.stem != path.parent.name, place, path.name
 
     return sorted((path for path in files if is_usd(path)), key=rank)

@@ -7,13 +7,27 @@ import numpy as np
 from asset_factory.factory.articulation import Articulation, JointKind
 
 from ..objects import CATEGORIES, make_object
-from ..objects.groups import LIDDED, OTHER, PANELLED
 from ..surfaces import skin_like
 from .sides import LabelledSides, labelled_sides
 from .still import STILL, make_still
 
-#: Shares of objects with panels, with lids, that stay still, others that move; the rest is of any
-#: kind.
+#: Kinds with panels, with lids, and with neither.
+PANELLED = (
+    "cabinet", "fridge", "oven", "microwave", "dishwasher", "dresser", "nightstand", "wardrobe",
+    "sideboard", "base_cabinet", "sink_cabinet", "tall_cabinet", "wall_cabinet", "media_unit",
+    "filing_cabinet", "shoe_cabinet", "lockers", "storage_unit", "washstand", "refrigerator",
+    "mini_fridge", "wine_cooler", "stove", "built_in_oven", "microwave_oven", "dish_washer",
+    "front_loader", "desk", "vanity", "safe", "kitchen", "oven_tower", "secretaire", "hutch",
+)  # fmt: skip
+LIDDED = (
+    "chest", "coffer", "case", "flap_box", "trash_can", "wheelie_bin", "step_bin", "top_loader",
+    "tool_chest", "pot", "glass_freezer", "toilet", "mailbox",
+)  # fmt: skip
+OTHER = (
+    "office_chair", "bookcase", "table", "clock", "monitor", "fan", "desk_lamp", "cart", "camera",
+    "bottle", "valve", "door", "printer", "stapler", "switch_panel", "hood",
+)  # fmt: skip
+#: Shares of objects with panels, with lids, that stay still, others that move; else of any kind.
 SHARES = (0.5, 0.2, 0.17, 0.06)
 #: Share of objects some of whose parts stand open.
 OPENED = 0.12
@@ -37,7 +51,7 @@ def drawn_sides(rng: np.random.Generator) -> tuple[str, LabelledSides]:
 
 
 def _drawn(rng: np.random.Generator) -> tuple[str, Articulation, dict[str, float]]:
-    """Return a generated object, its kind, and by how much of its range what stands open."""
+    """Return a generated object's kind, the object, and open joints with their share of range."""
     bound = rng.random()
     ends = np.cumsum(SHARES)
     if ends[1] <= bound < ends[2]:
@@ -52,11 +66,8 @@ def _drawn(rng: np.random.Generator) -> tuple[str, Articulation, dict[str, float
     made = make_object(kind, int(rng.integers(2**31)))
     opened = {}
     if rng.random() < OPENED:
-        chosen = [
-            joint
-            for joint in made.movable_joints
-            if joint.kind is not JointKind.CONTINUOUS and joint.upper > 0.0
-        ]
+        ended = (joint for joint in made.movable_joints if joint.kind is not JointKind.CONTINUOUS)
+        chosen = [joint for joint in ended if joint.upper > 0.0]
         for joint in chosen:
             if rng.random() < max(0.3, 1.0 / len(chosen)):
                 opened[joint.name] = float(rng.uniform(0.1, 1.0))

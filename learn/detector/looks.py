@@ -46,13 +46,9 @@ class ObjectBatch:
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """What the network is given of a batch, and the truth there.
+    """What the network is given of a batch, [n, 5, CUES, rows, columns], and the truth there.
 
-    Attributes:
-        cues: [n, 5, CUES, rows, columns].
-        part: [n, 5, rows, columns].
-        table: [n, most, 10].
-        front: number of the side that is the front now, [n].
+    ``front`` is the number of the side that is the front now; the rest is as in a batch.
     """
 
     cues: Tensor
@@ -64,10 +60,7 @@ class Shown:
 def show(batch: ObjectBatch, textures: Tensor, generator: Any) -> Shown:
     """Return a batch as some image-to-3D tool would make it.
 
-    Args:
-        batch: as kept.
-        textures: uint8, [m, 3, size, size].
-        generator: of random numbers, on the batch's device.
+    ``textures`` are uint8, [m, 3, size, size]; ``generator`` is on the batch's device.
     """
     draw = Drawing(generator, batch.color.device)
     color, depth, part, table, front = _placed(batch, draw)
@@ -144,18 +137,15 @@ def _placed(batch: ObjectBatch, draw: Drawing) -> tuple[Tensor, ...]:
     flip = torch.where(mirrored, -1.0, 1.0)[:, None, None]
     columns = (steps / across[..., None] * flip + CANVAS / 2).floor().long()
     rows = (steps / up[..., None] + CANVAS / 2).floor().long()
-    inside = ((columns >= 0) & (columns < CANVAS))[:, :, None] & ((rows >= 0) & (rows < CANVAS))[
-        ..., None
-    ]
-    index = (rows.clamp(0, CANVAS - 1)[..., None] * CANVAS) + columns.clamp(0, CANVAS - 1)[
-        :, :, None
-    ]
+    rows = rows[..., None]
+    columns = columns[:, :, None]
+    inside = (columns >= 0) & (columns < CANVAS) & (rows >= 0) & (rows < CANVAS)
+    index = rows.clamp(0, CANVAS - 1) * CANVAS + columns.clamp(0, CANVAS - 1)
     index = index.flatten(2)
     shape = (count, VIEWS, CANVAS, CANVAS)
     depth = batch.depth.flatten(2).gather(2, index).view(shape)
-    depth = torch.where(
-        inside & (depth >= 0), (depth.float() * behind[..., None, None]).round(), -1.0
-    )
+    deep = (depth.float() * behind[..., None, None]).round()
+    depth = torch.where(inside & (depth >= 0), deep, -1.0)
     part = batch.part.flatten(2).gather(2, index).view(shape)
     part = torch.where(inside, part, 0)
     color = batch.color.flatten(2, 3).gather(2, index[..., None].expand(-1, -1, -1, 3))
@@ -208,8 +198,7 @@ def _top_turned(
 ) -> tuple[Tensor, ...]:
     """Return objects whose tops are turned as their sides are.
 
-    After a turn by one quarter the right side is the front, so that the right of the top is at its
-    lower edge.
+    After one quarter the right side is the front: the right of the top is at its lower edge.
     """
     color, depth, part, table = color.clone(), depth.clone(), part.clone(), table.clone()
     for quarters in (1, 2, 3):
@@ -279,10 +268,8 @@ def _shaped(
     height = height + stuck
     bumps = draw.each(count, 0.0, 0.4) * draw.some(count, 0.6) * draw.wavy(flat, 28)
     bumps = bumps + draw.each(count, 0.0, 0.15) * draw.some(count, 0.4) * draw.normal(*height.shape)
-    sigma = torch.where(
-        made, draw.each(count, 0.3, 1.3)[:, 0, 0], draw.each(count, 0.05, 0.7)[:, 0, 0]
-    )
-    height = _blurred((height + bumps)[:, None], sigma)[:, 0]
+    sigma = torch.where(keep, draw.each(count, 0.3, 1.3), draw.each(count, 0.05, 0.7))
+    height = _blurred((height + bumps)[:, None], sigma[:, 0, 0])[:, 0]
     lowest = torch.where(seen, height, 1e9).amin((1, 2), keepdim=True)
     return torch.where(seen, height, lowest - 4.0), light
 
@@ -371,9 +358,8 @@ def _lit(
     light = light * torch.where(keep & border, dark, 1.0)
     slope_up = functional.pad(height[:, 2:] - height[:, :-2], (0, 0, 1, 1)).clamp(-4, 4)
     slope_right = functional.pad(height[:, :, 2:] - height[:, :, :-2], (1, 1)).clamp(-4, 4)
-    baked = (
-        1.0 + draw.each(count, -0.12, 0.12) * slope_up + draw.each(count, -0.12, 0.12) * slope_right
-    )
+    baked = 1.0 + draw.each(count, -0.12, 0.12) * slope_up
+    baked = baked + draw.each(count, -0.12, 0.12) * slope_right
     sunken = (closed(height[:, None], GAP)[:, 0] - height).clamp(0.0, 5.0)
     baked = baked * (1.0 - draw.each(count, 0.0, 0.1) * sunken)
     light = light * baked.clamp(0.3, 1.7) * (1.0 + 0.2 * draw.some(count, 0.6) * draw.wavy(flat, 5))

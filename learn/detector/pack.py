@@ -55,9 +55,8 @@ def write_pack(options: argparse.Namespace) -> None:
         zipfile.ZipFile(options.out, "w") as pack,
         get_context("spawn").Pool(options.workers) as workers,
     ):
-        shown = workers.imap(
-            partial(_with_forms, count=options.one_piece), enumerate(real_objects(options.real))
-        )
+        forming = partial(_with_forms, count=options.one_piece)
+        shown = workers.imap(forming, enumerate(real_objects(options.real)))
         for number, (found, forms) in enumerate(shown):
             note = {"kind": kind_number(found.kind), "opens": found.opens, "front": found.front}
             note |= {"held_out": is_held_out(found.name), "real": True}
@@ -67,9 +66,8 @@ def write_pack(options: argparse.Namespace) -> None:
                 _add(pack, f"one_piece{form}_{number:04d}_{found.name}", note, sides)
         for number, (name, articulation) in enumerate(descriptions):
             sides = labelled_sides(closed(articulation))
-            counts = np.bincount(
-                sides.instances.view[~sides.instances.ignored], minlength=len(SIDES)
-            )
+            known = sides.instances.view[~sides.instances.ignored]
+            counts = np.bincount(known, minlength=len(SIDES))
             note = {"kind": kind_number(name.rpartition("_")[0]), "opens": True}
             note |= {"front": int(counts[:4].argmax()), "held_out": False, "real": False}
             _add(pack, f"made_{number:04d}_{name}", note, sides)
@@ -96,9 +94,8 @@ def _add(
     picture = Image.fromarray(canvases.color.reshape(-1, CANVAS, 3))
     depth = np.where(canvases.depth == NOTHING, NOTHING, canvases.depth // COARSE)
     pack.writestr(f"{name}/color.jpg", _jpeg(picture, 88))
-    pack.writestr(
-        f"{name}/depth", lzma.compress(np.diff(depth, prepend=0).astype(np.int16).tobytes())
-    )
+    steps = np.diff(depth, prepend=0).astype(np.int16)
+    pack.writestr(f"{name}/depth", lzma.compress(steps.tobytes()))
     pack.writestr(f"{name}/part", lzma.compress(sides.part.tobytes()))
     pack.writestr(f"{name}/table", sides.instances.table().tobytes())
     pack.writestr(f"{name}/note.json", json.dumps(note))

@@ -24,15 +24,7 @@ COARSE = 4
 
 @dataclass(frozen=True, eq=False)
 class Packed:
-    """One object as learning takes it.
-
-    Attributes:
-        truth: about it as a whole.
-        held_out: not trained on.
-        one_piece: a mesh of pieces that was made one piece.
-        color, depth, part: see :class:`~asset_factory.learn.detector.looks.ObjectBatch`.
-        table: of moving parts, [n, 10].
-    """
+    """One object as learning takes it, with pictures as in ``ObjectBatch`` and a table, [n, 10]."""
 
     truth: WholeTruth
     held_out: bool
@@ -57,25 +49,16 @@ def read_pack(path: Path) -> Iterator[Packed]:
             depth = np.cumsum(steps.reshape(shape), axis=2, dtype=np.int32)
             part = np.frombuffer(lzma.decompress(pack.read(f"{folder}/part")), np.uint8)
             table = np.frombuffer(pack.read(f"{folder}/table"), np.float32).reshape(-1, 10)
-            held_out = note.pop("held_out")
-            one_piece = note.pop("one_piece", False)
-            yield Packed(
-                WholeTruth(**note),
-                held_out,
-                one_piece,
-                color.reshape(*shape, 3),
-                np.where(depth < 0, NOTHING, depth * COARSE).astype(np.int16),
-                part.reshape(shape),
-                table,
-            )
+            depths = np.where(depth < 0, NOTHING, depth * COARSE).astype(np.int16)
+            flags = note.pop("held_out"), note.pop("one_piece", False)
+            part = part.reshape(shape)
+            color = color.reshape(*shape, 3)
+            yield Packed(WholeTruth(**note), *flags, color, depths, part, table)
 
 
 def read_textures(path: Path) -> npt.NDArray[np.uint8]:
     """Return the textures of a file, [m, 3, size, size]."""
     with zipfile.ZipFile(path) as pack:
-        found = [
-            np.asarray(Image.open(io.BytesIO(pack.read(name))))
-            for name in pack.namelist()
-            if name.startswith("texture/")
-        ]
+        names = [name for name in pack.namelist() if name.startswith("texture/")]
+        found = [np.asarray(Image.open(io.BytesIO(pack.read(name)))) for name in names]
     return np.stack(found).transpose(0, 3, 1, 2)

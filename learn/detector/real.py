@@ -41,16 +41,7 @@ WHOLE = (0.0, 0.0, 1.0, 1.0)
 
 @dataclass(frozen=True, eq=False)
 class RealObject:
-    """One labelled mesh.
-
-    Attributes:
-        name: of its file.
-        kind: what it is, as its inventory says.
-        opens: whether anything does.
-        front: number of the side that is its front.
-        mesh: z up.
-        sides: how it looks, and what opens.
-    """
+    """One labelled mesh, z up: its kind by its inventory, the number of its front, its sides."""
 
     name: str
     kind: str
@@ -68,11 +59,8 @@ def is_held_out(name: str) -> bool:
 def real_objects(folder: Path, held_out: bool | None = None) -> Iterator[RealObject]:
     """Yield the meshes of a folder with ``INVENTORY.csv``, ``openings.json``, ``fronts.json``.
 
-    Those that nobody could tell of, or that stand open, are left out.
-
-    Args:
-        folder: of the files.
-        held_out: only those that are, or are not, kept for measuring.
+    Those that nobody could tell of, or that stand open, are left out, and, by ``held_out``, those
+    that are kept for measuring, or those that are not.
     """
     labels = json.loads((folder / "openings.json").read_text())
     fronts = json.loads((folder / "fronts.json").read_text())

@@ -24,8 +24,7 @@ from asset_factory.factory.models.detector.canvas import (
 )
 from asset_factory.factory.views.raster import Raster, Side
 
-#: A part that turns as a panel fills so much of its box; a lid covers so much of what is seen from
-#: above.
+#: A part that turns as a panel fills so much of its box; a lid covers so much of the top.
 FILLED = 0.35
 OVER = 0.35
 #: Of a canvas: the least area of a panel, and the fewest pixels of a control.
@@ -84,13 +83,9 @@ class Instances:
 
 @dataclass(frozen=True, eq=False)
 class LabelledSides:
-    """Five sides of one object and the truth.
+    """Five sides of one object, and the moving parts on each.
 
-    Attributes:
-        canvases: how it looks.
-        part: number of the part of every pixel plus one, 0 where nothing is seen, uint8, shape
-            [5, 256, 256].
-        instances: moving parts.
+    ``part`` is the number of each pixel's part plus one, 0 where nothing is seen, [5, 256, 256].
     """
 
     canvases: Canvases
@@ -100,14 +95,7 @@ class LabelledSides:
 
 @dataclass(frozen=True)
 class WholeTruth:
-    """The truth about one object as a whole.
-
-    Attributes:
-        kind: by number.
-        opens: whether anything does.
-        front: number of the side that is its front.
-        real: an artist's surface, not ours.
-    """
+    """The truth about one object: kind and front by number; ``real`` of an artist's surface."""
 
     kind: int
     opens: bool
@@ -116,6 +104,12 @@ class WholeTruth:
 
 
 _Pictures = tuple[Canvases, npt.NDArray[np.uint8], dict[Side, Raster]]
+
+
+#: What opens so; whatever else turns about an upright edge is a door.
+_PANELS = dict.fromkeys(PanelWay, Sort.DOOR) | {
+    PanelWay.OUT: Sort.DRAWER, PanelWay.BOTTOM: Sort.FLAP, PanelWay.TOP: Sort.FLAP,
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -129,21 +123,16 @@ class _Meaning:
 def labelled_sides(
     articulation: Articulation, opened: Mapping[str, float] | None = None
 ) -> LabelledSides:
-    """Return the sides of an object.
+    """Return the sides of a closed object, its front towards -Y.
 
-    Args:
-        articulation: closed, its front towards -Y.
-        opened: shares of their ranges by which joints are opened before the object is looked at.
+    Joints are opened by the shares ``opened`` of their ranges before the object is looked at.
     """
     pictures = _pictures(articulation)
     meanings = _meanings(articulation, pictures)
     shares = dict(opened or {})
     if shares:
-        values = {
-            joint.name: shares[joint.name] * joint.upper
-            for joint in articulation.joints
-            if joint.name in shares
-        }
+        opening = (joint for joint in articulation.joints if joint.name in shares)
+        values = {joint.name: shares[joint.name] * joint.upper for joint in opening}
         articulation = posed(articulation, values)
         pictures = _pictures(articulation)
     canvases, part, _ = pictures
@@ -213,12 +202,7 @@ def _meanings(articulation: Articulation, pictures: _Pictures) -> dict[int, _Mea
         side = UPRIGHT[view]
         way = _way(part[view] == joint.child + 1, view, rasters[side], joint)
         if counts[view] and way is not None:
-            sort = {
-                PanelWay.OUT: Sort.DRAWER,
-                PanelWay.BOTTOM: Sort.FLAP,
-                PanelWay.TOP: Sort.FLAP,
-            }.get(way, Sort.DOOR)
-            found[joint.child] = _Meaning(sort, {view: way})
+            found[joint.child] = _Meaning(_PANELS[way], {view: way})
     return found
 
 
@@ -230,11 +214,9 @@ def _lid_ways(joint: Joint, center: FloatArray, counts: list[int]) -> dict[int, 
 
 
 def way_toward(direction: FloatArray, side: Side) -> PanelWay:
-    """Return the edge, as a side shows it, at which a lid is hinged that is hinged over there.
+    """Return the edge, as a side shows it, at which a lid is hinged.
 
-    Args:
-        direction: from the middle of the lid to its hinge, shape [3]; its height does not count.
-        side: that is looked at.
+    ``direction`` is from the middle of the lid to its hinge, shape [3]; its height does not count.
     """
     right, up, away = side.frame
     level = direction * np.array([1.0, 1.0, 0.0])

@@ -31,9 +31,8 @@ def _shelf(a: Assembly) -> None:
     a.root.add(*(carcass(x, y, z, wall) if a.happens(0.7) else _posts(x, y, z, wall)))
     inner = within(x, wall)
     for level in shares(z, a.count(2, 6))[1:]:
-        a.root.add(
-            box(inner, y, span(level[0], wall)), look=any_color(a) if a.happens(0.1) else None
-        )
+        look = any_color(a) if a.happens(0.1) else None
+        a.root.add(box(inner, y, span(level[0], wall)), look=look)
     if a.happens(0.5):
         for place in shares(inner, a.count(2, 4))[1:]:
             a.root.add(box(span(place[0], wall), y, within(z, wall)))
@@ -49,10 +48,8 @@ def _posts(x: Span, y: Span, z: Span, wide: float) -> list:  # type: ignore[type
 def _books(a: Assembly, x: Span, y: Span, level: Span) -> None:
     for place in shares(x, a.count(3, 12)):
         if a.happens(0.7):
-            top = level[0] + a.draw(0.4, 0.9) * (level[1] - level[0])
-            a.root.add(
-                box(within(place, 0.002), within(y, 0.02), (level[0], top)), look=any_color(a)
-            )
+            z = (level[0], level[0] + a.draw(0.4, 0.9) * (level[1] - level[0]))
+            a.root.add(box(within(place, 0.002), within(y, 0.02), z), look=any_color(a))
 
 
 def _table(a: Assembly) -> None:
@@ -86,16 +83,13 @@ def _chair(a: Assembly) -> None:
             a.root.add(box(within(place, 0.01), rear, (seat, seat + back)))
     if a.happens(0.3):
         for side in ends(x, 0.04):
-            a.root.add(
-                box(side, y, span(seat + 0.2, 0.03)),
-                box(side, ends(y, 0.04)[0], (seat, seat + 0.2)),
-            )
+            post = box(side, ends(y, 0.04)[0], (seat, seat + 0.2))
+            a.root.add(box(side, y, span(seat + 0.2, 0.03)), post)
 
 
 def _sofa(a: Assembly) -> None:
-    width, depth, seat, back, arm = a.draws(
-        (0.7, 2.4), (0.6, 1.0), (0.3, 0.45), (0.3, 0.5), (0.1, 0.25)
-    )
+    width, depth, seat, back = a.draws((0.7, 2.4), (0.6, 1.0), (0.3, 0.45), (0.3, 0.5))
+    arm = a.draw(0.1, 0.25)
     x, y = upto(width, depth)
     low = a.draw(0.0, 0.12)
     inner = within(x, arm)
@@ -147,11 +141,8 @@ def _pot(a: Assembly) -> None:
     a.root.add(lathe(rings, sides=24))
     for _ in range(a.count(0, 4)):
         at = a.draw(-0.5, 0.5) * radius, a.draw(-0.5, 0.5) * radius
-        leaf = [
-            (0.02, height),
-            (a.draw(0.05, 0.3), height + 0.2),
-            (0.01, height + a.draw(0.3, 0.8)),
-        ]
+        middle = (a.draw(0.05, 0.3), height + 0.2)
+        leaf = [(0.02, height), middle, (0.01, height + a.draw(0.3, 0.8))]
         a.root.add(lathe(leaf, (*at, 0.0), sides=8), look=any_color(a))
 
 
@@ -161,9 +152,8 @@ def _barrel(a: Assembly) -> None:
     a.root.add(lathe(rings, sides=24))
     for share in (0.08, 0.35, 0.65, 0.92):
         wide = radius * (1.0 + (bulge - 1.0) * (1.0 - abs(2 * share - 1.0))) + 0.01
-        a.root.add(
-            cylinder(Z, (0.0, 0.0), wide, about(0.02, share * height), 24), look=any_color(a)
-        )
+        hoop = cylinder(Z, (0.0, 0.0), wide, about(0.02, share * height), 24)
+        a.root.add(hoop, look=any_color(a))
 
 
 def _heap(a: Assembly) -> None:
@@ -193,9 +183,8 @@ def _bed(a: Assembly) -> None:
     x, y = upto(width, length)
     low = a.draw(0.0, 0.2)
     a.root.add(box(x, y, (low, 0.6 * height)))
-    a.root.add(
-        block(within(x, 0.03), within(y, 0.03), (0.6 * height, height), 0.05), look=any_color(a)
-    )
+    mattress = block(within(x, 0.03), within(y, 0.03), (0.6 * height, height), 0.05)
+    a.root.add(mattress, look=any_color(a))
     a.root.add(box(x, span(length, 0.05), (0.0, height + head)))
     if a.happens(0.5):
         a.root.add(box(x, span(0.0, -0.05), (0.0, height + 0.4 * head)))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from multiprocessing import get_context
 from multiprocessing.shared_memory import SharedMemory
 from queue import Empty
@@ -18,6 +19,11 @@ from .sides import WholeTruth
 #: Rows of a table; objects with more are left out.
 MOST = 48
 _SHAPE = (len(SIDES), CANVAS, CANVAS)
+#: Shape and type of all that is kept of an object: colours, depths, parts, table, whole truth.
+_KEPT = (
+    ((*_SHAPE, 3), torch.uint8), (_SHAPE, torch.int16), (_SHAPE, torch.uint8),
+    ((MOST, 10), torch.float32), ((4,), torch.long),
+)  # fmt: skip
 _COLOR = int(np.prod(_SHAPE)) * 3
 _DEPTH = int(np.prod(_SHAPE)) * 2
 _PART = int(np.prod(_SHAPE))
@@ -27,36 +33,23 @@ SLOTS = 96
 
 
 class Pool:
-    """Objects on the training device; the oldest made way for new ones.
-
-    Args:
-        size: how many.
-        device: where.
-    """
+    """So many objects on the training device; the oldest make way for new ones."""
 
     def __init__(self, size: int, device: Any) -> None:
         self.size = size
         self.device = device
-        self.color = torch.zeros((size, *_SHAPE, 3), dtype=torch.uint8, device=device)
-        self.depth = torch.zeros((size, *_SHAPE), dtype=torch.int16, device=device)
-        self.part = torch.zeros((size, *_SHAPE), dtype=torch.uint8, device=device)
-        self.table = torch.full((size, MOST, 10), -1.0, device=device)
-        self.whole = torch.zeros((size, 4), dtype=torch.long, device=device)
+        self.kept = [torch.zeros((size, *s), dtype=kind, device=device) for s, kind in _KEPT]
         self.made = 0
 
     def add(self, color: Any, depth: Any, part: Any, table: Any, truth: WholeTruth) -> None:
         """Put an object in the place of the oldest; one with too many rows is left out."""
         if len(table) > MOST:
             return
-        at = self.made % self.size
-        self.color[at].copy_(torch.from_numpy(np.array(color)))
-        self.depth[at].copy_(torch.from_numpy(np.array(depth)))
-        self.part[at].copy_(torch.from_numpy(np.array(part)))
         rows = np.full((MOST, 10), -1.0, np.float32)
         rows[: len(table)] = table
-        self.table[at].copy_(torch.from_numpy(rows))
-        whole = [truth.kind, int(truth.opens), truth.front, int(truth.real)]
-        self.whole[at].copy_(torch.tensor(whole))
+        whole = (truth.kind, truth.opens, truth.front, truth.real)
+        for kept, given in zip(self.kept, (color, depth, part, rows, whole), strict=True):
+            kept[self.made % self.size].copy_(torch.from_numpy(np.array(given)))
         self.made += 1
 
     def draw(self, count: int, generator: Any) -> tuple[ObjectBatch, Any]:
@@ -67,29 +60,20 @@ class Pool:
 
     def take(self, chosen: Any) -> tuple[ObjectBatch, Any]:
         """Return the objects at these places."""
-        whole = self.whole[chosen]
-        batch = ObjectBatch(
-            self.color[chosen], self.depth[chosen], self.part[chosen], self.table[chosen],
-            whole[:, 3] > 0, whole[:, 2],
-        )  # fmt: skip
-        return batch, whole
+        color, depth, part, table, whole = (kept[chosen] for kept in self.kept)
+        return ObjectBatch(color, depth, part, table, whole[:, 3] > 0, whole[:, 2]), whole
 
 
 def joined(batches: list[tuple[ObjectBatch, Any]]) -> tuple[ObjectBatch, Any]:
     """Return several batches as one."""
-    names = ("color", "depth", "part", "table", "real", "front")
-    parts = {name: torch.cat([getattr(each, name) for each, _ in batches]) for name in names}
-    return ObjectBatch(**parts), torch.cat([whole for _, whole in batches])
+    columns = ([getattr(batch, each.name) for batch, _ in batches] for each in fields(ObjectBatch))
+    return ObjectBatch(*map(torch.cat, columns)), torch.cat([whole for _, whole in batches])
 
 
 class Makers:
     """Worker processes that make objects into a pool until they are stopped.
 
-    Args:
-        pool: for the objects.
-        workers: how many.
-        seed: of what they draw.
-        one_piece: the objects are made one piece, as image-to-3D tools give them.
+    With ``one_piece`` objects are made one piece, as image-to-3D tools give them.
     """
 
     def __init__(self, pool: Pool, workers: int, seed: int, one_piece: bool = False) -> None:
@@ -100,16 +84,11 @@ class Makers:
         self.pool = pool
         for slot in range(SLOTS):
             self.free.put(slot)
-        self.workers = [
-            context.Process(
-                target=make_into,
-                args=(self.memory.name, self.free, self.ready, seed, number, one_piece),
-                daemon=True,
-            )
-            for number in range(workers)
-        ]
-        for worker in self.workers:
-            worker.start()
+        self.workers = []
+        for number in range(workers):
+            given = (self.memory.name, self.free, self.ready, seed, number, one_piece)
+            self.workers.append(context.Process(target=make_into, args=given, daemon=True))
+            self.workers[-1].start()
 
     def collect(self, most: int) -> None:
         """Put at most so many finished objects into the pool; no thread does, it would hinder."""
@@ -139,7 +118,7 @@ def _views(memory: SharedMemory, slot: int) -> tuple[Any, Any, Any]:
 
 
 def make_into(name: str, free: Any, ready: Any, seed: int, number: int, one_piece: bool) -> None:
-    """Make objects for ever; runs in a worker process."""
+    """Make objects for ever, in a worker process."""
     from .drawn import drawn_one_piece, drawn_sides
     from .kinds import kind_number
 

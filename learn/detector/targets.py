@@ -105,9 +105,7 @@ def loss_of(answers: DenseAnswers, targets: CellTargets) -> tuple[Tensor, dict[s
     loss = functional.binary_cross_entropy_with_logits(sort, wanted, reduction="none")
     share = torch.sigmoid(sort)
     away = torch.where(wanted > 0, 1.0 - share, share)
-    balance = (
-        torch.where(there[:, :, None], weight[:, :, None], mean) * ~targets.ignored[:, :, None]
-    )
+    balance = (torch.where(there, weight, mean) * ~targets.ignored)[:, :, None]
     focal = torch.where(wanted > 0, 0.4, 0.6) * away**GAMMA * loss * balance
     terms = {"sort": focal.sum() / norm}
     overlap, generous = _overlap(answers.edges, targets.edges)
@@ -132,12 +130,14 @@ def _overlap(one: Tensor, other: Tensor) -> tuple[Tensor, Tensor]:
     """Return the intersection over union of boxes about each cell, and the generalised one."""
     smaller = torch.minimum(one, other).clamp(min=0.0)
     larger = torch.maximum(one, other)
-    inner = (smaller[:, :, 0] + smaller[:, :, 2]) * (smaller[:, :, 1] + smaller[:, :, 3])
-    areas = [
-        ((each[:, :, 0] + each[:, :, 2]) * (each[:, :, 1] + each[:, :, 3])).clamp(min=1e-3)
-        for each in (one, other)
-    ]
-    union = (areas[0] + areas[1] - inner).clamp(min=1e-3)
-    hull = (larger[:, :, 0] + larger[:, :, 2]) * (larger[:, :, 1] + larger[:, :, 3])
+    inner = _area(smaller)
+    areas = _area(one).clamp(min=1e-3) + _area(other).clamp(min=1e-3)
+    union = (areas - inner).clamp(min=1e-3)
+    hull = _area(larger)
     overlap = (inner / union).clamp(0.0, 1.0)
     return overlap, overlap - (hull - union) / hull.clamp(min=1e-3)
+
+
+def _area(edges: Tensor) -> Tensor:
+    """Return the areas of boxes by the distances to their edges, [n, 5, 4, rows, columns]."""
+    return (edges[:, :, 0] + edges[:, :, 2]) * (edges[:, :, 1] + edges[:, :, 3])

@@ -78,10 +78,8 @@ def train(options: Any) -> None:
     some = round(ONE_PIECE_WORKERS * options.workers)
     made = Pool(options.pool, device)
     one_piece = Pool(options.pool // 4, device)
-    makers = (
-        Makers(made, options.workers - some, options.seed),
-        Makers(one_piece, some, options.seed, one_piece=True),
-    )
+    forming = Makers(one_piece, some, options.seed, one_piece=True)
+    makers = (Makers(made, options.workers - some, options.seed), forming)
     learned, held_out = _packed(options.pack, device)
     say(f"{[each.made for each in learned]} to learn from, {[each.made for each in held_out]} not")
     network = _begun(options).to(device, memory_format=torch.channels_last)
@@ -115,12 +113,9 @@ def train(options: Any) -> None:
 
 @dataclass(frozen=True, eq=False)
 class Pools:
-    """Where batches come from.
+    """Where batches come from: ``textures`` are uint8, [m, 3, size, size].
 
-    Attributes:
-        pools: real, real made one piece, described, generated made one piece, generated objects.
-        textures: uint8, [m, 3, size, size].
-        generator: of random numbers.
+    Pools are of real, real made one piece, described, generated made one piece, generated objects.
     """
 
     pools: tuple[Pool, ...]
@@ -237,9 +232,8 @@ def _loss(network: Any, source: Pools, count: int) -> tuple[Any, dict[str, Any]]
     generator = source.generator
     counts = [round(share * count) for share in SHARES]
     counts.append(count - sum(counts))
-    batch, whole = joined(
-        [pool.draw(each, generator) for pool, each in zip(source.pools, counts, strict=True)]
-    )
+    drawn = zip(source.pools, counts, strict=True)
+    batch, whole = joined([pool.draw(each, generator) for pool, each in drawn])
     with torch.no_grad():
         shown = show(batch, source.textures, generator)
         targets = targets_of(shown)

@@ -55,24 +55,15 @@ class Bodies:
 
     def kind(self, body: int) -> MotionClass:
         """Return how a body moves relative to the one that holds it."""
-        turns = self.turn(body) is not None
-        slides = self.slide(body) is not None
-        if turns and slides:
-            return MotionClass.BOTH
-        if turns:
-            return MotionClass.REVOLUTE
-        return MotionClass.PRISMATIC if slides else MotionClass.FIXED
+        return MotionClass(sum({1 if joint.turns else 2 for joint in self.joints[body]}))
 
     def turn(self, body: int) -> Joint | None:
         """Return the turning joint nearest to a body, of its own; ``None`` if it has none."""
-        return next((joint for joint in reversed(self.joints[body]) if joint.turns), None)
+        return next((each for each in reversed(self.joints[body]) if each.turns), None)
 
     def slide(self, body: int) -> Joint | None:
         """Return the sliding joint nearest to a body, of its own; ``None`` if it has none."""
-        return next(
-            (joint for joint in reversed(self.joints[body]) if joint.kind is JointKind.PRISMATIC),
-            None,
-        )
+        return next((each for each in reversed(self.joints[body]) if not each.turns), None)
 
     def own_motion(self, body: int, share: float) -> FloatArray:
         """Return a body's motion by its own joints, opened by a share of range, [4, 4]."""
@@ -97,16 +88,12 @@ def bodies_of(articulation: Articulation) -> Bodies:
     labels = np.zeros(len(articulation.mesh.faces), dtype=np.int64)
     for body, part in enumerate(parts):
         labels[articulation.parts[part].faces] = body
-    return Bodies(
-        articulation,
-        np.array(parts, np.int64),
-        labels,
-        tuple(
-            -1 if above == part else number.get(above, -1)
-            for part, (above, _) in zip(parts, chains, strict=True)
-        ),
-        tuple(joints for _, joints in chains),
+    parents = (
+        -1 if above == part else number.get(above, -1)
+        for part, (above, _) in zip(parts, chains, strict=True)
     )
+    joints = tuple(own for _, own in chains)
+    return Bodies(articulation, np.array(parts, np.int64), labels, tuple(parents), joints)
 
 
 def _chain(articulation: Articulation, part: int) -> tuple[int, tuple[Joint, ...]]:

@@ -21,8 +21,8 @@ from asset_factory.factory.intake.sidecar import read_sidecar
 from asset_factory.factory.runtime.store import Store, digest_file
 
 from .listing import Listed
-from .merging import merged
 from .stored import imported
+from .transfer import merged
 
 POSES = ("closed", "open")
 YAWS = ("front", "random")
@@ -37,18 +37,14 @@ class Request:
 
     Attributes:
         object: its name, unique among objects.
-        source: where it is from.
-        category: what it is.
-        pose: ``closed``: every joint at its closed end; ``open``: every joint anywhere in its
-            range.
-        yaw: ``front``: the front towards -Y where there is one; ``random``: turned by any angle
-            about the vertical.
+        source, category: where it is from, and what it is.
+        pose: every joint at its closed end (``closed``), or anywhere in its range (``open``).
+        yaw: the front towards -Y if there is one (``front``), or turned about z (``random``).
         file: of its description, or its mesh with an annotation; ``None`` for a procedural object.
         digest: of that file; empty if any will do, which is then not kept.
         front_yaw: turn that brings its front to -Y [deg]; ``None`` where that is unknown.
         seed: of a procedural object.
-        fused: made one closed skin with seams engraved, as image-to-3D tools give it; parts that
-            nothing is seen of are gone.
+        fused: made one closed skin with engraved seams; parts that nothing is seen of are gone.
     """
 
     object: str
@@ -86,12 +82,9 @@ def in_settings(
 
 
 def real_requests(root: Path, objects: Sequence[Listed], half: str | None) -> tuple[Request, ...]:
-    """Return the objects of a list.
+    """Return the objects of a list, ``develop``, ``report`` or (``None``) both halves.
 
-    Args:
-        root: the folder of data that the list's paths start from.
-        objects: as :func:`~asset_factory.learn.evaluate.listing.read_list` gives them.
-        half: ``develop``, ``report``, or ``None`` for both.
+    Paths start from ``root``.
 
     Raises:
         ConfigError: an object is not there.
@@ -99,29 +92,21 @@ def real_requests(root: Path, objects: Sequence[Listed], half: str | None) -> tu
     chosen = [listed for listed in objects if half in (None, listed.half)]
     for listed in chosen:
         if not (root / listed.path).is_file():
-            raise ConfigError(
-                f"{root / listed.path}: no such file; "
-                "want the folder of data that the list is about"
-            )
+            wanted = "want the folder of data that the list is about"
+            raise ConfigError(f"{root / listed.path}: no such file; {wanted}")
     return tuple(
         Request(
-            object=listed.name,
-            source=listed.source,
-            category=listed.category,
-            file=root / listed.path,
-            digest=listed.digest,
-            front_yaw=listed.front_yaw,
+            each.name, each.source, each.category, file=root / each.path, digest=each.digest,
+            front_yaw=each.front_yaw,
         )
-        for listed in chosen
-    )
+        for each in chosen
+    )  # fmt: skip
 
 
 def procedural_requests(categories: Sequence[str], seeds: Sequence[int]) -> tuple[Request, ...]:
     """Return the procedural objects, one per category and seed."""
-    return tuple(
-        Request(f"{category}_{seed}", "procedural", category, seed=seed)
-        for category, seed in product(categories, seeds)
-    )
+    made = product(categories, seeds)
+    return tuple(Request(f"{kind}_{seed}", "procedural", kind, seed=seed) for kind, seed in made)
 
 
 def folder_requests(folder: Path) -> tuple[Request, ...]:
@@ -138,9 +123,8 @@ def folder_requests(folder: Path) -> tuple[Request, ...]:
         or read_sidecar(path, InputFiles(path.parent, config)).annotation is not None
     ]
     if not found:
-        raise ConfigError(
-            f"{folder}: holds no URDF, no MJCF and no mesh with an annotation; want at least one"
-        )
+        said = "holds no URDF, no MJCF and no mesh with an annotation"
+        raise ConfigError(f"{folder}: {said}; want at least one")
     return tuple(
         Request(
             object=path.relative_to(folder).with_suffix("").as_posix().replace("/", "__"),
@@ -170,18 +154,17 @@ def skin_requests(folder: Path) -> tuple[Request, ...]:
 def make_case(request: Request, store: Store | None = None) -> Articulation:
     """Return the truth about an object, posed, turned and melted into one mesh.
 
-    Args:
-        request: which object, and how.
-        store: keeps objects; ``None`` reads them every time.
+    ``store`` keeps objects; ``None`` reads them every time.
 
     Raises:
-        InputRejected: the description cannot be read, or nothing that moves is seen of the fused
-            object.
+        InputRejected: it cannot be read, or nothing that moves is seen of the fused object.
         ConfigError: it is not the file that the list speaks of.
     """
     whole = closed(_original(request, store))
     if request.pose == "open":
-        whole = _opened(whole, _rng(request, "pose"))
+        rng = _rng(request, "pose")
+        values = {j.name: j.lower + j.range * float(rng.uniform()) for j in whole.movable_joints}
+        whole = posed(whole, values)
     if request.yaw == "random":
         whole = turned(whole, float(_rng(request, "yaw").uniform(0.0, FULL_TURN)))
     elif request.front_yaw:
@@ -214,18 +197,9 @@ def _fused(whole: Articulation, seed: int) -> Articulation:
         raise InputRejected("nothing_seen", f"cannot be made one skin: {error}") from error
 
 
-def _opened(whole: Articulation, rng: np.random.Generator) -> Articulation:
-    return posed(
-        whole, {j.name: j.lower + j.range * float(rng.uniform()) for j in whole.movable_joints}
-    )
-
-
 def _rng(request: Request, purpose: str) -> np.random.Generator:
     """Return random numbers for one purpose, the same for the same object, pose and yaw."""
-    parts = {"pose": (), "skin": (), "yaw": (request.pose,), "order": (request.pose, request.yaw)}[
-        purpose
-    ]
+    parts = {"yaw": (request.pose,), "order": (request.pose, request.yaw)}.get(purpose, ())
     text = "/".join((request.object, purpose, *parts))
-    return np.random.default_rng(
-        int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "little")
-    )
+    digest = hashlib.sha256(text.encode()).digest()
+    return np.random.default_rng(int.from_bytes(digest[:8], "little"))

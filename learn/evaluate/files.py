@@ -13,9 +13,8 @@ import numpy as np
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.runtime.store import write_json, write_whole
 
-from .comparing import compared
 from .score import Score
-from .summary import in_order, rounded, summarised
+from .summary import compared, in_order, rounded, summarised
 from .trial import Row
 
 JSON_NAME = "evaluation.json"
@@ -25,39 +24,26 @@ CSV_NAME = "cases.csv"
 def write_results(folder: Path, rows: Sequence[Row], settings: dict[str, Any]) -> dict[str, Any]:
     """Write both files, the same bytes for the same numbers; returns what the JSON file holds.
 
-    Args:
-        folder: made if it is not there.
-        rows: in any order.
-        settings: of the evaluation, without paths of this machine.
+    Rows come in any order; ``settings`` have no paths of this machine.
     """
     folder.mkdir(parents=True, exist_ok=True)
     lines = [_line(row) for row in in_order(rows)]
-    data = {
-        "settings": settings,
-        "summary": summarised(rows),
-        "paired": compared(rows),
-        "cases": lines,
-    }
+    data = {"settings": settings, "summary": summarised(rows), "paired": compared(rows)}
+    data["cases"] = lines
     write_json(folder / JSON_NAME, data)
     write_whole(folder / CSV_NAME, _table(lines).encode())
     return data
 
 
 def _line(row: Row) -> dict[str, Any]:
-    request = row.trial.request
+    trial = row.trial
+    request = trial.request
     score = row.score or Score({})
-    return {
-        "method": row.trial.method.name,
-        "case": request.name,
-        "repeat": row.trial.repeat,
-        "source": request.source,
-        "category": request.category,
-        "pose": request.pose,
-        "yaw": request.yaw,
-        "failure": row.failure,
-        "values": {name: rounded(value) for name, value in score.values.items()},
-        "parts": {n: [rounded(v) for v in values] for n, values in score.pooled.items()},
-    }
+    told = {"method": trial.method.name, "case": request.name, "repeat": trial.repeat}
+    told |= {name: getattr(request, name) for name in ("source", "category", "pose", "yaw")}
+    values = {name: rounded(value) for name, value in score.values.items()}
+    parts = {name: [rounded(v) for v in each] for name, each in score.pooled.items()}
+    return told | {"failure": row.failure, "values": values, "parts": parts}
 
 
 def _table(lines: Sequence[dict[str, Any]]) -> str:
@@ -69,14 +55,9 @@ def _table(lines: Sequence[dict[str, Any]]) -> str:
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow([*fixed, *values, *parts])
     for line in lines:
-        means = [line["parts"].get(name, ()) for name in parts]
-        writer.writerow(
-            [
-                *(line[name] for name in fixed),
-                *(line["values"].get(name, "") for name in values),
-                *(rounded(np.mean(numbers)) if len(numbers) else "" for numbers in means),
-            ]
-        )
+        cells = [line[name] for name in fixed] + [line["values"].get(name, "") for name in values]
+        numbers = [line["parts"].get(name, ()) for name in parts]
+        writer.writerow(cells + [rounded(np.mean(each)) if each else "" for each in numbers])
     return text.getvalue()
 
 

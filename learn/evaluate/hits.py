@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from asset_factory.factory.articulation import Joint
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import FloatArray
 
@@ -22,19 +21,12 @@ STRICT_OFFSET = 0.02
 def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[float, ...]]:
     """Return 1 or 0 per true moving part, in the bodies' order; 0 unless found and moving.
 
-    Args:
-        true: the truth.
-        predicted: the answer, over the same mesh.
-        pairing: of the two.
-
     Returns:
         ``type_of_all``: the type is right. ``axis_of_all``: an axis that both have is there, and
-            all such are within 5
-        degrees. ``joint_right``: both of these, and the axis of the turn, if there is one, within 5
-            % of the longest
-        side. Of the true parts that turn: ``place_of_all``, ``place_of_all_strict``: the prediction
-        turns about an axis within 5 % and 2 % of the longest side of the true one; which way it
-        points is not asked.
+        all such are within 5 degrees. ``joint_right``: both of these, and the axis of the turn, if
+        there is one, within 5 % of the longest side. Of the true parts that turn:
+        ``place_of_all``, ``place_of_all_strict``: the prediction turns about an axis within 5 % and
+        2 % of the longest side of the true one; which way it points is not asked.
     """
     names = ("type_of_all", "axis_of_all", "place_of_all", "place_of_all_strict", "joint_right")
     found = {name: np.zeros(len(true)) for name in names}
@@ -52,20 +44,20 @@ def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[f
         found["place_of_all_strict"][real] = share < STRICT_OFFSET
         found["joint_right"][real] = alike and parallel and (place is None or share < RIGHT_OFFSET)
     turning = np.array([true.turn(body) is not None for body in range(len(true))])
-    asked = {
-        name: true.moving & turning if name.startswith("place") else true.moving for name in names
-    }
+    moving = true.moving
+    asked = {name: moving & turning if name.startswith("place") else moving for name in names}
     return {name: tuple(found[name][asked[name]].tolist()) for name in names}
 
 
 def angles(true: Bodies, predicted: Bodies, real: int, guess: int) -> list[float]:
     """Return the angles between two bodies' axes, of turns and slides, either way [deg]."""
     both = (true.turn(real), predicted.turn(guess)), (true.slide(real), predicted.slide(guess))
-    return [_angle(one, other) for one, other in both if one is not None and other is not None]
+    cosines = [abs(one.axis @ other.axis) for one, other in both if one and other]
+    return [float(np.degrees(np.arccos(np.clip(each, 0.0, 1.0)))) for each in cosines]
 
 
 def offset(true: Bodies, predicted: Bodies, real: int, guess: int) -> float | None:
-    """Return the distance of two turn axes, at the true one's point next to the part [m].
+    """Return the distance of two turn axes [m], at the true one's point next to the part.
 
     ``None`` unless both turn.
     """
@@ -78,7 +70,3 @@ def offset(true: Bodies, predicted: Bodies, real: int, guess: int) -> float | No
     middle: FloatArray = np.average(face_centres(mesh)[own], axis=0, weights=face_areas(mesh)[own])
     at = ours.origin + ours.axis * float(ours.axis @ (middle - ours.origin)) - theirs.origin
     return float(np.linalg.norm(at - theirs.axis * float(theirs.axis @ at)))
-
-
-def _angle(true: Joint, predicted: Joint) -> float:
-    return float(np.degrees(np.arccos(np.clip(abs(true.axis @ predicted.axis), 0.0, 1.0))))

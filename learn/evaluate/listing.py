@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
+from typing import Any
 
 from asset_factory.factory.errors import ConfigError
 
@@ -23,14 +24,11 @@ class Listed:
 
     Attributes:
         path: of its URDF or MJCF, relative to the folder of data, with ``/``.
-        source: where it is from; a folder's name.
-        category: what it is, a best guess.
+        source, category: a folder's name, and a best guess.
         digest: SHA-256 of the description file.
-        shape: path of the first object of the list with the same surface; its own if it is the
-            first.
+        shape: path of the first object of the list with the same surface, perhaps its own.
         half: ``develop`` to make choices on, ``report`` to be looked at when all choices are made.
-        front_yaw: turn about z that brings its front to -Y [deg]; ``None`` where no side is its
-            front.
+        front_yaw: turn about z that brings its front to -Y [deg]; ``None`` without a front.
     """
 
     path: str
@@ -56,10 +54,7 @@ def half_of(shape: str) -> str:
 
 
 def read_list(path: Path | None = None) -> tuple[Listed, ...]:
-    """Read a list.
-
-    Args:
-        path: a CSV file with the columns ``COLUMNS``; the package's own by default.
+    """Read a CSV file with the columns ``COLUMNS``; the package's own by default.
 
     Raises:
         ConfigError: it is not there, a column or a value is missing, or a half is not the rule's.
@@ -72,9 +67,7 @@ def list_text(path: Path | None = None) -> str:
     if path is None:
         return (resources.files("asset_factory.configs") / REAL).read_text(encoding="utf-8")
     if not path.is_file():
-        raise ConfigError(
-            f"{path}: no such list; want a CSV file with the columns {', '.join(COLUMNS)}"
-        )
+        raise ConfigError(f"{path}: no such list; want a CSV with columns {', '.join(COLUMNS)}")
     return path.read_text(encoding="utf-8")
 
 
@@ -84,20 +77,17 @@ def _rows(lines: list[str], name: str) -> Iterator[Listed]:
     if missing:
         raise ConfigError(f"{name}: has no column {missing[0]!r}; want {', '.join(COLUMNS)}")
     for number, row in enumerate(reader, start=2):
-        values = {column: row[column] or "" for column in COLUMNS}
+        values: dict[str, Any] = {column: row[column] or "" for column in COLUMNS}
         if not (values["path"] and values["digest"] and values["shape"]):
             raise ConfigError(f"{name}, line {number}: want a path, a digest and a shape")
-        if values["half"] != half_of(values["shape"]):
-            raise ConfigError(
-                f"{name}, line {number}: half is {values['half']!r}, "
-                f"want {half_of(values['shape'])!r}"
-            )
+        half = half_of(values["shape"])
+        if values["half"] != half:
+            said = values["half"]
+            raise ConfigError(f"{name}, line {number}: half is {said!r}, want {half!r}")
         try:
             front = float(values["front_yaw"]) if values["front_yaw"] else None
         except ValueError:
             raise ConfigError(
                 f"{name}, line {number}: front_yaw must be degrees, not {values['front_yaw']!r}"
             ) from None
-        yield Listed(
-            **{key: value for key, value in values.items() if key != "front_yaw"}, front_yaw=front
-        )
+        yield Listed(**values | {"front_yaw": front})

@@ -22,22 +22,13 @@ from asset_factory.factory.mesh import Mesh
 NAIVE = "naive"
 PREDICTIONS = "predictions"
 #: Those that see a mesh and nothing else.
-METHODS = (
-    NAIVE,
-    *(name for name in ARTICULATORS if name not in ("annotated", "rigid")),
-    PREDICTIONS,
-)
+_SEEING = [name for name in ARTICULATORS if name not in ("annotated", "rigid")]
+METHODS = (NAIVE, *_SEEING, PREDICTIONS)
 
 
 @dataclass(frozen=True)
 class Method:
-    """One way to find moving parts.
-
-    Attributes:
-        name: of ``METHODS``.
-        config: of the network, for the methods that ask one.
-        folder: of ``<case>.npz`` files, for ``predictions``.
-    """
+    """One way to find moving parts, of ``METHODS``; ``folder`` holds ``predictions``' files."""
 
     name: str
     config: ParticulateConfig
@@ -47,9 +38,8 @@ class Method:
         if self.name not in METHODS:
             raise ConfigError(f"--method: no method {self.name!r}; there are {', '.join(METHODS)}")
         if self.name == PREDICTIONS and (self.folder is None or not self.folder.is_dir()):
-            raise ConfigError(
-                f"--predictions: {self.folder or 'not given'}; want the folder of <case>.npz files"
-            )
+            given = self.folder or "not given"
+            raise ConfigError(f"--predictions: {given}; want the folder of <case>.npz files")
 
     @property
     def is_random(self) -> bool:
@@ -70,10 +60,9 @@ class Method:
         if self.name == NAIVE:
             return RigidArticulator().articulate(mesh)
         if self.name == PREDICTIONS and self.folder is not None:
-            annotation = read_prediction(self.folder / f"{case}.npz", len(mesh.faces))
-            return AnnotatedArticulator(
-                annotation, np.eye(4), np.arange(len(mesh.faces))
-            ).articulate(mesh)
+            faces = len(mesh.faces)
+            annotation = read_prediction(self.folder / f"{case}.npz", faces)
+            return AnnotatedArticulator(annotation, np.eye(4), np.arange(faces)).articulate(mesh)
         return _articulator(self.name, self.config).articulate(mesh)
 
 

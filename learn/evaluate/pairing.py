@@ -16,11 +16,9 @@ class Pairing:
     """The assignment of bodies that maximises the sum of intersections over unions.
 
     Attributes:
-        shared: area that a true and a predicted body have in common [m2], shape [true_count,
-            predicted_count].
+        shared: area in both a true and a predicted body [m2], shape [true_count, predicted_count].
         true_area, predicted_area: of each body [m2].
-        pairs: rows of (true, predicted) body that share something, ascending, shape [pair_count,
-            2].
+        pairs: rows of (true, predicted) body that share something, ascending, shape [n, 2].
     """
 
     shared: FloatArray
@@ -48,25 +46,23 @@ class Pairing:
 
 
 def paired(true: Bodies, predicted: Bodies, areas: FloatArray) -> Pairing:
-    """Match two labellings of the same faces.
-
-    Args:
-        true: the truth.
-        predicted: the answer, over the same mesh.
-        areas: of its faces [m2], shape [face_count].
-    """
+    """Match two labellings of the same faces, whose ``areas`` [m2] have shape [face_count]."""
     from scipy.optimize import linear_sum_assignment
 
-    shape = (len(true), len(predicted))
-    cells = np.bincount(
-        true.labels * shape[1] + predicted.labels, weights=areas, minlength=shape[0] * shape[1]
-    )
-    shared: FloatArray = np.asarray(cells.reshape(shape), dtype=np.float64)
+    shared = shared_areas(true, predicted, areas)
     true_area = shared.sum(axis=1)
     predicted_area = shared.sum(axis=0)
     rows, columns = linear_sum_assignment(-_iou(shared, true_area, predicted_area))
     pairs = np.stack([rows, columns], axis=1)
     return Pairing(shared, true_area, predicted_area, pairs[shared[rows, columns] > 0.0])
+
+
+def shared_areas(true: Bodies, predicted: Bodies, areas: FloatArray) -> FloatArray:
+    """Return the area of faces in both of two bodies [m2], shape [true_count, predicted_count]."""
+    shape = (len(true), len(predicted))
+    cells = true.labels * shape[1] + predicted.labels
+    shared = np.bincount(cells, weights=areas, minlength=shape[0] * shape[1])
+    return np.asarray(shared.reshape(shape), dtype=np.float64)
 
 
 def _iou(shared: FloatArray, true_area: FloatArray, predicted_area: FloatArray) -> FloatArray:

@@ -18,7 +18,7 @@ from asset_factory.factory.models.particulate.prediction import MotionClass
 
 from .bodies import Bodies, BoolArray, bodies_of, face_centres
 from .hits import FOUND_IOU, angles, hits, offset
-from .pairing import Pairing, paired
+from .pairing import Pairing, paired, shared_areas
 from .score import Score
 
 #: Shares of their range by which joints are opened to compare where faces get to.
@@ -26,8 +26,7 @@ STATES = (0.25, 0.5, 0.75, 1.0)
 #: Farthest that a face may be from where it truly is, as a share of the object's longest side.
 TOLERANCE = 0.05
 STRICT_TOLERANCE = 0.02
-#: And as a share of how far its part went, or else parts that move little could not be told from
-#: parts that do not.
+#: And as a share of how far its part went: what moves little is told from what does not.
 TRAVEL_TOLERANCE = 0.5
 #: A joint that turns so far [rad] comes back to where it was.
 WHOLE_TURN = 2.0 * np.pi - 0.01
@@ -36,11 +35,7 @@ FIRST_SHARE = 0.25
 
 
 def physical(true: Articulation, predicted: Articulation) -> Score:
-    """Compare two articulations of the same mesh.
-
-    Args:
-        true: the truth.
-        predicted: the answer, faces in the same order and the same pose.
+    """Compare two articulations of the same mesh, faces in the same order and the same pose.
 
     Returns:
         Of the object: ``part_miou`` (mean of both directions, a part without match is 0),
@@ -115,17 +110,11 @@ def _motion_aware(
             true.mobile, np.minimum(tolerance * size, TRAVEL_TOLERANCE * travel), tolerance * size
         )
         right = np.linalg.norm(at - guessed, axis=1) <= allowed[true.labels]
-        shape = pairing.shared.shape
-        cells = true.labels * shape[1] + predicted.labels
-        met = np.bincount(cells, weights=areas * right, minlength=shape[0] * shape[1]).reshape(
-            shape
-        )
+        met = shared_areas(true, predicted, areas * right)
         for index, (real, guess) in enumerate(pairing.pairs):
             if true.moving[real] == predicted.moving[guess]:
-                shared = met[real, guess]
-                total[index] += shared / (
-                    pairing.true_area[real] + pairing.predicted_area[guess] - shared
-                )
+                both = pairing.true_area[real] + pairing.predicted_area[guess]
+                total[index] += met[real, guess] / (both - met[real, guess])
     return pairing.spread(total / len(STATES))
 
 
@@ -150,13 +139,9 @@ def _joint_errors(
 ) -> dict[str, tuple[float, ...]]:
     """Return per matched true moving part if its type is right; errors of axis and range."""
     names = (
-        "type_accuracy",
-        "axis_angle_deg",
-        "axis_offset",
-        "opens_right_way",
-        "range_error_rad",
+        "type_accuracy", "axis_angle_deg", "axis_offset", "opens_right_way", "range_error_rad",
         "range_error_size",
-    )
+    )  # fmt: skip
     errors: dict[str, list[float]] = {name: [] for name in names}
     mesh = true.articulation.mesh
     size = float(mesh.extents.max())
@@ -185,10 +170,7 @@ def _joint_errors(
             or turns[0] is None
             or turns[0].kind is JointKind.REVOLUTE
         ):
-            ways = [
-                _opening(bodies, body, centres[own])
-                for bodies, body in ((true, real), (predicted, guess))
-            ]
+            ways = _opening(true, real, centres[own]), _opening(predicted, guess, centres[own])
             along = float((areas[own] * np.einsum("ij,ij->i", *ways)).sum())
             errors["opens_right_way"].append(float(along > 0.0))
     return {name: tuple(values) for name, values in errors.items()}
@@ -212,7 +194,6 @@ def _with_aligned_turns(true: Bodies, predicted: Bodies, pairing: Pairing) -> Bo
             flipped.add(theirs.name)
     if not flipped:
         return predicted
-    joints = tuple(
-        replace(j, axis=-j.axis) if j.name in flipped else j for j in predicted.articulation.joints
-    )
-    return bodies_of(replace(predicted.articulation, joints=joints))
+    whole = predicted.articulation
+    joints = tuple(replace(j, axis=-j.axis) if j.name in flipped else j for j in whole.joints)
+    return bodies_of(replace(whole, joints=joints))

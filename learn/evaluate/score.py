@@ -8,12 +8,10 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class Score:
-    """What one prediction is worth.
+    """What one prediction is worth: numbers of the object and of its parts, by name.
 
-    Attributes:
-        values: numbers of the object, by name; over many objects their mean is taken.
-        pooled: numbers of its parts, by name; over many objects all parts count alike. Shares are 0
-            or 1 per part.
+    Over many objects the mean of ``values`` is taken; of ``pooled`` numbers all parts count alike.
+    Shares are 0 or 1 per part.
     """
 
     values: Mapping[str, float]

@@ -18,10 +18,7 @@ from asset_factory.factory.runtime.store import Store, stage_key
 def imported(path: Path, digest: str, store: Store | None) -> Articulation:
     """Return the articulation described by a URDF, an MJCF or an annotated mesh, without its looks.
 
-    Args:
-        path: of the description or the mesh.
-        digest: of that file, under which the articulation is kept.
-        store: where; ``None`` reads the files every time.
+    It is kept in ``store`` under the file's ``digest``; ``None`` reads the files every time.
 
     Raises:
         InputRejected: it cannot be read, is no tree, or comes without joints.

@@ -1,4 +1,4 @@
-"""The truth on a mesh whose triangles an articulator has cut along its parts."""
+"""The truth on a mesh that keeps no trace of its parts, and after an articulator has cut that."""
 
 from __future__ import annotations
 
@@ -6,21 +6,40 @@ from dataclasses import replace
 
 import numpy as np
 
-from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.articulation import Articulation, Part
+from asset_factory.factory.geometry.clean import clean
 from asset_factory.factory.geometry.posing import face_parts
+from asset_factory.factory.geometry.soup import plain_soup
 from asset_factory.factory.mesh import FloatArray, IntArray, Mesh
 
 #: Triangles looked at together.
 _CHUNK = 256
 
 
-def on_mesh(truth: Articulation, mesh: Mesh) -> Articulation:
-    """Return the same parts and joints over another mesh of the same surface.
+def merged(articulation: Articulation, rng: np.random.Generator) -> Articulation:
+    """Return the same parts and joints over a mesh whose order, seams and looks hide the parts.
 
-    Args:
-        truth: over the mesh as it was.
-        mesh: the same, or with some of its triangles cut into smaller ones.
+    Faces are shuffled, vertices are numbered as those faces use them and welded by position across
+    parts, as for any mesh file that is read; materials, texture coordinates and normals are gone.
+    Faces without area are too.
+
+    Raises:
+        InputRejected: no face has any area.
     """
+    order = rng.permutation(len(articulation.mesh.faces))
+    corners = articulation.mesh.vertices[articulation.mesh.faces[order]]
+    cleaned = clean(plain_soup(corners), articulation.articulator)
+    owner = face_parts(articulation)[order][cleaned.source_faces]
+    parts = tuple(
+        Part(part.name, np.flatnonzero(owner == i)) for i, part in enumerate(articulation.parts)
+    )
+    return Articulation(
+        cleaned.mesh, parts, articulation.joints, articulation.articulator, articulation.notes
+    )
+
+
+def on_mesh(truth: Articulation, mesh: Mesh) -> Articulation:
+    """Return the same parts and joints over the same mesh, some of its triangles perhaps cut."""
     if len(mesh.faces) == len(truth.mesh.faces):
         return truth
     part = face_parts(truth)[sources(truth.mesh, mesh)]

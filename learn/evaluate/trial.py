@@ -23,8 +23,8 @@ from .cases import Request, make_case
 from .methods import Method
 from .physical import physical
 from .published.cloud import POINTS, cloud_of
-from .published.paper import paper
 from .published.release import release
+from .published.state import paper
 from .score import Score
 from .transfer import on_mesh
 
@@ -37,15 +37,9 @@ RESIDENT_BYTES = 3 * 1024**3
 
 @dataclass(frozen=True)
 class Trial:
-    """What to do.
+    """What to do: ``convention`` is of ``CONVENTIONS``, the published ones with so many points.
 
-    Attributes:
-        request: the case.
-        method: who answers.
-        repeat: which repetition this is.
-        convention: of ``CONVENTIONS``.
-        points: per object, for the published conventions.
-        kept: folder of objects read before; ``None`` to read them anew.
+    ``kept`` is the folder of objects read before; ``None`` to read them anew.
     """
 
     request: Request
@@ -60,11 +54,8 @@ class Trial:
 class Row:
     """What came of it.
 
-    Attributes:
-        trial: the question.
-        score: of the answer, or of the naive one where there was none; ``None`` if the case could
-            not be made, or a clock or somebody stopped the method.
-        failure: why there was no answer; empty if there was.
+    ``score`` is of the answer, or of the naive one where ``failure`` says why there was none;
+    ``None`` if the case could not be made, or a clock or somebody stopped the method.
     """
 
     trial: Trial
@@ -106,10 +97,7 @@ def _scored(trial: Trial, truth: Articulation, answer: Articulation) -> Score:
 def run_trials(trials: Iterable[Trial], workers: int, limits: Limits) -> Iterator[Row]:
     """Return the rows of trials as they come, each made in a child that may crash or hang.
 
-    Args:
-        trials: any number.
-        workers: how many at once.
-        limits: of one trial.
+    ``limits`` are of one trial, of which ``workers`` run at once.
 
     Raises:
         ConfigError: as :func:`score_trial`; that is nobody's failure but a wrong request.
@@ -132,8 +120,6 @@ def run_trials(trials: Iterable[Trial], workers: int, limits: Limits) -> Iterato
 
 def _reason(outcome: Outcome[Score]) -> str:
     error = outcome.error
-    return (
-        f"{error.code}: {error}"
-        if isinstance(error, InputRejected)
-        else f"{outcome.failure}: {outcome.detail}"
-    )
+    if isinstance(error, InputRejected):
+        return f"{error.code}: {error}"
+    return f"{outcome.failure}: {outcome.detail}"

@@ -44,10 +44,8 @@ def main(arguments: list[str] | None = None) -> int:
 def _motions(asked: Asked) -> Fit:
     from .motions import fit_motions, measured, report
 
-    objects = chain(
-        generated(range(asked.seed, asked.seed + asked.seeds)),
-        *(described(folder) for folder in asked.data),
-    )
+    seeds = range(asked.seed, asked.seed + asked.seeds)
+    objects = chain(generated(seeds), *(described(folder) for folder in asked.data))
     samples = list(measured(islice(objects, 0, None, asked.every)))
     stored = fit_motions(samples, asked.steps)
     what = (
@@ -67,16 +65,12 @@ def _trust(asked: Asked) -> Fit:
 
     from .trust import described_turned, fit_trust, procedural, tried
 
-    articulator = load_auto(
-        ParticulateConfig(), AutoConfig(), Trust(linear(np.zeros(len(SIGNS))), 0.5)
-    )
-    objects = chain(
-        procedural(range(asked.seed, asked.seed + asked.seeds)),
-        *(
-            described_turned(folder, read_split(split))
-            for folder, split in zip(asked.data, asked.split, strict=True)
-        ),
-    )
+    trusting_none = Trust(linear(np.zeros(len(SIGNS))), 0.5)
+    articulator = load_auto(ParticulateConfig(), AutoConfig(), trusting_none)
+    made = procedural(range(asked.seed, asked.seed + asked.seeds))
+    folders = zip(asked.data, asked.split, strict=True)
+    others = (described_turned(folder, read_split(split)) for folder, split in folders)
+    objects = chain(made, *others)
     trials = list(tried(articulator, objects))
     stored = fit_trust(articulator, trials, asked.least)
     right = np.concatenate([trial.right for trial in trials])

@@ -43,11 +43,7 @@ STEPS = 200
 #: Ranges of probability that the card tells of.
 RANGES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.01)
 #: Sorts of true parts that a panel, and a lid, may be.
-_TRUE = {
-    PANEL: (Sort.DOOR, Sort.DRAWER, Sort.FLAP),
-    LID: (Sort.LID,),
-    PROPOSED: SORTS,
-}
+_TRUE = {PANEL: (Sort.DOOR, Sort.DRAWER, Sort.FLAP), LID: (Sort.LID,), PROPOSED: SORTS}
 
 #: Signs of each part, as ``SIGNS`` names them, and 1 or 0: whether it is right.
 Rated = dict[str, list[tuple[float, ...]]]
@@ -55,12 +51,7 @@ Rated = dict[str, list[tuple[float, ...]]]
 
 @dataclass(frozen=True, eq=False)
 class LabelledMesh:
-    """A mesh with the truth about its sides.
-
-    Attributes:
-        mesh: z up.
-        truth: what opens on each side.
-    """
+    """A mesh, z up, and what opens on each of its sides."""
 
     mesh: Mesh
     truth: Instances
@@ -69,11 +60,7 @@ class LabelledMesh:
 def labelled_meshes(real: Path, root: Path) -> Iterator[LabelledMesh]:
     """Yield labelled real meshes that the detector did not see, as they are and made one piece.
 
-    After them come generated and published objects made one piece.
-
-    Args:
-        real: folder of labelled meshes.
-        root: of the objects of the list for evaluation; those of its half to tune on are used.
+    After them come the objects in ``root`` of the list's half to tune on, made one piece.
 
     Raises:
         ConfigError: an object of the list is not there.

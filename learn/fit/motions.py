@@ -40,8 +40,7 @@ RANGED = {
     "outer": Weighing(0.2, 0.1),
     "base": Weighing(0.0, 0.01),
 }
-#: Steps of range: a quarter of an octave apart, from 5.6 degrees to a turn, and from a tenth of the
-#: unit to twice it.
+#: Steps of range, a quarter of an octave apart: 5.6 degrees to a turn, 0.1 to 2 of the unit.
 TURN_STEPS = np.pi / 2.0 * 2.0 ** (np.arange(-16, 9) / 4.0)
 SLIDE_STEPS = 2.0 ** (np.arange(-14, 6) / 4.0)
 #: Of each part's candidates so many teach at most: half of them the best, the rest at random.
@@ -51,23 +50,15 @@ LEAST_WORTH = 1e-4
 
 
 def fit_motions(samples: Sequence[MotionSample], steps: int) -> Arrays:
-    """Fit everything to the same motion samples.
-
-    Args:
-        samples: of many parts.
-        steps: of each optimisation at most.
+    """Fit everything to the same motion samples, in so many steps of each optimisation at most.
 
     Raises:
         ConfigError: nothing turns, or nothing slides, among the motion samples.
     """
-    ratings = {
-        "guided": fit_rating(samples, steps),
-        "blind": fit_rating([motion_sample.unguided() for motion_sample in samples], steps),
-    }
-    usual = {
-        "turn_range": fit_usual(samples, False, steps),
-        "slide_range": fit_usual(samples, True, steps),
-    }
+    blind = [each.unguided() for each in samples]
+    ratings = {"guided": fit_rating(samples, steps), "blind": fit_rating(blind, steps)}
+    ranges = {"turn_range": False, "slide_range": True}
+    usual = {name: fit_usual(samples, slides, steps) for name, slides in ranges.items()}
     others = {f"{name}.sure": np.array(each.sure) for name, each in ratings.items()}
     others |= {f"{name}.values": each.values for name, each in usual.items()}
     networks = {name: each.network for name, each in (ratings | usual).items()}
@@ -116,11 +107,8 @@ def fit_usual(samples: Sequence[MotionSample], slides: bool, steps: int) -> Usua
     Raises:
         ConfigError: no motion sample is of that kind.
     """
-    known = [
-        (x, x.setting)
-        for x in samples
-        if x.setting is not None and x.setting.slides == slides and x.range > 0.0
-    ]
+    told = ((x, x.setting) for x in samples if x.setting is not None and x.range > 0.0)
+    known = [(x, setting) for x, setting in told if setting.slides == slides]
     if not known:
         what = "slides" if slides else "turns"
         raise ConfigError(f"motions: nothing {what} among what is to be learned from")
@@ -130,12 +118,8 @@ def fit_usual(samples: Sequence[MotionSample], slides: bool, steps: int) -> Usua
     finite = np.where(np.isinf(ranges), 1.0, ranges)
     step = np.abs(np.log(finite[:, None] / grid[None])).argmin(axis=1)
     step = np.where(np.isinf(ranges), len(grid), step)
-    values = np.array(
-        [
-            np.median(ranges[step == k]) if (step == k).any() else value
-            for k, value in enumerate(grid)
-        ]
-    )
+    here = [ranges[step == k] for k in range(len(grid))]
+    values = np.array([np.median(x) if len(x) else grid[k] for k, x in enumerate(here)])
     values = values if slides else np.append(values, np.inf)
     weights = _weights_of([motion_sample for motion_sample, _ in known])
     examples = Examples(numbers, np.eye(len(values))[step], weights)
@@ -174,9 +158,8 @@ def _telling(motion_sample: MotionSample) -> IntArray:
     best = order[: MOST_CANDIDATES // 2]
     others = order[MOST_CANDIDATES // 2 :]
     rng = np.random.default_rng(_digest(motion_sample.name) + len(order))
-    return np.sort(
-        np.concatenate([best, rng.choice(others, MOST_CANDIDATES - len(best), replace=False)])
-    )
+    chosen = rng.choice(others, MOST_CANDIDATES - len(best), replace=False)
+    return np.sort(np.concatenate([best, chosen]))
 
 
 def _calibrated(said: Sequence[float], right: Sequence[float]) -> tuple[float, float]:

@@ -23,11 +23,9 @@ LEAST_SCALE = 0.02
 
 @dataclass(frozen=True)
 class Weighing:
-    """Prior knowledge of some weights.
+    """Prior knowledge of some weights: the standard deviation of the first ones, and their decay.
 
-    Attributes:
-        spread: standard deviation of the first ones.
-        decay: by which half their squares are added to the loss.
+    Half of their squares, times the decay, is added to the loss.
     """
 
     spread: float
@@ -41,8 +39,7 @@ class FitSettings:
     Attributes:
         width: of its hidden layer; 0: a linear model.
         answers: how many scores it gives.
-        weights: of a :class:`Perceptron`, those that are fitted, in its order; the others are
-            nothing.
+        weights: of a :class:`Perceptron`, those that are fitted, in its order; others are 0.
         steps: of the optimisation at most.
         seed: of the first weights.
     """
@@ -66,12 +63,9 @@ class FitSettings:
 
 
 def fit_perceptron(numbers: Numbers, loss: Loss, settings: FitSettings) -> Perceptron:
-    """Return the network of the least loss, weights' squares added.
+    """Return the network of the least loss of the scores of all rows, weights' squares added.
 
-    Args:
-        numbers: inputs, shape [n, input_count]; sums over them are taken in their own precision.
-        loss: of the scores of all rows.
-        settings: of network and optimisation.
+    Sums over ``numbers``, inputs of shape [n, input_count], are taken in their own precision.
     """
     shapes = settings.shapes(numbers.shape[1])
     sizes = [int(np.prod(shape)) for shape in shapes.values()]
@@ -80,10 +74,7 @@ def fit_perceptron(numbers: Numbers, loss: Loss, settings: FitSettings) -> Perce
 
     def unpacked(flat: FloatArray) -> dict[str, FloatArray]:
         parts = np.split(flat, np.cumsum(sizes)[:-1])
-        return {
-            name: part.reshape(shape)
-            for part, (name, shape) in zip(parts, shapes.items(), strict=True)
-        }
+        return {name: part.reshape(shapes[name]) for name, part in zip(shapes, parts, strict=True)}
 
     def objective(flat: FloatArray) -> tuple[float, FloatArray]:
         weights = unpacked(flat.astype(numbers.dtype))

@@ -34,8 +34,7 @@ SAME_AXIS = np.cos(np.radians(10.0))
 SAME_PLACE = 0.05
 PENALTY = 1.0
 STEPS = 1000
-#: Thresholds whose score is lower than the best by no more than this are as good: the one that
-#: moves less is taken.
+#: Thresholds that score less than the best by no more than this are as good: the highest is taken.
 NEARLY = 0.02
 LEAST = np.round(np.arange(0.1, 0.75, 0.05), 2)
 CHARACTERS = ("artist", "artist", "generated", "plain")
@@ -43,13 +42,7 @@ CHARACTERS = ("artist", "artist", "generated", "plain")
 
 @dataclass(frozen=True)
 class TrustTrial:
-    """One object with everything that was proposed for it.
-
-    Attributes:
-        truth: of the object.
-        proposals: of all proposers.
-        right: whether each is, shape [proposal_count].
-    """
+    """One object with all proposals for it, and whether each is right, shape [proposal_count]."""
 
     truth: Articulation
     proposals: tuple[Proposal, ...]
@@ -105,15 +98,11 @@ def is_right(proposal: Proposal, truth: Articulation, areas: FloatArray) -> bool
 def _moves_alike(proposal: Proposal, joint: Joint, size: float) -> bool:
     motion = proposal.motion
     slides = joint.kind is JointKind.PRISMATIC
-    if (motion.kind is JointKind.PRISMATIC) != slides or abs(
-        float(motion.axis @ joint.axis)
-    ) < SAME_AXIS:
-        return False
+    alike = (motion.kind is JointKind.PRISMATIC) == slides
+    parallel = abs(float(motion.axis @ joint.axis)) >= SAME_AXIS
     offset = motion.origin - joint.origin
-    return (
-        slides
-        or float(np.linalg.norm(offset - (offset @ joint.axis) * joint.axis)) < SAME_PLACE * size
-    )
+    aside = float(np.linalg.norm(offset - (offset @ joint.axis) * joint.axis))
+    return alike and parallel and (slides or aside < SAME_PLACE * size)
 
 
 def fit_signs(trials: Sequence[TrustTrial]) -> Perceptron:
@@ -132,24 +121,19 @@ def best_threshold(
     scores = []
     for least in LEAST:
         trusting = replace(articulator, trust=Trust(network, float(least)))
-        values = [
-            physical(t.truth, trusting.decide(Views(t.truth.mesh), t.proposals)).values
-            for t in trials
-        ]
-        scores.append(np.mean([v["part_miou"] + v["articulated_iou"] for v in values]))
+        near = []
+        for trial in trials:
+            answer = trusting.decide(Views(trial.truth.mesh), trial.proposals)
+            values = physical(trial.truth, answer).values
+            near.append(values["part_miou"] + values["articulated_iou"])
+        scores.append(np.mean(near))
     return float(LEAST[np.flatnonzero(np.array(scores) >= max(scores) - NEARLY)[-1]])
 
 
 def fit_trust(
     articulator: AutoArticulator, trials: Sequence[TrustTrial], least: float | None
 ) -> Arrays:
-    """Fit the trust in every source of proposals.
-
-    Args:
-        articulator: who proposed.
-        trials: objects with what it proposed.
-        least: the probability to ask for; ``None``: it is looked for.
-    """
+    """Fit the trust in every source of proposals; ``least`` is looked for where it is ``None``."""
     network = fit_signs(trials)
     if least is None:
         least = best_threshold(articulator, trials, network)

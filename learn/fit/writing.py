@@ -19,14 +19,7 @@ TERMS = "Apache-2.0"
 
 @dataclass(frozen=True)
 class Fit:
-    """A fit, and the text of its card.
-
-    Attributes:
-        stored: arrays by name, and what the file says about itself.
-        what: what the weights are, and what asks them; a sentence or two.
-        data: that they learned from.
-        figures: how well they do, and on what.
-    """
+    """A fit: what its file holds, what asks it, the data learned from, and how well it does."""
 
     stored: Arrays
     what: str
@@ -39,13 +32,7 @@ def networks_stored(
     inputs: Mapping[str, Sequence[str]],
     others: Mapping[str, FloatArray] | None = None,
 ) -> Arrays:
-    """Return small networks as a file holds them.
-
-    Args:
-        networks: by name.
-        inputs: names of the numbers that each is given, in order.
-        others: further arrays, by name.
-    """
+    """Return small networks as a file holds them, with the names of their inputs, in order."""
     arrays = dict(others or {})
     for name, network in networks.items():
         arrays |= network.arrays(name)
@@ -55,11 +42,7 @@ def networks_stored(
 def write_fit(path: Path, fit: Fit, arguments: Sequence[str], seed: int) -> None:
     """Write weights, and their card: a file of their name that ends in ``.md``.
 
-    Args:
-        path: of the weights.
-        fit: to write.
-        arguments: of :data:`COMMAND` that made them.
-        seed: of all chance.
+    ``arguments`` are those of :data:`COMMAND` that made them, ``seed`` is of all chance.
     """
     write_arrays(path, fit.stored.arrays, fit.stored.metadata)
     rows = {

@@ -27,8 +27,7 @@ from .truth import made_up_guess, truth_of
 MOST_PARTS = 5
 #: What turns so far has no way that is the wrong one [rad].
 ROUND = 6.0
-#: Errors that are no errors, and that halve what a candidate is worth by a factor e: of the axis
-#: [deg], of its place.
+#: Errors of axis [deg] and of place that count for none, and that divide a worth by e.
 ANGLE_FREE = 0.5
 ANGLE_WORTH = 4.0
 PLACE_FREE = 0.004
@@ -111,21 +110,14 @@ def _judged(
     angle = np.degrees(np.arccos(np.clip(np.abs(cosine), 0.0, 1.0)))
     slides = joint.kind is JointKind.PRISMATIC
     nearest = joint.origin + joint.axis * float(joint.axis @ (middle - joint.origin))
-    place = np.where(candidates.slides | slides, 0.0, _distance(nearest[None], candidates) / size)
+    aside = np.linalg.norm(np.cross(nearest - candidates.origin, candidates.axis), axis=1)
+    place = np.where(candidates.slides | slides, 0.0, aside / size)
     same_kind = candidates.slides == slides
-    either_way = joint.kind is JointKind.CONTINUOUS or (
-        joint.turns and joint.upper - joint.lower > ROUND
-    )
+    either_way = joint.kind is JointKind.CONTINUOUS or (joint.turns and joint.range > ROUND)
     worth = same_kind * ((cosine > 0.0) | either_way)
     worth = worth * np.exp(-np.maximum(angle - ANGLE_FREE, 0.0) / ANGLE_WORTH)
     worth = worth * np.exp(-np.maximum(place - PLACE_FREE, 0.0) / PLACE_WORTH)
     return worth, same_kind & (angle < RIGHT_ANGLE) & (place < RIGHT_PLACE)
-
-
-def _distance(points: FloatArray, candidates: Candidates) -> FloatArray:
-    """Return the distance of points [m] from the candidates' axes [m], shape [n]."""
-    offset = points - candidates.origin
-    return np.asarray(np.linalg.norm(np.cross(offset, candidates.axis), axis=1))
 
 
 def _alike(candidates: Candidates, size: float) -> BoolArray:
@@ -149,4 +141,4 @@ def _range(
         return None, 0.0
     setting = setting_of(body, single(candidates, best), numbers[best])
     endless = joint.kind is JointKind.CONTINUOUS
-    return setting, np.inf if endless else (joint.upper - joint.lower) / setting.unit
+    return setting, np.inf if endless else joint.range / setting.unit

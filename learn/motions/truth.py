@@ -11,24 +11,17 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.geometry.posing import closed, face_parts, turned
 from asset_factory.factory.mesh import FloatArray
 
-#: How wrong made-up guesses are: of the axis [rad], of its place as a share of the object's longest
-#: side.
+#: How wrong made-up guesses are: of the axis [rad], of its place as a share of the longest side.
 ANGLE_SPREAD = np.radians(15.0)
 PLACE_SPREAD = 0.1
-#: How often their sense is wrong, and what they say of the true kind's probability (mean and
-#: spread).
+#: How often their sense is wrong, and their probability of the true kind (mean and spread).
 WRONG_WAY = 0.3
 KIND = (0.8, 0.25)
 
 
 @dataclass(frozen=True)
 class Truth:
-    """One object with the joints of those parts that have exactly one.
-
-    Attributes:
-        partition: its mesh, closed, and its parts; carriers have none.
-        joints: by part.
-    """
+    """One closed object, its parts (carriers have none), and the joints of parts with just one."""
 
     partition: Partition
     joints: dict[int, Joint]
@@ -58,26 +51,19 @@ def truth_of(articulation: Articulation, yaw: float) -> Truth:
 
 def _way_down(articulation: Articulation, part: int) -> tuple[int, list[Joint]]:
     """Return the nearest part with faces that a part hangs on, and movable joints between."""
-    above = {joint.child: joint for joint in articulation.joints}
-    at = part
     found = []
-    while at in above:
-        joint = above[at]
+    while (joint := articulation.parent_joint(part)) is not None:
         found += [joint] if joint.movable else []
-        at = joint.parent
-        if at == 0 or len(articulation.parts[at].faces):
+        part = joint.parent
+        if len(articulation.parts[part].faces):
             break
-    return at, found
+    return part, found
 
 
 def made_up_guess(joint: Joint, middle: FloatArray, size: float, rng: np.random.Generator) -> Guess:
     """Return what somebody might believe who has a rough idea of the truth.
 
-    Args:
-        joint: the truth.
-        middle: of the part [m], shape [3].
-        size: the object's longest side [m].
-        rng: of the errors.
+    ``middle`` is the part's [m], shape [3], ``size`` the object's longest side [m].
     """
     aside = rng.normal(size=3)
     aside -= float(aside @ joint.axis) * joint.axis

@@ -6,12 +6,6 @@ from .mixture import MixtureSettings, sample_object, training_object
 from .sample_files import write_sample
 
 __all__ = [
-    "CATEGORIES",
-    "MixtureSettings",
-    "artist_like",
-    "fused_like",
-    "make_object",
-    "sample_object",
-    "training_object",
-    "write_sample",
-]
+    "CATEGORIES", "MixtureSettings", "artist_like", "fused_like", "make_object", "sample_object",
+    "training_object", "write_sample",
+]  # fmt: skip

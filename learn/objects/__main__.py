@@ -17,14 +17,11 @@ from .sample_files import write_sample
 
 def opening(articulation: Articulation, share: float) -> dict[str, float]:
     """Return joint values at a share of every way from closed; endless ones turn to pi."""
-    closed = {
-        joint.name: 0.0 if joint.kind is JointKind.CONTINUOUS else joint.lower
-        for joint in articulation.movable_joints
-    }
-    return {
-        joint.name: closed[joint.name] + share * (joint.upper - closed[joint.name])
-        for joint in articulation.movable_joints
-    }
+    values = {}
+    for joint in articulation.movable_joints:
+        closed = 0.0 if joint.kind is JointKind.CONTINUOUS else joint.lower
+        values[joint.name] = closed + share * (joint.upper - closed)
+    return values
 
 
 def main() -> None:

@@ -40,40 +40,24 @@ _FILES = (
 
 #: Kinds for demonstrations: of convex forms only, each with corners of its own.
 DEMO_CATEGORIES: tuple[str, ...] = (
-    "cabinet",
-    "fridge",
-    "oven",
-    "microwave",
-    "dishwasher",
-    "laptop",
-    "chest",
-    "trash_can",
-)
+    "cabinet", "fridge", "oven", "microwave", "dishwasher", "laptop", "chest", "trash_can",
+)  # fmt: skip
 #: How far short of its place every form of the demo ends [m].
 HAIRLINE_M = 5e-5
 
 _MAKERS: dict[str, Maker] = {name: maker for file in _FILES for name, maker in file.MAKERS.items()}
 
-CATEGORIES: tuple[str, ...] = (
-    *DEMO_CATEGORIES,
-    *(name for name in _MAKERS if name not in DEMO_CATEGORIES),
-)
+CATEGORIES: tuple[str, ...] = tuple(dict.fromkeys((*DEMO_CATEGORIES, *_MAKERS)))
 
 
 def make_object(category: str, seed: int) -> Articulation:
-    """Return an object with exact ground truth.
+    """Return an object with exact ground truth; same category and seed, same object.
 
     Metres, z up, standing on z = 0, centred, its front towards -Y. Each part is several closed
     forms, as an artist would model it (convex ones for the demo). Parts never interpenetrate by
     more than half a millimetre, at rest or anywhere along one joint's range while the others are at
-    rest; parts named ``inner_...`` lie behind a door and move while the doors are open.
-
-    Args:
-        category: one of :data:`CATEGORIES`.
-        seed: same category and seed, same object; any integer of at least 0.
-
-    Returns:
-        The articulation; every joint's ``lower`` is closed, 0 for most.
+    rest; parts named ``inner_...`` lie behind a door and move while the doors are open. Every
+    joint's ``lower`` is closed, 0 for most.
 
     Raises:
         ValueError: no such category, or a negative seed.

@@ -1,7 +1,6 @@
 """Objects as files: GLB, OBJ with MTL, sidecar and annotation. Same object, same bytes.
 
-The frame of a file is the rotation and uniform scale from the object frame [m] to its own frame and
-units, shape [4, 4].
+A file's frame is the rotation and uniform scale from the object frame [m] to its own, shape [4, 4].
 """
 
 from __future__ import annotations
@@ -26,21 +25,12 @@ def write_glb(mesh: Mesh, frame: FloatArray, path: Path) -> None:
     """Write one node, a primitive per material, images embedded, colours linear."""
     buffer = Buffer()
     placed = mesh.transformed(frame)
-    primitives = [
-        {
-            **primitive(buffer, placed, np.flatnonzero(mesh.face_material == index)),
-            "material": index,
-        }
-        for index in range(len(mesh.materials))
-    ]
+    owned = [np.flatnonzero(mesh.face_material == index) for index in range(len(mesh.materials))]
+    meshes = [{**primitive(buffer, placed, own), "material": i} for i, own in enumerate(owned)]
     images = tuple(None if m.texture is None else m.texture.data for m in mesh.materials)
-    document: dict[str, Any] = {
-        "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": primitives}],
-        **gltf_materials(buffer, mesh.materials, images),
-    }
+    document: dict[str, Any] = {"scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}]}
+    document |= {"meshes": [{"primitives": meshes}]}
+    document |= gltf_materials(buffer, mesh.materials, images)
     if "textures" in document:
         # Pixels stay pixels, and repeat.
         document["samplers"] = [{"magFilter": 9728, "wrapS": 10497, "wrapT": 10497}]
@@ -95,38 +85,32 @@ def write_annotation(articulation: Articulation, frame: FloatArray, path: Path) 
     label = np.zeros(len(articulation.mesh.faces), dtype=np.int32)
     for index, part in enumerate(articulation.parts):
         label[part.faces] = number[index]
-    edges = [
-        (number[j.parent], number[j.child]) for j in articulation.joints if j.child not in carried
-    ]
-    turns = np.zeros(count, dtype=bool)
-    slides = np.zeros(count, dtype=bool)
-    plucker = np.zeros((count, 6))
-    axis = np.zeros((count, 3))
-    turn_range = np.zeros((count, 2))
-    slide_range = np.zeros((count, 2))
-    for joint in articulation.movable_joints:
-        child = number[joint.child]
-        direction = turn @ joint.axis / scale
-        if joint.kind is JointKind.PRISMATIC:
-            slides[child] = True
-            axis[child] = direction
-            slide_range[child] = np.array([joint.lower, joint.upper]) * scale
-        else:
-            point = turn @ joint.origin + frame[:3, 3]
-            turns[child] = True
-            plucker[child] = np.concatenate([direction, np.cross(direction, point)])
-            turn_range[child] = joint.lower, joint.upper
+    hung = [joint for joint in articulation.joints if joint.child not in carried]
+    edges = [(number[joint.parent], number[joint.child]) for joint in hung]
     arrays: dict[str, npt.NDArray[Any]] = {
         # Files hold the faces material by material.
         "face_part_ids": label[np.argsort(articulation.mesh.face_material, kind="stable")],
         "motion_hierarchy": np.array(edges, dtype=np.int64).reshape(-1, 2),
-        "is_part_revolute": turns,
-        "is_part_prismatic": slides,
-        "revolute_plucker": np.round(plucker, 9) + 0.0,
-        "revolute_range": np.round(turn_range, 9).astype(np.float32),
-        "prismatic_axis": (np.round(axis, 9) + 0.0).astype(np.float32),
-        "prismatic_range": np.round(slide_range, 9).astype(np.float32),
+        "is_part_revolute": np.zeros(count, dtype=bool),
+        "is_part_prismatic": np.zeros(count, dtype=bool),
+        "revolute_plucker": np.zeros((count, 6)),
+        "revolute_range": np.zeros((count, 2), dtype=np.float32),
+        "prismatic_axis": np.zeros((count, 3), dtype=np.float32),
+        "prismatic_range": np.zeros((count, 2), dtype=np.float32),
     }
+    for joint in articulation.movable_joints:
+        child = number[joint.child]
+        limits = np.array([joint.lower, joint.upper])
+        direction = turn @ joint.axis / scale
+        kind = "prismatic" if joint.kind is JointKind.PRISMATIC else "revolute"
+        if kind == "prismatic":
+            limits = limits * scale
+            arrays["prismatic_axis"][child] = np.round(direction, 9) + 0.0
+        else:
+            moment = np.cross(direction, turn @ joint.origin + frame[:3, 3])
+            arrays["revolute_plucker"][child] = np.round([*direction, *moment], 9) + 0.0
+        arrays[f"is_part_{kind}"][child] = True
+        arrays[f"{kind}_range"][child] = np.round(limits, 9)
     with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as archive:
         for name, array in arrays.items():
             buffer = BytesIO()

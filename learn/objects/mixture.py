@@ -12,12 +12,10 @@ from asset_factory.factory.errors import ConfigError
 from ..surfaces import artist_like, fused_like, skin_like
 from .catalog import CATEGORIES, make_object
 
-#: Seeds of objects, of which training may use all; whoever tests on others makes them from seeds
-#: below this.
+#: Seeds of objects, of which training may use all; tests make theirs from seeds below this.
 FIRST_SEED = 1_000_000
 _LARGEST_SEED = 2**31 - 1
-#: Whose surface an object has: the generator's, an artist's, an early image-to-3D tool's, a recent
-#: one's.
+#: Whose surface an object has: ours, an artist's, an early image-to-3D tool's, a recent one's.
 CHARACTERS = ("plain", "artist", "generated", "skin")
 #: Objects made in search of one with few enough parts.
 TRIES = 200
@@ -32,8 +30,7 @@ class MixtureSettings:
         artist: weight of objects as artists and CAD programs leave them.
         generated: weight of objects as early image-to-3D tools gave them: coarse and bumpy.
         skin: weight of objects as recent ones give them.
-        plain: share of the first kind that stays as the generator made it, closed solids side by
-            side.
+        plain: share of the first kind that stays as made: closed solids side by side.
         most_parts: others are not used: the network cannot answer for more.
     """
 
@@ -102,11 +99,7 @@ def sample_object(
 def in_character(articulation: Articulation, character: str, seed: int) -> tuple[Articulation, str]:
     """Return the object with the surface of a certain origin, and which that is.
 
-    Args:
-        articulation: as ``make_object`` gives it.
-        character: one of :data:`CHARACTERS`. One with a part hidden from outside cannot
-            come from an image, and becomes ``artist``.
-        seed: of the change.
+    One of :data:`CHARACTERS` with a part hidden from outside becomes ``artist``: no image shows it.
 
     Raises:
         ValueError: no such character.

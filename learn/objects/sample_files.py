@@ -17,8 +17,7 @@ from asset_factory.factory.geometry.posing import posed
 from ..surfaces.labelled import plain
 from .export import write_annotation, write_glb, write_obj, write_sidecar
 
-#: What the motors of any piece of furniture stay below, [N m] or [N], and [rad/s] or [m/s]; a URDF
-#: must say something.
+#: What any furniture's motors stay below, [N m] or [N], and [rad/s] or [m/s]; a URDF wants it.
 EFFORT = "100"
 VELOCITY = "10"
 LICENSE = "Apache-2.0"
@@ -31,13 +30,12 @@ def write_sample(
 
     The GLB is the whole object (glTF's y up, metres), its sidecar names ``pred.npz`` as its
     annotation. The URDF says the same in the object frame, with visual meshes only; it has neither
-    masses nor collision shapes.
+    masses nor collision shapes. Files of these names are replaced.
 
     Args:
         articulation: any whose parts without faces carry one part each.
-        folder: made if need be; files of these names are replaced.
-        values: joint values [rad] or [m] by name; the pose that is written. A joint not named is at
-            0.
+        folder: made if need be.
+        values: of joints by name [rad] or [m], 0 for the others: the pose that is written.
 
     Raises:
         KeyError: a value for a joint that is not there.
@@ -47,9 +45,8 @@ def write_sample(
     (folder / "links").mkdir(parents=True, exist_ok=True)
     write_glb(shown.mesh, Y_UP, folder / "object.glb")
     write_annotation(shown, Y_UP, folder / "pred.npz")
-    write_sidecar(
-        folder / "object.toml", {"scale": 1.0, "annotation": "pred.npz", "license": LICENSE}
-    )
+    sidecar: dict[str, str | float] = {"scale": 1.0, "annotation": "pred.npz", "license": LICENSE}
+    write_sidecar(folder / "object.toml", sidecar)
     robot = Element("robot", name="object")
     for index, part in enumerate(shown.parts):
         link = SubElement(robot, "link", name=part.name)

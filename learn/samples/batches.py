@@ -4,58 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from .sample import Sample
+from .sample import Array, Sample
 
-Array = Any
 NO_PARENT = -1
-_PER_PART = {
-    "parents": ((), np.int64, NO_PARENT),
-    "motion": ((), np.int64, 0),
-    "revolute_direction": ((3,), np.float32, 0),
-    "revolute_range": ((2,), np.float32, 0),
-    "prismatic_direction": ((3,), np.float32, 0),
-    "prismatic_range": ((2,), np.float32, 0),
-}
+#: What a sample has of each of its parts; the rest is of its points.
+_OF_PARTS = (
+    "parents", "motion", "revolute_direction", "revolute_range", "prismatic_direction",
+    "prismatic_range",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
-class Batch:
-    """Samples with equally many points, as arrays or tensors, network frame; root part first.
+class Batch(Sample):
+    """Samples with equally many points: their arrays, or tensors, with a first axis [batch].
 
-    Attributes:
-        points: shape [batch, n, 3], float32.
-        normals: shape [batch, n, 3], float32.
-        features: shape [batch, n, channels], float32, or ``None``.
-        part_ids: part of each point, shape [batch, n], int64.
-        counts: parts of each sample, shape [batch], int64.
-        parents: part each part hangs on, -1 for the root and for rows without a part, shape [batch,
-            parts], int64.
-        motion: class of each part, shape [batch, parts], int64.
-        revolute_direction: of its axis, zero where it does not turn, shape [batch, parts, 3].
-        revolute_range: limits from the pose shown [rad], shape [batch, parts, 2].
-        prismatic_direction: of its slide, zero where it does not slide, shape [batch, parts, 3].
-        prismatic_range: limits from the pose shown, shape [batch, parts, 2].
-        closest_points: for each point of a turning part the nearest point on its axis, shape
-            [batch, n, 3].
+    All have as many rows for parts; those without a part hold 0, and -1 for a parent. ``counts``
+    are the parts of each sample, int64.
     """
 
-    points: Array
-    normals: Array
-    features: Array | None
-    part_ids: Array
     counts: Array
-    parents: Array
-    motion: Array
-    revolute_direction: Array
-    revolute_range: Array
-    prismatic_direction: Array
-    prismatic_range: Array
-    closest_points: Array
 
     def __len__(self) -> int:
         return len(self.points)
@@ -81,46 +52,28 @@ class Batch:
         return self._map(moved)
 
     def _map(self, change: Any) -> Batch:
-        values = {each.name: getattr(self, each.name) for each in fields(self)}
-        return Batch(
-            **{name: None if value is None else change(value) for name, value in values.items()}
-        )
+        values = (getattr(self, each.name) for each in fields(self))
+        return Batch(*(None if value is None else change(value) for value in values))
 
 
 def collate(samples: Sequence[Sample], parts: int) -> Batch:
-    """Return the samples as one batch of arrays.
-
-    Args:
-        samples: with equally many points, and at most ``parts`` parts each.
-        parts: rows for parts.
-    """
-    rows: dict[str, Array] = {}
-    for name, (shape, dtype, empty) in _PER_PART.items():
-        rows[name] = np.full((len(samples), parts, *shape), empty, dtype=dtype)
-        for row, sample in zip(rows[name], samples, strict=True):
-            row[: len(sample.parents)] = getattr(sample, name)
-    featured = samples[0].features is not None
-    return Batch(
-        points=_stacked(samples, "points", np.float32),
-        normals=_stacked(samples, "normals", np.float32),
-        features=_stacked(samples, "features", np.float32) if featured else None,
-        part_ids=_stacked(samples, "part_ids", np.int64),
-        counts=np.array([len(sample.parents) for sample in samples], dtype=np.int64),
-        closest_points=_stacked(samples, "closest_points", np.float32),
-        **rows,
-    )
+    """Return samples of equally many points and at most ``parts`` parts as one batch of arrays."""
+    found: dict[str, Array] = {}
+    for each in fields(Sample):
+        values = [getattr(sample, each.name) for sample in samples]
+        if each.name not in _OF_PARTS:
+            found[each.name] = None if values[0] is None else np.stack(values)
+            continue
+        empty = NO_PARENT if each.name == "parents" else 0
+        shape = (len(samples), parts, *values[0].shape[1:])
+        found[each.name] = np.full(shape, empty, dtype=values[0].dtype)
+        for row, value in zip(found[each.name], values, strict=True):
+            row[: len(value)] = value
+    return Batch(**found, counts=np.array([len(sample.parents) for sample in samples]))
 
 
 def join(batches: Sequence[Batch], order: Sequence[int]) -> Batch:
     """Return the batches of arrays, one after the other, their rows put in an order."""
-    joined: dict[str, Array] = {}
-    for each in fields(Batch):
-        values = [getattr(batch, each.name) for batch in batches]
-        joined[each.name] = (
-            None if values[0] is None else np.concatenate(values)[np.asarray(order, dtype=np.int64)]
-        )
-    return Batch(**joined)
-
-
-def _stacked(samples: Sequence[Sample], name: str, dtype: Any) -> Array:
-    return np.stack([np.asarray(getattr(sample, name), dtype=dtype) for sample in samples])
+    rows = np.asarray(order, dtype=np.int64)
+    columns = ([getattr(batch, each.name) for batch in batches] for each in fields(Batch))
+    return Batch(*(None if each[0] is None else np.concatenate(each)[rows] for each in columns))

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from asset_factory.factory.articulation import rotation_about
-from asset_factory.factory.mesh import Float32Array, FloatArray, IntArray
+from asset_factory.factory.mesh import FloatArray, IntArray
 from asset_factory.factory.models.particulate.components import component_features
 from asset_factory.factory.models.particulate.prediction import MotionClass
 
 from .sampled_object import SampledObject, parents_first
 
 QUARTER = np.pi / 2.0
+#: An array; in a batch on its way through the network a tensor.
+Array = Any
 
 
 @dataclass(frozen=True)
@@ -59,39 +62,34 @@ class Sample:
     """What the network sees and should answer, in its frame: centred, longest side 1, z up.
 
     Attributes:
-        points: shape [point_count, 3].
-        normals: shape [point_count, 3].
+        points, normals: shape [point_count, 3], float32; numbers of parts are int64.
         features: shape [point_count, channels]; ``None`` without.
         part_ids: shape [point_count]; 0 is the root.
         parents: shape [part_count]; -1 for the root.
         motion: :class:`MotionClass` per part, shape [part_count].
-        revolute_direction: unit, zero for parts that do not turn, shape [part_count, 3].
-        revolute_range: [rad], from this pose, shape [part_count, 2].
-        prismatic_direction: unit, zero for parts that do not slide, shape [part_count, 3].
-        prismatic_range: from this pose, shape [part_count, 2].
-        closest_points: nearest to each point on its part's axis, zero where that does not turn,
-            shape [point_count, 3].
+        revolute_direction, prismatic_direction: unit, or zero, shape [part_count, 3].
+        revolute_range, prismatic_range: from this pose [rad, longest side], shape [part_count, 2].
+        closest_points: on the part's axis, nearest to each point; zero without, [point_count, 3].
     """
 
-    points: Float32Array
-    normals: Float32Array
-    features: Float32Array | None = field(repr=False)
-    part_ids: IntArray
-    parents: IntArray
-    motion: IntArray
-    revolute_direction: Float32Array
-    revolute_range: Float32Array
-    prismatic_direction: Float32Array
-    prismatic_range: Float32Array
-    closest_points: Float32Array
+    points: Array
+    normals: Array
+    features: Array | None
+    part_ids: Array
+    parents: Array
+    motion: Array
+    revolute_direction: Array
+    revolute_range: Array
+    prismatic_direction: Array
+    prismatic_range: Array
+    closest_points: Array
 
 
 @dataclass(frozen=True)
 class _Body:
     """As much of a sampled object as an example looks at, while it is moved; float64.
 
-    ``rows`` says which of its points: those of the example first, then those that only stand for
-        the object.
+    Of ``rows``, its points, those of the example come first, then those that stand for the object.
     """
 
     rows: IntArray
@@ -122,6 +120,7 @@ def draw(sampled: SampledObject, rng: np.random.Generator, settings: DrawSetting
         components = _components(sampled, rng, settings)[seen]
         features = component_features(body.points, body.normals, components)[: len(rows)]
     limits = np.where(sampled.endless[:, None], sampled.turn, sampled.turn - turns[:, None])
+    reach = (sampled.slide - slides[:, None]) * body.reach[:, None]
     return Sample(
         points=points.astype(np.float32),
         normals=body.normals[: len(rows)].astype(np.float32),
@@ -132,9 +131,7 @@ def draw(sampled: SampledObject, rng: np.random.Generator, settings: DrawSetting
         revolute_direction=body.axis.astype(np.float32),
         revolute_range=limits.astype(np.float32),
         prismatic_direction=body.slide.astype(np.float32),
-        prismatic_range=((sampled.slide - slides[:, None]) * body.reach[:, None]).astype(
-            np.float32
-        ),
+        prismatic_range=reach.astype(np.float32),
         closest_points=np.where(turning[part_ids][:, None], closest, 0.0).astype(np.float32),
     )
 
@@ -172,11 +169,8 @@ def _state(
 ) -> tuple[FloatArray, FloatArray]:
     """Turn [rad] and slide [m] of every part."""
     count = len(sampled.parents)
-    share = (
-        rng.random((2, count))
-        * (rng.random((2, count)) >= closed_share)
-        * (rng.random() >= closed_share)
-    )
+    share = rng.random((2, count)) * (rng.random((2, count)) >= closed_share)
+    share *= rng.random() >= closed_share
     low, high = np.stack([sampled.turn, sampled.slide]).transpose(2, 0, 1).astype(np.float64)
     value = low + share * (high - low)
     value[0, sampled.endless] = rng.uniform(-np.pi, np.pi, int(sampled.endless.sum()))
@@ -210,7 +204,7 @@ def _moved(sampled: SampledObject, body: _Body, turns: FloatArray, slides: Float
             mine = of_point == part
             points[mine] = points[mine] @ rotation[part].T + shift[part]
             normals[mine] = normals[mine] @ rotation[part].T
-    return _Body(body.rows, points, normals, axis, origin, slide, body.reach.copy())
+    return replace(body, points=points, normals=normals, axis=axis, origin=origin, slide=slide)
 
 
 def _facing(rng: np.random.Generator, settings: DrawSettings) -> float:
@@ -234,8 +228,8 @@ def _placed(body: _Body, yaw: float, rng: np.random.Generator, settings: DrawSet
     scale = rng.uniform(*settings.scale) / max(float((high - low).max()), 1e-9)
     shift = rng.normal(0.0, settings.shift, 3)
     middle = (low + high) / 2.0
-    return _Body(
-        rows=body.rows,
+    return replace(
+        body,
         points=(points - middle) * scale + shift,
         normals=body.normals @ turn,
         axis=body.axis @ turn,

@@ -6,6 +6,7 @@ import zipfile
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from graphlib import CycleError, TopologicalSorter
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -45,7 +46,6 @@ class SampledObject:
     Attributes:
         name: unique within its source.
         category: of household object, or empty.
-        source: where it came from.
         points: shape [point_count, 3], float32.
         normals: shape [point_count, 3], float32; the mean of two, shorter than 1, at sharp edges.
         part_ids: part of each point, shape [point_count], int16.
@@ -53,12 +53,10 @@ class SampledObject:
         components: connected component of the mesh, shape [point_count], int32.
         parents: part each part hangs on, -1 for the root, shape [part_count].
         motion: :class:`MotionClass` of each part, shape [part_count].
-        axis: unit direction a part turns about, zero where it does not, shape [part_count, 3].
-        origin: a point on that axis [m], shape [part_count, 3].
-        turn: limits [rad], shape [part_count, 2].
+        axis, slide_direction: unit, zero where it does not turn, or slide, shape [part_count, 3].
+        origin: a point on the axis [m], shape [part_count, 3].
+        turn, slide: limits [rad] and [m], shape [part_count, 2].
         endless: whether it turns without limits, shape [part_count].
-        slide_direction: unit, zero where it does not slide, shape [part_count, 3].
-        slide: limits [m], shape [part_count, 2].
     """
 
     name: str
@@ -95,18 +93,10 @@ def sampled_from(
     points: int,
     rng: np.random.Generator,
 ) -> SampledObject:
-    """Return the training view of an object.
+    """Return the training view of an object; its joint values 0 need not be closed.
 
     A part that does not move is one with its parent: nobody could tell them apart. A part behind a
-    carrier turns *and* slides.
-
-    Args:
-        articulation: any; joint values 0 need not be closed.
-        name: of the object.
-        category: of it.
-        source: where it came from.
-        points: how many, half of them on sharp edges.
-        rng: source of chance.
+    carrier turns *and* slides. Half of the ``points`` are on sharp edges.
 
     Raises:
         InputRejected: ``too_many_parts``, ``no_movable_joint``, ``unsupported_joint``,
@@ -150,34 +140,24 @@ def require_parts(name: str, count: int, most: int = MOST_PARTS) -> None:
 def _motions(chains: dict[int, tuple[Joint, ...]], parent: dict[int, int]) -> dict[str, Any]:
     """Return what a sample says of its parts' motions, the root first; movers as in ``chains``."""
     count = 1 + len(chains)
-    parents = np.full(count, -1)
-    motion = np.zeros(count, dtype=np.int64)
-    axis, origin, slide_direction = (np.zeros((count, 3)) for _ in range(3))
-    turn = np.zeros((count, 2))
-    slide = np.zeros((count, 2))
-    endless = np.zeros(count, dtype=np.bool_)
+    widths = {"axis": 3, "origin": 3, "turn": 2, "slide_direction": 3, "slide": 2}
+    told: dict[str, Any] = {name: np.zeros((count, width)) for name, width in widths.items()}
+    told |= {"parents": np.full(count, -1), "motion": np.zeros(count, dtype=np.int64)}
+    told["endless"] = np.zeros(count, dtype=np.bool_)
     for row, (part, chain) in enumerate(chains.items(), start=1):
-        parents[row] = parent[part]
+        told["parents"][row] = parent[part]
+        told["motion"][row] = sum(1 if joint.turns else 2 for joint in chain)
         for joint in chain:
+            limits = (joint.lower, joint.upper)
             if joint.turns:
-                axis[row] = joint.axis
-                origin[row] = joint.origin
-                turn[row] = (joint.lower, joint.upper)
-                endless[row] = joint.kind == "continuous"
+                told["axis"][row] = joint.axis
+                told["origin"][row] = joint.origin
+                told["turn"][row] = limits
+                told["endless"][row] = joint.kind == "continuous"
             else:
-                slide_direction[row] = joint.axis
-                slide[row] = (joint.lower, joint.upper)
-        motion[row] = sum(1 if joint.turns else 2 for joint in chain)
-    return {
-        "parents": parents,
-        "motion": motion,
-        "axis": axis,
-        "origin": origin,
-        "turn": turn,
-        "endless": endless,
-        "slide_direction": slide_direction,
-        "slide": slide,
-    }
+                told["slide_direction"][row] = joint.axis
+                told["slide"][row] = limits
+    return told
 
 
 def parents_first(parents: Sequence[int]) -> list[int]:
@@ -186,15 +166,12 @@ def parents_first(parents: Sequence[int]) -> list[int]:
     Raises:
         ValueError: some hang on one another in a circle.
     """
-    placed: list[int] = []
-    waiting = list(range(len(parents)))
-    while waiting:
-        ready = [part for part in waiting if parents[part] < 0 or parents[part] in placed]
-        if not ready:
-            raise ValueError(f"parents {parents}: part {waiting[0]} does not hang on the root")
-        placed += ready
-        waiting = [part for part in waiting if part not in ready]
-    return placed
+    hung = {part: (parent,) if parent >= 0 else () for part, parent in enumerate(parents)}
+    try:
+        return list(TopologicalSorter(hung).static_order())
+    except CycleError as error:
+        looped = f"part {error.args[1][0]} does not hang on the root"
+        raise ValueError(f"parents {parents}: {looped}") from None
 
 
 def _moving_parts(articulation: Articulation) -> tuple[dict[int, tuple[Joint, ...]], list[int]]:
@@ -212,21 +189,15 @@ def _moving_parts(articulation: Articulation) -> tuple[dict[int, tuple[Joint, ..
             chains[joint.child] = (joint,) if above is None else (above, joint)
             first = chains[joint.child][0]
             if (above is not None and above.turns == joint.turns) or group[first.parent] in waiting:
-                name = articulation.parts[joint.child].name
-                raise InputRejected(
-                    "unsupported_joint", f"part {name!r}: want at most one turn and one slide"
-                )
+                said = f"part {articulation.parts[joint.child].name!r}: want at most one turn"
+                raise InputRejected("unsupported_joint", f"{said} and one slide")
     return chains, group
 
 
 def write_sampled(path: Path, sampled: SampledObject) -> None:
     """Write one uncompressed npz file, complete or not there."""
     buffer = BytesIO()
-    np.savez(
-        buffer,
-        allow_pickle=False,
-        **{each.name: getattr(sampled, each.name) for each in fields(sampled)},
-    )
+    np.savez(buffer, allow_pickle=False, **vars(sampled))
     path.parent.mkdir(parents=True, exist_ok=True)
     write_whole(path, buffer.getvalue())
 
@@ -239,9 +210,8 @@ def read_sampled(path: Path) -> SampledObject:
     """
     try:
         with path.open("rb") as file, zipfile.ZipFile(file) as archive:
-            require_at_most(
-                path.name, sum(entry.file_size for entry in archive.infolist()), MOST_BYTES, "bytes"
-            )
+            size = sum(entry.file_size for entry in archive.infolist())
+            require_at_most(path.name, size, MOST_BYTES, "bytes")
             file.seek(0)
             stored = np.load(file, allow_pickle=False)
             found: dict[str, Any] = {each.name: stored[each.name] for each in fields(SampledObject)}
@@ -250,9 +220,8 @@ def read_sampled(path: Path) -> SampledObject:
     except InputRejected:
         raise
     except (OSError, ValueError, KeyError, EOFError, MemoryError, RuntimeError, *_DAMAGED) as error:
-        raise InputRejected(
-            "bad_sample", f"{path}: cannot be read as a sampled object: {error}"
-        ) from error
+        said = f"{path}: cannot be read as a sampled object: {error}"
+        raise InputRejected("bad_sample", said) from error
 
 
 def _check(sampled: SampledObject) -> None:
@@ -272,9 +241,8 @@ def _check(sampled: SampledObject) -> None:
         if not np.isfinite(value).all():
             raise ValueError(f"{name}: holds numbers that are not finite")
     if not points or not 1 <= parts <= MOST_PARTS:
-        raise ValueError(
-            f"{points} points and {parts} parts: want points, and 1 to {MOST_PARTS} parts"
-        )
+        most = f"want points, and 1 to {MOST_PARTS} parts"
+        raise ValueError(f"{points} points and {parts} parts: {most}")
     if not 0 <= int(sampled.part_ids.min()) <= int(sampled.part_ids.max()) < parts:
         raise ValueError(f"part_ids: want 0 to {parts - 1}")
     if not 0 <= int(sampled.components.min()) <= int(sampled.components.max()) < _MOST_COMPONENTS:

@@ -27,14 +27,14 @@ from .surfaces import (
     subdivided,
     without_sides,
 )
-from .united import all_united, grown, parts_united
+from .united import all_united, parts_united
 
 Pass = Callable[[Labelled, np.random.Generator], Labelled]
 
 
 def _spaced(mesh: Labelled, rng: np.random.Generator) -> Labelled:
     """Shrink pieces, so that hairlines open between them, or grow them, by up to 2 mm."""
-    return grown(mesh, float(rng.uniform(-1.0, 1.0)) * min(0.002, 0.004 * mesh.longest))
+    return mesh.grown(float(rng.uniform(-1.0, 1.0)) * min(0.002, 0.004 * mesh.longest))
 
 
 def _merged(mesh: Labelled, rng: np.random.Generator) -> Labelled:
@@ -75,8 +75,7 @@ PASSES: tuple[tuple[Pass, tuple[float, float, float]], ...] = (
 )
 #: How often an object is one of boards, of shells and of sheets.
 STYLES = (0.4, 0.5, 0.1)
-#: Standard deviation of the logarithm of each axis' factor, where an object is stretched; twice
-#: that is the most.
+#: Standard deviation of the logarithm of each axis' factor; twice that is the most.
 STRETCH = 0.2
 #: A wider range [rad] is that of a knob or a wheel.
 ALL_ROUND = 3.5
@@ -85,17 +84,12 @@ ALONG = 1e-6
 
 
 def artist_like(articulation: Articulation, seed: int) -> Articulation:
-    """Return the object as an artist's file might hold it; parts and joints mean the same.
+    """Return the object as an artist's file might hold it; same object and seed, same bytes.
 
-    Args:
-        articulation: labelled, best of closed solids that share no vertices, as ``make_object``
-            gives it; pieces that are not closed are carried along.
-        seed: same object and seed, same bytes.
-
-    Returns:
-        Parts and joints of the same names and tree. The whole may be stretched along its axes, and
-        mirrored left for right; joints follow. Plain colours stand for textures. Every part that
-        had faces still has some.
+    Parts and joints have the same names and tree. The whole may be stretched along its axes, and
+    mirrored left for right; joints follow. Plain colours stand for textures. Every part that had
+    faces still has some. Best of closed solids that share no vertices, as ``make_object`` gives
+    them; pieces that are not closed are carried along.
     """
     rng = np.random.default_rng([seed, 0xA2])
     if rng.random() < 0.5:
@@ -121,14 +115,9 @@ def _factors(articulation: Articulation, rng: np.random.Generator) -> FloatArray
 
 
 def stretched(articulation: Articulation, factors: npt.ArrayLike) -> Articulation:
-    """Scale an object by a factor per axis; by their mean where a joint lies aslant.
+    """Scale an object by factors above 0 along x, y and z; by their mean if a joint lies aslant.
 
-    A part turns as rigidly after stretching as before, but two of its sides may come to meet what
-    they missed.
-
-    Args:
-        articulation: any.
-        factors: along x, y and z, all above 0, shape [3].
+    A part turns as rigidly as before, but two of its sides may come to meet what they missed.
     """
     wanted = np.asarray(factors, dtype=np.float64)
     if wanted.shape != (3,) or not (wanted > 0.0).all():
@@ -136,29 +125,22 @@ def stretched(articulation: Articulation, factors: npt.ArrayLike) -> Articulatio
     if any(np.abs(joint.axis).max() < 1.0 - ALONG for joint in articulation.movable_joints):
         wanted = np.full(3, float(np.prod(wanted)) ** (1.0 / 3.0))
     joints = tuple(_stretched(joint, wanted) for joint in articulation.joints)
-    return replace(
-        articulation, mesh=articulation.mesh.transformed(np.diag([*wanted, 1.0])), joints=joints
-    )
+    mesh = articulation.mesh.transformed(np.diag([*wanted, 1.0]))
+    return replace(articulation, mesh=mesh, joints=joints)
 
 
 def mirrored(articulation: Articulation) -> Articulation:
     """Return the object as its mirror image, left for right (x negated); opening stays positive."""
     flip = np.array([-1.0, 1.0, 1.0])
     joints = tuple(
-        replace(
-            joint,
-            axis=(-1.0 if joint.turns else 1.0) * flip * joint.axis,
-            origin=flip * joint.origin,
-        )
-        for joint in articulation.joints
+        replace(each, axis=(-flip if each.turns else flip) * each.axis, origin=flip * each.origin)
+        for each in articulation.joints
     )
-    return replace(
-        articulation, mesh=articulation.mesh.transformed(np.diag([*flip, 1.0])), joints=joints
-    )
+    mesh = articulation.mesh.transformed(np.diag([*flip, 1.0]))
+    return replace(articulation, mesh=mesh, joints=joints)
 
 
 def _stretched(joint: Joint, factors: FloatArray) -> Joint:
     along = 1.0 if joint.turns else float(factors[np.abs(joint.axis).argmax()])
-    return replace(
-        joint, origin=factors * joint.origin, lower=joint.lower * along, upper=joint.upper * along
-    )
+    moved = replace(joint, origin=factors * joint.origin)
+    return replace(moved, lower=joint.lower * along, upper=joint.upper * along)

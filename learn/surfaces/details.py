@@ -17,8 +17,7 @@ POINTS = 8000
 PIXELS = 24
 #: Depth by which a point may lie behind what is seen in its pixel, as a share of the longest side.
 SLACK = 0.02
-#: Share of a face's points that are seen by mistake, through pixels that no nearer point happens to
-#: fill.
+#: Share of a face's points seen by mistake, through pixels that no nearer point fills.
 LEAKS = 0.15
 #: A piece counts as hidden if this share of its surface is.
 MOSTLY = 0.7
@@ -77,8 +76,7 @@ def without_handles(mesh: Labelled, rng: np.random.Generator) -> Labelled:
 def hidden_faces(mesh: Labelled, rng: np.random.Generator) -> BoolArray:
     """Return the faces of which no point is seen from any of 14 directions, shape [face_count].
 
-    Points on the surface are drawn into depth pictures; a face counts as hidden if hardly any of
-    its points is in front.
+    Points on the surface are drawn into depth pictures; few of a hidden face's are in front.
     """
     points, face, _ = mesh.sampled(rng.random(POINTS), rng)
     low = points.min(axis=0)

@@ -16,12 +16,10 @@ from .labelled import BoolArray, Labelled
 
 #: Points on the original surface, from which the skin and its labels come; more for a finer skin.
 POINTS = 24000
-#: Cells along the longest side, lowest and highest; fewer where that would make more than about so
-#: many triangles.
+#: Cells along the longest side, lowest and highest; fewer if those made too many triangles.
 RESOLUTION = (40, 80)
 MOST_FACES = 14000
-#: The skin lies this many cells outside the surface, lowest and highest; twice that is the widest
-#: gap it closes.
+#: The skin lies this many cells outside the surface; twice that is the widest gap it closes.
 REACH = (0.35, 0.8)
 MARGIN = 4
 #: More than any part's number.
@@ -35,22 +33,16 @@ def fused_like(
 ) -> Articulation:
     """Return one closed surface around the whole object, labelled by the nearest part.
 
-    The mesh may be closed or not. Seams run along triangles of the skin, and vertices may be
-    shared by more than two sheets where surfaces touch.
+    Seams run along triangles of the skin, and vertices may be shared by more than two sheets where
+    surfaces touch. Parts and joints are the same, but for parts that nothing is seen of.
 
     Args:
-        articulation: any with a surface.
+        articulation: any with a surface, closed or not.
         seed: of the sampled points, bumps and, where not given, the resolution.
-        resolution: cells along the longest side of the bounding box; by default as many as keep it
-            fast.
-
-    Returns:
-        The same parts and joints over the skin of the outside, but for parts that nothing is seen
-        of.
+        resolution: cells along the longest side; by default as many as keep it fast.
 
     Raises:
-        ValueError: what would have to be left out holds something that is seen, or is all that
-            moves.
+        ValueError: what would be left out holds something that is seen, or is all that moves.
     """
     rng = np.random.default_rng([seed, 0xF5])
     cells = _cells(articulation.mesh.extents, rng) if resolution is None else resolution
@@ -78,8 +70,7 @@ def fused_like(
 def _cells(extents: FloatArray, rng: np.random.Generator) -> int:
     """Return how many along the longest side."""
     x, y, z = extents / extents.max()
-    # A cell on the box becomes two triangles, and an object has more surface than its box where it
-    # has any shape.
+    # A cell on the box becomes two triangles, and objects of any shape have more than their box.
     most = np.sqrt(MOST_FACES / (2.5 * 2.0 * (x * y + y * z + z * x)))
     return int(min(rng.integers(RESOLUTION[0], RESOLUTION[1] + 1), max(most, RESOLUTION[0] / 2)))
 
@@ -237,11 +228,9 @@ def _bumps(points: FloatArray, rng: np.random.Generator, length: float) -> Float
 
 
 def without_parts(articulation: Articulation, gone: set[int]) -> Articulation:
-    """Return the object without some parts and their joints.
+    """Return the object without some parts, which have no faces, and their joints.
 
-    Args:
-        articulation: in which those parts have no faces.
-        gone: parts, and with them every carrier that is left without anything to carry.
+    With them goes every carrier that is left without anything to carry.
 
     Raises:
         ValueError: a part that stays hangs on one that should go, or nothing would be left to move.
@@ -258,8 +247,6 @@ def without_parts(articulation: Articulation, gone: set[int]) -> Articulation:
     if lost or 0 in leaving or not any(joint.movable for joint in joints):
         names = [articulation.parts[index].name for index in sorted(gone)]
         raise ValueError(f"want to drop {names}, but the rest needs them")
-    return replace(
-        articulation,
-        parts=tuple(articulation.parts[index] for index in kept),
-        joints=tuple(replace(j, parent=number[j.parent], child=number[j.child]) for j in joints),
-    )
+    parts = tuple(articulation.parts[index] for index in kept)
+    hung = tuple(replace(j, parent=number[j.parent], child=number[j.child]) for j in joints)
+    return replace(articulation, parts=parts, joints=hung)

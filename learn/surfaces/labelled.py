@@ -7,12 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.geometry.edges import label_linked
 from asset_factory.factory.geometry.posing import face_parts
-from asset_factory.factory.geometry.triangles import doubled_normals
+from asset_factory.factory.geometry.triangles import areas_of, doubled_normals
 from asset_factory.factory.mesh import FloatArray, IntArray, Material, Mesh
 
 BoolArray = npt.NDArray[np.bool_]
@@ -47,9 +46,7 @@ class Labelled:
         used, corners = np.unique(key, return_inverse=True)
         faces = np.asarray(corners.reshape(-1, 3), dtype=np.int64)
         edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]]])
-        weight = np.ones(len(edges), dtype=np.int8)
-        graph = coo_matrix((weight, edges.T), shape=(len(used), len(used)))
-        piece = connected_components(graph, directed=False)[1][faces[:, 0]]
+        piece = label_linked(len(used), edges)[faces[:, 0]]
         label = np.stack([part, piece, mesh.face_material], axis=1)
         return cls(mesh.vertices[used % len(mesh.vertices)], faces, _numbered(label))
 
@@ -98,7 +95,7 @@ class Labelled:
     @property
     def areas(self) -> FloatArray:
         """Return the area of every face [m2], shape [face_count]."""
-        return np.asarray(np.linalg.norm(self.crosses, axis=1) / 2.0)
+        return areas_of(self.corners)
 
     @property
     def bounds(self) -> tuple[FloatArray, FloatArray]:
@@ -139,8 +136,11 @@ class Labelled:
         vertices = self.vertices[used % len(self.vertices)]
         return replace(self, vertices=vertices, faces=faces.reshape(-1, 3))
 
-    def grown(self, reach: float, least: float) -> Labelled:
-        """Stretch every piece by ``reach`` at either end [m], to no less than a share of it."""
+    def grown(self, reach: float, least: float = 0.5) -> Labelled:
+        """Stretch every piece about its middle by ``reach`` at either end [m].
+
+        Nothing shrinks to less than a share of it: thin pieces would turn inside out.
+        """
         own = self.with_own_vertices()
         low, high = own.boxes()
         half = np.maximum((high - low) / 2.0, 1e-9)

@@ -36,19 +36,11 @@ def skin_like(
 ) -> Articulation:
     """Return one closed skin around the whole object, as large generative models give it.
 
-    Args:
-        articulation: any with a surface.
-        seed: of everything that varies.
-        cells: along the longest side; drawn by default.
-        engraved: how likely its seams are engraved.
-
-    Returns:
-        The same parts and joints over the skin of the outside, but for parts that nothing is seen
-        of.
+    Parts and joints are the same, but for parts that nothing is seen of. ``cells`` are along the
+    longest side, drawn by default; ``engraved`` is how likely the seams are engraved.
 
     Raises:
-        ValueError: what would have to be left out holds something that is seen, or is all that
-            moves.
+        ValueError: what would be left out holds something that is seen, or is all that moves.
     """
     rng = np.random.default_rng([seed, 0x5C1])
     original = Labelled.of(articulation)
@@ -59,21 +51,16 @@ def skin_like(
     return without_parts(made, hidden) if hidden else made
 
 
-def coloured_skin(mesh: Mesh, seed: int, cells: int | None = None) -> Mesh:
+def coloured_skin(mesh: Mesh, seed: int) -> Mesh:
     """Return one closed skin around a mesh, in its bounding box and under its colours.
 
     Seams between the mesh's own pieces are engraved as :func:`skin_like` engraves those of parts.
-
-    Args:
-        mesh: with at least one triangle.
-        seed: of everything that varies.
-        cells: along the longest side; drawn by default.
     """
     rng = np.random.default_rng([seed, 0xC01])
     piece = connected_components(mesh) % NOBODY
     label = np.stack([piece, piece, mesh.face_material], axis=1)
     original = Labelled(mesh.vertices, mesh.faces, label)
-    vertices, faces, below, weights = _skinned(original, rng, cells, ENGRAVED)
+    vertices, faces, below, weights = _skinned(original, rng, None, ENGRAVED)
     low = vertices.min(axis=0)
     share = (vertices - low) / (vertices.max(axis=0) - low)
     placed = mesh.vertices.min(axis=0) + share * mesh.extents
@@ -113,9 +100,8 @@ def _skinned(
     groove = int(rng.integers(DEPTHS[0], DEPTHS[1] + 1)) if rng.random() < engraved else 0
     bumps = float(rng.choice([0.0, 0.1, 0.3]))
     reach = float(rng.uniform(*REACH))
-    vertices, faces, nearest = skin(
-        points, original.part[below], chosen, reach, rng, groove=groove, bumps=bumps
-    )
+    owner = original.part[below]
+    vertices, faces, nearest = skin(points, owner, chosen, reach, rng, groove=groove, bumps=bumps)
     if rng.random() < SIMPLIFIED:
         most = int(np.exp(rng.uniform(*np.log(FACES))))
         vertices, faces, nearest = _simplified(vertices, faces, nearest, most)
@@ -130,9 +116,8 @@ def _simplified(
         return vertices, faces, shown
     import fast_simplification
 
-    fewer, kept = fast_simplification.simplify(
-        np.asarray(vertices, dtype=np.float32), np.asarray(faces, dtype=np.int32), target_count=most
-    )
+    rough = vertices.astype(np.float32), faces.astype(np.int32)
+    fewer, kept = fast_simplification.simplify(*rough, target_count=most)
     kept = np.asarray(kept, dtype=np.int64)
     fewer = np.asarray(fewer, dtype=np.float64)
     before = vertices[faces].mean(axis=1)

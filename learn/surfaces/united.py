@@ -21,13 +21,7 @@ def parts_united(mesh: Labelled, rng: np.random.Generator, share: float = 0.85) 
 
 def all_united(mesh: Labelled) -> Labelled:
     """Unite all parts in one surface; pieces grow by 4 mm or less until gaps close."""
-    return _united(grown(mesh, min(0.004, 0.01 * mesh.longest)))
-
-
-def grown(mesh: Labelled, reach: float) -> Labelled:
-    """Stretch every piece about its middle by ``reach`` at either end [m]; negative: shrink."""
-    # What is thinner than the change would turn inside out.
-    return mesh.grown(reach, 0.5)
+    return _united(mesh.grown(min(0.004, 0.01 * mesh.longest)))
 
 
 def _united(mesh: Labelled) -> Labelled:

@@ -20,19 +20,10 @@ _FORMAT = 1
 
 @dataclass(frozen=True)
 class State:
-    """A run after some steps, without random state.
+    """A run after so many steps; all chance of a step follows from the seed and its number.
 
-    All chance of a step follows from the seed and its number.
-
-    Attributes:
-        step: steps done.
-        weights: of the network.
-        mean: running mean of the weights.
-        optimiser: its state.
-        best: the highest score of a validation so far, and its step; ``None`` before the first.
-        recipe: the configuration, as TOML.
-        data: digest of the data.
-        seconds: spent so far.
+    ``best`` is the highest score of a validation so far, and its step, ``None`` before the first;
+    ``recipe`` the configuration as TOML, ``data`` a digest, ``seconds`` were spent so far.
     """
 
     step: int
@@ -72,11 +63,9 @@ def read_state(path: Path) -> State:
     except ConfigError:
         raise
     except Exception as error:  # torch names many reasons, with as many types
-        raise ConfigError(
-            f"{path}: not a checkpoint of a training, or damaged: {error}; "
-            f"another run can begin --from {BEST} or from "
-            "the weights beside it"
-        ) from error
+        said = f"not a checkpoint of a training, or damaged: {error}"
+        other = f"another run can begin --from {BEST} or from the weights beside it"
+        raise ConfigError(f"{path}: {said}; {other}") from error
 
 
 def read_weights(path: Path) -> dict[str, Tensor]:
@@ -104,11 +93,8 @@ def fill(network: Any, weights: dict[str, Tensor], path: Path) -> None:
     found = {name: tuple(tensor.shape) for name, tensor in weights.items()}
     missing = [f"{name}: missing" for name in wanted if name not in found]
     extra = [f"{name}: not in the network" for name in found if name not in wanted]
-    other = [
-        f"{name}: shape {list(found[name])}, want {list(wanted[name])}"
-        for name in wanted
-        if name in found and found[name] != wanted[name]
-    ]
+    unlike = [name for name in wanted if name in found and found[name] != wanted[name]]
+    other = [f"{name}: shape {list(found[name])}, want {list(wanted[name])}" for name in unlike]
     differences = other + missing + extra
     if differences:
         more = f"; and {len(differences) - 8} more" if len(differences) > 8 else ""

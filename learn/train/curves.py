@@ -2,41 +2,32 @@
 
 from __future__ import annotations
 
-import csv
 import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.runtime.store import write_whole, writing
 
 
 class Curve:
     """A table that grows by rows and starts with a step; texts, so equal runs give equal bytes.
 
-    Args:
-        path: the CSV file.
-        columns: after the step.
-        steps: how many are done: rows of later steps, from before a run was cut off, are dropped.
+    Rows after ``steps``, from before a run was cut off, are dropped.
     """
 
     def __init__(self, path: Path, columns: Sequence[str], steps: int) -> None:
         self._path = path
         header = ["step", *columns]
-        kept = [
-            row
-            for row in _read(path)
-            if row[0].isdigit() and int(row[0]) <= steps and len(row) == len(header)
-        ]
-        temporary = path.with_name(f".{path.name}.writing")
-        with temporary.open("w", newline="", encoding="utf-8") as stream:
-            csv.writer(stream, lineterminator="\n").writerows([header, *kept])
-        os.replace(temporary, path)
+        before = (row for row in _read(path) if row[0].isdigit() and int(row[0]) <= steps)
+        kept = [row for row in before if len(row) == len(header)]
+        write_whole(path, _lines([header, *kept]))
 
     def add(self, rows: Iterable[tuple[int, Sequence[float]]]) -> None:
         """Append rows, each a step and its numbers, and make sure they are on the disk."""
         texts = [[str(step), *(f"{value:.9g}" for value in values)] for step, values in rows]
-        with self._path.open("a", newline="", encoding="utf-8") as stream:
-            csv.writer(stream, lineterminator="\n").writerows(texts)
+        with self._path.open("ab") as stream:
+            stream.write(_lines(texts))
             stream.flush()
             os.fsync(stream.fileno())
 
@@ -52,10 +43,13 @@ def read_curve(path: Path) -> dict[str, list[float]]:
 def _read(path: Path) -> list[list[str]]:
     if not path.is_file():
         return []
-    with path.open(newline="", encoding="utf-8") as stream:
-        rows = [row for row in csv.reader(stream) if row]
+    rows = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines() if line]
     # A process that was killed may have left half a row.
-    return [row for row in rows if len(row) == len(rows[0])] if rows else []
+    return [row for row in rows if len(row) == len(rows[0])]
+
+
+def _lines(rows: Iterable[Sequence[str]]) -> bytes:
+    return "".join(",".join(row) + "\n" for row in rows).encode()
 
 
 def require_plotting() -> None:
@@ -67,9 +61,8 @@ def require_plotting() -> None:
     try:
         import matplotlib  # noqa: F401
     except ImportError as error:
-        raise ConfigError(
-            "curves are drawn with matplotlib: pip install 'asset-factory[train]'"
-        ) from error
+        wanted = "pip install 'asset-factory[train]'"
+        raise ConfigError(f"curves are drawn with matplotlib: {wanted}") from error
 
 
 def draw_curves(training: Path, validation: Path, target: Path) -> None:
@@ -95,9 +88,8 @@ def draw_curves(training: Path, validation: Path, target: Path) -> None:
         axes.grid(alpha=0.3)
         if axes.get_legend_handles_labels()[0]:
             axes.legend(fontsize=7)
-    temporary = target.with_name(f".{target.name}")
-    figure.savefig(temporary, dpi=110, format="png", metadata={"Software": None})
-    os.replace(temporary, target)
+    with writing(target) as stream:
+        figure.savefig(stream, dpi=110, format="png", metadata={"Software": None})
 
 
 def _smoothed(values: Sequence[float], keep: float = 0.98) -> list[float]:

@@ -21,15 +21,9 @@ _DEATHS = 3
 
 
 class DataLoader:
-    """The batches of a run, step by step, for one of its processes.
+    """The batches of a run from a step on, for one of its processes; tells of workers that died.
 
-    Args:
-        config: of the run.
-        pools: of its data.
-        step: the first one wanted.
-        rank: number of this process.
-        world: how many there are; each gets every ``world``-th sample of a step.
-        say: told of workers that died.
+    Of a step's samples, each of ``world`` processes gets every ``world``-th, from its ``rank`` on.
     """
 
     def __init__(
@@ -46,14 +40,9 @@ class DataLoader:
         self._numbers = range(rank, config.batch, world)
         lanes = sorted({number % config.lanes for number in self._numbers})
         workers = min(config.run.workers, len(lanes))
-        self._shares = [
-            [
-                number
-                for number in self._numbers
-                if lanes.index(number % config.lanes) % workers == worker
-            ]
-            for worker in range(workers)
-        ]
+        self._shares: list[list[int]] = [[] for _ in range(workers)]
+        for number in self._numbers if workers else ():
+            self._shares[lanes.index(number % config.lanes) % workers].append(number)
         order = [number for share in self._shares for number in share]
         self._order = sorted(range(len(order)), key=order.__getitem__)
         self._supply = Dataset(config, pools) if not workers else None
@@ -103,8 +92,7 @@ class _Worker:
         self._process = context.Process(target=_work, args=arguments, daemon=True)
         with one_thread():
             self._process.start()
-        # With the worker's end open in no other process, its death ends what is read here, even
-        # within a batch.
+        # With the worker's end open nowhere else, its death ends what is read, even within a batch.
         writing.close()
         self._drawn: Queue[tuple[int, Batch | str] | None] = Queue(self._config.run.ahead)
         self._reader = Thread(target=_read, args=(self._pipe, self._drawn), daemon=True)
@@ -114,13 +102,11 @@ class _Worker:
         while (drawn := self._drawn.get()) is None:
             self.stop()
             self._deaths += 1
-            died = (
-                f"step {step}: a worker that draws samples died with code {self._process.exitcode}"
-            )
+            code = self._process.exitcode
+            died = f"step {step}: a worker that draws samples died with code {code}"
             if self._deaths >= _DEATHS:
-                raise ConfigError(
-                    f"{died}, {_DEATHS} times in a row; it may want more memory, or fewer workers"
-                )
+                wanted = "it may want more memory, or fewer workers"
+                raise ConfigError(f"{died}, {_DEATHS} times in a row; {wanted}")
             # A sample follows from its step and number alone: another worker draws the same.
             self._say(f"{died}; another one takes its place")
             self._start(step)
@@ -154,8 +140,7 @@ def _work(
     config: TrainConfig, pools: tuple[Pool, ...], step: int, numbers: Sequence[int], pipe: Any
 ) -> None:
     """Draw the samples of one step after another until the trainer is gone."""
-    # Interrupts go to a whole group of processes; the trainer finishes its step and then stops this
-    # one.
+    # Interrupts go to all processes; the trainer finishes its step and then stops this one.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     dataset = Dataset(config, pools)

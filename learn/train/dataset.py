@@ -1,7 +1,6 @@
 """Which sample is the n-th of a step: a function of seed, step and number, nothing else.
 
-So nothing about the sources has to be stored to go on with a run, and the number of workers changes
-no sample.
+So nothing about sources is stored to go on with a run, and the number of workers changes nothing.
 """
 
 from __future__ import annotations
@@ -33,13 +32,9 @@ _TRIES = 20
 
 @dataclass(frozen=True)
 class Files:
-    """Sampled objects in files.
+    """Sampled objects in files, sorted, and how often they are drawn relative to the other pools.
 
-    Attributes:
-        paths: sorted.
-        weight: how often they are drawn, relative to the other pools.
-        report: what became of the objects that they were made of; ``None`` where they are sampled
-            objects by themselves.
+    ``report`` says what became of the objects that they were made of; ``None``: they are as found.
     """
 
     paths: tuple[Path, ...]
@@ -49,13 +44,7 @@ class Files:
 
 @dataclass(frozen=True)
 class Generator:
-    """Sampled objects that are made when they are wanted.
-
-    Attributes:
-        source: how they are used.
-        style: what they are like.
-        weight: how often they are drawn, relative to the other pools.
-    """
+    """Sampled objects that are made when they are wanted; ``weight`` as of files."""
 
     source: DataSource
     style: MixtureSettings
@@ -71,26 +60,20 @@ def find_pools(sources: Iterable[DataSource], cache: Path) -> tuple[Pool, ...]:
     Raises:
         ConfigError: a source has nothing to give.
     """
-    pools: list[Pool] = []
-    for source in sources:
-        if source.kind == "procedural":
-            style = overlay(MixtureSettings(), source.style, "procedural: style")
-            pools.append(Generator(source, style, source.weight))
-            continue
-        pools.append(
-            _sampled_files(source) if source.kind == "sampled" else _converted(source, cache)
-        )
-    return tuple(pools)
+    return tuple(_pool(source, cache) for source in sources)
+
+
+def _pool(source: DataSource, cache: Path) -> Pool:
+    if source.kind == "procedural":
+        style = overlay(MixtureSettings(), source.style, "procedural: style")
+        return Generator(source, style, source.weight)
+    return _sampled_files(source) if source.kind == "sampled" else _converted(source, cache)
 
 
 def source_lines(pools: Iterable[Pool]) -> list[str]:
     """Return lines for people: what became of the objects of converted sources."""
-    return [
-        line
-        for pool in pools
-        if isinstance(pool, Files) and pool.report is not None
-        for line in pool.report.lines()
-    ]
+    reports = (pool.report for pool in pools if isinstance(pool, Files) and pool.report)
+    return [line for report in reports for line in report.lines()]
 
 
 def source_counts(pools: Iterable[Pool]) -> list[dict[str, Any]]:
@@ -98,9 +81,8 @@ def source_counts(pools: Iterable[Pool]) -> list[dict[str, Any]]:
     counts: list[dict[str, Any]] = []
     for pool in pools:
         if isinstance(pool, Generator):
-            counts.append(
-                {"kind": "procedural", "sampled": pool.source.objects or None, "skipped": {}}
-            )
+            objects = pool.source.objects or None
+            counts.append({"kind": "procedural", "sampled": objects, "skipped": {}})
             continue
         report = pool.report
         kind, skipped = ("sampled", {}) if report is None else (report.kind, report.counts)
@@ -126,19 +108,16 @@ def _sampled_files(source: DataSource) -> Files:
     folder = Path(source.path)
     if not folder.is_dir():
         raise ConfigError(f"{folder}: no such folder; want one with .npz sampled objects")
-    paths = sorted(
-        path for path in folder.rglob("*.npz") if path.is_file() and not path.name.startswith(".")
-    )
+    named = (path for path in folder.rglob("*.npz") if not path.name.startswith("."))
+    paths = sorted(path for path in named if path.is_file())
     if not paths:
         raise ConfigError(f"{folder}: no sampled objects in it; want .npz files")
     if source.split:
         names = read_split(Path(source.split))
-        first = paths[0].stem
+        called = f"which are called e.g. {paths[0].stem}"
         paths = [path for path in paths if path.stem in names or path.name in names]
         if not paths:
-            raise ConfigError(
-                f"split {source.split}: names none of the objects, which are called e.g. {first}"
-            )
+            raise ConfigError(f"split {source.split}: names none of the objects, {called}")
     return Files(tuple(paths), source.weight)
 
 
@@ -146,22 +125,15 @@ def digest(pools: Iterable[Pool]) -> str:
     """Return a digest of the data: file names and generator settings, hexadecimal."""
     hashed = sha256()
     for pool in pools:
-        named = (
-            [path.name for path in pool.paths]
-            if isinstance(pool, Files)
-            else [repr((pool.source, pool.style))]
-        )
+        named = [path.name for path in pool.paths] if isinstance(pool, Files) else []
+        if isinstance(pool, Generator):
+            named = [repr((pool.source, pool.style))]
         hashed.update("\n".join([f"{pool.weight:g}", *named, ""]).encode())
     return hashed.hexdigest()
 
 
 class Dataset:
-    """Draws the samples of a run.
-
-    Args:
-        config: of the run.
-        pools: of its data.
-    """
+    """Draws the samples of a run."""
 
     def __init__(self, config: TrainConfig, pools: tuple[Pool, ...]) -> None:
         self._config = config
@@ -177,60 +149,50 @@ class Dataset:
             ConfigError: several sampled objects in a row cannot be read or have too many parts.
         """
         config = self._config
+        most = config.network.max_parts
         rng = np.random.default_rng([config.seed, _TRAINING, step, number])
         refused = ""
         for attempt in range(_TRIES):
-            which = min(
-                int(np.searchsorted(self._shares, rng.random(), side="right")), len(self._pools) - 1
-            )
+            place = int(np.searchsorted(self._shares, rng.random(), side="right"))
+            which = min(place, len(self._pools) - 1)
             pool = self._pools[which]
             try:
                 if isinstance(pool, Files):
                     sampled = self._kept.read(pool.paths[int(rng.integers(len(pool.paths)))])
                 else:
-                    sampled = self._kept.make(pool, self._object_seed(which, step, number, attempt))
+                    seed = self._object_seed(pool.source, which, step, number)
+                    sampled = self._kept.make(pool, (*seed, attempt))
             except AssetFactoryError as error:
                 refused = str(error)
                 continue
-            if len(sampled.parents) <= config.network.max_parts:
+            parts = len(sampled.parents)
+            if parts <= most:
                 return draw(sampled, rng, config.training_draw)
-            refused = (
-                f"{sampled.name}: has {len(sampled.parents)} parts, "
-                f"want at most {config.network.max_parts}"
-            )
-        raise ConfigError(
-            f"step {step}: {_TRIES} sampled objects in a row cannot be used; the last: {refused}"
-        )
+            refused = f"{sampled.name}: has {parts} parts, want at most {most}"
+        failed = f"{_TRIES} sampled objects in a row cannot be used"
+        raise ConfigError(f"step {step}: {failed}; the last: {refused}")
 
-    def _object_seed(self, which: int, step: int, number: int, attempt: int) -> tuple[int, ...]:
-        """Return the seed of the procedural object behind a sample.
+    def _object_seed(
+        self, source: DataSource, which: int, step: int, number: int
+    ) -> tuple[int, ...]:
+        """Return the seed of the procedural object behind a sample, but for the attempt.
 
         Each lane has its own stream of objects, of which ``reuse`` samples are drawn from each, in
-        an order in which objects from a window of steps are mixed; a worker that takes a whole lane
-        makes each object once.
+        an order in which objects of a window of steps are mixed; a whole lane makes each once.
         """
         config = self._config
-        pool = self._pools[which]
-        source = pool.source if isinstance(pool, Generator) else DataSource()
         lane = number % config.lanes
         row = number // config.lanes
         in_lane = len(range(lane, config.batch, config.lanes))
-        share = pool.weight / sum(each.weight for each in self._pools)
+        share = source.weight / sum(each.weight for each in self._pools)
         reuse = max(1, round(source.reuse / share))
         block, place = divmod(step * in_lane + row, reuse * _WINDOW)
-        order = np.random.default_rng([config.seed, _ORDER, which, lane, block]).permutation(
-            reuse * _WINDOW
-        )
+        rng = np.random.default_rng([config.seed, _ORDER, which, lane, block])
+        order = rng.permutation(reuse * _WINDOW)
         thing = block * _WINDOW + int(order[place]) // reuse
         if source.objects:
-            return (
-                config.seed,
-                _OBJECT,
-                which,
-                (thing * config.lanes + lane) % source.objects,
-                attempt,
-            )
-        return (config.seed, _OBJECT, which, lane, thing, attempt)
+            return (config.seed, _OBJECT, which, (thing * config.lanes + lane) % source.objects)
+        return (config.seed, _OBJECT, which, lane, thing)
 
 
 _WINDOW = 8
@@ -253,11 +215,8 @@ def held_out_samples(config: TrainConfig, pools: tuple[Pool, ...]) -> list[Sampl
                 rng = np.random.default_rng([config.seed, _HELD_OUT, which, number])
                 samples.append(draw(sampled, rng, settings))
     if pools and not samples:
-        most = config.network.max_parts
-        raise ConfigError(
-            f"held_out: none of its objects can be read and has at most {most} parts; "
-            "want some that do"
-        )
+        wanted = f"can be read and has at most {config.network.max_parts} parts"
+        raise ConfigError(f"held_out: none of its objects {wanted}; want some that do")
     return samples
 
 
@@ -281,18 +240,12 @@ def _some(
 
 
 class _Kept:
-    """Sampled objects used last.
-
-    Args:
-        most: bytes of them.
-    """
+    """Sampled objects used last, of at most so many bytes."""
 
     def __init__(self, most: int) -> None:
         self._most = most
         self._bytes = 0
-        self._sampled_objects: OrderedDict[object, SampledObject | AssetFactoryError] = (
-            OrderedDict()
-        )
+        self._found: OrderedDict[object, SampledObject | AssetFactoryError] = OrderedDict()
 
     def read(self, path: Path) -> SampledObject:
         return self._get(path, lambda: read_sampled(path))
@@ -301,7 +254,7 @@ class _Kept:
         return self._get(seed, lambda: _made(pool, seed))
 
     def _get(self, key: object, get: Callable[[], SampledObject]) -> SampledObject:
-        found = self._sampled_objects.pop(key, None)
+        found = self._found.pop(key, None)
         if found is None:
             try:
                 found = get()
@@ -309,9 +262,9 @@ class _Kept:
                 # Without the frames it came through, which hold all that they had made.
                 found = error.with_traceback(None)
             self._bytes += _size(found)
-        self._sampled_objects[key] = found
-        while self._bytes > self._most and len(self._sampled_objects) > 1:
-            self._bytes -= _size(self._sampled_objects.popitem(last=False)[1])
+        self._found[key] = found
+        while self._bytes > self._most and len(self._found) > 1:
+            self._bytes -= _size(self._found.popitem(last=False)[1])
         if isinstance(found, AssetFactoryError):
             raise found.with_traceback(None)
         return found
@@ -327,18 +280,11 @@ def _made(pool: Generator, seed: tuple[int, ...]) -> SampledObject:
     rng = np.random.default_rng(seed)
     try:
         name, articulation = sample_object(rng, pool.style)
-        return sampled_from(
-            articulation,
-            name=name,
-            category=name.partition("-")[0],
-            source="procedural",
-            points=pool.source.points,
-            rng=rng,
-        )
+        about = {"name": name, "category": name.partition("-")[0], "source": "procedural"}
+        return sampled_from(articulation, **about, points=pool.source.points, rng=rng)
+    except AssetFactoryError:
+        raise
     except (ValueError, ArithmeticError, LookupError, RuntimeError) as error:
-        if isinstance(error, AssetFactoryError):
-            raise
         # One odd object in a million must not end a run; when all are odd, the run says so.
-        raise InputRejected(
-            "not_made", f"procedural object {seed}: {type(error).__name__}: {error}"
-        ) from None
+        said = f"procedural object {seed}: {type(error).__name__}: {error}"
+        raise InputRejected("not_made", said) from None

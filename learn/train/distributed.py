@@ -15,13 +15,7 @@ Tensor = Any
 
 @dataclass(frozen=True)
 class ProcessGroup:
-    """The processes of a run.
-
-    Attributes:
-        rank: number of this one.
-        world: how many there are.
-        device: where this one computes, as torch names it.
-    """
+    """The processes of a run: which this one is, of how many, and its device as torch names it."""
 
     rank: int
     world: int
@@ -77,11 +71,7 @@ class ProcessGroup:
 
 @contextmanager
 def joined(device: str) -> Iterator[ProcessGroup]:
-    """Yield the group that this process belongs to; alone where ``torchrun`` did not start it.
-
-    Args:
-        device: as in ``RunSettings``.
-    """
+    """Yield the group that this process belongs to; alone where ``torchrun`` did not start it."""
     world = int(os.environ.get("WORLD_SIZE", "1"))
     rank = int(os.environ.get("RANK", "0"))
     local = int(os.environ.get("LOCAL_RANK", "0"))

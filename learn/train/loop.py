@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import torch  # noqa: TID253 - this module is only imported to train
+from filelock import FileLock, Timeout
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.network.shape import expected_tensors, parameter_count
@@ -25,7 +26,6 @@ from .curves import Curve, draw_curves, require_plotting
 from .data_loader import DataLoader
 from .dataset import digest, find_pools, held_out_samples, source_counts, source_lines
 from .distributed import ProcessGroup, joined
-from .folder import held
 from .progress import Watch, watching
 from .recipes import parse_train_config
 from .settings import TrainConfig
@@ -50,18 +50,14 @@ def run_training(
     resume: bool,
     start: Path | None,
 ) -> bool:
-    """Train a network, and leave everything about it in a folder.
+    """Train a network, and leave everything about it in a folder; returns whether it is done.
 
     Args:
         config: of the run.
         recipe: the TOML it was read from.
-        output: the folder: weights, checkpoints, curves, a card with figures, and a copy of the
-            recipe.
+        output: the folder: weights, checkpoints, curves, a card with figures, and the recipe.
         resume: go on with the run that is there.
         start: weights to begin with, for a run on other data.
-
-    Returns:
-        Whether all steps are done; otherwise it was asked to stop and can go on.
 
     Raises:
         ConfigError: the folder holds a run and ``resume`` is not asked for, or the other way round;
@@ -112,28 +108,23 @@ class _Run:
             fill(self._trainer.network, weights, start)
             self._trainer.descent.mean.load(weights)
             if group.first:
-                # Resumed before its first checkpoint, a run would otherwise begin with random
-                # weights.
+                # Resumed before its first checkpoint, a run would begin with random weights.
                 write_state(self._output / LAST, self._state(0))
         if group.first and not (self._output / RECIPE).is_file():
-            # Not before data and weights are found: what could not begin leaves no run to go on
-            # with.
+            # After data and weights are found: what cannot begin leaves no run to go on with.
             write_whole(self._output / RECIPE, self._recipe.encode())
         first = 0 if state is None else state.step
         steps = config.schedule.steps
         if group.first:
             self._curve = Curve(self._output / CURVE, COLUMNS, first)
-            self._table = Curve(
-                self._output / VALIDATION, [each.name for each in fields(Scores)], first
-            )
+            scores = [each.name for each in fields(Scores)]
+            self._table = Curve(self._output / VALIDATION, scores, first)
         with watching(steps, first, quiet=not group.first) as watch:
             for line in source_lines((*self._pools, *self._held_out_pools)):
                 watch.say(line)
             if state is not None and state.data != self._data:
-                watch.say(
-                    "the data are not those that this run began with: "
-                    "its curve will not repeat exactly"
-                )
+                said = "the data are not those that this run began with"
+                watch.say(f"{said}: its curve will not repeat exactly")
             finished = first >= steps or self._steps(first, watch)
             if finished and group.first:
                 self._finish(watch)
@@ -180,11 +171,9 @@ class _Run:
         watch.stepped(pending[-1][0], loss, values[-1][COLUMNS.index("rate")])
 
     def _score(self, step: int, watch: Watch) -> None:
-        if not self._held_out:
+        scores = self._validated()
+        if scores is None:
             return
-        scores = validate(
-            self._trainer.mean_network, self._held_out, self._config, self._group.device
-        )
         self._scores = scores
         figures = asdict(scores)
         self._table.add([(step, list(figures.values()))])
@@ -194,12 +183,18 @@ class _Run:
             self._best = (scores.part_iou, step)
             write_state(self._output / BEST, self._state(step))
 
+    def _validated(self) -> Scores | None:
+        """Return the scores of the mean weights; ``None`` where nothing is held out."""
+        if not self._held_out:
+            return None
+        network = self._trainer.mean_network
+        return validate(network, self._held_out, self._config, self._group.device)
+
     def _save(self, step: int) -> None:
         half = self._config.half
         weights = self._trainer.descent.mean.weights
         kept = {name: each.half() if half else each.float() for name, each in weights.items()}
-        # The checkpoint last: cut off in between, the run goes on from the one before and writes
-        # both again.
+        # The checkpoint last: cut off in between, the run goes on from the one before.
         write_safetensors(self._output / MODEL, kept, self._about(step))
         write_state(self._output / LAST, self._state(step))
 
@@ -226,10 +221,7 @@ class _Run:
         """Write the picture and the card, of a run that is at its end."""
         config = self._config
         output = self._output
-        if self._scores is None and self._held_out:
-            self._scores = validate(
-                self._trainer.mean_network, self._held_out, config, self._group.device
-            )
+        scores = self._scores or self._validated()
         draw_curves(output / CURVE, output / VALIDATION, output / PICTURE)
         card = {
             **self._about(config.schedule.steps),
@@ -240,10 +232,8 @@ class _Run:
             "processes": self._group.world,
             "device": self._group.device,
             "held_out_examples": len(self._held_out),
-            "held_out": None if self._scores is None else asdict(self._scores),
-            "best": None
-            if self._best is None
-            else {"part_iou": self._best[0], "step": self._best[1]},
+            "held_out": scores and asdict(scores),
+            "best": self._best and dict(zip(("part_iou", "step"), self._best, strict=True)),
         }
         write_whole(output / CARD, (json.dumps(card, indent=2) + "\n").encode())
         watch.say(f"the weights are in {output / MODEL}")
@@ -259,14 +249,19 @@ def _prepare(
     begun = (output / RECIPE).is_file()
     group.wait()
     if begun and not resume:
-        raise ConfigError(
-            f"{output}: holds a run already; go on with --resume, or name another folder"
-        )
+        wanted = "go on with --resume, or name another folder"
+        raise ConfigError(f"{output}: holds a run already; {wanted}")
     if not begun and resume:
         raise ConfigError(f"{output}: holds no run to go on with; leave --resume out to begin one")
     if group.first:
         output.mkdir(parents=True, exist_ok=True)
-        stack.enter_context(held(output))
+        # Held against every other training until this process ends.
+        lock = FileLock(output / ".lock", blocking=False, fallback_to_soft=False)
+        try:
+            stack.enter_context(lock)
+        except Timeout:
+            wanted = "wait for it, or name another folder"
+            raise ConfigError(f"{output}: another process is training there; {wanted}") from None
         for left in output.glob(".writing-*"):
             left.unlink()
     group.wait()
@@ -277,21 +272,17 @@ def _prepare(
 
 
 def _require_same(config: TrainConfig, stored: str, output: Path) -> None:
-    before = parse_train_config(stored, str(output / RECIPE))
-    for each in fields(TrainConfig):
-        old = getattr(before, each.name)
-        new = getattr(config, each.name)
-        if each.name in _FREE or old == new:
+    before = asdict(parse_train_config(stored, str(output / RECIPE)))
+    for section, new in asdict(config).items():
+        old = before[section]
+        if section in _FREE or old == new:
             continue
-        changed = each.name
-        if hasattr(old, "__dataclass_fields__"):
-            olds = asdict(old)
-            news = asdict(new)
-            changed = ", ".join(f"{each.name}.{name}" for name in olds if olds[name] != news[name])
-        raise ConfigError(
-            f"{output}: the run there has another {changed}; go on with its own {RECIPE}, "
-            "or begin another run from its weights with --from"
-        )
+        changed = section
+        if isinstance(old, dict):
+            changed = ", ".join(f"{section}.{name}" for name in old if old[name] != new[name])
+        other = "or begin another run from its weights with --from"
+        said = f"the run there has another {changed}; go on with its own {RECIPE}"
+        raise ConfigError(f"{output}: {said}, {other}")
 
 
 @contextmanager
@@ -314,8 +305,7 @@ def _asked_to_stop() -> Iterator[list[int]]:
 def _keep_freed_memory() -> None:
     """Have the C library keep the arrays of a step for the next one.
 
-    By default glibc gives large ones back at once, and the system clears every page anew: a tenth
-        of a step on a CPU.
+    By default glibc gives large ones back, and the system clears every page: a tenth of a step.
     """
     try:
         adjust = ctypes.CDLL(None).mallopt

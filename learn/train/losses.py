@@ -21,18 +21,8 @@ from .matching import arranged, arranged_columns, match
 from .settings import LossSettings
 
 Tensor = Any
-NAMES = (
-    "mask",
-    "dice",
-    "hierarchy",
-    "motion",
-    "revolute_direction",
-    "prismatic_direction",
-    "revolute_range",
-    "prismatic_range",
-    "closest_points",
-    "auxiliary",
-)
+NAMES = tuple(each.name for each in fields(LossSettings) if each.type == "float")
+"""Losses, by the settings that are their weights."""
 _DICE_EPS = 1e-6
 _SYMMETRIC = 0.02
 """A range whose middle is this near to 0, as a share of its width, reads the same both ways."""
@@ -46,11 +36,9 @@ def taught(batch: Batch, settings: LossSettings) -> Batch:
     limits = batch.revolute_range
     largest = direction.gather(-1, direction.abs().argmax(-1, keepdim=True))
     turned = largest < 0.0
-    return replace(
-        batch,
-        revolute_direction=torch.where(turned, -direction, direction),
-        revolute_range=torch.where(turned, -limits.flip(-1), limits),
-    )
+    direction = torch.where(turned, -direction, direction)
+    limits = torch.where(turned, -limits.flip(-1), limits)
+    return replace(batch, revolute_direction=direction, revolute_range=limits)
 
 
 @dataclass(frozen=True)
@@ -61,8 +49,7 @@ class LossTargets:
         parts: shape [batch, parts].
         pairs: pairs of those parts, shape [batch, parts, parts].
         edges: row is parent of column, shape [batch, parts, parts].
-        revolute_direction, prismatic_direction, revolute_range, prismatic_range: shape [batch,
-            parts].
+        revolute_direction, prismatic_direction and both ranges: shape [batch, parts].
         closest_points: shape [batch, n].
     """
 
@@ -98,19 +85,11 @@ def targets_of(batch: Batch, settings: LossSettings) -> LossTargets:
 
 
 @dataclass(frozen=True)
-class Counts:
-    """How many of each a step has, all its parts together; last the fields of LossTargets."""
+class Counts(LossTargets):
+    """How many of each a step has, all its parts together, and how many points."""
 
     points: float
     auxiliary: float
-    parts: float
-    pairs: float
-    edges: float
-    revolute_direction: float
-    prismatic_direction: float
-    revolute_range: float
-    prismatic_range: float
-    closest_points: float
 
     @property
     def edge_weight(self) -> float:
@@ -123,7 +102,7 @@ def count(batch: Batch, targets: LossTargets, settings: LossSettings) -> list[fl
     points = batch.part_ids.shape[1]
     auxiliary = math.ceil(points / settings.auxiliary_points)
     rows = [float(getattr(targets, each.name).sum()) for each in fields(LossTargets)]
-    return [float(len(batch) * points), float(len(batch) * auxiliary), *rows]
+    return [*rows, float(len(batch) * points), float(len(batch) * auxiliary)]
 
 
 @dataclass(frozen=True)
@@ -147,8 +126,7 @@ def forward(network: Any, batch: Batch, settings: LossSettings) -> tuple[Answers
     """Run the network on a batch, and match its queries with the true parts.
 
     Returns:
-        Its answers, and the mask logits of some of the points after every block but the last, where
-        those teach.
+        Its answers, and mask logits of some points after every block but the last, if those teach.
     """
     hidden = network.embed(batch.points, batch.normals, batch.features)
     queries = network.first_queries().expand(len(batch), -1, -1)
@@ -177,6 +155,10 @@ def losses(
 
     A loss that applies to nothing is 0, and so is its gradient.
     """
+
+    def mean(name: str, values: Tensor) -> Tensor:
+        return _sum(values, getattr(targets, name)) / max(getattr(counts, name), 1.0)
+
     parts = answers.parts
     masks = arranged_columns(answers.mask_logits, answers.queries).float()
     found = {"mask": _cross_entropy(masks, batch.part_ids) / counts.points}
@@ -187,26 +169,22 @@ def losses(
     pairs = functional.binary_cross_entropy_with_logits(
         parts.hierarchy_logits.float(), edges, pos_weight=weight, reduction="none"
     )
-    found["hierarchy"] = _sum(pairs, targets.pairs) / max(counts.pairs, 1.0)
+    found["hierarchy"] = mean("pairs", pairs)
     motion = functional.cross_entropy(
         parts.motion_logits.float().transpose(1, 2), batch.motion, reduction="none"
     )
-    found["motion"] = _sum(motion, targets.parts) / max(counts.parts, 1.0)
+    found["motion"] = mean("parts", motion)
     for kind in ("revolute", "prismatic"):
-        name = f"{kind}_direction"
-        limits = getattr(batch, f"{kind}_range")
-        error = _direction_error(
-            getattr(parts, name), getattr(batch, name), limits, settings.sign_free
-        )
-        found[name] = _sum(error, getattr(targets, name)) / max(getattr(counts, name), 1.0)
-    for name in ("revolute_range", "prismatic_range"):
-        error = (getattr(parts, name).float() - getattr(batch, name)).abs().mean(-1)
-        found[name] = _sum(error, getattr(targets, name)) / max(getattr(counts, name), 1.0)
-    error = _place_error(answers, batch)
-    found["closest_points"] = _sum(error, targets.closest_points) / max(counts.closest_points, 1.0)
-    found["auxiliary"] = (
-        _auxiliary(early, answers.queries, batch, counts, settings) if early else zero
-    )
+        way = f"{kind}_direction"
+        range_ = f"{kind}_range"
+        limits = getattr(batch, range_)
+        off = _direction_error(getattr(parts, way), getattr(batch, way), limits, settings.sign_free)
+        found[way] = mean(way, off)
+        found[range_] = mean(range_, (getattr(parts, range_).float() - limits).abs().mean(-1))
+    found["closest_points"] = mean("closest_points", _place_error(answers, batch))
+    found["auxiliary"] = zero
+    if early:
+        found["auxiliary"] = _auxiliary(early, answers.queries, batch, counts, settings)
     return found
 
 
@@ -240,12 +218,10 @@ def _direction_error(said: Tensor, true: Tensor, limits: Tensor, sign_free: bool
     if not sign_free:
         return straight
     width = limits[..., 1] - limits[..., 0]
-    either = (limits.sum(-1).abs() <= 2.0 * _SYMMETRIC * width) | (
-        width >= 2.0 * math.pi - _SYMMETRIC
-    )
-    return torch.where(
-        either, torch.minimum(straight, (said.float() + true).abs().mean(-1)), straight
-    )
+    round_ = width >= 2.0 * math.pi - _SYMMETRIC
+    either = round_ | (limits.sum(-1).abs() <= 2.0 * _SYMMETRIC * width)
+    turned = (said.float() + true).abs().mean(-1)
+    return torch.where(either, torch.minimum(straight, turned), straight)
 
 
 def _place_error(answers: Answers, batch: Batch) -> Tensor:

@@ -28,14 +28,12 @@ def match(
         root_first: part 0, the base, always answers to query 0.
 
     Returns:
-        int64, shape [batch, parts]: a permutation of the queries per sample; row ``k`` is the query
-        of part ``k``, for ``k`` below the sample's count, and after those come the others in
-        ascending order.
+        int64, shape [batch, parts]: a permutation of the queries per sample, by part; after the
+        sample's parts come the others in ascending order.
     """
     # In full precision: the sums over points are long.
     with torch.no_grad(), torch.autocast(mask_logits.device.type, enabled=False):
-        # An answer that overflowed is matched anyhow: its loss is no number, which whoever takes
-        # the step sees.
+        # An answer that overflowed is matched anyhow: its loss, no number, is seen by the step.
         costs = np.nan_to_num(assignment_costs(mask_logits.detach(), part_ids).cpu().numpy())
     queries = [
         _permutation(cost[:count], root_first)
@@ -63,9 +61,8 @@ def _permutation(cost: Any, root_first: bool) -> Any:
 
 def arranged(tensor: Tensor, queries: Tensor) -> Tensor:
     """Return the rows of [batch, parts, ...] in the order that :func:`match` found."""
-    index = queries.reshape(*queries.shape, *[1] * (tensor.dim() - 2)).expand(
-        *queries.shape, *tensor.shape[2:]
-    )
+    deep = tensor.shape[2:]
+    index = queries.reshape(*queries.shape, *[1] * len(deep)).expand(*queries.shape, *deep)
     return tensor.gather(1, index)
 
 

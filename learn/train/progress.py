@@ -21,14 +21,7 @@ from asset_factory.factory.runtime.terminal import Terminal
 
 
 class Watch:
-    """Tells how a run goes.
-
-    Args:
-        console: where.
-        steps: of the run.
-        done: steps before this start.
-        bar: the terminal's; ``None`` for plain lines.
-    """
+    """Tells how a run goes: on the terminal's bar, or (``None``) in plain lines."""
 
     def __init__(
         self, console: Console, steps: int, done: int, bar: tuple[Progress, TaskID] | None
@@ -72,23 +65,12 @@ class Watch:
 
 @contextmanager
 def watching(steps: int, done: int, quiet: bool) -> Iterator[Watch]:
-    """Follow a run.
-
-    Args:
-        steps: of the run.
-        done: of them, before this start.
-        quiet: say nothing, as processes but the first do.
-    """
+    """Follow a run of so many steps, some done before; all processes but the first are quiet."""
     console = Terminal(stderr=True, quiet=quiet)
     if quiet or not console.is_terminal:
         yield Watch(console, steps, done, None)
         return
-    columns = (
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeRemainingColumn(),
-        TextColumn("{task.description}"),
-    )
-    with Progress(*columns, console=console) as progress:
+    columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, TextColumn("{task.description}"), console=console) as progress:
         task = progress.add_task("starting", total=steps, completed=done)
         yield Watch(progress.console, steps, done, (progress, task))

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import tomllib
-from dataclasses import replace
+from dataclasses import fields, replace
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -13,8 +14,28 @@ from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.network.shape import AxisForm
 from asset_factory.factory.presets import overlay
 
-from .bounds import require_within
 from .settings import FEATURES, KINDS, PRECISIONS, DataSource, TrainConfig
+
+_ANY = math.inf
+#: Least and most of each setting, both allowed: ``<section>.<name>``, or the run's own.
+_BOUNDS: dict[str, tuple[float, float]] = {
+    name: bounds
+    for bounds, names in {
+        (0, 2**63 - 1): "seed",
+        (1, _ANY): "batch lanes network.hidden network.blocks network.heads network.mlp_ratio "
+        "draw.points schedule.steps loss.auxiliary_points validation.objects validation.points "
+        "validation.batch run.log_every run.checkpoint_every run.ahead",
+        (2, _ANY): "network.max_parts",
+        (0, 0.99): "network.dropout",
+        (0, _ANY): "draw.context draw.shift draw.stretch schedule.warm_up optimiser.weight_decay "
+        "optimiser.clip run.micro_batch run.workers run.threads run.cache_mb run.validate_every",
+        (1e-3, 1e3): "draw.scale",
+        (0, 1): "schedule.rate schedule.last_rate optimiser.ema",
+        (0, 0.99999): "optimiser.betas",
+    }.items()
+    for name in names.split()
+}
+_OF_SOURCES = {"weight": (1e-9, 1e9), "reuse": (1, _ANY), "points": (1, _ANY), "objects": (0, _ANY)}
 
 
 def recipe_names() -> tuple[str, ...]:
@@ -24,10 +45,7 @@ def recipe_names() -> tuple[str, ...]:
 
 
 def load_train_config(recipe: str) -> TrainConfig:
-    """Return the configuration of a recipe.
-
-    Args:
-        recipe: the name of a shipped one, or the path of a TOML file.
+    """Return the configuration of a shipped recipe, or of the TOML file at a path.
 
     Raises:
         ConfigError: no such recipe, unreadable TOML, a setting that does not exist or cannot be.
@@ -64,9 +82,8 @@ def parse_train_config(text: str, where: str) -> TrainConfig:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise ConfigError(f"{where}: {error}") from error
-    data, held_out = (
-        _sources(table.pop(name, []), f"{where}: {name}") for name in ("data", "held_out")
-    )
+    data = _sources(table.pop("data", []), f"{where}: data")
+    held_out = _sources(table.pop("held_out", []), f"{where}: held_out")
     config = replace(overlay(TrainConfig(), table, where), data=data, held_out=held_out)
     _check(config, where)
     return config
@@ -99,11 +116,9 @@ def _sources(tables: Any, where: str) -> tuple[DataSource, ...]:
 def _check(config: TrainConfig, where: str) -> None:
     network = config.network
     if network.features == "partfield":
-        raise ConfigError(
-            f"{where}: network.features: PartField is not computed while training; "
-            "want 'none' or 'components', "
-            "which need no other network"
-        )
+        wanted = "want 'none' or 'components', which need no other network"
+        said = "network.features: PartField is not computed while training"
+        raise ConfigError(f"{where}: {said}; {wanted}")
     allowed = {
         "network.features": (network.features, FEATURES),
         "network.axes": (network.axes, tuple(AxisForm)),
@@ -111,15 +126,46 @@ def _check(config: TrainConfig, where: str) -> None:
     }
     for name, (value, values) in allowed.items():
         if value not in values:
-            raise ConfigError(
-                f"{where}: {name} must be {' or '.join(map(repr, values))}, not {value!r}"
-            )
-    require_within(config, where)
+            wanted = " or ".join(map(repr, values))
+            raise ConfigError(f"{where}: {name} must be {wanted}, not {value!r}")
+    _require_within(config, where)
     if network.hidden % network.heads:
-        raise ConfigError(
-            f"{where}: network.heads: {network.heads} do not divide the width {network.hidden}"
-        )
+        said = f"{network.heads} do not divide the width {network.hidden}"
+        raise ConfigError(f"{where}: network.heads: {said}")
     if not config.data:
-        raise ConfigError(
-            f"{where}: no [[data]]; want at least one source, of kind {', '.join(KINDS)}"
-        )
+        kinds = ", ".join(KINDS)
+        raise ConfigError(f"{where}: no [[data]]; want at least one source, of kind {kinds}")
+
+
+def _require_within(config: TrainConfig, where: str) -> None:
+    """Refuse numbers with which nothing could be trained; ``where`` they are from, for the message.
+
+    Raises:
+        ConfigError: names the first such setting, and what it can be.
+    """
+    drawn = (each.name for each in fields(config.draw))
+    shares = {f"draw.{name}": (0.0, 1.0) for name in drawn if name.endswith("_share")}
+    weights = {f"loss.{each.name}": (0.0, _ANY) for each in fields(config.loss)}
+    for name, bounds in {**shares, **weights, **_BOUNDS}.items():
+        holder: Any = config
+        for step in name.split("."):
+            holder = getattr(holder, step)
+        _require(holder, bounds, f"{where}: {name}")
+    for name in ("draw.scale", "optimiser.betas"):
+        section, _, field = name.partition(".")
+        pair = getattr(getattr(config, section), field)
+        if len(pair) != 2 or (name == "draw.scale" and pair[0] > pair[1]):
+            wanted = "two numbers, the lower one first"
+            raise ConfigError(f"{where}: {name} must be {wanted}, not {list(pair)}")
+    for list_name in ("data", "held_out"):
+        for number, source in enumerate(getattr(config, list_name), start=1):
+            for name, bounds in _OF_SOURCES.items():
+                _require(getattr(source, name), bounds, f"{where}: {list_name} {number}: {name}")
+
+
+def _require(value: Any, bounds: tuple[float, float], what: str) -> None:
+    least, most = bounds
+    for number in value if isinstance(value, tuple) else (value,):
+        if not isinstance(number, int | float) or not least <= number <= most or math.isinf(number):
+            said = f"{least:g} or more" if math.isinf(most) else f"{least:g} to {most:g}"
+            raise ConfigError(f"{what} must be {said}, not {number!r}")

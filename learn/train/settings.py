@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -9,18 +10,11 @@ from asset_factory.factory.models.network.shape import AxisForm, NetworkShape
 from asset_factory.factory.models.particulate.components import COMPONENT_FEATURES
 
 from ..samples.sample import DrawSettings
-from .schedule import ScheduleSettings
 
 KINDS = (
-    "procedural",
-    "sampled",
-    "description",
-    "partnet",
-    "particulate",
-    "predictions",
-    "registry",
+    "procedural", "sampled", "description", "partnet", "particulate", "predictions", "registry",
     "usd",
-)
+)  # fmt: skip
 FEATURES = ("none", "components")
 PRECISIONS = ("float32", "bfloat16")
 
@@ -85,16 +79,10 @@ class NetworkSettings:
     @property
     def shape(self) -> NetworkShape:
         """Return the sizes as the network wants them."""
-        return NetworkShape(
-            hidden=self.hidden,
-            blocks=self.blocks,
-            heads=self.heads,
-            mlp_ratio=self.mlp_ratio,
-            raw_coords=self.raw_coords,
-            max_parts=self.max_parts,
-            features=COMPONENT_FEATURES if self.features == "components" else 0,
-            axis_form=AxisForm(self.axes),
-        )
+        same = ("hidden", "blocks", "heads", "mlp_ratio", "raw_coords", "max_parts")
+        sizes: dict[str, Any] = {name: getattr(self, name) for name in same}
+        features = COMPONENT_FEATURES if self.features == "components" else 0
+        return NetworkShape(**sizes, features=features, axis_form=AxisForm(self.axes))
 
 
 @dataclass(frozen=True)
@@ -142,6 +130,31 @@ class LossSettings:
     def weight(self, name: str) -> float:
         """Return the weight of one of ``NAMES``."""
         return float(getattr(self, name))
+
+
+@dataclass(frozen=True)
+class ScheduleSettings:
+    """Steps and rates.
+
+    Attributes:
+        steps: of the whole run.
+        rate: highest learning rate.
+        warm_up: steps in which it rises from 0.
+        last_rate: share of it that is left at the end of the cosine.
+    """
+
+    steps: int = 100_000
+    rate: float = 1e-4
+    warm_up: int = 1000
+    last_rate: float = 0.01
+
+    def rate_at(self, step: int) -> float:
+        """Return the rate of a step, counted from 0: a line up, then half a cosine down."""
+        if step < self.warm_up:
+            return self.rate * (step + 1) / self.warm_up
+        done = (step - self.warm_up) / max(1, self.steps - self.warm_up)
+        falling = 0.5 * (1.0 + math.cos(math.pi * min(1.0, done)))
+        return self.rate * (self.last_rate + (1.0 - self.last_rate) * falling)
 
 
 @dataclass(frozen=True)
@@ -254,6 +267,5 @@ class TrainConfig:
     @property
     def validation_draw(self) -> DrawSettings:
         """Return how validation samples are drawn: as training's, but upright and whole."""
-        return replace(
-            self.training_draw, points=self.validation.points, fused_share=0.0, merged_share=0.0
-        )
+        points = self.validation.points
+        return replace(self.training_draw, points=points, fused_share=0.0, merged_share=0.0)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
@@ -28,12 +27,7 @@ _BASE = 10000.0
 
 
 class Trainer:
-    """A network, its optimiser and the running mean of its weights.
-
-    Args:
-        config: of the run.
-        group: of processes; every one holds the same weights.
-    """
+    """A network, its optimiser and the running mean of its weights, the same in every process."""
 
     def __init__(self, config: TrainConfig, group: ProcessGroup) -> None:
         self._config = config
@@ -66,23 +60,17 @@ class Trainer:
         for weights in (self.network.state_dict(), self.descent.mean.weights):
             bad = [name for name, each in weights.items() if not bool(torch.isfinite(each).all())]
             if bad:
-                raise ConfigError(
-                    f"step {step}: {bad[0]} is not finite any more, nothing of it is kept; "
-                    "want a lower schedule.rate"
-                )
+                wanted = "nothing of it is kept; want a lower schedule.rate"
+                raise ConfigError(f"step {step}: {bad[0]} is not finite any more, {wanted}")
 
     def step(self, step: int, batch: Batch, stop: bool = False) -> tuple[Tensor, bool]:
         """Learn from this process's share of a step's samples.
 
-        Args:
-            step: its number, from 0.
-            batch: arrays.
-            stop: whether this process was asked to stop.
+        Steps count from 0, the batch is of arrays; ``stop``: this process was asked to.
 
         Returns:
             ``COLUMNS`` of this process's share, the sum of which over the processes is the step's,
-            but for the last two, which only the first process fills; and whether any process was
-            asked to stop.
+            but for the last two, which only the first fills; and whether any was asked to stop.
         """
         config = self._config
         group = self._group
@@ -95,9 +83,8 @@ class Trainer:
         # Counted before anything is sent to a GPU: to ask one for a number is to wait for it.
         counted = [count(each, targets_of(each, config.loss), config.loss) for each in host]
         micro = [each.to(group.device) for each in host]
-        *sums, stops = group.sums(
-            [*(sum(column) for column in zip(*counted, strict=True)), float(stop)]
-        )
+        mine = [sum(column) for column in zip(*counted, strict=True)]
+        *sums, stops = group.sums([*mine, float(stop)])
         counts = Counts(*sums)
         self.descent.optimiser.zero_grad(set_to_none=True)
         values = torch.zeros(len(NAMES) + 1, device=group.device)
@@ -116,12 +103,10 @@ class Trainer:
         return torch.cat([values, torch.stack(last)]), stops > 0
 
     def _precision(self) -> AbstractContextManager[Any]:
-        device = self._group.device
         lowered = self._config.run.precision == "bfloat16"
+        enabled = lowered and self._group.device.startswith("cuda")
         autocast: AbstractContextManager[Any]
-        autocast = torch.autocast(
-            "cuda", torch.bfloat16, enabled=lowered and device.startswith("cuda")
-        )
+        autocast = torch.autocast("cuda", torch.bfloat16, enabled=enabled)
         return autocast
 
     def _seed_dropout(self, step: int) -> None:
@@ -130,14 +115,11 @@ class Trainer:
 
 
 def quieten(network: Any, below: float) -> None:
-    """Make fast sinusoids' weights start small: ``below`` over angular frequency, if less.
+    """Make fast sinusoids' weights start small: ``below`` over their angular frequency, if less.
 
     Coordinates are expanded into sines and cosines of up to 1000 rad per unit of length. At first
     the fastest tell neighbouring points nothing in common; their weights would have to be unlearnt.
-
-    Args:
-        network: a Part Articulation Transformer.
-        below: [rad per unit of length].
+    ``below`` is in rad per unit of length.
     """
     frequencies = _SPREAD * torch.exp(-math.log(_BASE) * torch.arange(FREQUENCIES) / FREQUENCIES)
     factors = (below / frequencies).clamp(max=1.0)
@@ -152,8 +134,6 @@ def _optimiser(network: Any, config: TrainConfig) -> Any:
     settings = config.optimiser
     matrices = [each for each in network.parameters() if each.dim() > 1]
     others = [each for each in network.parameters() if each.dim() <= 1]
-    groups: Sequence[dict[str, Any]] = (
-        {"params": matrices, "weight_decay": settings.weight_decay},
-        {"params": others, "weight_decay": 0.0},
-    )
-    return torch.optim.AdamW(groups, lr=config.schedule.rate, betas=settings.betas, fused=True)
+    groups = [{"params": matrices}, {"params": others, "weight_decay": 0.0}]
+    shared = {"betas": settings.betas, "weight_decay": settings.weight_decay}
+    return torch.optim.AdamW(groups, lr=config.schedule.rate, fused=True, **shared)

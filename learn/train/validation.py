@@ -21,17 +21,14 @@ from .settings import TrainConfig
 
 @dataclass(frozen=True)
 class Scores:
-    """Figures over the held-out examples.
+    """Figures over the held-out examples, parts matched as in training.
 
     Attributes:
         loss: weighted sum of the losses.
-        point_accuracy: share of the points whose part is right, parts matched as in training.
-        part_iou: mean over true parts of the overlap with the predicted part that the best
-            assignment gives them.
-        class_accuracy: share of the parts whose motion class is right, parts matched as in
-            training.
-        revolute_angle, prismatic_angle: median angle between true and predicted direction, either
-            sign [deg].
+        point_accuracy: share of the points whose part is right.
+        part_iou: mean over true parts of the overlap with what the best assignment gives.
+        class_accuracy: share of the parts whose motion class is right.
+        revolute_angle, prismatic_angle: median angle between directions, either sign [deg].
     """
 
     loss: float
@@ -87,13 +84,8 @@ def validate(network: Any, samples: Sequence[Sample], config: TrainConfig, devic
 def part_ious(said: IntArray, true: IntArray) -> list[float]:
     """Return the overlap of every true part with its predicted one, by the best total assignment.
 
-    Args:
-        said: any label of each point, shape [n].
-        true: its part, shape [n].
-
-    Returns:
-        Points in both over points in either, for every part that has points; 0 for one that is
-        given none.
+    Of points with labels ``said`` and true parts, shape [n]: those in both over those in either,
+    for every part that has points; 0 for one that is given none.
     """
     _, rows = np.unique(true, return_inverse=True)
     _, columns = np.unique(said, return_inverse=True)

@@ -73,21 +73,14 @@ class ScoredCloud:
             parent = self.parents[part]
             pose = np.eye(4) if parent < 0 else poses[parent]
             for joint in own:
-                pose = pose @ joint.motion(
-                    share * joint.range + (0.0 if from_rest else joint.lower)
-                )
+                start = 0.0 if from_rest else joint.lower
+                pose = pose @ joint.motion(start + share * joint.range)
             poses[part] = pose
         return poses
 
 
 def cloud_of(articulation: Articulation, seed: int, count: int = POINTS) -> ScoredCloud:
-    """Return points spread evenly over a surface; its box is centred, its longest side 1.
-
-    Args:
-        articulation: any.
-        seed: of the points.
-        count: how many.
-    """
+    """Return points spread evenly over a surface; its box is centred, its longest side 1."""
     bodies = bodies_of(articulation)
     mesh = articulation.mesh
     size = float(mesh.extents.max())
@@ -109,9 +102,5 @@ def cloud_of(articulation: Articulation, seed: int, count: int = POINTS) -> Scor
 
 def _in_box(joint: Joint, size: float, middle: FloatArray) -> Joint:
     length = size if joint.kind is JointKind.PRISMATIC else 1.0
-    return replace(
-        joint,
-        origin=(joint.origin - middle) / size,
-        lower=joint.lower / length,
-        upper=joint.upper / length,
-    )
+    moved = replace(joint, origin=(joint.origin - middle) / size)
+    return replace(moved, lower=joint.lower / length, upper=joint.upper / length)

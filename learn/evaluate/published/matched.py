@@ -14,12 +14,7 @@ from .cloud import ScoredCloud
 
 @dataclass(frozen=True)
 class Matching:
-    """Pairs of positions in the clouds' ``present`` lists.
-
-    Attributes:
-        pairs: rows of (predicted, true), shape [pair_count, 2].
-        predicted, true: how many parts there are.
-    """
+    """Rows of (predicted, true) positions in the clouds' ``present`` lists, of so many parts."""
 
     pairs: IntArray
     predicted: int
@@ -28,10 +23,8 @@ class Matching:
     def scored(self, values: FloatArray, back: FloatArray, penalty: float | None) -> float:
         """Return the mean over predicted and mean over true parts, averaged.
 
-        Args:
-            values: of each pair, seen from the predicted part, shape [pair_count].
-            back: of each pair, seen from the true part, shape [pair_count].
-            penalty: of a part without partner; ``None`` leaves such parts out.
+        ``values`` and ``back`` are of each pair, seen from the predicted and from the true part;
+        ``penalty`` is of a part without partner, ``None`` leaves such parts out.
         """
         if penalty is None:
             return float(values.mean() + back.mean()) / 2.0

@@ -3,8 +3,7 @@
 Past the first state, boxes of parts that move are those at rest, moved as solids: their overlap is
 estimated from random points, the box around both is taken at rest, a lower limit other than 0 is
 forgotten, a part that turns and slides only turns, and on the way from the true parts to the
-predicted ones the two lists of motions are exchanged. A hinge on the wrong side scores full marks
-by this.
+predicted ones the two lists of motions are exchanged. A hinge on the wrong side scores in full.
 """
 
 from __future__ import annotations
@@ -27,15 +26,11 @@ SAMPLES = 2048
 def release(true: ScoredCloud, predicted: ScoredCloud, seed: int = 0) -> Score:
     """Compare a prediction with the truth at rest and over five states.
 
-    Args:
-        true: the truth.
-        predicted: the prediction.
-        seed: of the points that estimate overlaps.
+    ``seed`` is of the points that estimate overlaps.
 
     Returns:
-        Names as in :func:`~asset_factory.learn.evaluate.published.state.compared`, plain at
-        rest, with ``articulated_`` as means over the states, in which the later states' ``giou``
-        counts twice.
+        Names as in :func:`.state.compared`, plain at rest, with ``articulated_`` as means over the
+        states, in which the later states' ``giou`` counts twice.
     """
     matching = matched(true, predicted)
     rest = compared(true, predicted, (true.points, predicted.points), matching)
@@ -72,13 +67,10 @@ def solid_giou(
     rng: np.random.Generator,
 ) -> tuple[FloatArray, FloatArray]:
     """Return each pair's, seen from the predicted part and from the true one."""
-    ours, theirs = (
-        [box_of(part) for part in cloud.parts(cloud.points)] for cloud in (predicted, true)
-    )
-    moved, truly = (
-        cloud.poses(share, from_rest=True, one_motion=True)[cloud.present]
-        for cloud in (predicted, true)
-    )
+    ours = [box_of(part) for part in predicted.parts(predicted.points)]
+    theirs = [box_of(part) for part in true.parts(true.points)]
+    moved = predicted.poses(share, from_rest=True, one_motion=True)[predicted.present]
+    truly = true.poses(share, from_rest=True, one_motion=True)[true.present]
     there = matching.each(lambda i, j: _overlap(ours[i], theirs[j], moved[i], truly[j], rng))
     back = matching.each(lambda i, j: _overlap(theirs[j], ours[i], moved[i], truly[j], rng))
     return there, back

@@ -1,12 +1,13 @@
-"""Two clouds in one state of their joints, compared part by part."""
+"""Two clouds in one state of their joints, compared part by part; and the paper's metrics."""
 
 from __future__ import annotations
 
 from asset_factory.factory.mesh import FloatArray
 
+from ..score import Score
 from .boxes import box_of, giou, iou
 from .cloud import ScoredCloud
-from .matched import Matching, chamfer, half_diagonal
+from .matched import Matching, chamfer, half_diagonal, matched
 
 #: What a part without partner is given, by metric; Chamfer distances take half the diagonal.
 PENALTIES = {"giou": -1.0, "miou": 0.0}
@@ -18,18 +19,11 @@ def compared(
     at: tuple[FloatArray, FloatArray],
     matching: Matching,
 ) -> dict[str, float]:
-    """Return the agreement of boxes and points of matched parts.
-
-    Args:
-        true: the truth.
-        predicted: the prediction.
-        at: true and predicted points in this state.
-        matching: of the parts at rest.
+    """Return the agreement of boxes and points (true, predicted) of parts matched at rest.
 
     Returns:
         ``giou``, ``miou`` (of boxes along the axes), ``pc`` (Chamfer distance of parts), each also
-        with ``_matched``, which leaves parts without partner out; ``oc`` (Chamfer distance of the
-        whole).
+        with ``_matched``, which leaves parts without partner out; ``oc`` (of the whole).
     """
     theirs = true.parts(at[0])
     ours = predicted.parts(at[1])
@@ -46,3 +40,17 @@ def compared(
         scores[name] = matching.scored(of_pair, of_pair, penalties[name])
         scores[f"{name}_matched"] = matching.scored(of_pair, of_pair, None)
     return scores
+
+
+def paper(true: ScoredCloud, predicted: ScoredCloud) -> Score:
+    """Compare a prediction with the truth at rest and fully articulated.
+
+    Boxes of the articulated state are around the articulated points. The paper does not say whether
+    distances are squared, nor what an intersection over union of parts is; both are taken from the
+    release: squared, and of boxes. Names are those of :func:`compared`, plain at rest and
+    with ``articulated_`` at the upper limits.
+    """
+    matching = matched(true, predicted)
+    rest = compared(true, predicted, (true.points, predicted.points), matching)
+    full = compared(true, predicted, (true.at(1.0), predicted.at(1.0)), matching)
+    return Score({**rest, **{f"articulated_{name}": value for name, value in full.items()}})

@@ -1,8 +1,8 @@
 """Descriptions of the kinds of object, a file for each group; the catalog lists them.
 
 A kind is a function of its name that adds to an empty :class:`~..kit.assembly.Assembly` ``a``:
-``a.draw(...)`` and the like draw its proportions, ``a.body(look).add(...)`` adds forms to the
-body, ``a.hinge``, ``a.slider`` and ``a.spin`` add moving parts; cases with fronts come whole
+``a.draw(...)`` and the like draw its proportions, ``a.body(look, ...)`` begins the body with
+forms, ``a.hinge``, ``a.slider`` and ``a.spin`` add moving parts; cases with fronts come whole
 from :func:`~..kit.casework.furniture`. Z is up, the front looks towards -Y, lengths are in metres,
 and positive joint values open. Named in its file's ``MAKERS``, it is in the catalog.
 """

@@ -42,8 +42,7 @@ def swing_bin(a: Assembly) -> None:
     outline = _outline(a, half_x, half_y)
     hole = outline * share
     level = high + (a.draw(0.0, 0.1) if a.happens(0.5) else 0.0)
-    body = a.body(skin)
-    body.add(_bucket(a, outline, 0.0, high))
+    body = a.body(skin, _bucket(a, outline, 0.0, high))
     lines = (1.02 * outline, hole, hole, 0.99 * outline)
     heights = (high + 0.003, level + 0.003, level - 0.002, high - 0.0002)
     rim = [np.column_stack([o, np.full(len(o), z)]) for o, z in zip(lines, heights, strict=True)]
@@ -71,8 +70,7 @@ def step_bin(a: Assembly) -> None:
     base, rise = a.draws((0.02, 0.045), (0.008, 0.09))
     skin, dark = a.picks(SKINS, (BLACK, STEEL))
     outline = _outline(a, half_x, half_y)
-    body = a.body(skin)
-    body.add(_bucket(a, outline, base, high))
+    body = a.body(skin, _bucket(a, outline, base, high))
     under = (0.0, base - 0.0005)
     if a.happens(0.75):
         body.add(box(about(0.7 * half_x), (-0.5 * half_y, 0.9 * half_y), under), look=dark)
@@ -154,8 +152,7 @@ def push_bin(a: Assembly) -> None:
     skin, top = a.picks(SKINS, SKINS)
     corner = a.draw(0.01, 0.05) if a.happens(0.5) else 0.98 * radius
     y = about(radius)
-    body = a.body(skin)
-    body.add(_bucket(a, rounded(y, y, corner, 5), 0.0, high))
+    body = a.body(skin, _bucket(a, rounded(y, y, corner, 5), 0.0, high))
     half = 0.6 * radius
     walls = span(high + 0.0005, dome)
     roof = (walls[1] + 0.0002, walls[1] + a.draw(0.008, 0.04))
@@ -188,8 +185,7 @@ def bucket(a: Assembly) -> None:
     if a.happens(0.5):
         rim = wide + 0.005
         profile[1:2] = [(0.995 * wide, high - 0.012), (rim, high - 0.011), (rim, high)]
-    body = a.body(skin)
-    body.add(lathe(profile, sides=sides))
+    body = a.body(skin, lathe(profile, sides=sides))
     flat = wide * np.cos(np.pi / sides) if sides < 24 else wide
     pin = flat + 0.012
     z = high - a.draw(0.02, 0.04)
@@ -220,8 +216,7 @@ def trash_can(a: Assembly) -> None:
     width, depth, height = a.draws((0.25, 0.38), (0.26, 0.36), (0.4, 0.62))
     x, y = centred(width / 2, depth / 2)
     z = span(0.05, height)
-    body = a.body(a.pick(STEEL, WHITE, GREEN, RED))
-    body.add(*tray(x, y, z, 0.005))
+    body = a.body(a.pick(STEEL, WHITE, GREEN, RED), *tray(x, y, z, 0.005))
     feet = ends(within(x, 0.003), 0.04)
     body.add(*(box(foot, within(y, 0.003), (0.0, z[0])) for foot in feet), look=BLACK)
     low = z[1] + 0.003

@@ -102,8 +102,7 @@ def case(a: Assembly) -> None:
     radius = a.draw(0.006, 0.05)
     seam = low + PLAY
     pin = half_y + 0.004
-    body = a.body(skin)
-    body.add(_half_shell(x, y, (0.0, low), radius))
+    body = a.body(skin, _half_shell(x, y, (0.0, low), radius))
     lid = a.hinge("lid", LEFT, (0, pin, seam), a.degrees(80, 120))
     lid.add(_half_shell(x, y, (seam + high, seam), radius))
     for part, side in ((body, -1.0), (lid, 1.0)):

@@ -26,8 +26,7 @@ def coffee_machine(a: Assembly) -> None:
     under = high - head
     x = about(half)
     back = (0.0, deep + front)
-    body = a.body(skin)
-    body.add(block(x, back, (0.0, high), r))
+    body = a.body(skin, block(x, back, (0.0, high), r))
     body.add(block(within(x, 0.001), (front, 0.02), (under, high - 0.001), r, 0.003))
     if a.happens(0.75):
         _drip_tray(a, half, front, base, dark)

@@ -24,21 +24,14 @@ from ..kit.styles import Style, any_metal, any_style, convex_style
 def _style(a: Assembly, panels: Mapping[str, float]) -> Style:
     skin = a.pick(WHITE, STEEL, BLACK, STEEL)
     pull = any_pull(a, any_metal(a), ("bar", "rail", "bow", "recess"))
-    return replace(
-        any_style(a, panels, 0.0, 0.72, (0.5,)),
-        board=a.draw(0.012, 0.03),
-        front=a.draw(0.018, 0.045),
-        gap=a.draw(0.0015, 0.006),
-        rail=a.draw(0.06, 0.11),
-        pull=replace(pull, length=a.draw(0.25, 0.6)),
-        body=skin,
-        face=skin if a.happens(0.7) else a.pick(STEEL, BLACK, WHITE),
-        drawer="slab",
-        drawer_pull_at=0.75,
-        reveal=0.0,
-        shelves=0,
-        bare=False,
+    style = any_style(a, panels, 0.0, 0.72, (0.5,))
+    board, front, gap, rail, length = a.draws(
+        (0.012, 0.03), (0.018, 0.045), (0.0015, 0.006), (0.06, 0.11), (0.25, 0.6)
     )
+    face = skin if a.happens(0.7) else a.pick(STEEL, BLACK, WHITE)
+    style = replace(style, board=board, front=front, gap=gap, rail=rail, body=skin, face=face)
+    style = replace(style, pull=replace(pull, length=length), drawer="slab", drawer_pull_at=0.75)
+    return replace(style, reveal=0.0, shelves=0, bare=False)
 
 
 def burners(a: Assembly, x: Span, y: Span, z: float) -> None:

@@ -46,20 +46,14 @@ def _style(a: Assembly, glazed: bool) -> Style:
     skin = any_color(a)
     panel = "glazed" if glazed else a.weighted({"slab": 0.6, "bevel": 0.25, "bowed": 0.15})
     pull = any_pull(a, any_metal(a), ("bar", "rail", "bow", "recess", "none"))
-    return replace(
-        any_style(a, {panel: 1.0}, 0.0, 1.0 if glazed else 0.7, (0.3, 0.5, 0.7)),
-        board=a.draw(0.025, 0.06),
-        front=a.draw(0.03, 0.08),
-        gap=a.draw(0.002, 0.008),
-        rail=a.draw(0.05, 0.09),
-        pull=replace(pull, length=a.draw(0.15, 0.9)),
-        body=skin,
-        face=skin if a.happens(0.7) else any_color(a),
-        inside=WHITE,
-        reveal=0.0,
-        shelves=0,
-        bare=False,
+    style = any_style(a, {panel: 1.0}, 0.0, 1.0 if glazed else 0.7, (0.3, 0.5, 0.7))
+    board, front, gap, rail, length = a.draws(
+        (0.025, 0.06), (0.03, 0.08), (0.002, 0.008), (0.05, 0.09), (0.15, 0.9)
     )
+    face = skin if a.happens(0.7) else any_color(a)
+    style = replace(style, board=board, front=front, gap=gap, rail=rail, body=skin, face=face)
+    style = replace(style, pull=replace(pull, length=length), inside=WHITE, bare=False)
+    return replace(style, reveal=0.0, shelves=0)
 
 
 def cold_box(kind: str, a: Assembly) -> None:

@@ -49,8 +49,7 @@ def fan(a: Assembly) -> None:
     tall = a.pick(a.draw(0.05, 0.12), a.draw(0.6, 0.9))
     height = thick + tall + radius + 0.03
     neck = height - 0.045
-    body = a.body(skin)
-    body.add(lathe([(wide, 0.0), (wide, 0.5 * thick), (0.6 * wide, thick)], sides=32))
+    body = a.body(skin, lathe([(wide, 0.0), (wide, 0.5 * thick), (0.6 * wide, thick)], sides=32))
     body.add(cylinder(Z, (0.0, 0.03), pole, (thick - 0.004, neck)), look=metal)
     half = a.degrees(30, 60)
     turret = a.hinge("turret", UP, (0, 0.03, neck), half, -half) if a.happens(0.4) else body
@@ -111,8 +110,7 @@ def ceiling_fan(a: Assembly) -> None:
     skin, metal = a.picks((OAK, WALNUT, WHITE, BLACK), (BRASS, STEEL, BLACK))
     level = 0.4
     top = level + 0.06 + rod
-    body = a.body(metal)
-    body.add(lathe([(0.03, top), (0.07, top + 0.04), (0.075, top + 0.05)]))
+    body = a.body(metal, lathe([(0.03, top), (0.07, top + 0.04), (0.075, top + 0.05)]))
     body.add(cylinder(Z, (0.0, 0.0), 0.011, (level - 0.05, top + 0.005), 12))
     center = (0.0, 0.0, level)
     spinning = a.spin("blades", UP, center, look=skin)

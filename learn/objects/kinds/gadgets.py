@@ -71,8 +71,7 @@ def phone(a: Assembly) -> None:
     half, long, thick, r = a.draws((0.022, 0.03), (0.08, 0.12), (0.006, 0.011), (0.002, 0.012))
     skin, other = a.picks((BLACK, STEEL, BLUE, RED), (BLACK, STEEL, WHITE))
     x, y = centred(half, long / 2)
-    body = a.body(skin)
-    body.add(block(x, y, (0.0, thick), r, 0.001))
+    body = a.body(skin, block(x, y, (0.0, thick), r, 0.001))
     for _, key_x, key_y in cells(about(0.85 * half), (y[0] + 0.006, 0.0), 4, 3):
         body.add(key(key_x, key_y, (0.0, 0.0006), 0.6).moved(facing_up(thick)), look=other)
     low = thick + 0.0006 + PLAY
@@ -102,8 +101,7 @@ def remote(a: Assembly) -> None:
     """Build a remote control or a keypad: rows of buttons that go down."""
     half, long, thick, stroke = a.draws((0.018, 0.05), (0.05, 0.1), (0.01, 0.02), (0.001, 0.002))
     skin, other = a.picks((BLACK, WHITE, STEEL), (WHITE, RED, BLUE, STEEL))
-    body = a.body(skin)
-    body.add(block(about(half), about(long), (0.0, thick), a.draw(0.002, 0.8 * half), 0.002))
+    a.body(skin, block(about(half), about(long), (0.0, thick), a.draw(0.002, 0.8 * half), 0.002))
     y = (0.01 - long, a.draw(0.2, 0.7) * long)
     for name, key_x, key_y in cells(about(0.68 * half), y, a.count(2, 4), a.count(1, 3)):
         keyed = (f"key_{name}", key_x, key_y, other, facing_up(thick))
@@ -115,8 +113,7 @@ def calculator(a: Assembly) -> None:
     half, long, thick, stroke = a.draws((0.03, 0.08), (0.05, 0.09), (0.006, 0.014), (0.0012, 0.003))
     tall, style, margin = a.draws((0.0015, 0.005), (0.2, 0.9), (0.06, 0.18))
     skin, other = a.picks((BLACK, WHITE, STEEL, BLUE), (WHITE, BLACK, RED, STEEL))
-    body = a.body(skin)
-    body.add(block(about(half), about(long), (0.0, thick), a.draw(0.002, 0.012), 0.001))
+    body = a.body(skin, block(about(half), about(long), (0.0, thick), a.draw(0.002, 0.012), 0.001))
     display = (0.45 * long, 0.85 * long)
     body.add(box(about(0.85 * half), display, span(thick, 0.0006)), look=GLASS)
     pad = (about(0.875 * half), (-0.9 * long, 0.35 * long))
@@ -129,8 +126,7 @@ def lighter(a: Assembly) -> None:
     """Build a flip lighter: a lid, and under it a wheel."""
     half, deep, high, rise = a.draws((0.016, 0.021), (0.005, 0.007), (0.03, 0.04), (0.016, 0.02))
     x, y = centred(half, deep)
-    body = a.body(a.pick(STEEL, BRASS, BLACK))
-    body.add(block(x, y, (0.0, high), 0.002))
+    body = a.body(a.pick(STEEL, BRASS, BLACK), block(x, y, (0.0, high), 0.002))
     works = block(within(x, 0.003, 0.006), within(y, 0.002), span(high + 0.0002, 0.0068), 0.001)
     body.add(works, look=STEEL)
     z = (high + PLAY, high + rise)

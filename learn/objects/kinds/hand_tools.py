@@ -23,10 +23,9 @@ def _strip(rows: npt.ArrayLike, along: Span, axis: int = Z) -> Form:
     Places lie on y across Z and X, on x across Y; edges on x, z and z.
     """
     place, left, right = np.asarray(rows, dtype=np.float64).T
-    lines = [
-        np.stack((edge, place) if axis == Z else (place, edge), axis=1) for edge in (left, right)
-    ]
-    return ribbon(lines[0], lines[1], along, axis)
+    order = (1, 0) if axis == Z else (0, 1)
+    one, other = (np.stack((place, edge), axis=1)[:, order] for edge in (left, right))
+    return ribbon(one, other, along, axis)
 
 
 def scissors(a: Assembly) -> None:
@@ -76,12 +75,8 @@ def pliers(a: Assembly) -> None:
     body = a.body(STEEL)
     lever = a.hinge("lever", UP, (0, 0, 0), a.degrees(15, 45))
     for part, z in ((body, (0.0, (thick - PLAY) / 2)), (lever, ((thick + PLAY) / 2, thick))):
-        bend = [
-            (-0.5 * boss, -start - 0.0055),
-            (-bow, -0.3 * grip),
-            (-bow * a.draw(0.9, 1.2), -0.7 * grip),
-            (-bow * a.draw(0.7, 1.1), -grip),
-        ]
+        end = [(-bow * a.draw(0.9, 1.2), -0.7 * grip), (-bow * a.draw(0.7, 1.1), -grip)]
+        bend = [(-0.5 * boss, -start - 0.0055), (-bow, -0.3 * grip), *end]
         path = [(x, y, thick / 2) for x, y in bend]
         width = [0.45 * boss, 0.0055, 0.0065, 0.006]
         handle = pipe(path, width, a.pick(4, 8, 10), up=UP, flat=thick / 0.013)
@@ -103,8 +98,7 @@ def pliers(a: Assembly) -> None:
 def stapler(a: Assembly) -> None:
     """Build a base with its anvil, a magazine and a cover that turn about a pin at the back.
 
-    Cover and magazine both hang on the base, each on its own: what opens the magazine lifts the
-    cover too.
+    Cover and magazine both hang on the base: what opens the magazine lifts the cover too.
     """
     long, half, foot, rise = a.draws((0.09, 0.2), (0.014, 0.022), (0.005, 0.011), (0.014, 0.024))
     mag, gap, hump, steep = a.draws((0.009, 0.013), (0.001, 0.006), (0.012, 0.03), (0.3, 0.9))
@@ -152,10 +146,8 @@ def pocket_knife(a: Assembly) -> None:
     for i in range(count):
         reach = a.draw(0.7, 0.9) * (long - 0.012)
         end = base + a.draw(0.0, 0.24) * high
-        heel = [
-            (0.004, z - 0.15 * high, z + 0.15 * high),
-            (0.015, base, z + a.draw(0.3, 0.55) * high),
-        ]
+        hump = z + a.draw(0.3, 0.55) * high
+        heel = [(0.004, z - 0.15 * high, z + 0.15 * high), (0.015, base, hump)]
         point = [(0.7 * reach, base, z + 0.5 * high), (reach, end, end + 0.001)]
         rows = np.array([*heel, *point])
         right = i % 2 == 1
@@ -174,8 +166,7 @@ def cutter(a: Assembly) -> None:
     wall = 0.002
     slit = 0.0035
     y = (0.0, long)
-    body = a.body(a.pick(RED, BLACK, BLUE, GREEN))
-    body.add(block(about(half), y, (0.0, wall), 0.003))
+    body = a.body(a.pick(RED, BLACK, BLUE, GREEN), block(about(half), y, (0.0, wall), 0.003))
     body.add(box(about(half - wall), span(long - 0.004, -0.002), (wall, thick - wall)))
     side = box((half - wall, half), within(y, 0.003), (wall, thick))
     edge = box((slit, half - wall), within(y, 0.004), (thick - wall, thick - 0.0002))

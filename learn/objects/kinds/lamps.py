@@ -88,12 +88,8 @@ def _shade(a: Assembly, shade: PartDraft, z: float, bar: float, x: float) -> Non
     start = wide * (0.7 if style == "can" else a.draw(0.25, 0.4))
     rim = start if style == "can" else wide
     middle = start + (0.85 if style == "bell" else 0.5) * (rim - start)
-    outer = [
-        (0.6 * start, low),
-        (start, low + 0.012),
-        (middle, low + 0.5 * long),
-        (rim, low + long),
-    ]
+    top = (rim, low + long)
+    outer = [(0.6 * start, low), (start, low + 0.012), (middle, low + 0.5 * long), top]
     inner = [(r - 0.002, h) for r, h in outer[:0:-1]]
     shade.add(lathe([*outer, *inner], sides=a.pick(20, 32)))
     if a.happens(0.6):
@@ -149,9 +145,8 @@ def _drum(
     a: Assembly, part: PartDraft, tall: float, scale: float, pole: float
 ) -> tuple[float, float]:
     """Return a shade around the top of the pole; the height and the radius of its lower rim [m]."""
-    wide, high, taper = a.draws(
-        (0.14 * scale, 0.24 * scale), (0.18 * scale, 0.3 * scale), (0.5, 1.0)
-    )
+    wide, high = a.draws((0.14 * scale, 0.24 * scale), (0.18 * scale, 0.3 * scale))
+    taper = a.draw(0.5, 1.0)
     sides = a.pick(4, 6, 20, 32)
     low, top = span(tall - 0.75 * high, high)
     upper = taper * wide

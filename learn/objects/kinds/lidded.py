@@ -70,8 +70,7 @@ def coffer(a: Assembly) -> None:
     width, depth, height, wall = a.draws((0.4, 1.7), (0.3, 0.7), (0.25, 0.9), (0.012, 0.06))
     x, y = upto(width, depth)
     z = span(a.pick(0.0, 0.03, 0.08), height)
-    body = a.body(any_color(a))
-    body.add(*(tray(x, y, z, wall) if a.happens(0.75) else [box(x, y, z)]))
+    body = a.body(any_color(a), *(tray(x, y, z, wall) if a.happens(0.75) else [box(x, y, z)]))
     stand(a, a.weighted({"feet": 1.0, "plinth": 1.0, "round": 0.5}), x, y, z[0], body.look)
     look = any_color(a)
     if width > 0.9 and a.happens(0.4):
@@ -90,8 +89,7 @@ def chest(a: Assembly) -> None:
     x, y = upto(width, depth)
     z = span(0.04, height)
     metal = a.pick(BRASS, BLACK)
-    body = a.body(a.pick(wood(a.count(0, 999)), OAK, WALNUT))
-    body.add(*tray(x, y, z, board))
+    body = a.body(a.pick(wood(a.count(0, 999)), OAK, WALNUT), *tray(x, y, z, board))
     stand(a, "feet", x, y, z[0], body.look)
     _side_grips(body, x, about(0.06, depth / 2), mid(z), metal)
     low = z[1] + 0.003
@@ -111,8 +109,7 @@ def glass_freezer(a: Assembly) -> None:
     width, depth, height = a.draws((0.9, 2.0), (0.5, 0.8), (0.7, 0.95))
     x, y = upto(width, depth)
     wall = 0.06
-    body = a.body(any_color(a))
-    body.add(*tray(x, y, (0.03, height), wall))
+    body = a.body(any_color(a), *tray(x, y, (0.03, height), wall))
     body.add(*(box(x, end, span(height, 0.03)) for end in ends(y, wall - 0.012)))
     stand(a, "feet", x, y, 0.03, BLACK)
     inner = within(x, wall)
@@ -131,19 +128,12 @@ def safe(a: Assembly) -> None:
     """Build a strong box: on its door a dial, a wheel, a lever or keys, which move with it."""
     sizes = a.draws((0.28, 0.75), (0.25, 0.65), (0.22, 1.2))
     style = any_style(a, {"slab": 1.0}, 0.6, 0.75)
-    style = replace(
-        style,
-        board=a.draw(0.02, 0.07),
-        front=a.draw(0.02, 0.06),
-        gap=a.draw(0.001, 0.004),
-        behind=0.001,
-        reveal=0.0,
-        recess=0.0,
-        taste=0.0 if style.inset else 0.5,
-        shelves=1 if sizes[2] > 0.4 else 0,
-        face=style.body,
-        pull=replace(style.pull, kind="none"),
-    )
+    board, front, gap = a.draws((0.02, 0.07), (0.02, 0.06), (0.001, 0.004))
+    taste = 0.0 if style.inset else 0.5
+    pull = replace(style.pull, kind="none")
+    style = replace(style, board=board, front=front, gap=gap, taste=taste, pull=pull, behind=0.001)
+    shelves = 1 if sizes[2] > 0.4 else 0
+    style = replace(style, reveal=0.0, recess=0.0, shelves=shelves, face=style.body)
     metal = any_metal(a)
     case = furniture(a, style, sizes, "door:door", "feet", a.pick(0.0, 0.02), BLACK)
     door = case.doors[0]

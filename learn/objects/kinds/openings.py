@@ -24,6 +24,7 @@ LEAVES: dict[str, float] = {
     "slab": 0.3, "shaker": 0.12, "raised": 0.12, "two_fields": 0.14, "glazed": 0.12,
     "mullion": 0.08, "louvre": 0.05, "planks": 0.07,
 }  # fmt: skip
+SASHES = {"door": 0.35, "lift": 0.15, "flap": 0.1, "slide": 0.2, "hung": 0.12, "pivot": 0.08}
 #: A round door knob, from its leaf outwards: radius and height as shares.
 _KNOB = ((0.45, 0.0), (0.4, 0.3), (0.9, 0.4), (1.0, 0.7), (0.6, 1.0))
 
@@ -182,9 +183,7 @@ def window(a: Assembly) -> None:
     width, height, bar, thick = a.draws((0.45, 2.0), (0.45, 1.7), (0.03, 0.07), (0.025, 0.05))
     deep, rail = a.draws((0.06, 0.14), (0.03, 0.055))
     panels = {"mullion": 0.3, "glazed": 0.7}
-    kind = a.weighted(
-        {"door": 0.35, "lift": 0.15, "flap": 0.1, "slide": 0.2, "hung": 0.12, "pivot": 0.08}
-    )
+    kind = a.weighted(SASHES)
     if kind in ("slide", "hung"):
         _tracks(a, panels, (width, height), bar, thick, kind == "hung")
         return

@@ -53,9 +53,8 @@ def laptop(a: Assembly) -> None:
 def notebook(a: Assembly) -> None:
     """Build a flat or wedge-shaped base, a lid on barrels; about half stand open at rest."""
     half, deep, thick, nose = a.draws((0.12, 0.2), (0.17, 0.27), (0.006, 0.028), (0.25, 1.0))
-    lid_thick, radius, corner, rim = a.draws(
-        (0.003, 0.009), (0.003, 0.006), (0.001, 0.02), (0.003, 0.018)
-    )
+    lid_thick, radius = a.draws((0.003, 0.009), (0.003, 0.006))
+    corner, rim = a.draws((0.001, 0.02), (0.003, 0.018))
     rubber = a.pick(0.0, 0.0015)
     body = a.body(a.pick(STEEL, BLACK, BLUE, WHITE, RED))
     x = about(half)

@@ -135,16 +135,13 @@ def _egg(wide: float, front: float, back: float, inset: float = 0.0) -> FloatArr
 def toilet(a: Assembly) -> None:
     """Build a bowl with a seat and a lid; most have a cistern with a lever or buttons.
 
-    Seat and lid both turn about the pins behind the bowl, each on its own: who lifts the seat lifts
-    the lid too.
+    Both turn about the pins behind the bowl, each on its own: who lifts the seat lifts the lid.
     """
     rim, wide, front, back = a.draws((0.36, 0.44), (0.17, 0.2), (0.26, 0.36), (0.15, 0.2))
-    room, thick, lid_thick, gap = a.draws(
-        (0.06, 0.13), (0.012, 0.025), (0.01, 0.025), (0.001, 0.004)
-    )
+    room, thick = a.draws((0.06, 0.13), (0.012, 0.025))
+    lid_thick, gap = a.draws((0.01, 0.025), (0.001, 0.004))
     skin, metal = a.picks((WHITE, BLACK), (WHITE, STEEL))
-    body = a.body(skin)
-    body.add(_bowl(a, rim, wide, front, back))
+    body = a.body(skin, _bowl(a, rim, wide, front, back))
     pin = back + a.draw(0.01, 0.03)
     wall = pin + room
     body.add(box(about(0.6 * wide), (0.8 * back, wall), (rim - a.draw(0.1, 0.3), rim - 0.001)))

@@ -76,16 +76,14 @@ def folding_table(a: Assembly) -> None:
     width, depth, height, thick = a.draws((0.3, 0.8), (0.6, 1.2), (0.6, 0.8), (0.015, 0.03))
     x, y = upto(width, depth)
     under = height - thick
-    body = a.body(any_color(a))
-    body.add(box(x, y, (under, height)))
+    body = a.body(any_color(a), box(x, y, (under, height)))
     frame_x = within(x, 0.04)
     frame_y = within(y, 0.08)
     stand(a, a.weighted(UNDER), frame_x, frame_y, under, any_color(a))
     body.add(*(box(frame_x, end, span(under, -0.08)) for end in ends(frame_y, 0.018)))
     gap, length = a.draws((0.001, 0.004), (0.25 * height, 0.6 * height))
     for i, side in enumerate((-1.0, 1.0) if a.happens(0.7) else (1.0,)):
-        # The axis lies at the edge's lower corner, a gap outside: hanging, the leaf's face looks
-        # outwards.
+        # The axis lies at the edge's lower corner, a gap outside: a hanging leaf faces outwards.
         edge = x[1] + gap if side > 0 else x[0] - gap
         at = (edge, depth / 2, under)
         leaf = a.hinge(f"leaf_{i}", FRONT if side > 0 else BACK, at, a.degrees(90, 90))

@@ -57,8 +57,7 @@ def pot(a: Assembly) -> None:
         outer = _side_curve(a, a.draw(0.5, 0.8) * wide, wide * a.draw(1.0, 1.15), wide, high)
     if a.happens(0.5):
         outer += [(wide + 0.004, high + 0.0005), (wide + 0.004, high + 0.003)]
-    body = a.body(skin)
-    body.add(lathe(_walled(outer, wall, 0.05 * high + 0.002), sides=sides))
+    a.body(skin, lathe(_walled(outer, wall, 0.05 * high + 0.002), sides=sides))
     _handles(a, wide, high, dark)
     rim, top = outer[-1]
     low = top + PLAY
@@ -100,8 +99,7 @@ def kettle(a: Assembly) -> None:
     electric, hinged, switched = a.happen(0.5, 0.4, 0.8)
     lift = a.draw(0.015, 0.025) if electric else 0.0
     outer = [(r, h + lift) for r, h in _side_curve(a, foot, belly, rim, high)]
-    body = a.body(skin)
-    body.add(lathe(_walled(outer, 0.002, lift + 0.01), sides=32))
+    body = a.body(skin, lathe(_walled(outer, 0.002, lift + 0.01), sides=32))
     if electric:
         plate = [(belly * 0.95, 0.0), (belly, 0.4 * lift), (0.85 * belly, lift - 0.001)]
         body.add(lathe(plate, sides=32), look=dark)
@@ -188,8 +186,7 @@ def bottle(a: Assembly) -> None:
     sides = a.pick(4, 6, 24, 32) if a.happens(0.3) else 28
     deep = a.draw(0.5, 1.0) if a.happens(0.3) else 1.0
     core = 0.86 * neck * deep
-    body = a.body(skin)
-    body.add(lathe([*low, *curve, (neck, start)], sides=sides, stretch=(1.0, deep)))
+    body = a.body(skin, lathe([*low, *curve, (neck, start)], sides=sides, stretch=(1.0, deep)))
     body.add(lathe([(core, start - 0.004), (core, high)]))
     # Its flats, not its corners, keep clear of the neck.
     ridges = a.pick(12, 24, 32)
@@ -213,13 +210,11 @@ def bottle(a: Assembly) -> None:
 
 def dispenser(a: Assembly) -> None:
     """Build a soap or lotion bottle with a pump that goes down and turns."""
-    wide, high, collar, stroke = a.draws(
-        (0.025, 0.045), (0.09, 0.18), (0.011, 0.016), (0.012, 0.025)
-    )
+    wide, high = a.draws((0.025, 0.045), (0.09, 0.18))
+    collar, stroke = a.draws((0.011, 0.016), (0.012, 0.025))
     skin, pump_skin = a.picks((WHITE, BLUE, GREEN, STEEL), (BLACK, WHITE, STEEL))
     outer = _side_curve(a, 0.9 * wide, wide * a.draw(1.0, 1.2), 0.45 * wide, high)
-    body = a.body(skin)
-    body.add(lathe(outer, sides=a.pick(4, 24, 32)))
+    body = a.body(skin, lathe(outer, sides=a.pick(4, 24, 32)))
     well = high + 0.014
     hole = 0.004 + 2 * PLAY
     socket = [(collar, high + 0.0005), (collar, well), (hole, well), (hole, high + 0.002)]

@@ -15,7 +15,7 @@ from asset_factory.factory.mesh import FloatArray, IntArray, Material, Mesh
 from .chance import Chance
 from .looks import WHITE, laid_over
 from .shapes import Form
-from .spans import Point
+from .spans import Point, Span
 
 #: Directions of axes; what hangs at the back of its lid opens about LEFT.
 LEFT = (-1.0, 0.0, 0.0)
@@ -63,15 +63,11 @@ class PartDraft:
         name: of the part; its joint is called ``<name>_joint``.
         look: of forms added without one.
         parent: the part that it hangs on; ``None`` for the body.
-        kind: of its joint.
-        axis: unit vector at rest; positive values open.
-        origin: a point on the axis at rest [m].
-        lower: closed [rad] or [m].
-        upper: fully open; neither is used where it turns without end.
+        kind, axis, origin: of its joint at rest [m]; positive values open.
+        lower, upper: closed and fully open [rad] or [m]; not used where it turns without end.
         slide: how far the part also slides along its axis [m]; above 0, it hangs on a carrier
             without faces that turns, and slides in it.
-        pose: from the object with everything at value 0 to how it is left, shape [4, 4]; ``None``
-            if that is the same.
+        pose: from the object with everything at value 0 to how it is left, [4, 4]; or ``None``.
         carry: the same from the face that the part is described on.
         forms: what it consists of, as it is left, each with its look.
     """
@@ -110,8 +106,7 @@ class Assembly(Chance):
     Attributes:
         root: the part that does not move, ``body``.
         parts: the others, parents before children.
-        hairline: every form ends this far short of its size [m], so that forms that meet share
-            no corner.
+        hairline: every form ends this far short [m], so that forms that meet share no corner.
     """
 
     def __init__(self, rng: np.random.Generator, hairline: float = 0.0) -> None:
@@ -120,9 +115,10 @@ class Assembly(Chance):
         self.parts: list[PartDraft] = []
         self.hairline = hairline
 
-    def body(self, look: Material) -> PartDraft:
-        """Return the part that does not move, from now on in this look."""
+    def body(self, look: Material, *forms: Form) -> PartDraft:
+        """Return the part that does not move, from now on in this look, with more forms."""
         self.root.look = look
+        self.root.add(*forms)
         return self.root
 
     def hinge(
@@ -137,10 +133,8 @@ class Assembly(Chance):
         **how: Unpack[Hanging],
     ) -> PartDraft:
         """Add a part that turns between ``lower`` and ``upper`` [rad] and is left at ``rest``."""
-        part = self._hung(name, JointKind.REVOLUTE, axis, at, **how)
-        part.lower = lower - rest
-        part.upper = upper - rest
-        part.slide = slide
+        limits = (lower - rest, upper - rest)
+        part = self._hung(name, JointKind.REVOLUTE, axis, at, limits, slide, **how)
         if rest:
             turn = np.eye(4)
             turn[:3, :3] = rotation_about(part.axis, rest)
@@ -153,19 +147,13 @@ class Assembly(Chance):
         self, name: str, axis: Vector, at: Vector, slide: float = 0.0, **how: Unpack[Hanging]
     ) -> PartDraft:
         """Add a part that turns without end, and slides along its axis by up to ``slide`` [m]."""
-        part = self._hung(name, JointKind.CONTINUOUS, axis, at, **how)
-        part.lower = -np.pi
-        part.upper = np.pi
-        part.slide = slide
-        return part
+        return self._hung(name, JointKind.CONTINUOUS, axis, at, (-np.pi, np.pi), slide, **how)
 
     def slider(
         self, name: str, axis: Vector, at: Vector, upper: float, **how: Unpack[Hanging]
     ) -> PartDraft:
         """Return a part that slides by up to ``upper`` [m]."""
-        part = self._hung(name, JointKind.PRISMATIC, axis, at, **how)
-        part.upper = upper
-        return part
+        return self._hung(name, JointKind.PRISMATIC, axis, at, (0.0, upper), **how)
 
     def screw(
         self,
@@ -187,12 +175,16 @@ class Assembly(Chance):
         kind: JointKind,
         axis: Vector,
         at: Vector,
+        limits: Span,
+        slide: float = 0.0,
         on: PartDraft | None = None,
         look: Material | None = None,
         place: Place | None = None,
     ) -> PartDraft:
         parent = on or self.root
         part = PartDraft(name, look or parent.look, parent, kind)
+        part.lower, part.upper = limits
+        part.slide = slide
         part.axis = np.asarray(axis, dtype=np.float64)
         part.origin = np.asarray(at, dtype=np.float64)
         part.pose = parent.pose

@@ -61,8 +61,7 @@ def rack(x: Span, y: Span, z: float, rods: int, along_y: bool = True) -> list[Fo
 def stand(a: Assembly, kind: str, x: Span, y: Span, height: float, look: Material) -> None:
     """Build supports under a body over ``x`` and ``y`` whose underside is at ``height`` [m].
 
-    Kinds are ``plinth``, ``feet``, ``tapered``, ``round``, ``turned``, ``sled``, ``castors``,
-    ``skirt`` and ``none``.
+    Kinds are plinth, feet, tapered, round, turned, sled, castors, skirt and none.
     """
     if kind == "none" or height <= 0.0:
         return
@@ -133,8 +132,7 @@ def worktop(
 ) -> None:
     """Build a stone around a ``sink`` that hangs in the body, or under a ``vessel``; and a spout.
 
-    ``x`` and ``y`` are the stone's, ``z`` is its underside [m]; looks are the stone's and the
-    metal's.
+    ``x`` and ``y`` are the stone's, ``z`` is its underside [m]; looks are of stone and metal.
     """
     stone, metal = looks
     body = a.root

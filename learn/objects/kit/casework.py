@@ -9,7 +9,7 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from .assembly import FRONT, LEFT, RIGHT, Assembly, Hanging, PartDraft
+from .assembly import DOWN, FRONT, LEFT, RIGHT, UP, Assembly, Hanging, PartDraft
 from .boards import carcass, frame, stand, tray
 from .hinges import swing
 from .layouts import Cell, Divider, Node, divided
@@ -20,12 +20,7 @@ from .spans import Point, Span, X, about, between, mid, size, span, within
 from .styles import Style
 
 #: Edges of a front, and which way one turns that is hinged there; positive angles open towards -Y.
-EDGES: dict[str, Point] = {
-    "left": (0.0, 0.0, -1.0),
-    "right": (0.0, 0.0, 1.0),
-    "bottom": RIGHT,
-    "top": LEFT,
-}
+EDGES: dict[str, Point] = {"left": DOWN, "right": UP, "bottom": RIGHT, "top": LEFT}
 
 
 @dataclass(frozen=True)
@@ -38,13 +33,9 @@ class _Front:
 
 
 class Leaf(NamedTuple):
-    """What turns in a case.
+    """What turns in a case: its hinge is at a ``side``, its panel spans x and z [m].
 
-    Attributes:
-        part: that it is.
-        cell: that it closes; of two leaves before one, its half of it.
-        side: of its hinge: ``left``, ``right``, ``top`` or ``bottom``.
-        x, z: spans of its panel [m].
+    Of two leaves before one cell, each closes its half of it.
     """
 
     part: PartDraft
@@ -56,12 +47,9 @@ class Leaf(NamedTuple):
 
 @dataclass
 class Casework:
-    """A case under construction.
+    """A case under construction, its outer spans [m] without fronts that lie on it.
 
     Attributes:
-        a: the object that it is part of.
-        style: of all fronts.
-        x, y, z: outer spans of the case, without fronts that lie on it [m].
         prefix: of the names of its parts.
         cells: that its front is divided into.
         doors: what turns in it.

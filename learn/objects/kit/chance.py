@@ -13,11 +13,7 @@ T = TypeVar("T")
 
 
 class Chance:
-    """Random draws, all from one generator: same generator, same draws.
-
-    Attributes:
-        rng: the generator.
-    """
+    """Random draws, all from one generator: same generator, same draws."""
 
     def __init__(self, rng: np.random.Generator) -> None:
         self.rng = rng

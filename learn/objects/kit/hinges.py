@@ -40,15 +40,13 @@ def swing(
     """Return a place for the axis of a front ``width`` wide [m].
 
     A corner at distance ``a`` across from an axis set back by ``s`` reaches ``sqrt(a^2 + b^2)``,
-    ``b`` being the thickness behind the axis; in front of the axis the hinge edge itself swings out
-    by ``s``.
+    ``b`` being the thickness behind the axis; in front of it the hinge edge swings out by ``s``.
 
     Args:
         chance: draws the limit.
         thickness: of the front [m].
         width: from the hinge to the free edge [m].
-        rooms: free space beside the hinge edge and beside the free edge [m]; infinite where nothing
-            is.
+        rooms: free beside the hinge edge and the free edge [m]; infinite where nothing is.
         taste: the wished setback in thicknesses: 0 for the front edge, 1 for the back edge.
         furthest: limit of ``upper`` [degrees].
     """

@@ -16,8 +16,7 @@ import numpy as np
 from .chance import Chance
 from .spans import Span
 
-#: What fills a cell (a name), or how it is cut: ``h`` left to right, ``v`` bottom to top, with
-#: shares.
+#: What fills a cell (a name), or its cut, ``h`` left to right or ``v`` bottom up, with shares.
 Node = str | tuple[str, tuple[tuple[float, "Node"], ...]]
 #: Half the space left where two drawers have no board between them [m].
 BARE = 0.001
@@ -50,15 +49,10 @@ class Cell:
 
     def halves(self, seam: float, apart: float) -> tuple[Cell, Cell]:
         """Return the halves left and right of x = ``seam``, each ``apart`` from it [m]."""
-        left, right, *ends = self.walls
-        first, last, *others = self.outer
-        near = replace(
-            self, x=(self.x[0], seam), walls=(left, apart, *ends), outer=(first, False, *others)
-        )
-        far = replace(
-            self, x=(seam, self.x[1]), walls=(apart, right, *ends), outer=(False, last, *others)
-        )
-        return near, far
+        near = replace(self, x=(self.x[0], seam), walls=(self.walls[0], apart, *self.walls[2:]))
+        far = replace(self, x=(seam, self.x[1]), walls=(apart, *self.walls[1:]))
+        own = (self.outer[0], False, *self.outer[2:])
+        return replace(near, outer=own), replace(far, outer=(False, *self.outer[1:]))
 
 
 @dataclass(frozen=True)
@@ -153,9 +147,8 @@ def filling(chance: Chance, width: float, height: float, mix: Mapping[str, float
     kind = chance.weighted(fitting or {"open": 1.0})
     if kind != "drawers":
         return kind
-    return drawers(
-        chance, chance.count(2 if height < 0.7 else 3, max(2, min(6, int(height / 0.1))))
-    )
+    most = max(2, min(6, int(height / 0.1)))
+    return drawers(chance, chance.count(2 if height < 0.7 else 3, most))
 
 
 def leaves(node: Node) -> int:

@@ -27,12 +27,7 @@ TEXTURE_PERIOD_M = 0.5
 
 
 def wood(seed: int, size: int = 64) -> Material:
-    """Return a wood-grained material; the image tiles and its grain runs along u.
-
-    Args:
-        seed: of the grain.
-        size: side of the square image [pixels].
-    """
+    """Return a wood-grained material; its square image tiles, and its grain runs along u."""
     rng = np.random.default_rng(seed)
     u, v = np.meshgrid(np.arange(size) / size, np.arange(size) / size)
     phase = rng.uniform(0.0, 2.0 * np.pi, 3)
@@ -40,9 +35,8 @@ def wood(seed: int, size: int = 64) -> Material:
     rings = 0.5 + 0.5 * np.sin(2.0 * np.pi * 7.0 * (v + bend) + phase[2])
     tone = 0.75 + 0.18 * rings + 0.05 * rng.uniform(-1.0, 1.0, (size, 1))
     colors = np.clip(tone[..., None] * np.array([190.0, 140.0, 88.0]), 0.0, 255.0)
-    return Material(
-        "wood", (1.0, 1.0, 1.0, 1.0), Texture(png(np.round(colors).astype(np.uint8)), ".png")
-    )
+    image = png(np.round(colors).astype(np.uint8))
+    return Material("wood", (1.0, 1.0, 1.0, 1.0), Texture(image, ".png"))
 
 
 def laid_over(
@@ -50,10 +44,7 @@ def laid_over(
 ) -> FloatArray | None:
     """Return texture coordinates, [face_count, 3, 2], NaN on plain faces; ``None`` if all are.
 
-    Args:
-        corners: of every face [m], shape [face_count, 3, 3].
-        face_material: of every face, shape [face_count].
-        materials: that those numbers stand for.
+    Faces have ``corners`` [m], shape [face_count, 3, 3], and the number of a material each.
     """
     textured = np.array([material.texture is not None for material in materials])
     if not textured.any():
@@ -66,13 +57,9 @@ def laid_over(
 
 
 def png(pixels: npt.NDArray[np.uint8]) -> bytes:
-    """Return an RGB image as a PNG file.
+    """Return an RGB image, top row first, shape [height, width, 3], as a PNG file.
 
-    The stream is stored, not compressed: compressors differ between machines, and the bytes must
-    not.
-
-    Args:
-        pixels: top row first, shape [height, width, 3].
+    The stream is stored: compressors differ between machines, and the bytes must not.
     """
     height, width = pixels.shape[:2]
     raw = b"".join(b"\0" + row.tobytes() for row in pixels)

@@ -118,8 +118,7 @@ def panel(
 ) -> None:
     """Add a front that fills its spans [m] and never leaves them.
 
-    Its style is one of :data:`STYLES`; on a front too small for a frame, a slab. Stiles and rails
-    are ``rail`` wide [m].
+    Its style is one of :data:`STYLES`, a slab if too small for a frame of ``rail`` width [m].
     """
     framed = style not in ("slab", "bevel", "bowed")
     if framed and min(size(x), size(z)) < max(FRAMED_FROM, 3 * rail):

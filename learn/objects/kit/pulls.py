@@ -13,8 +13,7 @@ from .chance import Chance
 from .shapes import Form, box, cylinder, lathe, pipe, prism
 from .spans import Profile, Span, X, Y, about, ends, span, within
 
-#: Kinds of pull and how often each is drawn; ``none`` is a front that is pushed or pulled by its
-#: edge.
+#: Kinds of pull and how often each is drawn; ``none``: the front is moved by its edge.
 KINDS: dict[str, float] = {
     "bar": 0.2, "rail": 0.12, "bow": 0.16, "knob": 0.16, "ball": 0.07, "cup": 0.06,
     "lip": 0.05, "recess": 0.06, "strap": 0.04, "none": 0.08,
@@ -27,10 +26,7 @@ class Pull:
 
     Attributes:
         kind: one of :data:`KINDS`.
-        length: along it [m]; of a knob, nothing.
-        reach: how far it stands out [m].
-        thickness: of its bar [m].
-        look: of all of it.
+        length, reach, thickness: along it, off its face, and of its bar [m].
         root: how far its feet reach into its panel, so that they meet it under any relief [m].
     """
 
@@ -91,10 +87,8 @@ def _bar(pull: Pull, along: Span) -> list[Form]:
         forms = [box(along, about(r, middle), about(wide))]
     inset = min(0.02 if pull.kind == "bar" else r, along[1] / 2)
     foot = (middle, pull.root)
-    return [
-        *forms,
-        *(box(about(0.7 * r, end), foot, about(0.7 * r)) for end in within(along, inset)),
-    ]
+    feet = (box(about(0.7 * r, end), foot, about(0.7 * r)) for end in within(along, inset))
+    return [*forms, *feet]
 
 
 def _knob(pull: Pull) -> list[Form]:

@@ -33,12 +33,7 @@ _XYZ = np.arange(3)
 
 
 class Form(NamedTuple):
-    """A closed surface with outward faces.
-
-    Attributes:
-        vertices: corners [m], shape [vertex_count, 3].
-        faces: vertex indices, shape [face_count, 3].
-    """
+    """A closed surface of vertices [m], shape [n, 3], and outward faces, shape [m, 3]."""
 
     vertices: FloatArray
     faces: IntArray
@@ -74,13 +69,8 @@ def box(x: Span, y: Span, z: Span) -> Form:
 def loft(rings: npt.ArrayLike, looped: bool = False) -> Form:
     """Build a surface over rings of equally many corners, closed by a fan at either end.
 
-    Args:
-        rings: corners [m], shape [ring_count, corner_count, 3]; first and last ring flat and
-            convex.
-        looped: the last ring is joined to the first one instead of closing both.
-
-    Returns:
-        Its faces look outwards, whichever way round the rings are given.
+    Rings have shape [ring_count, corner_count, 3] [m], the first and the last one flat and convex;
+    ``looped``, the last is joined to the first. Faces look outwards, whichever way rings go.
     """
     corners = np.asarray(rings, dtype=np.float64)
     vertices = corners.reshape(-1, 3)
@@ -174,12 +164,8 @@ def cylinder(axis: int, center: Flat, radius: float, along: Span, sides: int = 1
 def hoop(axis: int, center: Flat, radii: Span, along: Span, sides: int = 24) -> Form:
     """Return a flat ring about a coordinate axis, between two radii; else as :func:`cylinder`."""
     at = (*center[:axis], 0.0, *center[axis:])
-    profile = [
-        (radii[0], along[0]),
-        (radii[1], along[0]),
-        (radii[1], along[1]),
-        (radii[0], along[1]),
-    ]
+    inner, outer = ([(radius, end) for end in along] for radius in radii)
+    profile = [inner[0], *outer, inner[1]]
     return lathe(profile, at, axis, sides, looped=True)  # type: ignore[arg-type]
 
 
@@ -205,8 +191,7 @@ def pipe(
         radius: one, or one per point of the path.
         sides: corners of each ring; 4 makes a square bar.
         looped: the end of the path is joined to its start.
-        up: the section's second direction leans towards it; by default, across the plane in which
-            the path bends.
+        up: the section's second direction leans towards it; by default, across the path's plane.
         flat: how high the section is in that direction, as a share of how wide.
     """
     points = np.asarray(path, dtype=np.float64)
@@ -246,12 +231,8 @@ def ribbon(
 ) -> Form:
     """Return a plate of any outline: the area between two lines, swept along an axis.
 
-    Args:
-        left: one edge, shape [point_count, 2].
-        right: the other edge, point by point across from ``left``.
-        along: thickness, from where to where on the axis.
-        axis: across the plate.
-        looped: the lines are closed ones, for a frame around a hole.
+    Lines, shape [point_count, 2], lie point by point across from each other; ``looped`` ones are
+    closed, for a frame around a hole.
     """
     rings = np.empty((len(np.asarray(left)), 4, 3))
     for i, (line, height) in enumerate(((left, 0), (right, 0), (right, 1), (left, 1))):

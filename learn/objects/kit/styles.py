@@ -27,23 +27,18 @@ class Style:
     """What all fronts of one case share.
 
     Attributes:
-        board: thickness of the case's boards [m].
-        front: thickness of doors and drawer fronts [m].
+        board, front: thickness of the case's boards, and of doors and drawer fronts [m].
         gap: between fronts that lie beside each other [m].
         behind: between a front and what it covers [m].
         reveal: how much of the case's edge an overlaid front leaves bare [m].
         inset: fronts lie in their openings instead of covering the case's edges.
         recess: how far inset fronts lie behind the case's edges [m].
-        hollow: the case has an inside; otherwise it is as deep as its fronts, as generated meshes
-            are.
+        hollow: the case has an inside; else it is as deep as its fronts, as generated ones.
         bare: stacked drawers have no boards between them.
-        panel: style of the doors.
-        upper: style of the doors in the upper half of the case.
-        drawer: style of the drawer fronts.
+        panel, upper, drawer: styles of doors, of those in the upper half, of drawer fronts.
         rail: width of frames [m].
         pull: worn by all of them.
-        pull_at: height of the pulls of doors as a share of their height.
-        drawer_pull_at: the same of drawers.
+        pull_at, drawer_pull_at: heights of pulls as shares of their doors' and drawers'.
         pairs: wide drawers have two pulls.
         taste: place of hinge axes in thicknesses behind the face.
         slide: how far drawers come out, in depths.
@@ -110,12 +105,8 @@ def any_style(
 ) -> Style:
     """Return a style of casework.
 
-    Args:
-        chance: where it comes from.
-        panels: styles of the doors and their weights; :data:`PANELS` if not given.
-        inset: share whose fronts lie in their openings.
-        hollow: share that has an inside.
-        pull_at: heights of pulls to choose from, as shares of a door's height.
+    ``panels`` are styles of the doors and their weights (:data:`PANELS` if not given), ``inset``
+    and ``hollow`` shares of cases, ``pull_at`` heights to choose from as shares of a door's height.
     """
     pick = chance.pick
     happens = chance.happens

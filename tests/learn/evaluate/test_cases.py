@@ -22,8 +22,8 @@ from asset_factory.learn.evaluate.cases import (
     skin_requests,
 )
 from asset_factory.learn.evaluate.listing import COLUMNS, HALVES, half_of, read_list
-from asset_factory.learn.evaluate.merging import merged
 from asset_factory.learn.evaluate.physical import physical
+from asset_factory.learn.evaluate.transfer import merged
 from asset_factory.learn.objects.sample_files import write_sample
 
 

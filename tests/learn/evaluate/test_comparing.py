@@ -4,9 +4,9 @@ import pytest
 
 from asset_factory.factory.config import ParticulateConfig
 from asset_factory.learn.evaluate.cases import Request
-from asset_factory.learn.evaluate.comparing import compared
 from asset_factory.learn.evaluate.methods import Method
 from asset_factory.learn.evaluate.score import Score
+from asset_factory.learn.evaluate.summary import compared
 from asset_factory.learn.evaluate.trial import Row, Trial
 
 

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.geometry.posing import posed, turned
-from asset_factory.learn.evaluate.merging import merged
 from asset_factory.learn.evaluate.physical import STATES, physical
+from asset_factory.learn.evaluate.transfer import merged
 
 DOOR = cupboard(hinge())
 

@@ -11,8 +11,8 @@ from stored_arrays import arrays
 from asset_factory.factory.geometry.posing import turned
 from asset_factory.learn.evaluate.published.cloud import cloud_of
 from asset_factory.learn.evaluate.published.matched import half_diagonal, matched
-from asset_factory.learn.evaluate.published.paper import paper
 from asset_factory.learn.evaluate.published.release import STATES, per_state, release, solid_giou
+from asset_factory.learn.evaluate.published.state import paper
 
 CASES = (
     "both_joint",

@@ -40,7 +40,7 @@ from asset_factory.learn.surfaces.surfaces import (
     subdivided,
     without_sides,
 )
-from asset_factory.learn.surfaces.united import all_united, grown, parts_united
+from asset_factory.learn.surfaces.united import all_united, parts_united
 
 GREY = Material("grey")
 
@@ -133,9 +133,9 @@ def test_uniting_everything_gives_one_component_of_several_parts():
 
 def test_growing_moves_every_side_by_as_much_and_nothing_turns_inside_out():
     thin = ((0.0, 1.0), (0.0, 0.002), (0.0, 1.0))
-    low, high = grown(solids(UNIT, BESIDE), 0.01).boxes()
+    low, high = solids(UNIT, BESIDE).grown(0.01).boxes()
     np.testing.assert_allclose([low[0], high[0]], [[-0.01] * 3, [1.01] * 3], atol=1e-12)
-    assert volume(grown(solids(thin), -0.01)) > 0.0
+    assert volume(solids(thin).grown(-0.01)) > 0.0
 
 
 def test_doubling_leaves_no_volume_and_twice_the_surface_in_as_many_components():

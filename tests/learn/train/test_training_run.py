@@ -14,6 +14,7 @@ import pytest
 import torch  # noqa: TID253
 from box_sampled_objects import write_boxes
 from command_line import COMMAND
+from filelock import FileLock
 from tiny_recipe import recipe
 
 from asset_factory.factory.cli.commands import run
@@ -25,7 +26,6 @@ from asset_factory.learn.train import loop
 from asset_factory.learn.train import trainer as training
 from asset_factory.learn.train.checkpoints import fill, read_state, read_weights
 from asset_factory.learn.train.curves import read_curve
-from asset_factory.learn.train.folder import held
 from asset_factory.learn.train.matching import match
 from asset_factory.learn.train.recipes import load_train_config, parse_train_config
 
@@ -200,9 +200,10 @@ def test_an_answer_that_overflowed_is_matched_anyhow():
 
 def test_a_folder_belongs_to_one_run_at_a_time(written, tmp_path):
     path, output = written
-    with held(output), pytest.raises(ConfigError, match="another process is training there"):
+    lock = FileLock(output / ".lock", blocking=False)
+    with lock, pytest.raises(ConfigError, match="another process is training there"):
         train(Train(str(path), output, resume=True))
-    with held(output):
+    with lock:
         pass
 
 

@@ -8,8 +8,8 @@ import torch  # noqa: TID253
 from asset_factory.factory.models.network.shape import NetworkShape
 from asset_factory.factory.models.network.transformer import PartArticulationTransformer
 from asset_factory.learn.train.curves import Curve, draw_curves, read_curve
-from asset_factory.learn.train.ema import RunningMean
-from asset_factory.learn.train.schedule import ScheduleSettings
+from asset_factory.learn.train.descent import RunningMean
+from asset_factory.learn.train.settings import ScheduleSettings
 from asset_factory.learn.train.trainer import quieten
 from asset_factory.learn.train.validation import part_ious
 
