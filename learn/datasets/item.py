@@ -18,9 +18,13 @@ LOOKS = frozenset({
 
 @dataclass(frozen=True)
 class SourceItem:
-    """An object as files, of which ``main`` says what it is; its category may be empty.
+    """An object as files.
 
-    Its name is its folder, relative to the source's, or its file's stem.
+    Attributes:
+        name: unique within its source: its folder, relative to the source's, or its file's stem.
+        category: of household object, or empty.
+        main: the file that says what the object is.
+        files: everything that it may consist of; ``main`` is one of them.
     """
 
     name: str

@@ -30,10 +30,14 @@ def read_refusal(path: Path) -> ItemRefusal | None:
 
 @dataclass(frozen=True)
 class SourceReport:
-    """One pass over a dataset: names of objects read, and of those skipped, each with a sentence.
+    """One pass over a dataset.
 
-    ``made`` of those read were not in the cache before; ``gone`` are names that a former pass read
-    and that are not among the dataset's objects any more.
+    Attributes:
+        kind: of dataset.
+        read: names of the objects that are sampled objects now.
+        skipped: why the others are not, by reason code: names, each with a sentence.
+        made: how many of ``read`` were not in the cache before.
+        gone: names that a former pass read and that are not among the dataset's objects any more.
     """
 
     kind: str

@@ -24,7 +24,15 @@ COARSE = 4
 
 @dataclass(frozen=True, eq=False)
 class Packed:
-    """One object as learning takes it, with pictures as in ``ObjectBatch`` and a table, [n, 10]."""
+    """One object as learning takes it.
+
+    Attributes:
+        truth: about it as a whole.
+        held_out: not trained on.
+        one_piece: a mesh of pieces that was made one piece.
+        color, depth, part: see :class:`~asset_factory.learn.detector.looks.ObjectBatch`.
+        table: of moving parts, [n, 10].
+    """
 
     truth: WholeTruth
     held_out: bool

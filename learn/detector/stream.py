@@ -118,7 +118,7 @@ def _views(memory: SharedMemory, slot: int) -> tuple[Any, Any, Any]:
 
 
 def make_into(name: str, free: Any, ready: Any, seed: int, number: int, one_piece: bool) -> None:
-    """Make objects for ever, in a worker process."""
+    """Make objects for ever; runs in a worker process."""
     from .drawn import drawn_one_piece, drawn_sides
     from .kinds import kind_number
 

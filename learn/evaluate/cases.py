@@ -37,14 +37,16 @@ class Request:
 
     Attributes:
         object: its name, unique among objects.
-        source, category: where it is from, and what it is.
+        source: where it is from.
+        category: what it is.
         pose: every joint at its closed end (``closed``), or anywhere in its range (``open``).
         yaw: the front towards -Y if there is one (``front``), or turned about z (``random``).
         file: of its description, or its mesh with an annotation; ``None`` for a procedural object.
         digest: of that file; empty if any will do, which is then not kept.
         front_yaw: turn that brings its front to -Y [deg]; ``None`` where that is unknown.
         seed: of a procedural object.
-        fused: made one closed skin with engraved seams; parts that nothing is seen of are gone.
+        fused: made one closed skin with seams engraved, as image-to-3D tools give it; parts that
+            nothing is seen of are gone.
     """
 
     object: str

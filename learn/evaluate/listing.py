@@ -24,7 +24,8 @@ class Listed:
 
     Attributes:
         path: of its URDF or MJCF, relative to the folder of data, with ``/``.
-        source, category: a folder's name, and a best guess.
+        source: where it is from; a folder's name.
+        category: what it is, a best guess.
         digest: SHA-256 of the description file.
         shape: path of the first object of the list with the same surface, perhaps its own.
         half: ``develop`` to make choices on, ``report`` to be looked at when all choices are made.

@@ -19,7 +19,14 @@ TERMS = "Apache-2.0"
 
 @dataclass(frozen=True)
 class Fit:
-    """A fit: what its file holds, what asks it, the data learned from, and how well it does."""
+    """A fit, and the text of its card.
+
+    Attributes:
+        stored: arrays by name, and what the file says about itself.
+        what: what the weights are, and what asks them; a sentence or two.
+        data: that they learned from.
+        figures: how well they do, and on what.
+    """
 
     stored: Arrays
     what: str

@@ -46,6 +46,7 @@ class SampledObject:
     Attributes:
         name: unique within its source.
         category: of household object, or empty.
+        source: where it came from.
         points: shape [point_count, 3], float32.
         normals: shape [point_count, 3], float32; the mean of two, shorter than 1, at sharp edges.
         part_ids: part of each point, shape [point_count], int16.
@@ -53,10 +54,12 @@ class SampledObject:
         components: connected component of the mesh, shape [point_count], int32.
         parents: part each part hangs on, -1 for the root, shape [part_count].
         motion: :class:`MotionClass` of each part, shape [part_count].
-        axis, slide_direction: unit, zero where it does not turn, or slide, shape [part_count, 3].
-        origin: a point on the axis [m], shape [part_count, 3].
-        turn, slide: limits [rad] and [m], shape [part_count, 2].
+        axis: unit direction a part turns about, zero where it does not, shape [part_count, 3].
+        origin: a point on that axis [m], shape [part_count, 3].
+        turn: limits [rad], shape [part_count, 2].
         endless: whether it turns without limits, shape [part_count].
+        slide_direction: unit, zero where it does not slide, shape [part_count, 3].
+        slide: limits [m], shape [part_count, 2].
     """
 
     name: str

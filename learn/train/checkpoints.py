@@ -22,8 +22,13 @@ _FORMAT = 1
 class State:
     """A run after so many steps; all chance of a step follows from the seed and its number.
 
-    ``best`` is the highest score of a validation so far, and its step, ``None`` before the first;
-    ``recipe`` the configuration as TOML, ``data`` a digest, ``seconds`` were spent so far.
+    Attributes:
+        mean: running mean of the weights.
+        optimiser: its state.
+        best: the highest score of a validation so far, and its step; ``None`` before the first.
+        recipe: the configuration, as TOML.
+        data: digest of the data.
+        seconds: spent so far.
     """
 
     step: int

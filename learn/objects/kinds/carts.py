@@ -108,10 +108,17 @@ def wheelbarrow(a: Assembly) -> None:
     outline = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) * (half, 0.55 * long)
     rows = ((0.55, 0.0), (1.0, 0.25), (0.985, 0.25), (0.54, 0.006))
     body.add(stack([(s * outline + (0.0, 0.5 * long), level + z) for s, z in rows]))
-    tray = [(0.45 * half, 0.2 * long, level - 0.012), (0.6 * half, long, level - 0.01)]
-    shaft = [(gap, -0.2 * long, radius), *tray, (half, 1.7 * long, level + 0.12)]
-    foot = [(0.72 * half, 0.85 * long, 0.0), (0.72 * half, 0.7 * long, 0.004)]
-    leg = [(0.62 * half, 0.95 * long, level - 0.015), *foot]
+    shaft = [
+        (gap, -0.2 * long, radius),
+        (0.45 * half, 0.2 * long, level - 0.012),
+        (0.6 * half, long, level - 0.01),
+        (half, 1.7 * long, level + 0.12),
+    ]
+    leg = [
+        (0.62 * half, 0.95 * long, level - 0.015),
+        (0.72 * half, 0.85 * long, 0.0),
+        (0.72 * half, 0.7 * long, 0.004),
+    ]
     bars = both(pipe(shaft, 0.012, 8, up=(0, 0, 1)), pipe(leg, 0.011, 8, up=RIGHT))
     body.add(*bars, look=metal)
     at = (0.0, -0.2 * long, radius)

@@ -75,8 +75,12 @@ def pliers(a: Assembly) -> None:
     body = a.body(STEEL)
     lever = a.hinge("lever", UP, (0, 0, 0), a.degrees(15, 45))
     for part, z in ((body, (0.0, (thick - PLAY) / 2)), (lever, ((thick + PLAY) / 2, thick))):
-        end = [(-bow * a.draw(0.9, 1.2), -0.7 * grip), (-bow * a.draw(0.7, 1.1), -grip)]
-        bend = [(-0.5 * boss, -start - 0.0055), (-bow, -0.3 * grip), *end]
+        bend = [
+            (-0.5 * boss, -start - 0.0055),
+            (-bow, -0.3 * grip),
+            (-bow * a.draw(0.9, 1.2), -0.7 * grip),
+            (-bow * a.draw(0.7, 1.1), -grip),
+        ]
         path = [(x, y, thick / 2) for x, y in bend]
         width = [0.45 * boss, 0.0055, 0.0065, 0.006]
         handle = pipe(path, width, a.pick(4, 8, 10), up=UP, flat=thick / 0.013)

@@ -55,7 +55,8 @@ class CaseworkPlan:
     Attributes:
         node: divides a front of a width and height [m].
         sizes: width, depth and height of the case [m].
-        stands, base: what it stands on and how often, and the height of that [m].
+        stands: what it stands on and how often.
+        base: height of that [m].
         tops: of the piece: ``flush`` (nothing), ``board``, ``cornice``, ``sink`` or ``vessel``.
         inset: share whose fronts lie in their openings.
         panels: styles of doors; the usual ones if empty.

@@ -26,7 +26,10 @@ class Pull:
 
     Attributes:
         kind: one of :data:`KINDS`.
-        length, reach, thickness: along it, off its face, and of its bar [m].
+        length: along it [m]; of a knob, nothing.
+        reach: how far it stands out [m].
+        thickness: of its bar [m].
+        look: of all of it.
         root: how far its feet reach into its panel, so that they meet it under any relief [m].
     """
 
