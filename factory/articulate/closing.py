@@ -22,7 +22,7 @@ CLOSING = frozenset({PartKind.PART, PartKind.DOOR, PartKind.FLAP, PartKind.LID})
 #: Poses are this far apart, and no part stands open by more [rad].
 STEP = np.radians(3.0)
 MOST = np.radians(177.0)
-#: A closed part is square to its holder: what is smallest elsewhere turns its handle inward [rad].
+#: A closed part is nearly square to its holder: elsewhere its handle would turn inward [rad].
 SQUARE = np.radians(12.0)
 #: A box this much larger than the smallest is as small: handles and thickness go on turning in.
 AS_SMALL = 0.04

@@ -1,4 +1,4 @@
-"""Categories of objects, and what is usual of each: how large it is, what it weighs."""
+"""Categories of objects with their usual size, mass and inside."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _SHORTEST_SUFFIX = 4
 
 
 class Category(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What is usual of objects of one category.
+    """The usual size, mass and inside of objects of one category.
 
     Attributes:
         name: canonical.
@@ -81,7 +81,7 @@ def category_table() -> Mapping[str, Category]:
 
 
 def usual_of(category: str | None) -> Category:
-    """Return what is usual of a category; :data:`UNKNOWN` where the table does not hold it."""
+    """Return the table's entry of a category; :data:`UNKNOWN` where there is none."""
     return category_table().get(normalised(category), UNKNOWN) if category else UNKNOWN
 
 

@@ -33,7 +33,7 @@ MIN_MASS_KG = 0.005
 MIN_GYRATION_M = 0.001
 #: A closed surface of less mean thickness is a sheet with two sides [m].
 SHEET_THICKNESS_M = 1e-4
-#: Nothing is made denser than steel to weigh what is usual [kg/m3].
+#: Nothing is made denser than steel to reach its usual mass [kg/m3].
 STEEL = 7850.0
 #: Share of the child's mass given to a link without geometry, and the radius of its sphere [m].
 CARRIER_SHARE = 0.05

@@ -74,7 +74,7 @@ def manufacture(
 
 
 def _assumptions(usual: Category, intake: Intake, bulk: float | None) -> Iterator[str]:
-    """Yield a sentence for what is assumed of an object because of its category."""
+    """Yield a sentence for each assumption that rests on an object's category."""
     if usual is not UNKNOWN and not intake.provenance.category:
         yield f"its category was taken to be {usual.name}, by its looks"
     if bulk is not None:

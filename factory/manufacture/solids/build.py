@@ -62,7 +62,7 @@ def solids(
         articulation: of which at least one moved part is to be built, see ``parts_to_build``.
         config: of this stage.
         fronts: build every thin front, bare or not.
-        usual: what is usual of objects of its category.
+        usual: inside of objects of its category.
     """
     parts = parts_to_build(articulation, fronts)
     turn = working_frame(articulation, parts)

@@ -24,7 +24,7 @@ def solid_parts(
         articulation: parts and joints.
         stages: with the settings and the cache.
         fronts: build every thin front, bare or not.
-        usual: what is usual of objects of its category.
+        usual: inside of objects of its category.
     """
     config = stages.config.solids
     if not config.construct or not parts_to_build(articulation, fronts):

@@ -32,7 +32,7 @@ class Workpiece:
     Attributes:
         source: parts and joints, turned into the working frame.
         config: of this stage.
-        usual: what is usual of objects of its category.
+        usual: inside of objects of its category.
         views: of its sides.
         joints: as they are now; hinges may have been moved.
         panels, bumps: by part.
