@@ -56,9 +56,7 @@ def test_a_hand_gets_where_the_arm_can_bring_it():
     assert (found >= lower).all()
     assert (found <= upper).all()
     best = int(np.argmin(off.sum(axis=1)))
-    assert chain.forward(found[best : best + 1], np.eye(4))[0, 8] == pytest.approx(
-        goals[best], abs=1e-3
-    )
+    assert chain.forward(found[[best]], np.eye(4))[0, 8] == pytest.approx(goals[best], abs=1e-3)
 
 
 def test_joints_that_are_not_free_stay():

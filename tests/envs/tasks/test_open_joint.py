@@ -208,9 +208,7 @@ def test_a_mobile_robot_stands_on_the_floor_before_the_object(registry):
 
 
 def test_friction_is_drawn_within_its_range_and_again_for_every_seed(registry):
-    env = make(
-        registry, asset="cabinet", joint="slide", robot_uids="none", friction_range=(0.5, 2.0)
-    )
+    env = make(registry, asset="cabinet", joint="slide", robot_uids="none", friction_range=(0.5, 2))
     task = env.unwrapped
     stated = task.asset_record.movable["slide"].friction
     drawn = []

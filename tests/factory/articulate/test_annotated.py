@@ -36,9 +36,7 @@ def joint(kind, lower=0.0, upper=1.0, **changes):
 
 def build(meshes, joints, names=None, transform=None):
     present = [mesh for mesh in meshes if mesh is not None]
-    labels = np.concatenate(
-        [np.full(len(m.faces), i) for i, m in enumerate(meshes) if m is not None]
-    )
+    labels = np.concatenate([np.full(len(m.faces), i) for i, m in enumerate(meshes) if m])
     matrix = np.eye(4) if transform is None else transform
     annotation = Annotation(
         labels, tuple(names or [f"p{i}" for i in range(len(meshes))]), tuple(joints), "urdf"
@@ -95,9 +93,7 @@ def joint_motion(axis, angle):
 def test_an_input_in_mid_range_is_closed_where_the_object_is_smallest(sign):
     half_open = box((0, -0.4, 0), (1, -0.3, 1))
     limits = (-0.3, 0.2) if sign > 0 else (-0.2, 0.3)
-    result = build(
-        [BODY, half_open], [joint("prismatic", *limits, axis=np.array([0.0, -sign, 0.0]))]
-    )
+    result = build([BODY, half_open], [joint("prismatic", *limits, axis=np.array([0, -sign, 0]))])
     opened = result.joints[0]
     assert (opened.lower, opened.upper) == pytest.approx((-0.3, 0.2))
     np.testing.assert_allclose(opened.axis, [0.0, -1.0, 0.0])
@@ -115,18 +111,14 @@ def test_an_input_modelled_open_at_its_upper_limit_stays_open():
 def test_a_knob_that_nothing_tells_keeps_its_direction():
     knob = box((0.4, -0.1, 0.4), (0.6, 0.0, 0.6))
     axis = np.array([0.0, 1.0, 0.0])
-    result = build(
-        [BODY, knob], [joint("revolute", -2.0, 2.0, axis=axis, origin=np.array([0.5, 0.0, 0.5]))]
-    )
+    result = build([BODY, knob], [joint("revolute", -2.0, 2.0, axis=axis, origin=[0.5, 0, 0.5])])
     np.testing.assert_allclose(result.joints[0].axis, axis)
     assert said(result, "neither end is clearly closed")
 
 
 def test_an_input_outside_the_range_is_posed_at_the_nearest_limit():
     handle = box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))
-    second = joint(
-        "prismatic", 0.0, 0.1, name="k", parent=1, child=2, origin=np.array([0.5, -0.2, 0.5])
-    )
+    second = joint("prismatic", 0.0, 0.1, name="k", parent=1, child=2, origin=[0.5, -0.2, 0.5])
     result = build([BODY, FRONT, handle], [joint("prismatic", 0.25, 0.5), second])
     assert (result.joint("j").lower, result.joint("j").upper) == pytest.approx((0.0, 0.25))
     np.testing.assert_allclose(result.part_mesh(0).bounds, BODY.bounds)
@@ -138,9 +130,7 @@ def test_an_input_outside_the_range_is_posed_at_the_nearest_limit():
 def test_posing_turns_the_axes_of_what_is_carried():
     leaf = box((1, -0.1, 0), (2, 0, 1))
     first = joint("revolute", np.pi / 2.0, 3.0, axis=np.array([0.0, 0.0, 1.0]))
-    second = joint(
-        "prismatic", 0.0, 0.5, name="k", parent=1, child=2, axis=np.array([1.0, 0.0, 0.0])
-    )
+    second = joint("prismatic", 0.0, 0.5, name="k", parent=1, child=2, axis=[1, 0, 0])
     result = build([BODY, FRONT, leaf], [first, second])
     np.testing.assert_allclose(result.joint("k").axis, [0.0, 1.0, 0.0], atol=1e-12)
     np.testing.assert_allclose(result.part_mesh(2).bounds, [[0, 1, 0], [0.1, 2, 1]], atol=1e-12)

@@ -175,7 +175,7 @@ def tub(low, high, grip):
 @pytest.mark.parametrize("grip", [True, False])
 def test_a_lone_drawer_in_one_piece_needs_a_grip(grip):
     articulation = articulate(
-        *carcass(0.6, 0.5, 0.2), tub((0.03, 0.0, 0.03), (0.57, 0.4, 0.15), grip)
+        *carcass(0.6, 0.5, 0.2), tub((0.03, 0, 0.03), (0.57, 0.4, 0.15), grip)
     )
     assert [j.kind for j in articulation.joints] == ([JointKind.PRISMATIC] if grip else [])
     if grip:

@@ -69,9 +69,8 @@ def look(path, engine, *, parents_touch=True):
         world.place(np.zeros(len(world.joints)))
         world.step(np.zeros(len(world.joints)))
         assert world.model.pairs is not None
-        return {
-            pair for pair, touch in world.contacts().items() if touch.presses
-        }, world.model.pairs
+        pressing = {pair for pair, touch in world.contacts().items() if touch.presses}
+        return pressing, world.model.pairs
     finally:
         world.close()
 

@@ -217,9 +217,7 @@ def test_views_are_told_in_the_objects_own_frame():
 def test_every_face_belongs_to_one_part_and_confidences_are_told():
     truth = make_object("cabinet", 5)
     found = asked(truth)
-    assert sorted(np.concatenate([part.faces for part in found.parts])) == list(
-        range(len(truth.mesh.faces))
-    )
+    assert sorted(np.concatenate([p.faces for p in found.parts])) == [*range(len(truth.mesh.faces))]
     assert all(0.5 <= joint.confidence <= 1.0 for joint in found.movable_joints)
     assert found.articulator == "auto"
 

@@ -40,10 +40,8 @@ def test_a_knob_turns_about_its_middle():
     found = find_candidates(body_of(partition(world), 2), NOTHING)
     round_ones = np.flatnonzero((found.source == ROUND) & (np.abs(found.axis[:, 1]) > 0.999))
     assert len(round_ones) >= 2
-    assert (
-        min(apart(found.origin[k], found.axis[k], world.joints[1].origin) for k in round_ones)
-        < 1e-3
-    )
+    hinge = world.joints[1].origin
+    assert min(apart(found.origin[k], found.axis[k], hinge) for k in round_ones) < 1e-3
 
 
 def test_each_line_comes_both_ways_round():

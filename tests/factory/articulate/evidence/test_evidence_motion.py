@@ -20,9 +20,7 @@ WORLDS = {"left": cupboard("left"), "right": cupboard("right"), "drawer": chest(
 
 def _rough(joint, rotation, turns=0.7):
     """The truth, 12 degrees, 8 cm and a sign off."""
-    off = rotation_about(
-        np.array([1.0, 0.0, 0.0]) if abs(joint.axis[0]) < 0.5 else UP, np.radians(12.0)
-    )
+    off = rotation_about(np.eye(3)[0] if abs(joint.axis[0]) < 0.5 else UP, np.radians(12.0))
     return Guess(
         turns=turns if joint.turns else 1.0 - turns,
         direction=-(rotation @ off @ joint.axis),
@@ -156,7 +154,7 @@ def test_a_limit_of_the_other_kind_is_not_believed():
 def test_what_is_blocked_by_its_holder_goes_no_further():
     closed = partition(WORLDS["drawer"])
     wall = np.array(
-        [[-0.4, -0.25, -0.1], [0.4, -0.25, -0.1], [0.4, -0.25, 0.4], [-0.4, -0.25, 0.4]]
+        [[x, -0.25, z] for x, z in ((-0.4, -0.1), (0.4, -0.1), (0.4, 0.4), (-0.4, 0.4))]
     )
     count = len(closed.mesh.vertices)
     mesh = Mesh.from_triangles(
