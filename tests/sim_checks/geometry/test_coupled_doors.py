@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from engines import skipped_if_missing
 from fault_corpus.things import Body, Move, Thing, at, box, write_mjcf, write_urdf
 from hypothesis import given
 from hypothesis import strategies as st
@@ -22,12 +23,7 @@ from asset_factory.sim_checks.simulators.joints import ranges
 from asset_factory.sim_checks.simulators.observe import observe
 
 CONFIG = MotionConfig()
-ENGINES = [
-    pytest.param(
-        name, marks=pytest.mark.skipif(not installed(name), reason=f"{name} is not installed")
-    )
-    for name in ("sapien", "mujoco", "pybullet")
-]
+ENGINES = skipped_if_missing("sapien", "mujoco", "pybullet")
 MIMICS = [Mimic("lead", -1.0), Mimic("lead", 1.0), Mimic("lead", -1.0, 0.5)]
 #: How far each door opens [rad].
 OPEN = 1.8
