@@ -104,9 +104,8 @@ def test_a_cut_keeps_the_surface_and_leaves_nothing_across_the_plane(axis, offse
     normal = np.eye(3)[axis]
     height = offset + (0.4 if axis == 2 else 0.0)
     halves = cut(skin, normal, height, np.ones(len(faces), dtype=bool))
-    across = np.cross(
-        halves.corners[:, 1] - halves.corners[:, 0], halves.corners[:, 2] - halves.corners[:, 0]
-    )
+    a, b, c = np.moveaxis(halves.corners, 1, 0)
+    across = np.cross(b - a, c - a)
     area = np.linalg.norm(across, axis=1).sum() / 2.0
     want = 2.0 * (SIZE[0] * SIZE[1] + SIZE[1] * SIZE[2] + SIZE[2] * SIZE[0])
     assert area == pytest.approx(want, rel=1e-9)
@@ -241,13 +240,9 @@ def test_a_button_keeps_its_height_and_its_host_a_pit_for_it():
     vertices = vertices + np.array([0.0, 0.0, 0.04]) * button[:, None]
     raised = button[faces].any(axis=1)
     joint = Joint("press", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, 0], 0.0, 0.02)
-    articulation = Articulation(
-        Mesh.from_triangles(vertices, faces),
-        (Part("body", np.flatnonzero(~raised)), Part("button", np.flatnonzero(raised))),
-        (joint,),
-        "test",
-    )
-    made = solids(articulation, SolidsConfig())
+    parts = (Part("body", np.flatnonzero(~raised)), Part("button", np.flatnonzero(raised)))
+    mesh = Mesh.from_triangles(vertices, faces)
+    made = solids(Articulation(mesh, parts, (joint,), "test"), SolidsConfig())
     body, pressed = made.pieces
     (hull,) = pressed.hulls
     assert np.ptp(hull.vertices[:, 2]) == pytest.approx(0.04 - CLEAR_M, abs=1e-3)
@@ -268,19 +263,15 @@ def test_half_a_wheel_is_turned_into_a_whole_one():
 
 
 def test_a_lever_that_turns_all_the_way_is_no_wheel():
-    lever = trimesh.creation.box(
-        (0.2, 0.02, 0.02), trimesh.transformations.translation_matrix([0.1, 0, 0])
-    )
+    lever = trimesh.creation.box(bounds=[[0.0, -0.01, -0.01], [0.2, 0.01, 0.01]])
     points = np.asarray(lever.vertices)
     joint = Joint("spin", JointKind.CONTINUOUS, 0, 1, [0, 1, 0], [0, 0, 0], -np.pi, np.pi)
     assert find_bump(points, np.zeros((0, 3)), joint) is None
 
 
 def test_hollows_and_boards_bound_their_volume():
-    boxes = (
-        Box(np.zeros(3), np.ones(3)),
-        Box(np.array([0.2, 0.2, 1.0]), np.array([0.8, 0.8, 2.0])),
-    )
+    above = Box(np.array([0.2, 0.2, 1.0]), np.array([0.8, 0.8, 2.0]))
+    boxes = (Box(np.zeros(3), np.ones(3)), above)
     outside = outside_of(boxes)
     assert len(boundary(outside)) == 0
     inside = inside_of(boxes, 0.0)
