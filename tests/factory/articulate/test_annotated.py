@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from plain_solids import box_between as box
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
-from asset_factory.factory.articulation import JointKind
+from asset_factory.factory.articulation import JointKind, rotation_about
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.annotation import AnnotatedJoint, Annotation
 from asset_factory.factory.mesh import Mesh, concatenate
@@ -62,11 +62,8 @@ def code_of(*joints):
 
 def test_a_plain_drawer_passes_through_without_a_note():
     result = cabinet(joint("prismatic", 0.0, 0.4, damping=3.0))
-    assert (result.joints[0].lower, result.joints[0].upper, result.joints[0].damping) == (
-        0.0,
-        0.4,
-        3.0,
-    )
+    drawer = result.joints[0]
+    assert (drawer.lower, drawer.upper, drawer.damping) == (0.0, 0.4, 3.0)
     assert result.notes == ()
     assert result.articulator == "annotated"
 
@@ -77,16 +74,9 @@ def test_a_joint_that_opens_downwards_is_turned_round():
     assert (turned.lower, turned.upper) == (0.0, 1.5)
     np.testing.assert_allclose(turned.axis, [0.0, 0.0, -1.0])
     assert said(result, "reversed")
-    np.testing.assert_allclose(turned.motion(1.5), joint_motion([0, 0, 1], -1.5), atol=1e-12)
-
-
-def joint_motion(axis, angle):
-    matrix = np.eye(4)
-    c = np.cos(angle)
-    s = np.sin(angle)
-    matrix[:2, :2] = [[c, -s], [s, c]]
-    assert axis == [0, 0, 1]
-    return matrix
+    opened = np.eye(4)
+    opened[:3, :3] = rotation_about([0, 0, 1], -1.5)
+    np.testing.assert_allclose(turned.motion(1.5), opened, atol=1e-12)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -197,9 +187,8 @@ def test_fixed_parts_merge_and_take_the_name_of_the_first_that_can_be_seen():
     slide = joint("prismatic", name="s", parent=1, child=2)
     plate = joint("fixed", name="g", parent=2, child=3)
     handle = box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))
-    result = build(
-        [None, BODY, FRONT, handle], [plate, slide, fixed], ["root", "case", "front", "handle"]
-    )
+    names = ["root", "case", "front", "handle"]
+    result = build([None, BODY, FRONT, handle], [plate, slide, fixed], names)
     assert [(part.name, len(part.faces)) for part in result.parts] == [("case", 12), ("front", 24)]
     assert said(result, "fixed to 'front' and made one part with it: 'handle'")
 
@@ -241,29 +230,15 @@ def test_a_hinge_frame_lies_on_its_axis_beside_what_it_holds():
     np.testing.assert_allclose(result.joints[0].origin, [0.0, 0.0, 0.5], atol=1e-9)
 
 
-turns = st.floats(-3.0, 3.0)
+triples = st.tuples(*[st.floats(-3.0, 3.0)] * 3)
 
 
 @settings(max_examples=30, deadline=None)
-@given(
-    st.tuples(turns, turns, turns),
-    st.floats(0.1, 20.0),
-    st.tuples(turns, turns, turns),
-    st.floats(0.0, 1.0),
-)
+@given(triples, st.floats(0.1, 20.0), triples, st.floats(0.0, 1.0))
 def test_scaling_and_turning_the_object_commutes_with_moving_it(angles, scale, shift, share):
+    x, y, z = (rotation_about(axis, angle) for axis, angle in zip(np.eye(3), angles, strict=True))
     transform = np.eye(4)
-    for axis, angle in enumerate(angles):
-        i, k = [n for n in range(3) if n != axis]
-        turn = np.eye(4)
-        turn[[i, i, k, k], [i, k, i, k]] = [
-            np.cos(angle),
-            -np.sin(angle),
-            np.sin(angle),
-            np.cos(angle),
-        ]
-        transform = transform @ turn
-    transform[:3, :3] *= scale
+    transform[:3, :3] = scale * x @ y @ z
     transform[:3, 3] = shift
     joints = [joint("revolute"), joint("prismatic", name="k", parent=1, child=2)]
     meshes: list[Mesh | None] = [BODY, FRONT, box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))]
@@ -273,9 +248,8 @@ def test_scaling_and_turning_the_object_commutes_with_moving_it(angles, scale, s
     there = {"j": share, "k": share * scale}
     for part in range(3):
         expected = transform @ plain.poses(values)[part]
-        np.testing.assert_allclose(
-            moved.poses(there)[part] @ transform, expected, atol=1e-9 * max(1.0, scale)
-        )
+        found = moved.poses(there)[part] @ transform
+        np.testing.assert_allclose(found, expected, atol=1e-9 * max(1.0, scale))
 
 
 def test_a_transform_that_bends_is_refused():
