@@ -54,11 +54,8 @@ def test_a_guess_adds_its_own_line():
     direction = np.array([0.1, 0.2, 1.0])
     point = np.array([0.0, 0.0, 0.3])
     found = find_candidates(body_of(partition(cupboard()), 1), Guess(0.9, direction, point))
-    mine = (
-        (found.source == GUESSED)
-        & ~found.slides
-        & (found.axis @ direction > 0.9999 * np.linalg.norm(direction))
-    )
+    along = found.axis @ direction > 0.9999 * np.linalg.norm(direction)
+    mine = (found.source == GUESSED) & ~found.slides & along
     assert mine.sum() == 1
     assert np.allclose(found.origin[mine], point)
 

@@ -8,10 +8,8 @@ import pytest
 from asset_factory.factory.articulate.evidence.grid import grid_around
 from asset_factory.factory.articulate.evidence.surfels import spread
 
-WALL = np.array(
-    [[[0, 0.507, 0], [1, 0.507, 0], [1, 0.507, 1]], [[0, 0.507, 0], [1, 0.507, 1], [0, 0.507, 1]]],
-    dtype=float,
-)
+CORNERS = np.array([[0, 0.507, 0], [1, 0.507, 0], [1, 0.507, 1], [0, 0.507, 1]])
+WALL = CORNERS[[[0, 1, 2], [0, 2, 3]]]
 
 
 @pytest.fixture(scope="module")
