@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from modelled_furniture import board, drawer_chest, fridge
+from plain_solids import carcass
 
 from asset_factory.factory.articulate.locate import located
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
@@ -31,12 +32,9 @@ def moving(mesh, pieces, joint):
 
 def split(mesh, names, *joints):
     """A mesh whose pieces are parts by the first number of each name's."""
-    piece = connected_components(mesh)
-    starts = [*names.values(), piece.max() + 1]
-    parts = tuple(
-        Part(name, np.flatnonzero((piece >= starts[i]) & (piece < starts[i + 1])))
-        for i, name in enumerate(names)
-    )
+    pieces = connected_components(mesh)
+    owner = np.searchsorted([*names.values()], pieces, side="right") - 1
+    parts = tuple(Part(name, np.flatnonzero(owner == i)) for i, name in enumerate(names))
     return located(Articulation(mesh, parts, joints, "test"))
 
 
@@ -53,14 +51,7 @@ def with_door(mesh, *pieces):
 
 def hollow_case():
     """Five boards and a front plate."""
-    return [
-        board((0.0, 0.0, 0.0), (0.02, 0.4, 0.6)),
-        board((0.58, 0.0, 0.0), (0.6, 0.4, 0.6)),
-        board((0.02, 0.0, 0.0), (0.58, 0.4, 0.02)),
-        board((0.02, 0.0, 0.58), (0.58, 0.4, 0.6)),
-        board((0.02, 0.38, 0.02), (0.58, 0.4, 0.58)),
-        board((0.0, -0.02, 0.0), (0.6, -0.001, 0.6)),
-    ]
+    return [*carcass(0.6, 0.4, 0.6), board((0.0, -0.02, 0.0), (0.6, -0.001, 0.6))]
 
 
 def test_a_plate_that_slides_is_bare_and_a_box_is_not():

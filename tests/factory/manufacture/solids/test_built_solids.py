@@ -42,8 +42,7 @@ def volume(piece):
 
 
 def least_gap(a, b, pose):
-    pairs = [-meeting(one, other, pose).depth for one in a.hulls for other in b.hulls]
-    return min(pairs)
+    return min(-meeting(one, other, pose).depth for one in a.hulls for other in b.hulls)
 
 
 def with_more(given, part, vertices, faces):
@@ -213,9 +212,7 @@ def test_a_thin_door_goes_through_and_leaves_a_post(interior):
         at = body.vertices[body.faces].mean(axis=1)
         assert not ((np.abs(at[:, 0]) < 0.25) & (at[:, 2] > 0.05) & (at[:, 2] < 1.8)).any()
         assert made.articulation.part_mesh(1).bounds[:, 1] == pytest.approx([-0.04, 0.04], abs=3e-3)
-        post, door = (
-            np.concatenate([hull.vertices for hull in piece.hulls]) for piece in made.pieces
-        )
+        post, door = (np.concatenate([each.vertices for each in p.hulls]) for p in made.pieces)
         assert post[:, 2].max() > 1.9
         assert np.ptp(door[:, 1]) == pytest.approx(0.08, abs=5e-3)
         behind = (np.abs(post[:, 0]) < 0.28) & (post[:, 2] > 0.02) & (post[:, 2] < 1.88)

@@ -79,10 +79,8 @@ def test_a_handle_that_is_a_part_of_its_own_is_called_one_too(tmp_path):
     parts = (whole.parts[0], Part("front", front[:count]), Part("grip", front[count:]))
     gripped = Articulation(whole.mesh, parts, (*whole.joints, fixed), "test")
     bundle = export_bundle(asset_of(gripped), PROVENANCE, tmp_path)
-    names = {
-        link.get("name"): [visual.get("name", "") for visual in link.iter("visual")]
-        for link in ElementTree.parse(bundle.urdf).iter("link")
-    }
+    links = {link.get("name"): link for link in ElementTree.parse(bundle.urdf).iter("link")}
+    names = {name: [each.get("name", "") for each in links[name].iter("visual")] for name in links}
     assert all(name.startswith("handle") for name in names["grip"])
     assert any(name.startswith("handle") for name in names["front"])
 

@@ -42,9 +42,8 @@ def test_the_best_target_lies_on_the_makers_handle(monkeypatch):
     on_handle = []
     for category, seed in OBJECTS.items():
         articulation = make_object(category, seed)
-        first = {}
-        for target in find_targets(articulation, [()] * len(articulation.parts)):
-            first.setdefault(target.joint, target)
+        targets = find_targets(articulation, [()] * len(articulation.parts))
+        first = {target.joint: target for target in reversed(targets)}
         assert set(first) == {joint.name for joint in articulation.movable_joints}
         for name, triangles in grips(articulation).items():
             point = first[name].point
