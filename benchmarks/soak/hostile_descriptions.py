@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from fuzz_cases import Case, seeds
 from fuzz_hostile import ELSEWHERE, links
-from fuzz_hostile_texts import cube_without_urdf, description
+from fuzz_hostile_texts import description
 
 
 def _urdf() -> Iterator[Case]:
@@ -158,7 +158,8 @@ def _mjcf() -> Iterator[Case]:
     files = {
         f"i{k}.xml": f"<mujocoinclude>{inner}</mujocoinclude>".encode() for k, inner in both.items()
     }
-    files |= {"i15.xml": b"<mujocoinclude/>", **cube_without_urdf(), "assets.xml": assets.encode()}
+    cube = {name: data for name, data in seeds()["urdf"].files.items() if name != "box.urdf"}
+    files |= {"i15.xml": b"<mujocoinclude/>", **cube, "assets.xml": assets.encode()}
     twice = text.replace("assets.xml", "i0.xml").encode()
     for verb in ("load", "check"):
         yield Case(f"mjcf-{verb}-includes", "mjcf", verb, "box.xml", {**files, "box.xml": twice})

@@ -51,27 +51,18 @@ def test_a_joint_with_impossible_limits_is_no_target_and_says_why(tmp_path, ends
 
     asset = read_registry(edited(write_registry(tmp_path, cabinet()), "cabinet", change))["cabinet"]
     assert [joint.name for joint in asset.openable] == ["hinge"]
-    with pytest.raises(
-        RegistryError,
-        match=r"no joint 'slide' to open \(its limits are .*finite.*there are 'hinge'",
-    ):
+    told = r"no joint 'slide' to open \(its limits are .*finite.*there are 'hinge'"
+    with pytest.raises(RegistryError, match=told):
         asset.joint("slide")
 
 
 def test_the_surest_interaction_target_is_held_rather_than_the_handle(tmp_path):
     def change(data):
+        grasp = {"joint": "slide", "part": "part_2", "kind": "grasp", "opening_m": 0.03}
+        grasp |= {"fingers": [1, 0, 0], "normal": [0, -1, 0], "pull": [0, -1, 0]}
+        scores = {0.1: 0.4, 0.2: 0.9, 0.3: 0.1}
         data["targets"] = [
-            {
-                "joint": "slide",
-                "part": "part_2",
-                "kind": "grasp",
-                "fingers": [1, 0, 0],
-                "point": [x, -0.01, 0.1],
-                "normal": [0, -1, 0],
-                "pull": [0, -1, 0],
-            }
-            | {"opening_m": 0.03, "score": score}
-            for x, score in ((0.1, 0.4), (0.2, 0.9), (0.3, 0.1))
+            grasp | {"point": [x, -0.01, 0.1], "score": score} for x, score in scores.items()
         ]
 
     asset = read_registry(edited(write_registry(tmp_path, cabinet()), "cabinet", change))["cabinet"]

@@ -26,11 +26,8 @@ def names(assets):
 
 
 def test_what_cannot_be_moved_is_left_out(assets):
-    assert names(select(assets, Wanted())) == {
-        "cabinet": ["hinge", "slide"],
-        "oven": ["door"],
-        "valve": ["wheel"],
-    }
+    wanted = {"cabinet": ["hinge", "slide"], "oven": ["door"], "valve": ["wheel"]}
+    assert names(select(assets, Wanted())) == wanted
 
 
 @pytest.mark.parametrize(
@@ -119,7 +116,6 @@ def test_an_asset_judged_without_a_finding_is_clean(assets):
     asset = assets["oven"]
     assert verdicts_of(asset) == ("passed",)
     for findings, verdicts in (([], ("passed", "clean")), ([{"code": "x"}], ("passed",))):
-        (asset.folder / "report.json").write_text(
-            json.dumps({"passed": True, "findings": findings})
-        )
+        report = {"passed": True, "findings": findings}
+        (asset.folder / "report.json").write_text(json.dumps(report))
         assert verdicts_of(asset) == verdicts

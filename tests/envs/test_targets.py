@@ -21,10 +21,9 @@ class Articulation:
     def __init__(self, joints, links, first_row):
         self.device = torch.device("cpu")
         self.active_joints = [SimpleNamespace(name=name) for name in joints]
-        self.links_map = {
-            name: SimpleNamespace(_bodies=[SimpleNamespace(gpu_pose_index=first_row + row)])
-            for row, name in enumerate(links)
-        }
+        bodies = [SimpleNamespace(gpu_pose_index=first_row + row) for row in range(len(links))]
+        links_of = [SimpleNamespace(_bodies=[body]) for body in bodies]
+        self.links_map = dict(zip(links, links_of, strict=True))
 
 
 @pytest.fixture
@@ -40,9 +39,8 @@ def targets(tmp_path):
         Articulation(["hinge", "slide"], ["part_0", "part_1", "part_2"], 5),
     ]
     allowed = [["hinge", "slide"], ["door"], ["slide"]]
-    made = Targets(
-        [assets["cabinet"], assets["oven"], assets["cabinet"]], articulations, allowed, px
-    )
+    each = [assets["cabinet"], assets["oven"], assets["cabinet"]]
+    made = Targets(each, articulations, allowed, px)
     made._on_gpu = True
     made.find_bodies()
     made.choose(torch.arange(3), torch.tensor([0, 0, 1]))

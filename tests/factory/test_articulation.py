@@ -17,23 +17,14 @@ def triangles(count):
 
 
 def hinge(**changes):
-    settings = {
-        "name": "hinge",
-        "kind": JointKind.REVOLUTE,
-        "parent": 0,
-        "child": 1,
-        "axis": [0, 0, 1],
-        "origin": [0, 0, 0],
-        "lower": 0.0,
-        "upper": 1.0,
-    }
+    settings = {"name": "hinge", "kind": JointKind.REVOLUTE, "parent": 0, "child": 1}
+    settings |= {"axis": [0, 0, 1], "origin": [0, 0, 0], "lower": 0.0, "upper": 1.0}
     return Joint(**{**settings, **changes})
 
 
 def two_parts(joint, parts=None):
-    return Articulation(
-        triangles(2), parts or (Part("base", [0]), Part("door", [1])), (joint,), "test"
-    )
+    parts = parts or (Part("base", [0]), Part("door", [1]))
+    return Articulation(triangles(2), parts, (joint,), "test")
 
 
 @pytest.mark.parametrize(
@@ -102,9 +93,8 @@ vectors = st.tuples(finite, finite, finite)
 @given(vectors.filter(lambda v: np.linalg.norm(v) > 0.1), st.floats(-7, 7))
 def test_rotations_agree_with_scipy(axis, angle):
     unit = np.array(axis) / np.linalg.norm(axis)
-    np.testing.assert_allclose(
-        rotation_about(unit, angle), Rotation.from_rotvec(unit * angle).as_matrix(), atol=1e-12
-    )
+    wanted = Rotation.from_rotvec(unit * angle).as_matrix()
+    np.testing.assert_allclose(rotation_about(unit, angle), wanted, atol=1e-12)
 
 
 @st.composite
@@ -115,21 +105,12 @@ def trees(draw):
         axis = np.array(draw(vectors.filter(lambda v: np.linalg.norm(v) > 0.1)))
         kind = draw(st.sampled_from(list(JointKind)))
         moves = kind is not JointKind.FIXED
-        joints.append(
-            Joint(
-                f"j{child}",
-                kind,
-                draw(st.integers(0, child - 1)),
-                child,
-                axis / np.linalg.norm(axis),
-                draw(vectors),
-                -1.0 if moves else 0.0,
-                1.0 if moves else 0.0,
-            )
-        )
-    return Articulation(
-        triangles(count), tuple(Part(f"p{i}", [i]) for i in range(count)), tuple(joints), "test"
-    )
+        parent = draw(st.integers(0, child - 1))
+        line = (axis / np.linalg.norm(axis), draw(vectors))
+        far = 1.0 if moves else 0.0
+        joints.append(Joint(f"j{child}", kind, parent, child, *line, -far, far))
+    parts = tuple(Part(f"p{i}", [i]) for i in range(count))
+    return Articulation(triangles(count), parts, tuple(joints), "test")
 
 
 @settings(max_examples=50)
@@ -143,7 +124,6 @@ def test_children_move_with_their_parents(tree, data):
         if joint.turns:
             # Points on the axis stay where the parent has them.
             on_axis = np.append(joint.origin + 0.3 * joint.axis, 1.0)
-            np.testing.assert_allclose(
-                poses[joint.child] @ on_axis, poses[joint.parent] @ on_axis, atol=1e-9
-            )
+            there = poses[joint.parent] @ on_axis
+            np.testing.assert_allclose(poses[joint.child] @ on_axis, there, atol=1e-9)
     np.testing.assert_allclose(tree.poses(), np.tile(np.eye(4), (len(tree.parts), 1, 1)))

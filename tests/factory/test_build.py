@@ -32,9 +32,8 @@ def build(output, *arguments):
 @pytest.fixture(scope="module")
 def fridge(tmp_path_factory):
     output = tmp_path_factory.mktemp("fridge")
-    done, summary = build(
-        output, "--input", EXAMPLES / "fridge.obj", "--sim", "sapien,mujoco,pybullet"
-    )
+    engines = "sapien,mujoco,pybullet"
+    done, summary = build(output, "--input", EXAMPLES / "fridge.obj", "--sim", engines)
     return output, done, summary
 
 
@@ -46,9 +45,8 @@ def test_an_example_passes_in_all_three_simulators(fridge):
     assert {"id", "input", "status", "reason", "joints", "hulls", "seconds"} <= set(row)
     assert row["joints"] == 2
     folder = output / "assets" / row["id"]
-    assert {"asset.urdf", "asset.xml", "asset.json", "view.glb", "report.json", "meshes"} == {
-        p.name for p in folder.iterdir()
-    }
+    files = {"asset.urdf", "asset.xml", "asset.json", "view.glb", "report.json", "meshes"}
+    assert {path.name for path in folder.iterdir()} == files
     report = json.loads((folder / "report.json").read_text())
     assert report["passed"] is True
     assert report["simulators"] == ["sapien", "mujoco", "pybullet"]

@@ -47,10 +47,8 @@ def write_boxes(folder, count, first=0):
     folder.mkdir(parents=True, exist_ok=True)
     for seed in range(first, first + count):
         sampled = box_sampled(seed)
-        np.savez(
-            folder / f"{sampled.name}.npz",
-            **{each.name: getattr(sampled, each.name) for each in fields(SampledObject)},
-        )
+        arrays = {each.name: getattr(sampled, each.name) for each in fields(SampledObject)}
+        np.savez(folder / f"{sampled.name}.npz", **arrays)
     return folder
 
 

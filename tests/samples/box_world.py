@@ -98,10 +98,9 @@ def cabinet(defect: str = "none") -> Description:
     door = [((0.0, front - t / 2, (low + 0.8) / 2), (0.6, t, 0.8 - low))]
     outwards = (0.0, 0.0, 1.0 if defect == "axis_flip" else -1.0)
     links = [body("carcass", carcass), body("drawer", drawer), body("door", door, hinge)]
+    out = ((0.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.3))
     joints = [
-        joint(
-            "slide", "prismatic", "carcass", "drawer", (0.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.3)
-        ),
+        joint("slide", "prismatic", "carcass", "drawer", *out),
         joint("hinge", "revolute", "carcass", "door", hinge, outwards, (0.0, 1.57)),
     ]
     return described(links, joints)

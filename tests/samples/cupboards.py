@@ -16,24 +16,17 @@ def sheet(y):
     x, z = (grid.ravel() for grid in np.meshgrid(steps, steps, indexing="ij"))
     vertices = np.stack([x, np.full_like(x, y), z], axis=1)
     corner = (np.arange(DIVISIONS)[:, None] * (DIVISIONS + 1) + np.arange(DIVISIONS)).ravel()
-    right = DIVISIONS + 1
-    up = 1
-    faces = np.concatenate(
-        [
-            np.stack([corner, corner + right, corner + right + up], axis=1),
-            np.stack([corner, corner + right + up, corner + up], axis=1),
-        ]
-    )
-    return vertices, faces
+    right = corner + DIVISIONS + 1
+    halves = ([corner, right, right + 1], [corner, right + 1, corner + 1])
+    return vertices, np.concatenate([np.stack(half, axis=1) for half in halves])
 
 
 def cupboard(joint, name="true"):
     """The wall is 1 m behind the front; ``joint`` holds the front."""
     (wall, faces) = sheet(1.0)
     (front, _) = sheet(0.0)
-    mesh = Mesh.from_triangles(
-        np.concatenate([wall, front]), np.concatenate([faces, faces + len(wall)])
-    )
+    both = np.concatenate([faces, faces + len(wall)])
+    mesh = Mesh.from_triangles(np.concatenate([wall, front]), both)
     count = len(faces)
     parts = (Part("wall", np.arange(count)), Part("front", np.arange(count, 2 * count)))
     return Articulation(mesh, parts, (joint,), name)
@@ -45,9 +38,18 @@ def hinge(x=0.0, upper=1.5, sign=-1.0, lower=0.0, kind=JointKind.REVOLUTE):
     return Joint("joint", kind, 0, 1, axis, np.array([x, 0.0, 0.0]), lower, upper)
 
 
-def rail(upper=0.5, direction=(0.0, -1.0, 0.0)):
+def rail(upper=0.5):
     """Slides towards -Y."""
-    return Joint("joint", JointKind.PRISMATIC, 0, 1, np.array(direction), np.zeros(3), 0.0, upper)
+    return Joint("joint", JointKind.PRISMATIC, 0, 1, [0, -1, 0], np.zeros(3), 0.0, upper)
+
+
+def turning_drawer():
+    """The front slides in a carrier that turns."""
+    whole = cupboard(hinge())
+    wall, front = whole.parts
+    parts = (wall, Part("carrier", np.zeros(0, int)), front)
+    slide = Joint("slide", JointKind.PRISMATIC, 1, 2, [0, -1, 0], np.zeros(3), 0.0, 0.3)
+    return replace(whole, parts=parts, joints=(*whole.joints, slide))
 
 
 def stuck():

@@ -29,9 +29,8 @@ def fake_record(registry: str, episode: Episode, settings: Settings, folder: str
         keep_episode(Path(folder), settings, taken, None)
         return taken
     reset = {"seed": episode.seed, "options": {"asset": episode.asset, "joint": episode.joint}}
-    taken = replace(
-        taken, info={"episode_id": 0, "elapsed_steps": 5, "reset_kwargs": reset, "success": True}
-    )
+    info = {"episode_id": 0, "elapsed_steps": 5, "reset_kwargs": reset, "success": True}
+    taken = replace(taken, info=info)
     path = Path(folder) / f"{episode.key(settings)}-recording.h5"
     write_trajectory(path, episode.seed)
     keep_episode(Path(folder), settings, taken, path)
@@ -57,7 +56,5 @@ class Answers:
             if episode.seed in self.slow:
                 yield call, Outcome(None, Failure.TIMEOUT, "no answer within 600 s", "", 600.0)
             else:
-                yield (
-                    call,
-                    Outcome(fake_record(registry, episode, settings, folder), None, "", "", 1.0),
-                )
+                record = fake_record(registry, episode, settings, folder)
+                yield call, Outcome(record, None, "", "", 1.0)

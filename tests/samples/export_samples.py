@@ -48,9 +48,8 @@ def boxes_asset(
 ) -> Asset:
     """One part ``part_<i>`` per mesh; a mesh without faces makes a carrier."""
     starts = np.cumsum([0] + [len(m.faces) for m in meshes])
-    parts = tuple(
-        Part(f"part_{i}", np.arange(starts[i], starts[i + 1])) for i in range(len(meshes))
-    )
+    spans = [np.arange(starts[i], starts[i + 1]) for i in range(len(meshes))]
+    parts = tuple(Part(f"part_{i}", span) for i, span in enumerate(spans))
     articulation = Articulation(concatenate(meshes), parts, joints, "test")
     bodies = tuple(
         PartBody((hull_of(m),), inertial_of(m), (handles or {}).get(i), "exact")

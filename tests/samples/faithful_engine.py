@@ -43,9 +43,8 @@ def faithful(description: Description) -> Observation:
 
 
 def found(description: Description, observation: Observation) -> list[str]:
-    return [
-        f.code for f in check_loading(description, "engine", observation, CheckConfig()).findings
-    ]
+    judged = check_loading(description, "engine", observation, CheckConfig())
+    return [finding.code for finding in judged.findings]
 
 
 def with_link(observation: Observation, link: str, /, **changes: object) -> Observation:

@@ -161,11 +161,8 @@ def zipped(members: Mapping[str, bytes], compression: int = zipfile.ZIP_STORED) 
 
 def annotated(npz: bytes) -> dict[str, bytes]:
     """The cube with an annotation beside it."""
-    files = {
-        "cube.glb": pack_glb(*gltf_parts()),
-        "cube.toml": SIDECAR + b'annotation = "pred.npz"\n',
-    }
-    return {**files, "pred.npz": npz}
+    sidecar = SIDECAR + b'annotation = "pred.npz"\n'
+    return {"cube.glb": pack_glb(*gltf_parts()), "cube.toml": sidecar, "pred.npz": npz}
 
 
 def network_shapes() -> dict[str, tuple[int, ...]]:
@@ -206,25 +203,12 @@ def pickled_tensor(key: int, shape: tuple[int, ...]) -> bytes:
 
     count = int(np.prod(shape))
     strides = [int(np.prod(shape[k + 1 :])) for k in range(len(shape))]
-    storage = (
-        b"("
-        + pickled_text("storage")
-        + b"ctorch\nFloatStorage\n"
-        + pickled_text(str(key))
-        + pickled_text("cpu")
-        + pickled_number(count)
-        + b"tQ"
-    )
+    where = pickled_text(str(key)) + pickled_text("cpu") + pickled_number(count)
+    storage = b"(" + pickled_text("storage") + b"ctorch\nFloatStorage\n" + where + b"tQ"
+    sizes = numbers(list(shape)) + numbers(strides)
     hooks = b"ccollections\nOrderedDict\n)R"
     return (
-        b"ctorch._utils\n_rebuild_tensor_v2\n("
-        + storage
-        + b"K\0"
-        + numbers(list(shape))
-        + numbers(strides)
-        + b"\x89"
-        + hooks
-        + b"tR"
+        b"ctorch._utils\n_rebuild_tensor_v2\n(" + storage + b"K\0" + sizes + b"\x89" + hooks + b"tR"
     )
 
 
@@ -261,40 +245,30 @@ def usd_files() -> dict[str, bytes]:
 def seeds() -> dict[str, Case]:
     """Sound inputs by kind; reading each ends well."""
     found = {}
+
+    def add(kind: str, verb: str, entry: str, files: Mapping[str, bytes], target: str = "") -> None:
+        found[kind] = Case(kind, kind, verb, entry, files, target=target or entry)
+
     for form, write in WRITERS.items():
-        entry, files = _written(write)
-        found[form] = Case(form, form, "load", entry, files, target=entry)
+        add(form, "load", *_written(write))
     obj = found["obj"]
-    found["mtl"] = Case("mtl", "mtl", "load", obj.entry, obj.files, target="cube.mtl")
-    found["png"] = Case("png", "png", "load", obj.entry, obj.files, target="wood.png")
-    found["dae"] = Case(
-        "dae", "dae", "load", "cube.dae", {"cube.dae": DAE.encode()}, target="cube.dae"
-    )
-    found["npz"] = Case(
-        "npz", "npz", "load", "cube.glb", annotated(packed(prediction())), target="pred.npz"
-    )
-    found["toml"] = Case(
-        "toml", "toml", "load", "cube.glb", annotated(packed(prediction())), target="cube.toml"
-    )
+    add("mtl", "load", obj.entry, obj.files, "cube.mtl")
+    add("png", "load", obj.entry, obj.files, "wood.png")
+    add("dae", "load", "cube.dae", {"cube.dae": DAE.encode()})
+    add("npz", "load", "cube.glb", annotated(packed(prediction())), "pred.npz")
+    add("toml", "load", "cube.glb", annotated(packed(prediction())), "cube.toml")
     meshes = cube_files()
-    for kind, entry, files in (
-        ("urdf", "box.urdf", {"box.urdf": URDF.encode(), **meshes}),
-        ("mjcf", "box.xml", {"box.xml": MJCF.encode(), "assets.xml": ASSETS.encode(), **meshes}),
-    ):
-        found[kind] = Case(kind, kind, "load", entry, files, target=entry)
-        found[f"{kind}_check"] = Case(
-            f"{kind}_check", f"{kind}_check", "check", entry, files, target=entry
-        )
+    described = {
+        "urdf": ("box.urdf", {"box.urdf": URDF.encode(), **meshes}),
+        "mjcf": ("box.xml", {"box.xml": MJCF.encode(), "assets.xml": ASSETS.encode(), **meshes}),
+    }
     for kind, data in usd_files().items():
-        for verb in ("load", "check"):
-            name = kind if verb == "load" else f"{kind}_check"
-            entry = f"cabinet.{kind}"
-            found[name] = Case(name, name, verb, entry, {entry: data}, target=entry)
-    for kind, name, data in (
-        ("safetensors", "w.safetensors", safetensors()),
-        ("pt", "w.pt", torch_file()),
-    ):
-        found[kind] = Case(kind, kind, "weights", name, {name: data}, target=name)
+        described[kind] = (f"cabinet.{kind}", {f"cabinet.{kind}": data})
+    for kind, described_by in described.items():
+        add(kind, "load", *described_by)
+        add(f"{kind}_check", "check", *described_by)
+    add("safetensors", "weights", "w.safetensors", {"w.safetensors": safetensors()})
+    add("pt", "weights", "w.pt", {"w.pt": torch_file()})
     return found
 
 

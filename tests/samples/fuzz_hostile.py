@@ -10,37 +10,16 @@ from typing import Any
 from fuzz_cases import Case, annotated, packed, prediction, seeds
 from mesh_cube import gltf_parts, pack_glb
 
-#: References that must not be followed, as meshes, descriptions and sidecars write them.
 ELSEWHERE = (
-    "../outside/secret.{0}",
-    "../../../../../../../../etc/passwd",
-    "/etc/passwd",
-    "@OUTSIDE@/secret.{0}",
-    "file://@OUTSIDE@/secret.{0}",
-    "file:///etc/passwd",
-    "http://127.0.0.1:9/secret.{0}",
-    "https://localhost/x.{0}",
-    "ftp://127.0.0.1/x.{0}",
-    "\\\\127.0.0.1\\share\\secret.{0}",
-    "C:\\secret.{0}",
-    "..\\outside\\secret.{0}",
-    "sub/../../outside/secret.{0}",
-    "%2e%2e/outside/secret.{0}",
-    "..%2Foutside%2Fsecret.{0}",
-    "./.././outside/secret.{0}",
-    "package://../outside/secret.{0}",
-    "link.{0}",
-    "folder_link/secret.{0}",
-    "loop.{0}",
-    "a%00b.{0}",
-    "n" * 300 + ".{0}",
-    "d/" * 3000 + "x.{0}",
-    " ",
-    ".",
-    "..",
-    "/dev/zero",
-    "/proc/self/environ",
-    "~/x.{0}",
+    *("../outside/secret.{0}", "../../../../../../../../etc/passwd", "/etc/passwd"),
+    *("@OUTSIDE@/secret.{0}", "file://@OUTSIDE@/secret.{0}", "file:///etc/passwd"),
+    *("http://127.0.0.1:9/secret.{0}", "https://localhost/x.{0}", "ftp://127.0.0.1/x.{0}"),
+    *("\\\\127.0.0.1\\share\\secret.{0}", "C:\\secret.{0}", "..\\outside\\secret.{0}"),
+    *("sub/../../outside/secret.{0}", "%2e%2e/outside/secret.{0}", "..%2Foutside%2Fsecret.{0}"),
+    *("./.././outside/secret.{0}", "package://../outside/secret.{0}"),
+    *("link.{0}", "folder_link/secret.{0}", "loop.{0}", "a%00b.{0}"),
+    *("n" * 300 + ".{0}", "d/" * 3000 + "x.{0}"),
+    *(" ", ".", "..", "/dev/zero", "/proc/self/environ", "~/x.{0}"),
 )
 
 
@@ -98,26 +77,21 @@ def _references() -> Iterator[Case]:
         yield folder_case("mtl", f"picture-{number}", "cube.obj", files, links("png"))
         ply = _changed("ply_ascii", "cube.ply", b"wood.png", picture)["cube.ply"]
         yield single(f"ply-picture-{number}", "cube.ply", ply, links=links("png"))
-        files = {
-            **annotated(packed(prediction())),
-            "cube.toml": b"annotation = " + json.dumps(array).encode(),
-        }
+        sidecar = b"annotation = " + json.dumps(array).encode()
+        files = {**annotated(packed(prediction())), "cube.toml": sidecar}
         yield folder_case("toml", f"annotation-{number}", "cube.glb", files, links("npz"))
         shown = f"<init_from>{picture.replace('&', '')}</init_from>"
         images = f"<library_images><image id='i'>{shown}</image></library_images><library_geo"
         dae = _changed("dae", "cube.dae", b"<library_geo", images)["cube.dae"]
         yield single(f"dae-picture-{number}", "cube.dae", dae, links=links("png"))
     cube = {"cube.glb": pack_glb(*gltf_parts())}
+    found = {"other.glb": "@OUTSIDE@/secret.png", "o.xml": "@OUTSIDE@/secret.xml"}
     # Nobody named the last one: it is found in the folder.
     for name, files, led in (
         ("link-sidecar", cube, {"cube.toml": "@OUTSIDE@/secret.toml"}),
         ("loop-sidecar", cube, {"cube.toml": "cube.toml"}),
         ("loop-input", {}, {"cube.glb": "cube.glb"}),
-        (
-            "link-found",
-            cube,
-            {"other.glb": "@OUTSIDE@/secret.png", "o.xml": "@OUTSIDE@/secret.xml"},
-        ),
+        ("link-found", cube, found),
     ):
         yield folder_case("names", name, "cube.glb", files, led)
 
@@ -130,14 +104,11 @@ def _gltf_counts() -> Iterator[Case]:
     for count in (2**31, 2**32, 2**40, 2**63, -1, 10**400, 1e308, 2.5, "9", None):
         for place, key in counted:
             yield _glb(f"{place}-{key}-{count!s:.9}", {place: {key: count}})
-        sparse = {
-            "count": count,
-            "indices": {"bufferView": 3, "componentType": 5123},
-            "values": {"bufferView": 0},
-        }
+        indices = {"bufferView": 3, "componentType": 5123}
+        sparse = {"count": count, "indices": indices, "values": {"bufferView": 0}}
         document, binary = gltf_parts()
-        document["accessors"][0] = {"componentType": 5126, "count": 24, "type": "MAT4"}
-        document["accessors"][0]["sparse"] = sparse
+        matrices = {"componentType": 5126, "count": 24, "type": "MAT4", "sparse": sparse}
+        document["accessors"][0] = matrices
         yield single(f"glb-sparse-{count!s:.9}", "cube.glb", pack_glb(document, binary))
     for size in (0, 2**31 - 1, 2**32 - 1):
         data = bytearray(pack_glb(*gltf_parts()))
@@ -177,26 +148,16 @@ def _tables() -> Iterator[Case]:
     yield _ply("negative", binary, negative, struct.pack("<9f", *range(9)) + faces)
 
 
+_NAMES = (
+    *("a\nb", "a\x1b[31mb", "..glb", "é😀", "\udcff\udcfe", "n" * 240, " ", "-rf", "$(id)"),
+    *("a;b|c", "' OR 1=1 --", "<b>", "%s%n", "CON", "a" + "/b" * 500 + "/x", "\u202ebgl"),
+)
+
+
 def _names() -> Iterator[Case]:
     cube = pack_glb(*gltf_parts())
-    for name in (
-        "a\nb.glb",
-        "a\x1b[31mb.glb",
-        "..glb.glb",
-        "é😀.glb",
-        "\udcff\udcfe.glb",
-        f"{'n' * 240}.glb",
-        " .glb",
-        "-rf.glb",
-        "$(id).glb",
-        "a;b|c.glb",
-        "' OR 1=1 --.glb",
-        "<b>.glb",
-        "%s%n.glb",
-        "CON.glb",
-        "a" + "/b" * 500 + "/x.glb",
-        "\u202ebgl.glb",
-    ):
+    for stem in _NAMES:
+        name = f"{stem}.glb"
         yield folder_case("names", f"{name!a:.40}", name, {name: cube}, least="loaded")
     comment = b"<!--" + b"x" * 30_000_000 + b"--><mujoco/>"
     files = {"a.glb": cube, "a.xml": comment}
@@ -212,24 +173,16 @@ def _sidecars() -> Iterator[Case]:
         "deep-table": b"[" + b"a." * 30_000 + b"a]",
         "digits": b"height = " + b"9" * 5000,
         "int": b"height = 1" + b"0" * 400,
-        "inf": b"height = inf",
-        "nan": b"scale = nan",
-        "zero": b"scale = 0.0",
-        "huge": b"scale = 1e300",
-        "tiny": b"scale = 1e-300",
-        "height": b"height = 1e308",
-        "least": b"height = 5e-324",
+        **{"inf": b"height = inf", "nan": b"scale = nan", "zero": b"scale = 0.0"},
+        **{"huge": b"scale = 1e300", "tiny": b"scale = 1e-300"},
+        **{"height": b"height = 1e308", "least": b"height = 5e-324"},
         "many": b"".join(b"k%d = 1\n" % k for k in range(6_000)),
-        "long": b"#" * 900_000,
-        "too-long": b"#" * 1_100_000,
-        "list": b"category = []",
-        "date": b"license = 1979-05-27",
-        "latin": b"license = '\xe9'",
-        "nul": b"license = '\0'",
+        **{"long": b"#" * 900_000, "too-long": b"#" * 1_100_000},
+        **{"list": b"category = []", "date": b"license = 1979-05-27"},
+        **{"latin": b"license = '\xe9'", "nul": b"license = '\0'"},
         "category": b"category = '../../x\\n\\u0000'",
         "words": b"category = '" + b"a_" * 30_000 + b"'",
-        "bom": b"\xef\xbb\xbfheight = 1",
-        "inline": b"a = " + b"{a=" * 20_000,
+        **{"bom": b"\xef\xbb\xbfheight = 1", "inline": b"a = " + b"{a=" * 20_000},
         "density": b"density = 1e999",
         "license": b"license = '" + b"x" * 60_000 + b"'",
     }

@@ -26,14 +26,8 @@ def description(name: str, kind: str, text: str | bytes, **options: Any) -> Iter
     data = text if isinstance(text, bytes) else text.encode()
     for verb in ("load", "check"):
         given = {key: value for key, value in options.items() if key != "least" or verb == "load"}
-        yield Case(
-            f"{kind}-{verb}-{name}",
-            kind,
-            verb,
-            seed.entry,
-            {**seed.files, seed.entry: data},
-            **given,
-        )
+        files = {**seed.files, seed.entry: data}
+        yield Case(f"{kind}-{verb}-{name}", kind, verb, seed.entry, files, **given)
 
 
 def _entities() -> Iterator[Case]:
@@ -44,58 +38,32 @@ def _entities() -> Iterator[Case]:
         "parameter": "<!DOCTYPE r [<!ENTITY % p SYSTEM 'file://@OUTSIDE@/secret.xml'>%p;]>",
         "subset": "<!DOCTYPE r SYSTEM 'file://@OUTSIDE@/secret.xml'>",
     }
-    for number, place in enumerate(
-        (
-            "file://@OUTSIDE@/secret.xml",
-            "@OUTSIDE@/secret.xml",
-            "http://127.0.0.1:9/x",
-            "/etc/passwd",
-        )
-    ):
+    outside = "@OUTSIDE@/secret.xml"
+    places = (f"file://{outside}", outside, "http://127.0.0.1:9/x", "/etc/passwd")
+    for number, place in enumerate(places):
         declarations[f"external{number}"] = _EXTERNAL.format(place)
+    seed = seeds()["urdf"].files
+    urdf = {**seed, "box.urdf": seed["box.urdf"].replace(b"cube.obj", b"a.dae")}
+    body = seeds()["dae"].files["cube.dae"].decode().split("?>", 1)[1]
+    body = body.replace('4.1">', '4.1">&a11;', 1).replace("<p>", "<p>&a11;")
     for name, declaration in declarations.items():
         for encoding in ("utf-8", "utf-16", "utf-16-le"):
+            case = f"{name}-{encoding}"
             for kind, tag in (("urdf", "robot"), ("mjcf", "mujoco")):
-                text = f"{declaration}<{tag} name='&a11;'>&a11;</{tag}>"
-                yield from description(
-                    f"{name}-{encoding}", kind, text.encode(encoding), least="unreadable"
-                )
-            body = (
-                seeds()["dae"]
-                .files["cube.dae"]
-                .decode()
-                .split("?>", 1)[1]
-                .replace('4.1">', '4.1">&a11;', 1)
-            )
-            body = body.replace("<p>", "<p>&a11;")
-            data = (f"<?xml version='1.0' encoding='{encoding[:6]}'?>{declaration}{body}").encode(
-                encoding
-            )
-            yield Case(
-                f"dae-{name}-{encoding}",
-                "dae",
-                "load",
-                "a.dae",
-                {"a.dae": data},
-                least="unreadable",
-            )
-            urdf = seeds()["urdf"].files["box.urdf"].replace(b"cube.obj", b"a.dae")
-            yield Case(
-                f"urdf-dae-{name}-{encoding}",
-                "dae",
-                "check",
-                "box.urdf",
-                {"box.urdf": urdf, "a.dae": data, **cube_without_urdf()},
-            )
-
-
-def cube_without_urdf() -> dict[str, bytes]:
-    return {name: data for name, data in seeds()["urdf"].files.items() if name != "box.urdf"}
+                text = f"{declaration}<{tag} name='&a11;'>&a11;</{tag}>".encode(encoding)
+                yield from description(case, kind, text, least="unreadable")
+            text = f"<?xml version='1.0' encoding='{encoding[:6]}'?>{declaration}{body}"
+            dae = {"a.dae": text.encode(encoding)}
+            yield Case(f"dae-{case}", "dae", "load", "a.dae", dae, least="unreadable")
+            yield Case(f"urdf-dae-{case}", "dae", "check", "box.urdf", {**urdf, **dae})
 
 
 def _predictions() -> Iterator[Case]:
     def case(name: str, data: bytes, **options: Any) -> Case:
         return Case(f"npz-{name}", "npz", "load", "cube.glb", annotated(data), **options)
+
+    def refused(name: str, data: bytes) -> Case:
+        return case(name, data, least="bad_annotation")
 
     for value in (1e300, 1e308, -1e308, 1e39, 1e-320, np.nan, np.inf):
         for field in ("revolute_plucker", "revolute_range", "prismatic_axis", "prismatic_range"):
@@ -105,41 +73,26 @@ def _predictions() -> Iterator[Case]:
                 yield case(f"{field}-{value}-{slides}", packed(prediction(**changes)))
                 one = np.array(prediction()[field])
                 one[1, -1] = value
-                yield case(
-                    f"{field}-{value}-{slides}-one", packed(prediction(**(changes | {field: one})))
-                )
+                changes[field] = one
+                yield case(f"{field}-{value}-{slides}-one", packed(prediction(**changes)))
     yield case("cycle", packed(prediction(motion_hierarchy=[[0, 1], [1, 0]])))
     yield case("itself", packed(prediction(motion_hierarchy=[[1, 1]])))
     yield case("edges", packed(prediction(motion_hierarchy=np.tile([[0, 1]], (1_000_000, 1)))))
-    yield case(
-        "huge-edge",
-        packed(prediction(motion_hierarchy=np.array([[0, 2**63 - 1]]))),
-        least="bad_annotation",
-    )
-    yield case(
-        "unsigned",
-        packed(prediction(face_part_ids=np.full(12, 2**64 - 1, dtype=np.uint64))),
-        least="bad_annotation",
-    )
+    far = np.array([[0, 2**63 - 1]])
+    yield refused("huge-edge", packed(prediction(motion_hierarchy=far)))
+    unsigned = np.full(12, 2**64 - 1, dtype=np.uint64)
+    yield refused("unsigned", packed(prediction(face_part_ids=unsigned)))
     yield case("parts", packed(_chained(4096)))
-    yield case(
-        "objects",
-        packed(prediction(face_part_ids=np.array([Bomb()] * 12, dtype=object))),
-        least="bad_annotation",
-    )
+    bombs = np.array([Bomb()] * 12, dtype=object)
+    yield refused("objects", packed(prediction(face_part_ids=bombs)))
     members = {f"{name}.npy": _npy(value) for name, value in prediction().items()}
-    yield case(
-        "pickle",
-        zipped({**members, "face_part_ids.npy": pickle.dumps(Bomb())}),
-        least="bad_annotation",
-    )
+    bomb = pickle.dumps(Bomb())
+    yield refused("pickle", zipped({**members, "face_part_ids.npy": bomb}))
+    begin = b"{'descr': '<i8', 'fortran_order': False, 'shape': "
     for name, head in {
-        "shape": b"{'descr': '<i8', 'fortran_order': False, 'shape': (1099511627776,), }",
-        "negative": b"{'descr': '<i8', 'fortran_order': False, 'shape': (-1,), }",
-        "deep": b"{'descr': '<i8', 'fortran_order': False, 'shape': "
-        + b"(" * 5000
-        + b")" * 5000
-        + b"}",
+        "shape": begin + b"(1099511627776,), }",
+        "negative": begin + b"(-1,), }",
+        "deep": begin + b"(" * 5000 + b")" * 5000 + b"}",
         "call": b"{'descr': '<i8', 'shape': __import__('os').system('touch @OUTSIDE@/executed')}",
         "descr": (
             b"{'descr': [('a', '<i8', (1099511627776,))], 'fortran_order': False, 'shape': (1,), }"
@@ -148,29 +101,24 @@ def _predictions() -> Iterator[Case]:
         "object": b"{'descr': '|O', 'fortran_order': False, 'shape': (12,), }",
         "open": b"{'descr': '<i8', 'fortran_order'",
     }.items():
-        data = b"\x93NUMPY\x02\x00" + struct.pack("<I", len(head)) + head + pickle.dumps(Bomb())
-        yield case(
-            f"header-{name}", zipped({**members, "face_part_ids.npy": data}), least="bad_annotation"
-        )
+        data = b"\x93NUMPY\x02\x00" + struct.pack("<I", len(head)) + head + bomb
+        yield refused(f"header-{name}", zipped({**members, "face_part_ids.npy": data}))
     zeros = np.zeros(1 << 28, dtype=np.uint8)
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
         for name, data in members.items():
             archive.writestr(zipfile.ZipInfo(name), data)
         archive.writestr("big.npy", zeros.tobytes(), zipfile.ZIP_DEFLATED)
-    yield case("bomb", stream.getvalue(), least="bad_annotation")
+    yield refused("bomb", stream.getvalue())
     lied = bytearray(stream.getvalue())
     at = lied.rfind(b"PK\x01\x02")
     struct.pack_into("<I", lied, at + 24, 10)
     yield case("bomb-lied", bytes(lied))
-    yield case(
-        "traversal",
-        zipped({**members, "../../outside/secret.npy": b"x", "/etc/x.npy": b"x"}),
-        least="loaded",
-    )
+    outside = {"../../outside/secret.npy": b"x", "/etc/x.npy": b"x"}
+    yield case("traversal", zipped({**members, **outside}), least="loaded")
     yield case("empty", b"")
-    yield case("no-zip", pickle.dumps(Bomb()), least="bad_annotation")
-    yield case("locked", locked(zipped(members)), least="bad_annotation")
+    yield refused("no-zip", bomb)
+    yield refused("locked", locked(zipped(members)))
 
 
 def _chained(count: int) -> dict[str, np.ndarray]:

@@ -9,9 +9,8 @@ from fuzz_cases import Case, usd_files, zipped
 from fuzz_hostile import ELSEWHERE, links
 
 _HEAD = "#usda 1.0\n"
-_MESH = (
-    'def Mesh "m"\n{\nint[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]\n%s\n}\n'
-)
+_TRIANGLE = "int[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]"
+_MESH = f'def Mesh "m"\n{{\n{_TRIANGLE}\n%s\n}}\n'
 _POINTS = "point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]"
 
 
@@ -61,11 +60,10 @@ def _usd() -> Iterator[Case]:
         points = _POINTS.replace("1, 0, 0", f"{value}, 0, 0")
         yield from _both(f"point-{value}", _MESH % points)
         yield from _both(f"metres-{value}", f"(metersPerUnit = {value})\n{_MESH % _POINTS}")
+    mesh = _MESH % _POINTS
     for index in ("-1", "3", "2147483647", "4294967296"):
-        yield from _both(
-            f"index-{index}", (_MESH % _POINTS).replace("[0, 1, 2]", f"[0, 1, {index}]")
-        )
-        yield from _both(f"count-{index}", (_MESH % _POINTS).replace("[3]", f"[{index}]"))
+        yield from _both(f"index-{index}", mesh.replace("[0, 1, 2]", f"[0, 1, {index}]"))
+        yield from _both(f"count-{index}", mesh.replace("[3]", f"[{index}]"))
     yield from _both("name", f'def "{"n" * 100_000}" \n{{\n{_MESH % _POINTS}}}\n')
     yield from _both("clips", 'def "a" (clips = {dictionary default = {}}) {}\n')
     yield from _both("computed", 'def "a" (prepend references = @`"x"`@) {}\n')
@@ -84,26 +82,20 @@ def _packages() -> Iterator[Case]:
         return
     inner = files["usda"]
     out = b"#usda 1.0\n(subLayers = [@../../outside/secret.usda@, @/etc/passwd@])\n"
+    nesting = b"#usda 1.0\n(subLayers = [@b.usdz[c.usda]@])\n"
     for name, members in {
         "empty": {},
         "traversal": {"../../outside/secret.usda": inner, "a.usda": inner},
         "absolute": {"/etc/x.usda": inner},
         "out": {"a.usda": out},
-        "nested": {
-            "a.usda": b"#usda 1.0\n(subLayers = [@b.usdz[c.usda]@])\n",
-            "b.usdz": files["usdz"],
-        },
+        "nested": {"a.usda": nesting, "b.usdz": files["usdz"]},
         "text": {"a.txt": b"x"},
         "bomb": {"a.usda": b"#usda 1.0\n" + b" " * 2**26},
     }.items():
         for compression in (0, 8):
             yield from _both(f"package-{name}-{compression}", zipped(members, compression), "usdz")
-    for suffix, data in (
-        ("usdc", b""),
-        ("usdc", b"PXR-USDC"),
-        ("usdz", b"PK"),
-        ("usd", b"\0" * 4096),
-    ):
+    stubs = (("usdc", b""), ("usdc", b"PXR-USDC"), ("usdz", b"PK"), ("usd", b"\0" * 4096))
+    for suffix, data in stubs:
         yield from _both(f"stub-{len(data)}", data, suffix)
     for at in range(8, 88, 8):
         # The file's head: its version, and where its table of contents lies.

@@ -17,36 +17,12 @@ from fuzz_cases import Case, zipped
 from mesh_cube import pack_glb
 
 _NUMBERS = (
-    0,
-    1,
-    -1,
-    2,
-    127,
-    255,
-    65535,
-    2**31 - 1,
-    2**31,
-    2**32 - 1,
-    2**32,
-    2**40,
-    2**53,
-    2**63,
-    -(2**31),
-    10**30,
+    *(0, 1, -1, 2, 127, 255, 65535, 2**31 - 1, 2**31, 2**32 - 1, 2**32),
+    *(2**40, 2**53, 2**63, -(2**31), 10**30),
 )
 _FLOATS = (
-    "nan",
-    "inf",
-    "-inf",
-    "1e400",
-    "1e308",
-    "-1e308",
-    "1e-320",
-    "1e39",
-    "0.0",
-    "-0.0",
-    "1e30",
-    "1e10",
+    *("nan", "inf", "-inf", "1e400", "1e308", "-1e308"),
+    *("1e-320", "1e39", "0.0", "-0.0", "1e30", "1e10"),
 )
 _WORDS = (
     "", "x", "-", "true", "\ufeff", "é", "\x7f",
@@ -219,9 +195,8 @@ def _xml(data: bytes, random: Random) -> bytes:
     match random.randrange(7):
         case 0 | 1 | 2 if element.attrib:
             key = random.choice(sorted(element.attrib))
-            element.set(
-                key, " ".join(_clean(_word(random)) for _ in range(random.choice((1, 1, 3, 4))))
-            )
+            words = (_clean(_word(random)) for _ in range(random.choice((1, 1, 3, 4))))
+            element.set(key, " ".join(words))
         case 3 if element.attrib:
             del element.attrib[random.choice(sorted(element.attrib))]
         case 4 if len(element):
@@ -270,13 +245,8 @@ _STRUCTURED: dict[str, Callable[[bytes, Random], bytes]] = {
     "glb": _glb,
     "gltf": _gltf,
     "safetensors": _safetensors,
-    "urdf": _xml,
-    "mjcf": _xml,
-    "dae": _xml,
+    **dict.fromkeys(("urdf", "mjcf", "dae"), _xml),
     "npz": _archive(_npy),
-    "pt": _archive(mutate_bytes),
-    "png": mutate_bytes,
-    "stl": mutate_bytes,
-    "usdc": mutate_bytes,
-    "usdz": _archive(mutate_bytes),
+    **dict.fromkeys(("pt", "usdz"), _archive(mutate_bytes)),
+    **dict.fromkeys(("png", "stl", "usdc"), mutate_bytes),
 }

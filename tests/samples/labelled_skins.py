@@ -59,10 +59,8 @@ def cupboard():
 def chest():
     """A box with two drawers, one above the other."""
     patches = [front((-0.24, 0.06), (0.24, 0.4)), front((-0.24, 0.4), (0.24, 0.74))]
-    slides = [
-        Joint(f"slide_{i}", JointKind.PRISMATIC, 0, i, [0, -1, 0], [0, -0.25, 0.4], 0.0, 0.3)
-        for i in (1, 2)
-    ]
+    way = ([0, -1, 0], [0, -0.25, 0.4], 0.0, 0.3)
+    slides = [Joint(f"slide_{i}", JointKind.PRISMATIC, 0, i, *way) for i in (1, 2)]
     return labelled(*box_skin(), patches, slides)
 
 
@@ -84,9 +82,7 @@ def write_skin(articulation, folder: Path) -> Path:
         label[part.faces] = index
     fields = {
         "face_part_ids": label,
-        "motion_hierarchy": np.array(
-            [[joint.parent, joint.child] for joint in articulation.joints]
-        ),
+        "motion_hierarchy": np.array([[each.parent, each.child] for each in articulation.joints]),
         "is_part_revolute": np.zeros(count, dtype=bool),
         "is_part_prismatic": np.zeros(count, dtype=bool),
         "revolute_plucker": np.zeros((count, 6)),

@@ -6,16 +6,21 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 
 HEADLESS = {"obs_mode": "state", "sim_backend": "physx_cpu"}
+#: What ManiSkill and what it stands on warn of on a machine without a screen.
+UNWARNED = [
+    pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning"),
+    pytest.mark.filterwarnings("ignore:__array_wrap__ must accept context:DeprecationWarning"),
+]
 
 
 def make(registry: Path, task: str = "OpenJoint-v1", **options: Any) -> Any:
     import gymnasium
 
-    return gymnasium.make(
-        f"asset_factory.envs:{task}", registry=registry, **{**HEADLESS, **options}
-    )
+    options = {**HEADLESS, **options}
+    return gymnasium.make(f"asset_factory.envs:{task}", registry=registry, **options)
 
 
 def put(env: Any, joint: str, value: float) -> dict[str, Any]:

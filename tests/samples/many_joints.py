@@ -14,12 +14,8 @@ def chain(links: int) -> Description:
         body(f"l{i}", [((pitch * i + 0.05, 0.0, 0.0), (0.1, 0.05, 0.05))], (pitch * i, 0.0, 0.0))
         for i in range(links)
     ]
-    hinges = [
-        joint(
-            f"j{i}", "revolute", f"l{i - 1}", f"l{i}", (pitch, 0, 0), (0.0, 0.0, 1.0), (0.0, 0.02)
-        )
-        for i in range(1, links)
-    ]
+    turn = ((pitch, 0, 0), (0.0, 0.0, 1.0), (0.0, 0.02))
+    hinges = [joint(f"j{i}", "revolute", f"l{i - 1}", f"l{i}", *turn) for i in range(1, links)]
     return described(bodies, hinges)
 
 
@@ -30,7 +26,6 @@ def keyboard(keys: int) -> Description:
     for i in range(keys):
         at = (0.02 * i, 0.0, 0.0)
         bodies.append(body(f"k{i}", [(at, (0.018, 0.018, 0.01))], at))
-        slides.append(
-            joint(f"j{i}", "prismatic", "base", f"k{i}", at, (0.0, 0.0, -1.0), (0.0, 0.004))
-        )
+        way = (at, (0.0, 0.0, -1.0), (0.0, 0.004))
+        slides.append(joint(f"j{i}", "prismatic", "base", f"k{i}", *way))
     return described(bodies, slides)

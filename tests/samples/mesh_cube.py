@@ -70,31 +70,15 @@ def gltf_parts(
     ]
     nodes = nodes or [{"mesh": 0}]
     children = {c for node in nodes for c in node.get("children", [])}
+    attributes = {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}
+    look = {"baseColorFactor": [1, 0.5, 0.25, 1], "baseColorTexture": {"index": 0}}
     document: dict[str, Any] = {
         "asset": {"version": "2.0", "copyright": "CC0-1.0"},
         "scene": 0,
         "scenes": [{"nodes": [i for i in range(len(nodes)) if i not in children]}],
         "nodes": nodes,
-        "meshes": [
-            {
-                "primitives": [
-                    {
-                        "attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2},
-                        "indices": 3,
-                        "material": 0,
-                    }
-                ]
-            }
-        ],
-        "materials": [
-            {
-                "name": "red wood",
-                "pbrMetallicRoughness": {
-                    "baseColorFactor": [1, 0.5, 0.25, 1],
-                    "baseColorTexture": {"index": 0},
-                },
-            }
-        ],
+        "meshes": [{"primitives": [{"attributes": attributes, "indices": 3, "material": 0}]}],
+        "materials": [{"name": "red wood", "pbrMetallicRoughness": look}],
         "textures": [{"source": 0}],
         "images": [{"bufferView": 4, "mimeType": "image/png"}],
         "accessors": [
@@ -115,12 +99,8 @@ def pack_glb(document: dict[str, Any], binary: bytes) -> bytes:
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     binary += b"\0" * (-len(binary) % 4)
-    chunks = (
-        struct.pack("<II", len(text), 0x4E4F534A)
-        + text
-        + struct.pack("<II", len(binary), 0x004E4942)
-        + binary
-    )
+    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text
+    chunks += struct.pack("<II", len(binary), 0x004E4942) + binary
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
@@ -194,9 +174,8 @@ def write_stl(folder: Path, name: str = "cube.stl") -> Path:
     records = np.zeros(12, dtype=[("n", "<f4", 3), ("v", "<f4", (3, 3)), ("a", "<u2")])
     records["v"] = shape["positions"][shape["faces"]]
     # A header may well begin with "solid", which is how text files begin.
-    (folder / name).write_bytes(
-        b"solid cube".ljust(80, b"\0") + struct.pack("<I", 12) + records.tobytes()
-    )
+    header = b"solid cube".ljust(80, b"\0") + struct.pack("<I", 12)
+    (folder / name).write_bytes(header + records.tobytes())
     return folder / name
 
 

@@ -32,6 +32,21 @@ def box_between(
     return Mesh.from_triangles(made.vertices, made.faces, material)
 
 
+def carcass(width: float, depth: float, height: float) -> list[Mesh]:
+    """Five boards of 20 mm around an inside that is open to the front, -Y [m]."""
+    board = 0.02
+    right = width - board
+    top = height - board
+    back = depth - board
+    return [
+        box_between((0.0, 0.0, 0.0), (board, depth, height)),
+        box_between((right, 0.0, 0.0), (width, depth, height)),
+        box_between((board, 0.0, 0.0), (right, depth, board)),
+        box_between((board, 0.0, top), (right, depth, height)),
+        box_between((board, back, board), (right, depth, top)),
+    ]
+
+
 def cylinder(
     axis: int, center: Span, radius: float, span: Span, material: Material, sides: int = 20
 ) -> Mesh:

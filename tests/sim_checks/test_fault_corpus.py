@@ -27,10 +27,8 @@ def told(report, detector):
     """Code -> severity of one detector's findings, the hardest of each code."""
     whose = None if detector == "static" else detector
     found = [item for item in report.findings if item.simulator == whose]
-    return {
-        item.code: str(item.severity)
-        for item in sorted(found, key=lambda item: item.severity, reverse=True)
-    }
+    found.sort(key=lambda item: item.severity, reverse=True)
+    return {item.code: str(item.severity) for item in found}
 
 
 def on_paper(path):
@@ -70,9 +68,8 @@ def test_what_is_sound_passes_on_paper_and_in_every_engine(exhibit, tmp_path, ju
 @pytest.mark.parametrize("spot", list(blind_spots()), ids=lambda spot: spot.name)
 def test_a_known_blind_spot_is_still_one(spot, tmp_path, judge):
     """When the judge learns to see one, it moves to the other exhibits."""
-    assert judge.check(spot.build(tmp_path), ENGINES).passed == (spot.fault is not None), (
-        spot.reason
-    )
+    passed = judge.check(spot.build(tmp_path), ENGINES).passed
+    assert passed == (spot.fault is not None), spot.reason
 
 
 @pytest.mark.parametrize("name", ["fronts_overlap.urdf", "knuckle.mjcf"])

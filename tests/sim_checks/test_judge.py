@@ -53,9 +53,8 @@ def test_no_order_and_no_number_of_workers_changes_a_byte(tmp_path):
     alone = {path: run_checks(path, ENGINES).to_json() for path in files}
     for workers, order in ((1, files[::-1]), (3, (*files[1:], *files[:1]))):
         with Judge(workers=workers) as judge:
-            assert [judge.check(path, ENGINES).to_json() for path in order] == [
-                alone[path] for path in order
-            ]
+            for path in order:
+                assert judge.check(path, ENGINES).to_json() == alone[path]
 
 
 def test_a_file_that_was_changed_is_judged_as_it_is_now(tmp_path):
@@ -101,11 +100,8 @@ def test_an_engine_that_asks_for_too_much_memory_is_stopped(good):
 def test_what_stopped_a_reader_of_the_static_checks_is_told(
     error, code, stopped, tmp_path, monkeypatch
 ):
-    monkeypatch.setattr(
-        WarmChild,
-        "call",
-        lambda *asked, **named: Outcome(None, Failure.RAISED, str(error), "", 0.0, error=error),
-    )
+    outcome = Outcome(None, Failure.RAISED, str(error), "", 0.0, error=error)
+    monkeypatch.setattr(WarmChild, "call", lambda *asked, **named: outcome)
     with Judge() as judge:
         report = judge.check(write_urdf(tmp_path), ())
     (finding,) = report.findings

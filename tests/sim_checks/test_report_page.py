@@ -23,6 +23,5 @@ def test_its_example_is_a_report_with_every_key(page):
 
 
 def test_it_names_every_cause(page):
-    assert {str(cause) for cause in Cause} <= set(
-        re.findall(r"^\| `([a-z_]+)` \|", page, re.MULTILINE)
-    )
+    rows = re.findall(r"^\| `([a-z_]+)` \|", page, re.MULTILINE)
+    assert {str(cause) for cause in Cause} <= set(rows)

@@ -6,23 +6,18 @@ from dataclasses import replace
 
 import pytest
 from box_world import write_urdf
+from ros_packages import SLIDE
 
 from asset_factory.sim_checks import Status, run_checks
 from asset_factory.sim_checks.checks import catalog
 from asset_factory.sim_checks.config import CheckConfig, ChildConfig
 from asset_factory.sim_checks.judge import examine_here
 
-SLIDE = (
-    '<joint name="slide" type="prismatic"><parent link="shell"/>'
-    '<child link="drawer"/><axis xyz="1 0 0"/>'
-    '<limit lower="0" upper="0.3" effort="10" velocity="1"/></joint>'
-)
-
 
 def drawer(folder, gap):
     boxes = {
-        "shell": ((0.0, 0.3, 0.0), (0.4, 0.1, 0.4)),
-        "drawer": ((0.0, 0.15 - gap, 0.0), (0.4, 0.2, 0.4)),
+        "shell": ((0, 0.3, 0), (0.4, 0.1, 0.4)),
+        "drawer": ((0, 0.15 - gap, 0), (0.4, 0.2, 0.4)),
     }
     return write_urdf(folder, boxes, SLIDE)
 
@@ -30,9 +25,8 @@ def drawer(folder, gap):
 def test_a_sound_file_passes_with_its_clearance_measured(tmp_path):
     report = run_checks(drawer(tmp_path, 0.003), ())
     assert report.passed
-    assert report.measurements["penetration"]["joints"][0]["clearance_mm"] == pytest.approx(
-        3.0, abs=0.1
-    )
+    (sweep,) = report.measurements["penetration"]["joints"]
+    assert sweep["clearance_mm"] == pytest.approx(3.0, abs=0.1)
     assert report.measurements["lint"]["format"] == "urdf"
 
 
@@ -94,6 +88,5 @@ def test_who_took_part_is_named_and_a_file_that_nobody_drove_has_not_passed(
     (tmp_path / "box.xml").write_text(BOX_MJCF)
     report = run_checks(tmp_path / "box.xml", simulators)
     assert (report.simulators, report.status) == (took_part, status)
-    assert ("not_simulated" in [finding.code for finding in report.errors]) is (
-        status == "unjudged"
-    )
+    codes = [finding.code for finding in report.errors]
+    assert ("not_simulated" in codes) is (status == "unjudged")

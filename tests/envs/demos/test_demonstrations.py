@@ -5,6 +5,7 @@ import shutil
 
 import numpy as np
 import pytest
+from making import UNWARNED
 from openable_samples import write_registry
 from solvable_samples import fin
 
@@ -17,13 +18,8 @@ from asset_factory.factory.errors import Exit
 
 h5py = pytest.importorskip("h5py", reason="h5py is not installed")
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
-pytestmark = [
-    pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning"),
-    pytest.mark.filterwarnings(
-        "ignore:The 'warn' method is deprecated:DeprecationWarning:mani_skill"
-    ),
-    pytest.mark.filterwarnings("ignore:__array_wrap__ must accept context:DeprecationWarning"),
-]
+WARN = "ignore:The 'warn' method is deprecated:DeprecationWarning:mani_skill"
+pytestmark = [pytest.mark.filterwarnings(WARN), *UNWARNED]
 
 
 @pytest.fixture(scope="module")
@@ -56,9 +52,8 @@ def test_the_same_actions_lead_to_the_same_end(shard, registry):
             observation, _, terminated, truncated, result = environment.step(action)
         state = environment.unwrapped.get_state_dict()
         assert (bool(result["success"]), bool(terminated), bool(truncated)) == (True, True, False)
-        assert np.array_equal(
-            trajectory["success"], np.arange(entry["elapsed_steps"]) == entry["elapsed_steps"] - 1
-        )
+        steps = entry["elapsed_steps"]
+        assert np.array_equal(trajectory["success"], np.arange(steps) == steps - 1)
         assert np.array_equal(trajectory["obs"][-1], observation[0])
         for name, value in state["articulations"].items():
             assert np.array_equal(trajectory[f"env_states/articulations/{name}"][-1], value[0])
@@ -84,9 +79,8 @@ def test_only_what_the_task_calls_success_is_one(shard, registry, tmp_path):
     claimed = Attempt("drawer", "", "slide", "panda", 0, options, True, actions=actions)
     episode = Episode("drawer", "", "slide", 0)
     settings = Settings(keep_failures=True)
-    taken = act_again(
-        str(registry), Taken(episode, True, steps=len(actions)), claimed, settings, tmp_path
-    )
+    before = Taken(episode, True, steps=len(actions))
+    taken = act_again(str(registry), before, claimed, settings, tmp_path)
     assert (taken.success, taken.reason, taken.steps) == (False, "irreproducible", len(actions))
     assert taken.message == (
         f"solved in {len(actions)} steps, "

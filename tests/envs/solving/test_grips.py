@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from making import UNWARNED
 from openable_samples import FRONT, assemble, box, write_registry
 
 from asset_factory.envs.solving import make_episodes
@@ -15,10 +16,7 @@ from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.part import Handle
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
-pytestmark = [
-    pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning"),
-    pytest.mark.filterwarnings("ignore:__array_wrap__ must accept context:DeprecationWarning"),
-]
+pytestmark = UNWARNED
 #: Height of the base and of the lid's lower edge, and the lid's thickness [m].
 BASE = 0.3
 EDGE = 0.304
@@ -53,9 +51,8 @@ def test_fingertips_are_pressed_on_the_lid_and_not_on_the_base_below(world):
     points = _hand_points(world, world.balls.of(world.fingers), hands, 0.0)
     # The base is a box, closed as the object is; the lid may be pressed.
     local = points - world.object_root[:3, 3]
-    inside = (
-        (np.abs(local[..., 0]) < 0.15) & (np.abs(local[..., 1]) < 0.12) & (local[..., 2] < BASE)
-    )
+    x, y, z = np.moveaxis(local, -1, 0)
+    inside = (np.abs(x) < 0.15) & (np.abs(y) < 0.12) & (z < BASE)
     assert not inside.any()
     lid = (np.abs(local[..., 0]) < 0.15) & (np.abs(local[..., 1]) < 0.12) & (local[..., 2] > EDGE)
     assert (lid & (local[..., 2] < EDGE + THICK)).any(axis=1).all()

@@ -18,15 +18,9 @@ def arm(links, seed):
     limits = np.tile([-2.5, 2.5], (links, 1))
     limits[-1] = [0.0, 0.4]
     slides = (False,) * links + (True,)
-    return Chain(
-        tuple(map(str, range(links + 1))),
-        (-1, *range(links)),
-        before,
-        after,
-        (-1, *range(links)),
-        slides,
-        limits,
-    )
+    names = tuple(map(str, range(links + 1)))
+    parents = (-1, *range(links))
+    return Chain(names, parents, before, after, parents, slides, limits)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -39,9 +33,8 @@ def test_the_jacobian_is_the_derivative_of_the_pose(seed):
         moved = values.copy()
         moved[0, column] += 1e-6
         there = chain.forward(moved, np.eye(4))[:, 6]
-        assert pose_error(poses[:, 6], there)[0] / 1e-6 == pytest.approx(
-            jacobian[:, column], abs=1e-4
-        )
+        error = pose_error(poses[:, 6], there)[0]
+        assert error / 1e-6 == pytest.approx(jacobian[:, column], abs=1e-4)
 
 
 def test_a_hand_gets_where_the_arm_can_bring_it():
@@ -56,9 +49,7 @@ def test_a_hand_gets_where_the_arm_can_bring_it():
     assert (found >= lower).all()
     assert (found <= upper).all()
     best = int(np.argmin(off.sum(axis=1)))
-    assert chain.forward(found[best : best + 1], np.eye(4))[0, 8] == pytest.approx(
-        goals[best], abs=1e-3
-    )
+    assert chain.forward(found[[best]], np.eye(4))[0, 8] == pytest.approx(goals[best], abs=1e-3)
 
 
 def test_joints_that_are_not_free_stay():

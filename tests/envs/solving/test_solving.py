@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from making import UNWARNED
 from openable_samples import write_registry
 from solvable_samples import fin
 
@@ -15,10 +16,7 @@ from asset_factory.factory.errors import ConfigError, RegistryError
 from asset_factory.sim_checks.processes.isolation import WarmChild
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
-pytestmark = [
-    pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning"),
-    pytest.mark.filterwarnings("ignore:__array_wrap__ must accept context:DeprecationWarning"),
-]
+pytestmark = UNWARNED
 
 #: More than an arm can pull [N].
 LOCKED = 5000.0
@@ -126,9 +124,8 @@ def test_what_is_out_of_reach_is_said_to_be(registry, child):
 
 
 def test_an_unknown_asset_joint_or_robot_is_the_askers_mistake(registry):
-    with pytest.raises(
-        RegistryError, match="no asset 'sofa'; there are 'drawer', 'locked', 'tower'"
-    ):
+    told = "no asset 'sofa'; there are 'drawer', 'locked', 'tower'"
+    with pytest.raises(RegistryError, match=told):
         solve_joint(registry, "sofa", "slide")
     with pytest.raises(ConfigError, match="no robot 'arm'; want one of panda, fetch"):
         solve_joint(registry, "drawer", "slide", robot="arm")

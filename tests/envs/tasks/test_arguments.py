@@ -7,17 +7,15 @@ from asset_factory.factory.errors import ConfigError
 
 
 def test_an_unknown_robot_is_refused_with_those_there_are():
-    with pytest.raises(
-        ConfigError, match="robot_uids must be one of 'panda', 'fetch', 'none', not 'googlebot'"
-    ):
+    told = "robot_uids must be one of 'panda', 'fetch', 'none', not 'googlebot'"
+    with pytest.raises(ConfigError, match=told):
         arguments.check_robot("OpenJointEnv", "googlebot", ("panda", "fetch", "none"))
 
 
 @pytest.mark.parametrize("backend", ["physx_cpu", "cpu"])
 def test_several_environments_on_a_cpu_are_sent_to_processes(backend):
-    with pytest.raises(
-        ConfigError, match=r"num_envs must be 1 .*not 2.*make_processes.*AsyncVectorEnv"
-    ):
+    told = r"num_envs must be 1 .*not 2.*make_processes.*AsyncVectorEnv"
+    with pytest.raises(ConfigError, match=told):
         arguments.check_number("OpenJointEnv", 2, backend)
     assert arguments.check_number("OpenJointEnv", 1, backend) is False
 
@@ -58,9 +56,8 @@ def test_a_renderer_is_only_asked_for_where_pictures_are(obs_mode, render_mode, 
 
 
 def test_pictures_without_a_renderer_are_refused():
-    with pytest.raises(
-        ConfigError, match="obs_mode 'rgbd' needs a renderer, and render_backend is 'none'"
-    ):
+    told = "obs_mode 'rgbd' needs a renderer, and render_backend is 'none'"
+    with pytest.raises(ConfigError, match=told):
         arguments.choose_renderer("OpenJointEnv", "rgbd", None, "none")
 
 

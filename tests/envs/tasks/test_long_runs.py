@@ -2,16 +2,12 @@
 
 import numpy as np
 import pytest
-from making import HEADLESS, make
+from making import HEADLESS, UNWARNED, make
 
 from asset_factory.envs import TASKS, make_processes
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
-pytestmark = [
-    pytest.mark.full,
-    pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning"),
-    pytest.mark.filterwarnings("ignore:__array_wrap__ must accept context:DeprecationWarning"),
-]
+pytestmark = [pytest.mark.full, *UNWARNED]
 
 STEPS = 1000
 IDS = [task.id for task in TASKS]

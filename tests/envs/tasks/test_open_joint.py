@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from making import HEADLESS, make, put
+from making import HEADLESS, UNWARNED, make, put
 from openable_samples import cabinet, oven, train, valve, write_registry
 
 from asset_factory.factory.errors import ConfigError, RegistryError
@@ -10,10 +10,7 @@ from asset_factory.factory.export import export_bundle
 from asset_factory.factory.intake.intake import Provenance
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
-pytestmark = [
-    pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning"),
-    pytest.mark.filterwarnings("ignore:__array_wrap__ must accept context:DeprecationWarning"),
-]
+pytestmark = UNWARNED
 
 
 @pytest.fixture(scope="module")
@@ -65,10 +62,8 @@ def test_opening_another_joint_is_no_success(one):
 def test_reward_grows_with_opening_and_is_highest_at_success(one):
     one.reset(seed=0, options={"joint": "slide"})
     task = one.unwrapped
-    rewards = [
-        float(task.compute_dense_reward(None, None, put(one, "slide", v)))
-        for v in (0.0, 0.1, 0.2, 0.3)
-    ]
+    found = (put(one, "slide", value) for value in (0.0, 0.1, 0.2, 0.3))
+    rewards = [float(task.compute_dense_reward(None, None, each)) for each in found]
     assert rewards == sorted(rewards)
     assert rewards[-1] == 5.0
 
@@ -97,10 +92,8 @@ def test_what_was_asked_for_once_does_not_stay(registry):
 
 
 def test_unknown_names_are_refused_with_those_there_are(one, registry, tmp_path):
-    with pytest.raises(
-        RegistryError,
-        match="no asset 'fridge' in the registry; there are 'cabinet', 'oven', 'valve'",
-    ):
+    told = "no asset 'fridge' in the registry; there are 'cabinet', 'oven', 'valve'"
+    with pytest.raises(RegistryError, match=told):
         one.reset(options={"asset": "fridge"})
     with pytest.raises(RegistryError, match="no joint 'lid' to move; there are 'hinge', 'slide'"):
         one.reset(options={"joint": "lid"})
@@ -164,12 +157,8 @@ def test_parts_of_one_asset_push_each_other(tmp_path):
 
 def test_pairs_that_overlap_on_purpose_do_not_push_each_other(tmp_path):
     registry = write_registry(tmp_path)
-    export_bundle(
-        train(),
-        Provenance("train.glb", "0" * 64),
-        registry / "assets/train",
-        (("part_1", "part_2"),),
-    )
+    provenance = Provenance("train.glb", "0" * 64)
+    export_bundle(train(), provenance, registry / "assets/train", (("part_1", "part_2"),))
     env = make(registry, joint="rear", robot_uids="none")
     env.reset(seed=0)
     for _ in range(20):
@@ -208,9 +197,7 @@ def test_a_mobile_robot_stands_on_the_floor_before_the_object(registry):
 
 
 def test_friction_is_drawn_within_its_range_and_again_for_every_seed(registry):
-    env = make(
-        registry, asset="cabinet", joint="slide", robot_uids="none", friction_range=(0.5, 2.0)
-    )
+    env = make(registry, asset="cabinet", joint="slide", robot_uids="none", friction_range=(0.5, 2))
     task = env.unwrapped
     stated = task.asset_record.movable["slide"].friction
     drawn = []
@@ -227,10 +214,8 @@ def test_an_asset_altered_after_the_task_was_made_is_refused(tmp_path):
     env = make(write_registry(tmp_path, cabinet(), oven()), robot_uids="none")
     for name in ("cabinet", "oven"):
         (tmp_path / "assets" / name / "asset.urdf").unlink()
-    with pytest.raises(
-        RegistryError,
-        match=r"asset\.urdf is gone since the registry was read; there are 'cabinet', 'oven'",
-    ):
+    told = r"asset\.urdf is gone since the registry was read; there are 'cabinet', 'oven'"
+    with pytest.raises(RegistryError, match=told):
         env.reset(seed=0)
 
 
@@ -250,9 +235,8 @@ def test_a_wrong_argument_is_one_clear_error(registry, options, error, message):
 
 
 def test_a_drawer_task_refuses_an_asset_with_doors_alone(registry):
-    with pytest.raises(
-        RegistryError, match="asset 'oven': no prismatic joint to move; there are 'revolute' joints"
-    ):
+    told = "asset 'oven': no prismatic joint to move; there are 'revolute' joints"
+    with pytest.raises(RegistryError, match=told):
         make(registry, "OpenDrawer-v1", asset="oven")
     with pytest.raises(ConfigError, match="joint_type must be 'prismatic', not 'revolute'"):
         make(registry, "OpenDrawer-v1", joint_type="revolute")
@@ -270,14 +254,8 @@ def test_closing_starts_open_and_ends_closed(registry):
 
 
 def test_a_goal_is_given_or_drawn_away_from_the_start(registry):
-    env = make(
-        registry,
-        "SetJoint-v1",
-        asset="cabinet",
-        joint="slide",
-        robot_uids="none",
-        obs_mode="state_dict",
-    )
+    asked = {"asset": "cabinet", "joint": "slide", "robot_uids": "none"}
+    env = make(registry, "SetJoint-v1", **asked, obs_mode="state_dict")
     for seed in range(8):
         observation, info = env.reset(seed=seed)
         goal = float(observation["extra"]["goal_fraction"])
@@ -286,10 +264,6 @@ def test_a_goal_is_given_or_drawn_away_from_the_start(registry):
         assert abs(goal - start) >= 0.2 - 1e-4
     observation, _ = env.reset(seed=0, options={"goal": 0.5})
     assert float(observation["extra"]["goal_fraction"]) == 0.5
-    assert [bool(put(env, "slide", value)["success"]) for value in (0.13, 0.14, 0.16, 0.17)] == [
-        False,
-        True,
-        True,
-        False,
-    ]
+    there = [bool(put(env, "slide", value)["success"]) for value in (0.13, 0.14, 0.16, 0.17)]
+    assert there == [False, True, True, False]
     env.close()

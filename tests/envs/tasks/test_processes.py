@@ -2,15 +2,12 @@
 
 import numpy as np
 import pytest
-from making import HEADLESS, make
+from making import HEADLESS, UNWARNED, make
 
 from asset_factory.envs import make_processes
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
-pytestmark = [
-    pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning"),
-    pytest.mark.filterwarnings("ignore:__array_wrap__ must accept context:DeprecationWarning"),
-]
+pytestmark = UNWARNED
 
 
 def test_each_process_behaves_as_a_single_environment_with_its_seed(household):

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from plain_solids import box_between as box
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
-from asset_factory.factory.articulation import JointKind
+from asset_factory.factory.articulation import JointKind, rotation_about
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.annotation import AnnotatedJoint, Annotation
 from asset_factory.factory.mesh import Mesh, concatenate
@@ -36,9 +36,7 @@ def joint(kind, lower=0.0, upper=1.0, **changes):
 
 def build(meshes, joints, names=None, transform=None):
     present = [mesh for mesh in meshes if mesh is not None]
-    labels = np.concatenate(
-        [np.full(len(m.faces), i) for i, m in enumerate(meshes) if m is not None]
-    )
+    labels = np.concatenate([np.full(len(m.faces), i) for i, m in enumerate(meshes) if m])
     matrix = np.eye(4) if transform is None else transform
     annotation = Annotation(
         labels, tuple(names or [f"p{i}" for i in range(len(meshes))]), tuple(joints), "urdf"
@@ -64,11 +62,8 @@ def code_of(*joints):
 
 def test_a_plain_drawer_passes_through_without_a_note():
     result = cabinet(joint("prismatic", 0.0, 0.4, damping=3.0))
-    assert (result.joints[0].lower, result.joints[0].upper, result.joints[0].damping) == (
-        0.0,
-        0.4,
-        3.0,
-    )
+    drawer = result.joints[0]
+    assert (drawer.lower, drawer.upper, drawer.damping) == (0.0, 0.4, 3.0)
     assert result.notes == ()
     assert result.articulator == "annotated"
 
@@ -79,25 +74,16 @@ def test_a_joint_that_opens_downwards_is_turned_round():
     assert (turned.lower, turned.upper) == (0.0, 1.5)
     np.testing.assert_allclose(turned.axis, [0.0, 0.0, -1.0])
     assert said(result, "reversed")
-    np.testing.assert_allclose(turned.motion(1.5), joint_motion([0, 0, 1], -1.5), atol=1e-12)
-
-
-def joint_motion(axis, angle):
-    matrix = np.eye(4)
-    c = np.cos(angle)
-    s = np.sin(angle)
-    matrix[:2, :2] = [[c, -s], [s, c]]
-    assert axis == [0, 0, 1]
-    return matrix
+    opened = np.eye(4)
+    opened[:3, :3] = rotation_about([0, 0, 1], -1.5)
+    np.testing.assert_allclose(turned.motion(1.5), opened, atol=1e-12)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_an_input_in_mid_range_is_closed_where_the_object_is_smallest(sign):
     half_open = box((0, -0.4, 0), (1, -0.3, 1))
     limits = (-0.3, 0.2) if sign > 0 else (-0.2, 0.3)
-    result = build(
-        [BODY, half_open], [joint("prismatic", *limits, axis=np.array([0.0, -sign, 0.0]))]
-    )
+    result = build([BODY, half_open], [joint("prismatic", *limits, axis=np.array([0, -sign, 0]))])
     opened = result.joints[0]
     assert (opened.lower, opened.upper) == pytest.approx((-0.3, 0.2))
     np.testing.assert_allclose(opened.axis, [0.0, -1.0, 0.0])
@@ -115,18 +101,14 @@ def test_an_input_modelled_open_at_its_upper_limit_stays_open():
 def test_a_knob_that_nothing_tells_keeps_its_direction():
     knob = box((0.4, -0.1, 0.4), (0.6, 0.0, 0.6))
     axis = np.array([0.0, 1.0, 0.0])
-    result = build(
-        [BODY, knob], [joint("revolute", -2.0, 2.0, axis=axis, origin=np.array([0.5, 0.0, 0.5]))]
-    )
+    result = build([BODY, knob], [joint("revolute", -2.0, 2.0, axis=axis, origin=[0.5, 0, 0.5])])
     np.testing.assert_allclose(result.joints[0].axis, axis)
     assert said(result, "neither end is clearly closed")
 
 
 def test_an_input_outside_the_range_is_posed_at_the_nearest_limit():
     handle = box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))
-    second = joint(
-        "prismatic", 0.0, 0.1, name="k", parent=1, child=2, origin=np.array([0.5, -0.2, 0.5])
-    )
+    second = joint("prismatic", 0.0, 0.1, name="k", parent=1, child=2, origin=[0.5, -0.2, 0.5])
     result = build([BODY, FRONT, handle], [joint("prismatic", 0.25, 0.5), second])
     assert (result.joint("j").lower, result.joint("j").upper) == pytest.approx((0.0, 0.25))
     np.testing.assert_allclose(result.part_mesh(0).bounds, BODY.bounds)
@@ -138,9 +120,7 @@ def test_an_input_outside_the_range_is_posed_at_the_nearest_limit():
 def test_posing_turns_the_axes_of_what_is_carried():
     leaf = box((1, -0.1, 0), (2, 0, 1))
     first = joint("revolute", np.pi / 2.0, 3.0, axis=np.array([0.0, 0.0, 1.0]))
-    second = joint(
-        "prismatic", 0.0, 0.5, name="k", parent=1, child=2, axis=np.array([1.0, 0.0, 0.0])
-    )
+    second = joint("prismatic", 0.0, 0.5, name="k", parent=1, child=2, axis=[1, 0, 0])
     result = build([BODY, FRONT, leaf], [first, second])
     np.testing.assert_allclose(result.joint("k").axis, [0.0, 1.0, 0.0], atol=1e-12)
     np.testing.assert_allclose(result.part_mesh(2).bounds, [[0, 1, 0], [0.1, 2, 1]], atol=1e-12)
@@ -207,9 +187,8 @@ def test_fixed_parts_merge_and_take_the_name_of_the_first_that_can_be_seen():
     slide = joint("prismatic", name="s", parent=1, child=2)
     plate = joint("fixed", name="g", parent=2, child=3)
     handle = box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))
-    result = build(
-        [None, BODY, FRONT, handle], [plate, slide, fixed], ["root", "case", "front", "handle"]
-    )
+    names = ["root", "case", "front", "handle"]
+    result = build([None, BODY, FRONT, handle], [plate, slide, fixed], names)
     assert [(part.name, len(part.faces)) for part in result.parts] == [("case", 12), ("front", 24)]
     assert said(result, "fixed to 'front' and made one part with it: 'handle'")
 
@@ -251,29 +230,15 @@ def test_a_hinge_frame_lies_on_its_axis_beside_what_it_holds():
     np.testing.assert_allclose(result.joints[0].origin, [0.0, 0.0, 0.5], atol=1e-9)
 
 
-turns = st.floats(-3.0, 3.0)
+triples = st.tuples(*[st.floats(-3.0, 3.0)] * 3)
 
 
 @settings(max_examples=30, deadline=None)
-@given(
-    st.tuples(turns, turns, turns),
-    st.floats(0.1, 20.0),
-    st.tuples(turns, turns, turns),
-    st.floats(0.0, 1.0),
-)
+@given(triples, st.floats(0.1, 20.0), triples, st.floats(0.0, 1.0))
 def test_scaling_and_turning_the_object_commutes_with_moving_it(angles, scale, shift, share):
+    x, y, z = (rotation_about(axis, angle) for axis, angle in zip(np.eye(3), angles, strict=True))
     transform = np.eye(4)
-    for axis, angle in enumerate(angles):
-        i, k = [n for n in range(3) if n != axis]
-        turn = np.eye(4)
-        turn[[i, i, k, k], [i, k, i, k]] = [
-            np.cos(angle),
-            -np.sin(angle),
-            np.sin(angle),
-            np.cos(angle),
-        ]
-        transform = transform @ turn
-    transform[:3, :3] *= scale
+    transform[:3, :3] = scale * x @ y @ z
     transform[:3, 3] = shift
     joints = [joint("revolute"), joint("prismatic", name="k", parent=1, child=2)]
     meshes: list[Mesh | None] = [BODY, FRONT, box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))]
@@ -283,9 +248,8 @@ def test_scaling_and_turning_the_object_commutes_with_moving_it(angles, scale, s
     there = {"j": share, "k": share * scale}
     for part in range(3):
         expected = transform @ plain.poses(values)[part]
-        np.testing.assert_allclose(
-            moved.poses(there)[part] @ transform, expected, atol=1e-9 * max(1.0, scale)
-        )
+        found = moved.poses(there)[part] @ transform
+        np.testing.assert_allclose(found, expected, atol=1e-9 * max(1.0, scale))
 
 
 def test_a_transform_that_bends_is_refused():

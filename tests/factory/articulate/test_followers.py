@@ -62,9 +62,8 @@ def test_a_mirrored_finger_opens_with_the_other(tmp_path: Path) -> None:
 
 
 def test_an_offset_becomes_the_pose_and_scales_with_the_object(tmp_path: Path) -> None:
-    text = follower(
-        '<limit lower="-1" upper="1"/><mimic joint="left" multiplier="2" offset="0.1"/>'
-    )
+    mimic = '<mimic joint="left" multiplier="2" offset="0.1"/>'
+    text = follower(f'<limit lower="-1" upper="1"/>{mimic}')
     made = articulated(tmp_path, text)
     assert made.joint("right").mimic == Mimic("left", 2.0, 0.0)
     assert made.part_mesh(2).bounds[:, 1] == pytest.approx([0.05, 0.09])
@@ -76,9 +75,8 @@ def test_an_offset_becomes_the_pose_and_scales_with_the_object(tmp_path: Path) -
 
 
 def test_a_turning_follower_without_limits_goes_as_far_as_its_leader(tmp_path: Path) -> None:
-    made = articulated(
-        tmp_path, follower('<mimic joint="left" multiplier="10"/>', kind="continuous"), height=0.4
-    )
+    text = follower('<mimic joint="left" multiplier="10"/>', kind="continuous")
+    made = articulated(tmp_path, text, height=0.4)
     right = made.joint("right")
     scale = made.joint("left").upper / 0.04
     assert right.kind is JointKind.REVOLUTE
@@ -94,19 +92,19 @@ def test_the_leader_stops_where_its_follower_must(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "inside",
+    "mimic",
     [
-        '<limit lower="0" upper="1"/><mimic joint="nothing"/>',
-        '<limit lower="0" upper="1"/><mimic joint="right"/>',
-        '<limit lower="0" upper="1"/><mimic joint="left" multiplier="0"/>',
-        '<limit lower="0" upper="1"/><mimic joint="left" offset="7"/>',
-        '<limit lower="0" upper="1"/><mimic joint="left" multiplier="-1"/>',
+        'joint="nothing"',
+        'joint="right"',
+        'joint="left" multiplier="0"',
+        'joint="left" offset="7"',
+        'joint="left" multiplier="-1"',
     ],
 )
 def test_what_nothing_can_follow_moves_freely_and_a_note_says_so(
-    tmp_path: Path, inside: str
+    tmp_path: Path, mimic: str
 ) -> None:
-    made = articulated(tmp_path, follower(inside))
+    made = articulated(tmp_path, follower(f'<limit lower="0" upper="1"/><mimic {mimic}/>'))
     assert made.joint("right").mimic is None
     assert made.joint("right").range == pytest.approx(1.0)
     assert any("'right' follows" in note and "moves freely" in note for note in made.notes)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from plain_solids import box_between as box
+from plain_solids import carcass
 
 from asset_factory.factory.articulate.geometric import GeometricArticulator
 from asset_factory.factory.articulation import JointKind
@@ -11,16 +12,6 @@ from asset_factory.factory.mesh import Mesh, concatenate
 
 def articulate(*meshes):
     return GeometricArticulator().articulate(concatenate(list(meshes)))
-
-
-def carcass(width, depth, height):
-    return [
-        box((0.0, 0.0, 0.0), (0.02, depth, height)),
-        box((width - 0.02, 0.0, 0.0), (width, depth, height)),
-        box((0.02, 0.0, 0.0), (width - 0.02, depth, 0.02)),
-        box((0.02, 0.0, height - 0.02), (width - 0.02, depth, height)),
-        box((0.02, depth - 0.02, 0.02), (width - 0.02, depth, height - 0.02)),
-    ]
 
 
 FRAME = [
@@ -44,13 +35,9 @@ def test_a_room_door_hinges_across_from_its_knob_and_opens_to_its_flush_side():
 def test_a_pair_of_leaves_opens_away_from_each_other():
     left = box((0.065, 0.01, 0.005), (0.499, 0.05, 2.035))
     right = box((0.501, 0.01, 0.005), (0.935, 0.05, 2.035))
-    articulation = articulate(*FRAME, left, right)
-    assert sorted(
-        (round(float(j.origin[0]), 3), round(float(j.axis[2]))) for j in articulation.joints
-    ) == [
-        (0.065, -1),
-        (0.935, 1),
-    ]
+    joints = articulate(*FRAME, left, right).joints
+    found = sorted((round(float(j.origin[0]), 3), round(float(j.axis[2]))) for j in joints)
+    assert found == [(0.065, -1), (0.935, 1)]
 
 
 def test_a_picture_on_its_back_board_and_a_leaf_without_a_frame_stay():
@@ -93,20 +80,12 @@ WIRE = 0.004
 
 
 def basket(z, height):
-    low = (0.05, 0.03)
-    high = (0.55, 0.43)
-    along = [
-        box((x, low[1], z), (x + WIRE, high[1], z + WIRE)) for x in np.linspace(low[0], high[0], 9)
-    ]
-    across = [
-        box((low[0], y, z), (high[0] + WIRE, y + WIRE, z + WIRE))
-        for y in np.linspace(low[1], high[1], 5)
-    ]
-    posts = [
-        box((x, y, z), (x + WIRE, y + WIRE, z + height))
-        for x in (low[0], high[0])
-        for y in np.linspace(low[1], high[1], 5)
-    ]
+    columns = np.linspace(0.05, 0.55, 9)
+    rows = np.linspace(0.03, 0.43, 5)
+    along = [box((x, 0.03, z), (x + WIRE, 0.43, z + WIRE)) for x in columns]
+    across = [box((0.05, y, z), (0.55 + WIRE, y + WIRE, z + WIRE)) for y in rows]
+    corners = [(x, y) for x in (0.05, 0.55) for y in rows]
+    posts = [box((x, y, z), (x + WIRE, y + WIRE, z + height)) for x, y in corners]
     return [*along, *across, *posts]
 
 
@@ -139,32 +118,19 @@ def tub(low, high, grip):
     outer = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
     w = 0.01
     inner = [(x0 + w, y0 + w), (x1 - w, y0 + w), (x1 - w, y1 - w), (x0 + w, y1 - w)]
-    rings = [[(x, y, z0) for x, y in outer], [(x, y, z1) for x, y in outer]]
-    rings += [[(x, y, z1) for x, y in inner], [(x, y, z0 + w) for x, y in inner]]
-    vertices = [corner for ring in rings for corner in ring]
+    rings = [(outer, z0), (outer, z1), (inner, z1), (inner, z0 + w)]
+    vertices = [(x, y, z) for corners, z in rings for x, y in corners]
     faces = [[2, 1, 0], [3, 2, 0], [12, 13, 14], [12, 14, 15]]
-    for ring in range(3):
-        for k in range(4):
-            a = ring * 4 + k
-            b = ring * 4 + (k + 1) % 4
-            c = ring * 4 + 4 + k
-            d = ring * 4 + 4 + (k + 1) % 4
-            if grip and ring == 0 and k == 0:
-                continue
-            faces += [[a, b, d], [a, d, c]]
+    sides = [(ring + k, ring + (k + 1) % 4, 4) for ring in (0, 4, 8) for k in range(4)]
+    for a, b, up in sides[1:] if grip else sides:
+        faces += [[a, b, b + up], [a, b + up, a + up]]
     if grip:
-        centre = ((x0 + x1) / 2, (z0 + z1) / 2)
-        half = (0.05, 0.01)
-        out = 0.06
-        square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
-        for y in (y0, y0 - out):
-            vertices += [
-                (centre[0] + sx * half[0], y, centre[1] + sz * half[1]) for sx, sz in square
-            ]
-        front = [0, 1, 5, 4]
-        hole = [16, 17, 18, 19]
-        tip = [20, 21, 22, 23]
-        for here, there in ((front, hole), (hole, tip)):
+        x = (x0 + x1) / 2
+        z = (z0 + z1) / 2
+        square = [(x - 0.05, z - 0.01), (x + 0.05, z - 0.01), (x + 0.05, z + 0.01)]
+        square += [(x - 0.05, z + 0.01)]
+        vertices += [(x, y, z) for y in (y0, y0 - 0.06) for x, z in square]
+        for here, there in (([0, 1, 5, 4], [16, 17, 18, 19]), ([16, 17, 18, 19], [20, 21, 22, 23])):
             for k in range(4):
                 m = (k + 1) % 4
                 faces += [[here[k], here[m], there[m]], [here[k], there[m], there[k]]]
@@ -174,9 +140,8 @@ def tub(low, high, grip):
 
 @pytest.mark.parametrize("grip", [True, False])
 def test_a_lone_drawer_in_one_piece_needs_a_grip(grip):
-    articulation = articulate(
-        *carcass(0.6, 0.5, 0.2), tub((0.03, 0.0, 0.03), (0.57, 0.4, 0.15), grip)
-    )
-    assert [j.kind for j in articulation.joints] == ([JointKind.PRISMATIC] if grip else [])
+    drawer = tub((0.03, 0, 0.03), (0.57, 0.4, 0.15), grip)
+    joints = articulate(*carcass(0.6, 0.5, 0.2), drawer).joints
+    assert [j.kind for j in joints] == ([JointKind.PRISMATIC] if grip else [])
     if grip:
-        assert np.allclose(articulation.joints[0].axis, [0, -1, 0])
+        assert np.allclose(joints[0].axis, [0, -1, 0])

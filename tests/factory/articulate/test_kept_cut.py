@@ -23,10 +23,8 @@ CONFIG = BuildConfig(articulator="stated")
 def test_a_cut_mesh_comes_back_from_the_cache(tmp_path, monkeypatch):
     mesh = fridge()
     file = tmp_path / "fridge.obj"
-    text = trimesh.exchange.obj.export_obj(
-        trimesh.Trimesh(mesh.vertices, mesh.faces, process=False), include_normals=True
-    )
-    file.write_text(text)
+    plain = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
+    file.write_text(trimesh.exchange.obj.export_obj(plain, include_normals=True))
     (tmp_path / "fridge.parts.json").write_text(json.dumps({"parts": [DOOR]}))
     intake = load(file, IntakeConfig(up="z"))
     stages = Stages(CONFIG, Store(tmp_path / "cache"))

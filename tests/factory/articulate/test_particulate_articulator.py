@@ -26,16 +26,13 @@ def moved(truth, scale, shift):
     """The same object elsewhere and of another size, still z up."""
     matrix = np.diag([scale, scale, scale, 1.0])
     matrix[:3, 3] = shift
-    length = {JointKind.PRISMATIC: scale}
-    joints = tuple(
-        replace(
-            j,
-            origin=scale * j.origin + np.asarray(shift),
-            lower=j.lower * length.get(j.kind, 1.0),
-            upper=j.upper * length.get(j.kind, 1.0),
-        )
-        for j in truth.joints
-    )
+
+    def there(joint):
+        length = scale if joint.kind is JointKind.PRISMATIC else 1.0
+        origin = scale * joint.origin + np.asarray(shift)
+        return replace(joint, origin=origin, lower=joint.lower * length, upper=joint.upper * length)
+
+    joints = tuple(there(joint) for joint in truth.joints)
     return replace(truth, mesh=truth.mesh.transformed(matrix), joints=joints)
 
 
@@ -48,15 +45,20 @@ def face_sets(articulation):
     return {frozenset(part.faces.tolist()): i for i, part in enumerate(articulation.parts)}
 
 
+def joint_of(found, part):
+    """The one that moves exactly the faces of that part."""
+    faces = set(part.faces)
+    return next(each for each in found.joints if set(found.parts[each.child].faces) == faces)
+
+
 def assert_same(found, truth, tolerance=1e-5):
     """Same faces, tree, kinds, lines and limits; names and order may differ."""
     mine = face_sets(found)
     real = face_sets(truth)
     assert set(mine) == set(real)
     size = truth.mesh.extents.max()
-    by_child = {frozenset(found.parts[j.child].faces.tolist()): j for j in found.joints}
     for want in truth.joints:
-        have = by_child[frozenset(truth.parts[want.child].faces.tolist())]
+        have = joint_of(found, truth.parts[want.child])
         assert have.kind == want.kind
         assert set(found.parts[have.parent].faces) == set(truth.parts[want.parent].faces)
         if want.movable:
@@ -108,9 +110,7 @@ def test_a_slightly_wrong_range_still_starts_closed():
     truth = make_object("fridge", 1)
     found = asked(truth, offset=0.01)
     assert [joint.lower for joint in found.movable_joints] == [0.0] * len(found.movable_joints)
-    assert np.array_equal(found.mesh.vertices, truth.mesh.vertices), (
-        "the input is never bent to a predicted range"
-    )
+    assert np.array_equal(found.mesh.vertices, truth.mesh.vertices), "bent to a predicted range"
 
 
 def test_a_range_that_leaves_out_the_input_pose_is_widened_not_posed():
@@ -143,11 +143,7 @@ def test_a_part_that_turns_and_slides_gets_a_carrier():
         fields["prismatic_range"][query] = [0.0, 0.1]
 
     found = asked(truth, change=both)
-    slide = next(
-        joint
-        for joint in found.joints
-        if set(found.parts[joint.child].faces) == set(truth.parts[child].faces)
-    )
+    slide = joint_of(found, truth.parts[child])
     turn = found.parent_joint(slide.parent)
     assert (turn.kind, slide.kind) == (JointKind.REVOLUTE, JointKind.PRISMATIC)
     assert turn.child == slide.parent
@@ -179,12 +175,7 @@ def test_confidence_is_high_for_the_sure_and_said_of_the_doubtful():
         fields["mask_logits"] = fields["mask_logits"] * 0.1
 
     doubtful = asked(truth, change=undecided)
-    child = next(
-        j
-        for j in doubtful.joints
-        if set(doubtful.parts[j.child].faces) == set(truth.parts[1].faces)
-    )
-    assert child.confidence < 0.1
+    assert joint_of(doubtful, truth.parts[1]).confidence < 0.1
     assert any("doubtful: another kind of motion" in note for note in doubtful.notes)
 
 
@@ -202,11 +193,8 @@ def test_of_several_samples_the_one_that_agrees_with_most_is_taken():
     assert any(joint.kind is JointKind.PRISMATIC for joint in alone.joints)
     found = asked(truth, config=config, change=odd_one)
     assert_same(found, truth)
-    moving = {frozenset(found.parts[j.child].faces.tolist()): j for j in found.joints}
-    doubted = moving[frozenset(truth.parts[1].faces.tolist())]
-    assert doubted.confidence == pytest.approx(0.5, abs=0.02), (
-        "one of the two other readings has it too"
-    )
+    # One of the two other readings has it too.
+    assert joint_of(found, truth.parts[1]).confidence == pytest.approx(0.5, abs=0.02)
     assert any("3 samples were read" in note for note in found.notes)
 
 
@@ -218,10 +206,8 @@ def intake_of(truth):
 def test_the_shipped_network_answers_unless_another_is_named():
     intake = intake_of(make_object("fridge", 1))
     assert choose(intake, BuildConfig(articulator="auto")).name == "auto"
-    assert (
-        choose(intake, BuildConfig(articulator="particulate")).weights[0].file
-        == "small.safetensors"
-    )
+    shipped = choose(intake, BuildConfig(articulator="particulate")).weights
+    assert shipped[0].file == "small.safetensors"
     assert articulate(intake, BuildConfig(articulator="geometric")).articulator == "geometric"
     with pytest.raises(ConfigError, match=r"nowhere\.pt: no such file"):
         choose(intake, BuildConfig(particulate=ParticulateConfig(checkpoint="nowhere.pt")))

@@ -24,9 +24,7 @@ def checked(tmp_path: Path) -> list[tuple[str, Report]]:
     path = write(tmp_path / "asset.urdf", -0.004)
     found = (
         Finding("friction_ignored", Severity.NOTE, "note", "sapien", joints=("slide",)),
-        Finding(
-            "oblong_hull", Severity.WARNING, HOSTILE, parts=("drawer",), value=99.0, limit=64.0
-        ),
+        Finding("oblong_hull", Severity.WARNING, HOSTILE, parts=("drawer",), value=9.0, limit=6.0),
         Finding("jammed", Severity.ERROR, "stuck", "mujoco", "slide", value=0.5, limit=0.95),
         Finding("jammed", Severity.ERROR, "worse", "sapien", "slide", value=0.1, limit=0.95),
     )

@@ -47,11 +47,8 @@ def make(registry, tmp_path, robot):
 
 
 def shards_of(folder):
-    return {
-        path.name: path.read_bytes()
-        for path in sorted(folder.iterdir())
-        if not path.name.startswith(".")
-    }
+    seen = [path for path in sorted(folder.iterdir()) if not path.name.startswith(".")]
+    return {path.name: path.read_bytes() for path in seen}
 
 
 def test_a_file_holds_one_asset_and_says_what_failed(make, tmp_path, capsys):
@@ -61,16 +58,10 @@ def test_a_file_holds_one_asset_and_says_what_failed(make, tmp_path, capsys):
     assert sorted(os.listdir(tmp_path / "demos")) == names
     data = json.loads((tmp_path / "demos/cabinet-000.json").read_text())
     assert [entry["episode_id"] for entry in data["episodes"]] == [0, 1]
-    found = [
-        (row["joint"], row["seed"], row["reason"], row["episode_id"])
-        for row in data["asset_factory"]["attempts"]
-    ]
-    assert found == [
-        ("hinge", 0, "", 0),
-        ("slide", 0, "stuck", None),
-        ("hinge", 1, "", 1),
-        ("slide", 1, "stuck", None),
-    ]
+    asked = ("joint", "seed", "reason", "episode_id")
+    found = [tuple(row[key] for key in asked) for row in data["asset_factory"]["attempts"]]
+    assert found[:2] == [("hinge", 0, "", 0), ("slide", 0, "stuck", None)]
+    assert found[2:] == [("hinge", 1, "", 1), ("slide", 1, "stuck", None)]
     with h5py.File(tmp_path / "demos/cabinet-000.h5") as file:
         assert sorted(file) == ["traj_0", "traj_1"]
         assert np.all(file["traj_1/actions"][:] == 1.0)
@@ -97,10 +88,8 @@ def test_what_was_finished_before_the_end_is_not_made_again(make, tmp_path, robo
     with pytest.raises(KeyboardInterrupt):
         make()
     for path in (tmp_path / "demos").glob("*.h5"):
-        whole = (tmp_path / "whole" / path.name, tmp_path / "whole" / f"{path.stem}.json")
-        assert (path.read_bytes(), path.with_suffix(".json").read_bytes()) == tuple(
-            each.read_bytes() for each in whole
-        )
+        for each in (path, path.with_suffix(".json")):
+            assert each.read_bytes() == (tmp_path / "whole" / each.name).read_bytes()
     robot.dies_after = -1
     make()
     assert len(robot.asked) == len(set(robot.asked)) == 8
@@ -191,38 +180,27 @@ def test_a_task_is_demonstrated_on_its_joints(make, robot, flags, joints):
 
 def test_one_folder_holds_one_kind_and_one_run(make, tmp_path):
     make()
-    with pytest.raises(
-        ConfigError, match="holds demonstrations of OpenJoint-v1, panda, state, pd_joint_pos"
-    ):
+    told = "holds demonstrations of OpenJoint-v1, panda, state, pd_joint_pos"
+    with pytest.raises(ConfigError, match=told):
         make(robot="fetch")
-    with (
-        hold(tmp_path / "other", Settings(), ()),
-        pytest.raises(ConfigError, match="another run writes"),
-    ):
-        make(to=tmp_path / "other")
+    other = tmp_path / "other"
+    with hold(other, Settings(), ()), pytest.raises(ConfigError, match="another run writes"):
+        make(to=other)
 
 
 @pytest.mark.parametrize(
-    ("flags", "words"),
+    ("flags", "number", "seed", "words"),
     [
-        (
-            {"joint": "slide"},
-            "cabinet-000.json: holds cabinet hinge seed 0, which these flags leave out",
-        ),
-        (
-            {"per_joint": 1},
-            "cabinet-000.json: holds cabinet hinge seed 1, which these flags leave out",
-        ),
-        (
-            {"shard_size": 7},
-            "cabinet-001.json: holds cabinet hinge seed 1, which these flags put into cabinet-000",
-        ),
+        ({"joint": "slide"}, "000", 0, "leave out"),
+        ({"per_joint": 1}, "000", 1, "leave out"),
+        ({"shard_size": 7}, "001", 1, "put into cabinet-000"),
     ],
 )
-def test_no_demonstration_is_lost_or_written_twice(make, tmp_path, flags, words):
+def test_no_demonstration_is_lost_or_written_twice(make, tmp_path, flags, number, seed, words):
     make(ids=("cabinet",), shard_size=2 if "shard_size" in flags else 50)
     before = shards_of(tmp_path / "demos")
-    with pytest.raises(ConfigError, match=words):
+    told = f"cabinet-{number}.json: holds cabinet hinge seed {seed}, which these flags {words}"
+    with pytest.raises(ConfigError, match=told):
         make(ids=("cabinet",), **flags)
     assert shards_of(tmp_path / "demos") == before
 
@@ -233,11 +211,8 @@ def test_every_episode_is_in_one_shard_and_stays_there(registry, seeds, size, mo
     few = make_shards(assets[:2], range(seeds), size)
     many = make_shards(assets, range(seeds + more), size)
     episodes = [episode for shard in few for episode in shard.episodes]
-    assert (
-        len(episodes)
-        == len(set(episodes))
-        == seeds * sum(len(asset.openable) for asset in assets[:2])
-    )
+    joints = sum(len(asset.openable) for asset in assets[:2])
+    assert len(episodes) == len(set(episodes)) == seeds * joints
     named = {shard.name: shard for shard in many}
     assert len(named) == len(many)
     for shard in few:

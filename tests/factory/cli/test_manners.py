@@ -23,9 +23,8 @@ def test_a_reader_that_has_seen_enough_gets_no_traceback():
     lines = "from asset_factory.factory.cli import commands\n"
     lines += "commands.run = lambda arguments: print('x\\n' * 100_000) or 0\n"
     lines += "commands.main()\n"
-    with subprocess.Popen(
-        [sys.executable, "-c", lines], stdout=subprocess.PIPE, stderr=subprocess.PIPE
-    ) as process:
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen([sys.executable, "-c", lines], **pipes) as process:
         process.stdout.readline()
         process.stdout.close()
         assert process.stderr.read() == b""
@@ -72,9 +71,8 @@ def test_the_help_is_short_and_begins_with_the_first_hour(capsys):
 def test_an_engine_that_is_missing_is_refused_at_the_start(command, monkeypatch, capsys):
     monkeypatch.setattr(flags_module, "installed", lambda name: name != "pybullet")
     assert run([*command, str(EXAMPLES), "--sim", "all"]) == 2
-    assert "pybullet is not installed: pip install 'asset-factory[pybullet]'" in (
-        capsys.readouterr().err
-    )
+    told = capsys.readouterr().err
+    assert "pybullet is not installed: pip install 'asset-factory[pybullet]'" in told
 
 
 def test_shells_can_complete_commands_and_flags(capsys):

@@ -30,9 +30,8 @@ def checkpoint(tmp_path_factory):
 
 def told_of(source, checkpoint=None, **settings):
     named = {"checkpoint": str(checkpoint)} if checkpoint else {}
-    return predict(
-        source, replace(BuildConfig(), particulate=ParticulateConfig(**named, **settings))
-    )
+    particulate = ParticulateConfig(**named, **settings)
+    return predict(source, replace(BuildConfig(), particulate=particulate))
 
 
 def test_the_articulation_alone(checkpoint):
@@ -54,20 +53,15 @@ def test_the_articulation_alone(checkpoint):
 
 
 def test_terms_that_a_file_states_are_taken_from_it(tmp_path):
-    checkpoint = write_checkpoint(
-        tmp_path / "own.safetensors", base=7, metadata={"terms": "CC0-1.0"}
-    )
-    assert (
-        told_of(FRIDGE, checkpoint, points=500, context_points=200)["weights"][0]["license"]
-        == "CC0-1.0"
-    )
+    own = write_checkpoint(tmp_path / "own.safetensors", base=7, metadata={"terms": "CC0-1.0"})
+    told = told_of(FRIDGE, own, points=500, context_points=200)
+    assert told["weights"][0]["license"] == "CC0-1.0"
 
 
 def test_the_same_again(checkpoint):
-    first, again = (
-        told_of(FRIDGE, checkpoint, points=800, context_points=200, samples=2) for _ in range(2)
-    )
-    assert first == again
+    settings = {"points": 800, "context_points": 200, "samples": 2}
+    first = told_of(FRIDGE, checkpoint, **settings)
+    assert first == told_of(FRIDGE, checkpoint, **settings)
     assert any("2 samples were read" in note for note in first["notes"])
 
 

@@ -45,27 +45,19 @@ def released_field(tmp_path):
 def test_info_names_the_network_its_sizes_and_its_terms(released, capsys):
     assert run(["weights", "info", str(released)]) == 0
     shown = capsys.readouterr().out
-    for part in (
-        "Part Articulation Transformer",
-        "3",
-        "points + normals + 6 features",
-        "CC-BY-4.0",
-    ):
-        assert part in shown
+    network = ("Part Articulation Transformer", "3", "points + normals + 6 features")
+    assert all(part in shown for part in (*network, "CC-BY-4.0"))
 
 
 def test_a_converted_transformer_answers_the_same(released, tmp_path, capsys):
     target = tmp_path / "model.safetensors"
     assert run(["weights", "convert", str(released), str(target)]) == 0
     assert str(target) in capsys.readouterr().out
-    before = load_model(str(released))
-    after = load_model(str(target))
-    assert before.shape == after.shape == TINY
-    cloud = random_cloud(30)
-    assert np.array_equal(before.predict(cloud).mask_logits, after.predict(cloud).mask_logits)
-    assert np.array_equal(
-        before.predict(cloud).mask_logits, tiny_model().predict(cloud).mask_logits
-    )
+    models = [load_model(str(released)), load_model(str(target)), tiny_model()]
+    assert models[0].shape == models[1].shape == TINY
+    before, after, made = (each.predict(random_cloud(30)).mask_logits for each in models)
+    assert np.array_equal(before, after)
+    assert np.array_equal(before, made)
 
 
 def test_a_converted_field_keeps_its_terms_and_its_features(released_field, tmp_path):
@@ -74,9 +66,8 @@ def test_a_converted_field_keeps_its_terms_and_its_features(released_field, tmp_
     assert info.network == "PartField"
     assert "NON-COMMERCIAL" in read_safetensors(target).metadata["published_terms"]
     cloud = np.random.default_rng(0).uniform(-0.5, 0.5, (200, 3))
-    before, after = (
-        load_field(str(file)).features(cloud, cloud[:9]) for file in (released_field, target)
-    )
+    fields = [load_field(str(file)) for file in (released_field, target)]
+    before, after = (field.features(cloud, cloud[:9]) for field in fields)
     assert before.shape == (9, 8)
     assert np.array_equal(before, after)
 

@@ -61,12 +61,10 @@ def test_the_door_is_where_it_swings(scene):
     camera = Viewpoint(scene).camera(WIDTH, HEIGHT)
     caster = Caster(scene, scene.visuals)
     closed, opened = (scene.opened(amount) for amount in (0.0, 1.0))
-    before, after = (
-        caster.see(camera, values).link.reshape(HEIGHT, WIDTH) for values in (closed, opened)
-    )
-    one, other = (
-        still(Coloring(caster), camera, values).astype(int) for values in (closed, opened)
-    )
+    seen = [caster.see(camera, values) for values in (closed, opened)]
+    before, after = (each.link.reshape(HEIGHT, WIDTH) for each in seen)
+    stills = [still(Coloring(caster), camera, values) for values in (closed, opened)]
+    one, other = (each.astype(int) for each in stills)
     differs = np.abs(one - other).max(axis=2) > 24
     assert differs[(after == 1) & (before == -1)].mean() > 0.95
     assert differs[(after == 0) & (before == 0)].mean() < 0.05
@@ -138,9 +136,8 @@ def test_a_scene_without_surfaces_is_an_empty_picture(scene):
 
 
 def test_a_contact_sheet_holds_all_and_is_bounded(pictures):
-    cells = [
-        SheetCell(pictures.closed, f"cabinet-{n}" * 9, "passed", "\u202e<b>x</b>") for n in range(8)
-    ]
+    told = ("passed", "\u202e<b>x</b>")
+    cells = [SheetCell(pictures.closed, f"cabinet-{n}" * 9, *told) for n in range(8)]
     sheet = contact_sheet(cells)
     assert sheet == contact_sheet(cells)
     with Image.open(io.BytesIO(sheet)) as opened:

@@ -91,10 +91,8 @@ def test_the_animation_turns_and_slides_links_about_their_joints(scene):
     length = struct.unpack_from("<I", data, 12)[0]
     document = json.loads(data[20 : 20 + length])
     (animation,) = document["animations"]
-    paths = {
-        (c["target"]["path"], document["nodes"][c["target"]["node"]]["name"])
-        for c in animation["channels"]
-    }
+    targets = [each["target"] for each in animation["channels"]]
+    paths = {(each["path"], document["nodes"][each["node"]]["name"]) for each in targets}
     assert paths == {("rotation", "part_1"), ("translation", "part_2")}
     assert all(document["accessors"][s["output"]]["count"] == KEYS for s in animation["samplers"])
 

@@ -113,10 +113,8 @@ def test_a_wrong_statement_is_told_in_the_readers_words_and_not_written(editor, 
         assert status == 422
         assert said in told["sentence"]
     assert editor.ask("POST", "save", b"{")[0] == 422
-    assert sorted(path.name for path in editor.subject.mesh.parent.iterdir()) == [
-        "oven.glb",
-        "secret.txt",
-    ]
+    beside = sorted(path.name for path in editor.subject.mesh.parent.iterdir())
+    assert beside == ["oven.glb", "secret.txt"]
 
 
 def test_a_part_that_is_not_there_says_which(editor):

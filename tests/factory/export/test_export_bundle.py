@@ -18,9 +18,8 @@ from asset_factory.factory.runtime.store import folder_digests
 
 
 def textured_cabinet():
-    return cabinet(
-        [Material("wood", texture=image(c)) for c in ((255, 0, 0), (0, 255, 0), (0, 0, 255))]
-    )
+    colors = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
+    return cabinet([Material("wood", texture=image(color)) for color in colors])
 
 
 def test_exporting_again_leaves_nothing_of_the_bundle_before(tmp_path):
@@ -84,9 +83,8 @@ def test_a_continuous_joint_has_no_limits_to_hit(tmp_path):
 def test_excluded_pairs_reach_mjcf_and_manifest_once(tmp_path):
     pairs = (("part_1", "part_0"), ("part_0", "part_1"))
     bundle = export_bundle(cabinet(), PROVENANCE, tmp_path, pairs)
-    assert [e.attrib for e in ElementTree.parse(bundle.mjcf).iter("exclude")] == [
-        {"body1": "part_0", "body2": "part_1"}
-    ]
+    (excluded,) = ElementTree.parse(bundle.mjcf).iter("exclude")
+    assert excluded.attrib == {"body1": "part_0", "body2": "part_1"}
     assert bundle.manifest.excluded_pairs == (("part_0", "part_1"),)
 
 

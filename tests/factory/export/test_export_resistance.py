@@ -17,9 +17,8 @@ def one_joint(joint, child_center=(0.0, 0.0, 2.0)):
 
 
 def test_what_the_articulation_states_wins():
-    joint = Joint(
-        "j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 2], 0, 1, damping=0.25, friction=0.0
-    )
+    place = ([0, 0, 1], [0, 0, 2], 0, 1)
+    joint = Joint("j", JointKind.REVOLUTE, 0, 1, *place, damping=0.25, friction=0.0)
     (resistance,) = joint_resistances(one_joint(joint))
     assert (resistance.damping, resistance.friction) == (0.25, 0.0)
 
@@ -128,12 +127,8 @@ def test_gravity_that_closes_a_joint_adds_no_friction():
 
 
 def test_a_fixed_joint_resists_nothing():
-    assert (
-        joint_resistances(one_joint(Joint("j", JointKind.FIXED, 0, 1, [0, 0, 1], [0, 0, 2])))[
-            0
-        ].friction
-        == 0.0
-    )
+    fixed = one_joint(Joint("j", JointKind.FIXED, 0, 1, [0, 0, 1], [0, 0, 2]))
+    assert joint_resistances(fixed)[0].friction == 0.0
 
 
 def test_carried_parts_are_the_whole_subtree():

@@ -39,9 +39,8 @@ def sapien_frames(path, settings_of):
     found = []
     for values in settings_of:
         articulation.set_qpos([values[joint.name] for joint in articulation.active_joints])
-        found.append(
-            {link.name: link.entity_pose.to_transformation_matrix() for link in articulation.links}
-        )
+        poses = {link.name: link.entity_pose for link in articulation.links}
+        found.append({name: pose.to_transformation_matrix() for name, pose in poses.items()})
     return found, [len(link.collision_shapes) for link in articulation.links]
 
 
@@ -71,18 +70,16 @@ def pybullet_masses(path):
     body = pybullet.loadURDF(
         path, useFixedBase=True, flags=pybullet.URDF_USE_INERTIA_FROM_FILE, physicsClientId=client
     )
-    return [
-        pybullet.getDynamicsInfo(body, link)[0] for link in range(-1, pybullet.getNumJoints(body))
-    ]
+    links = range(-1, pybullet.getNumJoints(body))
+    return [pybullet.getDynamicsInfo(body, link)[0] for link in links]
 
 
 @pytest.mark.parametrize("jointed", [True, False])
 def test_pybullet_loads_a_bundle_with_and_without_joints(tmp_path, jointed):
     pytest.importorskip("pybullet", reason="pybullet is not installed")
     asset = cabinet() if jointed else boxes_asset([box([0, 0, 0], [1, 1, 1])], ())
-    masses = run_isolated(
-        pybullet_masses, str(exported(asset, tmp_path).urdf), limits=LIMITS
-    ).unwrap()
+    urdf = str(exported(asset, tmp_path).urdf)
+    masses = run_isolated(pybullet_masses, urdf, limits=LIMITS).unwrap()
     # PyBullet reports no mass for a fixed base.
     assert masses[1:] == [body.inertial.mass for body in asset.bodies[1:]]
 
@@ -118,10 +115,8 @@ def test_pybullet_opens_a_flap_of_five_grams(tmp_path):
 def test_mujoco_sees_each_parts_own_texture_and_only_hulls_collide(tmp_path):
     mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
     colors = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
-    looks = [
-        Material("wood", texture=image(c, f))
-        for c, f in zip(colors, ("PNG", "JPEG", "PNG"), strict=True)
-    ]
+    textures = map(image, colors, ("PNG", "JPEG", "PNG"))
+    looks = [Material("wood", texture=texture) for texture in textures]
     model = mujoco.MjModel.from_xml_path(str(exported(cabinet(looks), tmp_path).mjcf))
     pixels = model.tex_data.reshape(3, 16, -1)[:, 0, :3].astype(int)
     assert np.abs(pixels - np.array(colors)).max() <= 2

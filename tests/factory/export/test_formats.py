@@ -106,9 +106,8 @@ def test_a_joint_that_follows_another_does_so_in_every_format_and_back(tmp_path)
     assert list(model.eq_data[0, :5]) == [0.0, 0.25, 0.0, 0.0, 0.0]
     sdf = (tmp_path / "out" / "asset.sdf").read_text()
     assert '<sdf version="1.11"' in sdf
-    assert '<mimic joint="hinge"><multiplier>0.25</multiplier>' in "".join(sdf.split("\n")).replace(
-        "  ", ""
-    )
+    joined = "".join(sdf.split("\n")).replace("  ", "")
+    assert '<mimic joint="hinge"><multiplier>0.25</multiplier>' in joined
     manifest = Manifest.from_json((tmp_path / "out" / "asset.json").read_text())
     assert manifest.movable["slide"].mimic == Mimic("hinge", 0.25)
     assert '"mimic"' in (tmp_path / "out" / "asset.json").read_text()

@@ -27,9 +27,8 @@ def manifest(articulation, folder):
 
 def test_weights_and_their_terms_are_in_the_manifest(tmp_path):
     written = manifest(learned(cabinet().articulation), tmp_path / "learned")
-    assert written["provenance"]["weights"] == [
-        {"file": "model.pt", "digest": "cd" * 32, "license": "CC-BY-4.0"}
-    ]
+    (weights,) = written["provenance"]["weights"]
+    assert weights == {"file": "model.pt", "digest": "cd" * 32, "license": "CC-BY-4.0"}
     assert [joint["confidence"] for joint in written["joints"]] == [0.8765, 0.8765]
     assert [link["confidence"] for link in written["links"]] == [0.5, 0.5, 0.5]
 
@@ -41,8 +40,7 @@ def test_without_a_network_nothing_is_claimed(tmp_path):
 
 
 def test_repairs_keep_who_said_so():
-    repaired = as_planned(
-        learned(cabinet().articulation), Plan(upper={"hinge": 0.8}, frozen=frozenset({"slide"}))
-    )
+    plan = Plan(upper={"hinge": 0.8}, frozen=frozenset({"slide"}))
+    repaired = as_planned(learned(cabinet().articulation), plan)
     assert repaired.weights == (WEIGHTS,)
     assert [joint.confidence for joint in repaired.joints] == [0.87654321, 0.87654321]

@@ -14,23 +14,20 @@ def test_a_box_is_one_component():
 
 
 def test_a_mesh_without_faces_has_no_labels():
-    assert connected_components(Mesh.from_triangles(np.zeros((0, 3)), np.zeros((0, 3)))).shape == (
-        0,
-    )
+    nothing = Mesh.from_triangles(np.zeros((0, 3)), np.zeros((0, 3)))
+    assert connected_components(nothing).shape == (0,)
 
 
 def test_vertices_repeated_at_a_seam_do_not_split_a_box():
     welded = box((0, 0, 0), (1, 1, 1))
-    loose = Mesh.from_triangles(
-        welded.vertices[welded.faces].reshape(-1, 3), np.arange(36).reshape(-1, 3)
-    )
+    corners = welded.vertices[welded.faces].reshape(-1, 3)
+    loose = Mesh.from_triangles(corners, np.arange(36).reshape(-1, 3))
     assert connected_components(loose).tolist() == [0] * 12
 
 
 def test_a_double_sided_sheet_is_one_component():
-    sheet = Mesh.from_triangles(
-        [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3], [2, 1, 0], [3, 2, 0]]
-    )
+    corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    sheet = Mesh.from_triangles(corners, [[0, 1, 2], [0, 2, 3], [2, 1, 0], [3, 2, 0]])
     assert connected_components(sheet).tolist() == [0, 0, 0, 0]
 
 

@@ -14,12 +14,8 @@ CABINET = make_object("cabinet", 0)
 def corners(articulation, values=None):
     """Every face corner with its joints at some values, shape [face_count, 3, 3]."""
     poses = articulation.poses(values)[face_parts(articulation)]
-    return (
-        np.einsum(
-            "nij,nkj->nki", poses[:, :3, :3], articulation.mesh.vertices[articulation.mesh.faces]
-        )
-        + (poses[:, None, :3, 3])
-    )
+    corners = articulation.mesh.vertices[articulation.mesh.faces]
+    return np.einsum("nij,nkj->nki", poses[:, :3, :3], corners) + poses[:, None, :3, 3]
 
 
 @given(share=st.floats(0.0, 1.0), further=st.floats(0.0, 1.0))

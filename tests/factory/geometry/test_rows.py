@@ -7,11 +7,9 @@ from hypothesis.extra import numpy as hnp
 
 from asset_factory.factory.geometry.rows import distinct_rows
 
-TABLES = hnp.arrays(
-    st.sampled_from([np.int64, np.float64]),
-    st.tuples(st.integers(0, 30), st.integers(1, 4)),
-    elements=st.integers(-2, 2),
-)
+SHAPES = st.tuples(st.integers(0, 30), st.integers(1, 4))
+TYPES = st.sampled_from([np.int64, np.float64])
+TABLES = hnp.arrays(TYPES, SHAPES, elements=st.integers(-2, 2))
 
 
 @given(TABLES)

@@ -22,9 +22,8 @@ def test_ends_are_those_along_the_corners(corners):
 @given(hnp.arrays(np.float64, st.tuples(st.integers(0, 5), st.just(2), st.just(3))))
 def test_cross_products_are_those_of_numpy_to_the_last_bit(pairs):
     with np.errstate(all="ignore"):
-        assert (
-            cross(*pairs.swapaxes(0, 1)).tobytes() == np.cross(pairs[:, 0], pairs[:, 1]).tobytes()
-        )
+        one, other = pairs.swapaxes(0, 1)
+        assert cross(one, other).tobytes() == np.cross(pairs[:, 0], pairs[:, 1]).tobytes()
 
 
 def test_half_a_square_has_half_its_area():

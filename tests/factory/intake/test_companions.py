@@ -28,13 +28,8 @@ def test_whatever_a_reader_asks_for_is_found(inputs, name):
 
 
 def test_a_description_brings_its_meshes_and_their_textures(inputs):
-    assert companions(inputs / "cart" / "cart.urdf") == {
-        "cart.urdf",
-        "parts/body.mtl",
-        "parts/body.obj",
-        "parts/body.png",
-        "parts/lid.stl",
-    }
+    parts = {f"parts/{name}" for name in ("body.mtl", "body.obj", "body.png", "lid.stl")}
+    assert companions(inputs / "cart" / "cart.urdf") == {"cart.urdf", *parts}
 
 
 def test_names_with_spaces(inputs):

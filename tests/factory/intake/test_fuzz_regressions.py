@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from fuzz_cases import MJCF, URDF, annotated, cube_files, packed, prediction
+from fuzz_cases import MJCF, URDF, annotated, cube_files, locked, packed, prediction
 from mesh_cube import gltf_parts, pack_glb, png, write_glb, write_obj
 
 from asset_factory.factory.articulate.catalog import choose
@@ -31,6 +31,15 @@ def laid(folder, files, entry):
     for name, data in files.items():
         (folder / name).write_bytes(data)
     return folder / entry
+
+
+def glb(folder, document, binary):
+    return laid(folder, {"a.glb": pack_glb(document, binary)}, "a.glb")
+
+
+def described(folder, text):
+    """A URDF beside the meshes that it names."""
+    return laid(folder, {**cube_files(), "box.urdf": text.encode()}, "box.urdf")
 
 
 def refusal(path, config=None):
@@ -79,11 +88,8 @@ def test_a_sidecar_of_odd_numbers_or_references_is_refused(text, tmp_path):
     ("sidecar", "height"), [("scale = 1e-9", None), ("scale = 1e9", None), ("", 1e300)]
 )
 def test_a_size_that_no_object_has_is_absurd(sidecar, height, tmp_path):
-    for path in (
-        write_glb(tmp_path),
-        laid(tmp_path, {"cube.urdf": URDF.encode(), **cube_files()}, "cube.urdf"),
-    ):
-        (tmp_path / "cube.toml").write_text(sidecar)
+    for path in (write_glb(tmp_path), described(tmp_path, URDF)):
+        path.with_suffix(".toml").write_text(sidecar)
         assert refusal(path, IntakeConfig(height=height)).code == "absurd_size"
 
 
@@ -96,10 +102,8 @@ def test_continued_lines_are_joined_at_once(tmp_path):
 
 def test_blanks_of_every_kind_bound_a_polygon(tmp_path):
     text = b"v 0 0 0\nv 1 0 0\nv 0 1 1\nf" + b"\v1" * 1000 + b"\n"
-    assert (
-        refusal(laid(tmp_path, {"a.obj": text}, "a.obj"), IntakeConfig(max_faces=900)).code
-        == "too_large"
-    )
+    path = laid(tmp_path, {"a.obj": text}, "a.obj")
+    assert refusal(path, IntakeConfig(max_faces=900)).code == "too_large"
 
 
 def test_a_library_and_a_picture_are_read_once_however_often_they_are_named(monkeypatch, tmp_path):
@@ -120,9 +124,8 @@ def test_more_libraries_than_anybody_has_are_too_large(tmp_path):
 
 def test_only_the_first_of_a_thousand_notes_are_kept(tmp_path):
     path = write_obj(tmp_path)
-    (tmp_path / "cube.mtl").write_text(
-        "newmtl a\n" + "".join(f"map_Kd {k}{'x' * 200}.png\n" for k in range(1000))
-    )
+    pictures = "".join(f"map_Kd {k}{'x' * 200}.png\n" for k in range(1000))
+    (tmp_path / "cube.mtl").write_text(f"newmtl a\n{pictures}")
     notes = load(path, IntakeConfig()).provenance.notes
     assert len(notes) < 50
     assert any(note.endswith("more notes of this kind.") for note in notes)
@@ -134,22 +137,20 @@ def test_an_accessor_is_read_once_and_all_of_them_are_bounded(monkeypatch, tmp_p
     document["accessors"] += [{"componentType": 5126, "count": 3000, "type": "VEC3"}, empty]
     document["meshes"][0]["primitives"] += [{"attributes": {"POSITION": 4}, "indices": 5}] * 300
     read = counted(monkeypatch, gltf_document.GltfDocument, "_read_accessor")
-    path = laid(tmp_path, {"a.glb": pack_glb(document, binary)}, "a.glb")
-    assert len(load(path, IntakeConfig()).mesh.faces) == 12
+    assert len(load(glb(tmp_path, document, binary), IntakeConfig()).mesh.faces) == 12
     assert len(read) == 6
     document["accessors"] += [{"componentType": 5126, "count": 3000, "type": "VEC3"}] * 11
-    document["meshes"] = [
-        {"primitives": [{"attributes": {"POSITION": 6 + k}, "indices": 5} for k in range(11)]}
-    ]
-    path = laid(tmp_path, {"a.glb": pack_glb(document, binary)}, "a.glb")
-    assert "numbers" in refusal(path, IntakeConfig(max_faces=1500)).message
+    primitives = [{"attributes": {"POSITION": 6 + k}, "indices": 5} for k in range(11)]
+    document["meshes"] = [{"primitives": primitives}]
+    rejection = refusal(glb(tmp_path, document, binary), IntakeConfig(max_faces=1500))
+    assert "numbers" in rejection.message
 
 
 def test_primitives_without_faces_cost_their_instances_nothing(tmp_path):
     document, binary = gltf_parts(nodes=[{"mesh": 0}] * 3000)
     document["accessors"][3]["count"] = 0
     document["meshes"][0]["primitives"] *= 3000
-    path = laid(tmp_path, {"a.glb": pack_glb(document, binary)}, "a.glb")
+    path = glb(tmp_path, document, binary)
     started = time.process_time()
     assert refusal(path).code == "empty"
     assert time.process_time() - started < QUICK_S
@@ -160,10 +161,9 @@ def test_many_pictures_are_too_large_together(side, most, tmp_path):
     document, binary = gltf_parts(image=png((side, side)))
     document["images"] *= 17
     document["textures"] = [{"source": k} for k in range(17)]
-    document["materials"] = [
-        {"pbrMetallicRoughness": {"baseColorTexture": {"index": k}}} for k in range(17)
-    ]
-    path = laid(tmp_path, {"a.glb": pack_glb(document, binary)}, "a.glb")
+    looks = [{"baseColorTexture": {"index": k}} for k in range(17)]
+    document["materials"] = [{"pbrMetallicRoughness": look} for look in looks]
+    path = glb(tmp_path, document, binary)
     assert refusal(path, IntakeConfig(max_texture_pixels=most)).code == "too_large"
     assert load(path, IntakeConfig(max_texture_pixels=600 * 512)).mesh.materials
 
@@ -173,10 +173,8 @@ def test_names_and_materials_are_told_apart_without_counting_from_one():
     assert unique_names(["a"] * 20_000)[-1] == "a_20000"
     assert unique_names(["a", "a_2", "a", "a"]) == ["a", "a_2", "a_3", "a_4"]
     triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
-    meshes = [
-        Mesh.from_triangles(triangle, [[0, 1, 2]], Material("a", (k / 1e4, 0, 0, 1)))
-        for k in range(3000)
-    ]
+    looks = [Material("a", (k / 1e4, 0, 0, 1)) for k in range(3000)]
+    meshes = [Mesh.from_triangles(triangle, [[0, 1, 2]], look) for look in looks]
     assert concatenate(meshes).materials[-1].name == "a_3000"
     assert time.process_time() - started < QUICK_S
 
@@ -208,8 +206,7 @@ def test_whatever_a_decoder_raises_the_picture_is_left_out(error, monkeypatch):
 )
 def test_references_with_names_that_no_file_has_are_refused(reference, tmp_path):
     (tmp_path / "loop.obj").symlink_to("loop.obj")
-    text = URDF.replace("cube.obj", reference).encode()
-    rejection = refusal(laid(tmp_path, {**cube_files(), "box.urdf": text}, "box.urdf"))
+    rejection = refusal(described(tmp_path, URDF.replace("cube.obj", reference)))
     assert rejection.code in ("missing_file", "external_reference")
     assert len(rejection.message) < 400
 
@@ -226,25 +223,19 @@ def test_references_with_names_that_no_file_has_are_refused(reference, tmp_path)
     ],
 )
 def test_a_urdf_of_absurd_numbers_or_size_is_refused(old, new, code, tmp_path):
-    text = URDF.replace(old, new, 1).encode()
-    assert refusal(laid(tmp_path, {**cube_files(), "box.urdf": text}, "box.urdf")).code == code
+    assert refusal(described(tmp_path, URDF.replace(old, new, 1))).code == code
 
 
 def test_too_many_shapes_are_refused_before_they_are_made(tmp_path):
     boxes = '<visual><geometry><box size="1 1 1"/></geometry></visual>' * 10_001
-    text = URDF.replace("<inertial>", boxes + "<inertial>").encode()
-    assert (
-        "shapes" in refusal(laid(tmp_path, {**cube_files(), "box.urdf": text}, "box.urdf")).message
-    )
+    text = URDF.replace("<inertial>", boxes + "<inertial>")
+    assert "shapes" in refusal(described(tmp_path, text)).message
 
 
 def bad_predictions():
     good = packed(prediction())
-    locked = bytearray(good)
-    for mark, offset in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
-        locked[locked.find(mark) + offset] |= 1
     return {
-        "locked": bytes(locked),
+        "locked": locked(good),
         "many edges": packed(prediction(motion_hierarchy=np.tile([[0, 1]], (5000, 1)))),
         "absurd": packed(prediction(revolute_plucker=np.full((2, 6), 1e300))),
         "far": packed(prediction(revolute_plucker=[[0] * 6, [0, 0, 1e-7, 1e8, 0, 0]])),
@@ -270,15 +261,10 @@ def test_an_array_whose_header_is_no_header_is_refused(tmp_path):
 
 def test_the_compiler_of_mjcf_leaves_no_log_behind(tmp_path):
     pytest.importorskip("mujoco")
-    files = cube_files()
-    text = MJCF.replace('<include file="assets.xml"/>', "").replace(
-        '<geom type="mesh" mesh="cube" material="wood"/>', ""
-    )
-    path = laid(
-        tmp_path,
-        {**files, "box.xml": text.replace('rgba="1 0 0 1"', 'rgba="1 0"').encode()},
-        "box.xml",
-    )
+    text = MJCF.replace('rgba="1 0 0 1"', 'rgba="1 0"')
+    for part in ('<include file="assets.xml"/>', '<geom type="mesh" mesh="cube" material="wood"/>'):
+        text = text.replace(part, "")
+    path = laid(tmp_path, {**cube_files(), "box.xml": text.encode()}, "box.xml")
     code = (
         "import sys, pathlib\n"
         "from asset_factory.sim_checks.read.mjcf_model import compile_model\n"
@@ -286,14 +272,10 @@ def test_the_compiler_of_mjcf_leaves_no_log_behind(tmp_path):
     )
     (tmp_path / "elsewhere").mkdir()
     environment = {**os.environ, "OMP_NUM_THREADS": "1"}
-    subprocess.run(
-        [sys.executable, "-c", code, str(path)],
-        cwd=tmp_path / "elsewhere",
-        env=environment,
-        check=True,
-        timeout=60,
-    )
-    assert list((tmp_path / "elsewhere").iterdir()) == []
+    command = [sys.executable, "-c", code, str(path)]
+    elsewhere = tmp_path / "elsewhere"
+    subprocess.run(command, cwd=elsewhere, env=environment, check=True, timeout=60)
+    assert list(elsewhere.iterdir()) == []
 
 
 def test_the_root_of_an_xml_file_is_looked_for_at_its_beginning_only(tmp_path):

@@ -90,9 +90,8 @@ def test_a_xacro_file_is_an_input_by_all_that_it_includes_and_its_arguments(tmp_
     pytest.importorskip("xacro")
     path = write_package(tmp_path, "cabinet", "package://cabinet/meshes/", "urdf/cabinet.xacro")
     namespace = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
-    path.with_name("limits.xacro").write_text(
-        f'<robot {namespace}><xacro:arg name="travel" default="0.1"/></robot>'
-    )
+    limits = f'<robot {namespace}><xacro:arg name="travel" default="0.1"/></robot>'
+    path.with_name("limits.xacro").write_text(limits)
     text = path.read_text().replace('upper="0.3"', 'upper="$(arg travel)"')
     include = '<xacro:include filename="$(find cabinet)/urdf/limits.xacro"/>'
     path.write_text(text.replace('name="cabinet">', f'name="cabinet" {namespace}>{include}', 1))

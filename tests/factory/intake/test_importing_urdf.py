@@ -38,9 +38,8 @@ def load(path):
 
 def articulated(intake):
     assert intake.annotation is not None
-    return AnnotatedArticulator(
-        intake.annotation, intake.transform, intake.source_faces
-    ).articulate(intake.mesh)
+    given = (intake.annotation, intake.transform, intake.source_faces)
+    return AnnotatedArticulator(*given).articulate(intake.mesh)
 
 
 def lift(folder, body):
@@ -58,6 +57,9 @@ def bounds_of(articulation, name):
     return articulation.part_mesh(index).bounds
 
 
+AB = link("a") + link("b")
+
+
 def signed_volume(articulation, part):
     mesh = articulation.part_mesh(part)
     a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
@@ -65,21 +67,14 @@ def signed_volume(articulation, part):
 
 
 def test_a_link_stands_where_its_joint_and_visual_origins_put_it(tmp_path):
-    turned = (
-        '<visual><origin xyz="2 0 0" rpy="0 0 1.5707963267948966"/><geometry><box size="2 1 1"/>'
-        "</geometry></visual>"
-    )
-    origin = (
-        '<origin xyz="0 0 10" rpy="0 0 1.5707963267948966"/><axis xyz="1 0 0"/>'
-        '<limit lower="0" upper="0.5"/>'
-    )
-    result = lift(
-        tmp_path,
-        link("base") + link("arm", turned) + joint("slide", "prismatic", "base", "arm", origin),
-    )
-    np.testing.assert_allclose(
-        bounds_of(result, "arm"), [[-1.0, 1.5, 9.5], [1.0, 2.5, 10.5]], atol=1e-12
-    )
+    quarter = 'rpy="0 0 1.5707963267948966"'
+    box = '<geometry><box size="2 1 1"/></geometry>'
+    arm = link("arm", f'<visual><origin xyz="2 0 0" {quarter}/>{box}</visual>')
+    origin = f'<origin xyz="0 0 10" {quarter}/><axis xyz="1 0 0"/><limit lower="0" upper="0.5"/>'
+    slide = joint("slide", "prismatic", "base", "arm", origin)
+    result = lift(tmp_path, link("base") + arm + slide)
+    bounds = [[-1.0, 1.5, 9.5], [1.0, 2.5, 10.5]]
+    np.testing.assert_allclose(bounds_of(result, "arm"), bounds, atol=1e-12)
     np.testing.assert_allclose(result.joint("slide").axis, [0.0, 1.0, 0.0], atol=1e-12)
 
 
@@ -105,30 +100,20 @@ def test_materials_are_found_by_name_and_in_place(tmp_path):
     def colored(material):
         return f'<visual><geometry><box size="1 1 1"/></geometry>{material}</visual>'
 
-    links = link(
-        "base",
-        colored('<material name="red"/>')
-        + colored('<material name="own"><color rgba="0 0 1 0.5"/></material>'),
-    )
-    result = lift(tmp_path, '<material name="red"><color rgba="1 0 0 1"/></material>' + links)
+    own = colored('<material name="own"><color rgba="0 0 1 0.5"/></material>')
+    base = link("base", colored('<material name="red"/>') + own)
+    result = lift(tmp_path, '<material name="red"><color rgba="1 0 0 1"/></material>' + base)
     assert [m.color for m in result.mesh.materials] == [(1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 0.5)]
     assert np.bincount(result.mesh.face_material).tolist() == [12, 12]
 
 
 def test_collision_geometry_stands_in_only_where_nothing_can_be_seen(tmp_path):
     hull = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
-    result = lift(
-        tmp_path,
-        link("base", BOX + hull)
-        + link("arm", hull)
-        + link("shield", hull)
-        + joint("j", "prismatic", "base", "arm")
-        + joint("f", "fixed", "base", "shield"),
-    )
-    assert [len(part.faces) for part in result.parts] == [12, 12]
-    assert any(
-        "collision geometry" in note for note in load(tmp_path / "thing.urdf").provenance.notes
-    )
+    links = link("base", BOX + hull) + link("arm", hull) + link("shield", hull)
+    joints = joint("j", "prismatic", "base", "arm") + joint("f", "fixed", "base", "shield")
+    intake = load(write(tmp_path, links + joints))
+    assert [len(part.faces) for part in articulated(intake).parts] == [12, 12]
+    assert any("collision geometry" in note for note in intake.provenance.notes)
 
 
 def test_repeated_inertials_and_visual_names_do_not_matter(tmp_path):
@@ -146,26 +131,19 @@ def test_a_mimic_that_cannot_be_read_moves_freely_and_a_note_says_so(tmp_path):
     assert articulated(load(path)).joint("two").mimic is None
 
 
-def test_a_lid_drawn_outside_its_limits_is_closed_where_the_object_is_smallest(
-    tmp_path,
-):
+def test_a_lid_drawn_outside_its_limits_is_closed_where_the_object_is_smallest(tmp_path):
     """Drawn upright, it can lie down to -1.57 rad; the limit beside the drawing is not closed."""
     lid = '<visual><origin xyz="0 0 0.1"/><geometry><box size="1 0.02 0.2"/></geometry></visual>'
     hinge = '<origin xyz="0 -0.5 0.51"/><axis xyz="1 0 0"/><limit lower="-1.57" upper="-0.2"/>'
-    made = lift(
-        tmp_path, link("box") + link("lid", lid) + joint("j", "revolute", "box", "lid", hinge)
-    )
-    assert made.joint("j").lower == pytest.approx(-1.37)
-    np.testing.assert_allclose(made.joint("j").axis, [1, 0, 0])
+    hinged = joint("j", "revolute", "box", "lid", hinge)
+    made = lift(tmp_path, link("box") + link("lid", lid) + hinged).joint("j")
+    assert made.lower == pytest.approx(-1.37)
+    np.testing.assert_allclose(made.axis, [1, 0, 0])
 
 
 def test_height_and_up_axis_scale_geometry_axes_and_travel_alike(tmp_path):
-    body = (
-        link("a")
-        + link("b")
-        + joint("j", "prismatic", "a", "b", '<axis xyz="0 1 0"/><limit lower="0" upper="0.5"/>')
-    )
-    intake = load_description(write(tmp_path, body), IntakeConfig(up="y", height=2.0))
+    slide = joint("j", "prismatic", "a", "b", '<axis xyz="0 1 0"/><limit lower="0" upper="0.5"/>')
+    intake = load_description(write(tmp_path, AB + slide), IntakeConfig(up="y", height=2.0))
     result = articulated(intake)
     assert intake.mesh.extents[2] == pytest.approx(2.0)
     np.testing.assert_allclose(result.joint("j").axis, [0.0, 0.0, 1.0], atol=1e-12)
@@ -174,16 +152,16 @@ def test_height_and_up_axis_scale_geometry_axes_and_travel_alike(tmp_path):
 
 def test_the_digest_depends_on_every_file_that_was_read(tmp_path):
     (tmp_path / "tetra.obj").write_text(TETRA)
-    path = write(
-        tmp_path, link("a", '<visual><geometry><mesh filename="tetra.obj"/></geometry></visual>')
-    )
+    path = write(tmp_path, seen('<mesh filename="tetra.obj"/>'))
     before = load(path).provenance.digest
     assert load(path).provenance.digest == before
     (tmp_path / "tetra.obj").write_text(TETRA.replace("v 1 0 0", "v 2 0 0"))
     assert load(path).provenance.digest != before
 
 
-AB = link("a") + link("b")
+CYCLE = joint("j", "fixed", "b", "c") + joint("k", "fixed", "c", "b")
+TWICE = joint("j", "fixed", "a", "b") + joint("k", "fixed", "a", "b")
+WORDS = '<limit lower="x" upper="1"/>'
 
 
 def seen(shape):
@@ -194,28 +172,16 @@ def seen(shape):
     ("code", "body", "says"),
     [
         ("not_a_tree", "", "no <link>"),
-        ("not_a_tree", link("a") + link("b"), "'a', 'b'"),
+        ("not_a_tree", AB, "'a', 'b'"),
         ("not_a_tree", link("a") + link("a"), "'a'"),
         ("not_a_tree", link("a") + joint("j", "fixed", "a", "ghost"), "'ghost'"),
-        (
-            "not_a_tree",
-            AB + link("c") + joint("j", "fixed", "b", "c") + joint("k", "fixed", "c", "b"),
-            "cycle",
-        ),
-        (
-            "not_a_tree",
-            AB + joint("j", "fixed", "a", "b") + joint("k", "fixed", "a", "b"),
-            "'j' and 'k'",
-        ),
+        ("not_a_tree", AB + link("c") + CYCLE, "cycle"),
+        ("not_a_tree", AB + TWICE, "'j' and 'k'"),
         ("unsupported_joint", AB + joint("j", "planar", "a", "b"), "'planar'"),
         ("unreadable", seen('<box size="1 1"/>'), "'1 1'"),
         ("unreadable", seen('<box size="1 -1 1"/>'), "positive"),
         ("unreadable", seen("<cone/>"), "cone"),
-        (
-            "unreadable",
-            AB + joint("j", "revolute", "a", "b", '<limit lower="x" upper="1"/>'),
-            "'x'",
-        ),
+        ("unreadable", AB + joint("j", "revolute", "a", "b", WORDS), "'x'"),
         ("unreadable", AB + joint("j", "revolute", "a", "b", '<origin xyz="nan 0 0"/>'), "nan"),
         ("missing_file", seen('<mesh filename="no.obj"/>'), "no.obj"),
         ("external_reference", seen('<mesh filename="../x.obj"/>'), "../x.obj"),
@@ -252,11 +218,9 @@ def test_axes_and_ranges_agree_with_the_reference_conversion(name):
     lines = np.load(FORMATS / name / "out" / "link_axes_plucker.npz")
     ranges = np.load(FORMATS / name / "out" / "link_range.npz")
     poses = result.poses({joint.name: joint.lower for joint in result.joints})
-    points = [
-        result.part_mesh(i).vertices @ pose[:3, :3].T + pose[:3, 3] for i, pose in enumerate(poses)
-    ]
-    low = np.concatenate(points).min(axis=0)
-    high = np.concatenate(points).max(axis=0)
+    meshes = [result.part_mesh(part).transformed(pose) for part, pose in enumerate(poses)]
+    low = np.min([mesh.bounds[0] for mesh in meshes], axis=0)
+    high = np.max([mesh.bounds[1] for mesh in meshes], axis=0)
     scale = 1.0 / (high - low).max()
     alphabetical = sorted(part.name for part in result.parts)
     for joint in result.joints:
@@ -270,9 +234,8 @@ def test_axes_and_ranges_agree_with_the_reference_conversion(name):
         np.testing.assert_allclose(line[which][:3], axis, atol=1e-6)
         if joint.turns:
             np.testing.assert_allclose(line[which][3:], np.cross(axis, point), atol=1e-6)
-        np.testing.assert_allclose(
-            reach[which], [0.0, joint.range * (1.0 if joint.turns else scale)], atol=1e-6
-        )
+        span = joint.range * (1.0 if joint.turns else scale)
+        np.testing.assert_allclose(reach[which], [0.0, span], atol=1e-6)
 
 
 def homogeneous(rotation, translation):
@@ -285,14 +248,8 @@ def homogeneous(rotation, translation):
 number = st.floats(-2.0, 2.0).map(lambda x: round(x, 3))
 triple = st.tuples(number, number, number)
 axes = triple.filter(lambda v: sum(x * x for x in v) > 0.01)
-edge = st.tuples(
-    st.integers(0, 10**6),
-    st.sampled_from(["revolute", "prismatic", "continuous", "fixed"]),
-    triple,
-    triple,
-    axes,
-    st.floats(0.0, 1.0),
-)
+kinds = st.sampled_from(["revolute", "prismatic", "continuous", "fixed"])
+edge = st.tuples(st.integers(0, 10**6), kinds, triple, triple, axes, st.floats(0.0, 1.0))
 
 
 @settings(
@@ -305,23 +262,17 @@ def test_random_trees_move_as_a_product_of_matrices_says(tmp_path, edges):
     for child, (pick, kind, xyz, angles, axis, share) in enumerate(edges, start=1):
         parent = pick % child
         body += link(f"l{child}")
-        written = (
-            f'<origin xyz="{xyz[0]} {xyz[1]} {xyz[2]}" rpy="{angles[0]} {angles[1]} {angles[2]}"/>'
-        )
-        written += f'<axis xyz="{axis[0]} {axis[1]} {axis[2]}"/><limit lower="0" upper="1.5"/>'
+        place, turn, line = (" ".join(map(str, each)) for each in (xyz, angles, axis))
+        written = f'<origin xyz="{place}" rpy="{turn}"/><axis xyz="{line}"/>'
+        written += '<limit lower="0" upper="1.5"/>'
         body += joint(f"j{child}", kind, f"l{parent}", f"l{child}", written)
         unit = np.array(axis) / np.linalg.norm(axis)
         value = 1.5 * share
-        motion = {
-            "revolute": homogeneous(Rotation.from_rotvec(unit * value), np.zeros(3)),
-            "continuous": homogeneous(Rotation.from_rotvec(unit * value), np.zeros(3)),
-            "prismatic": homogeneous(Rotation.identity(), unit * value),
-            "fixed": np.eye(4),
-        }[kind]
+        turned = homogeneous(Rotation.from_rotvec(unit * value), np.zeros(3))
+        slid = homogeneous(Rotation.identity(), unit * value)
+        motion = {"prismatic": slid, "fixed": np.eye(4)}.get(kind, turned)
         # Independent of the reader: roll, then pitch, then yaw, about axes that stand still.
-        roll, pitch, yaw = (
-            Rotation.from_rotvec(a * e) for a, e in zip(angles, np.eye(3), strict=True)
-        )
+        roll, pitch, yaw = map(Rotation.from_rotvec, np.diag(angles))
         frames.append(frames[parent] @ homogeneous(yaw * pitch * roll, np.array(xyz)) @ motion)
     intake = load(write(tmp_path, body))
     result = articulated(intake)

@@ -27,8 +27,8 @@ CONFIG = BuildConfig(simulators=())
 SHAPE = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
 
 
-def loaded(path, config=CONFIG):
-    source = Source(path, config)
+def loaded(path):
+    source = Source(path, CONFIG)
     source.load()
     return source
 
@@ -98,11 +98,9 @@ def test_what_was_read_to_its_end_and_then_refused_is_the_asset_that_it_was(tmp_
 def test_a_mesh_changed_while_an_mjcf_is_compiled_is_compiled_again(tmp_path, monkeypatch):
     for name, data in cube_files().items():
         (tmp_path / name).write_bytes(data)
-    inline = MJCF.replace(
-        '<include file="assets.xml"/>', "<asset><mesh name='cube' file='cube.stl'/></asset>"
-    )
+    asset = "<asset><mesh name='cube' file='cube.stl'/></asset>"
+    inline = MJCF.replace('<include file="assets.xml"/>', asset).replace('material="wood"', "")
     (tmp_path / "cube.stl").write_bytes(_tetrahedron(1.0))
-    inline = inline.replace('material="wood"', "")
     (tmp_path / "robot.xml").write_text(inline)
     sizes = []
     compiled = mjcf._compiled
@@ -123,10 +121,9 @@ def test_a_mesh_changed_while_an_mjcf_is_compiled_is_compiled_again(tmp_path, mo
 def _tetrahedron(size):
     import trimesh
 
-    corners = [(0, 0, 0), (size, 0, 0), (0, size, 0), (0, 0, size)]
-    return trimesh.Trimesh(corners, [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]).export(
-        file_type="stl"
-    )
+    corners = size * np.concatenate([np.zeros((1, 3)), np.eye(3)])
+    faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+    return trimesh.Trimesh(corners, faces).export(file_type="stl")
 
 
 @pytest.mark.parametrize("form", ["texture", "sidecar", "urdf"])

@@ -56,6 +56,10 @@ def test_every_file_of_a_mesh_counts(write, files, tmp_path):
     assert known.probe(path).key == source_key(source)
 
 
+def present(source):
+    return {name for name, digest in source.reads.items() if digest}
+
+
 def urdf(folder):
     (folder / "meshes").mkdir(parents=True)
     write_obj(folder / "meshes")
@@ -67,23 +71,15 @@ def urdf(folder):
 
 def test_every_file_of_a_description_counts(tmp_path):
     source = load(urdf(tmp_path))
-    present = {name for name, digest in source.reads.items() if digest}
-    assert present == {
-        "box.urdf",
-        "box.toml",
-        "meshes/cube.obj",
-        "meshes/cube.mtl",
-        "meshes/wood.png",
-    }
+    meshes = {f"meshes/{name}" for name in ("cube.obj", "cube.mtl", "wood.png")}
+    assert present(source) == {"box.urdf", "box.toml", *meshes}
 
 
 def test_an_annotation_counts(tmp_path):
     path = write_glb(tmp_path)
     np.savez(tmp_path / "pred.npz", face_part_ids=np.zeros(12, dtype=int))
     (tmp_path / "cube.toml").write_text('annotation = "pred.npz"')
-    assert {"pred.npz", "cube.toml"} <= {
-        name for name, digest in load(path).reads.items() if digest
-    }
+    assert {"pred.npz", "cube.toml"} <= present(load(path))
 
 
 def test_a_missing_texture_that_turns_up_makes_another_input(tmp_path):
@@ -134,9 +130,8 @@ def test_an_input_that_somebody_writes_is_read_again_and_then_refused(tmp_path, 
     looked.clear()
     monkeypatch.setattr(reads_module, "content_digest", restless(99))
     source = Source(path, CONFIG)
-    with pytest.raises(
-        InputRejected, match="somebody wrote its files each of the 3 times"
-    ) as rejection:
+    said = "somebody wrote its files each of the 3 times"
+    with pytest.raises(InputRejected, match=said) as rejection:
         source.load()
     assert rejection.value.code == "input_changed"
     assert source_key(source) == ""

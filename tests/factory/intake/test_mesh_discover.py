@@ -26,16 +26,12 @@ def test_folders_are_searched_in_sorted_order(tmp_path):
 
 
 def test_meshes_of_a_description_are_not_inputs_of_their_own(tmp_path):
-    urdf = _touch(
-        tmp_path / "robot" / "robot.urdf",
-        '<robot><mesh filename="package://r/meshes/link.obj"/></robot>',
-    )
+    robot = '<robot><mesh filename="package://r/meshes/link.obj"/></robot>'
+    urdf = _touch(tmp_path / "robot" / "robot.urdf", robot)
     _touch(tmp_path / "robot" / "meshes" / "spare" / "other.obj")
     mesh = _touch(tmp_path / "robot" / "meshes" / "link.obj")
-    mjcf = _touch(
-        tmp_path / "scene" / "scene.xml",
-        "<?xml version='1.0'?><!-- x --><mujoco><mesh file='link.stl'/></mujoco>",
-    )
+    scene = "<?xml version='1.0'?><!-- x --><mujoco><mesh file='link.stl'/></mujoco>"
+    mjcf = _touch(tmp_path / "scene" / "scene.xml", scene)
     _touch(tmp_path / "scene" / "link.obj")
     _touch(tmp_path / "scene" / "link.stl")
     other = _touch(tmp_path / "notes" / "notes.xml", "<notes/>")
@@ -102,12 +98,10 @@ def test_looking_for_inputs_imports_no_geometry():
 
 
 def test_a_registry_among_the_inputs_is_passed_over(tmp_path):
-    (tmp_path / "out" / "assets" / "cup-0000000000").mkdir(parents=True)
-    (tmp_path / "out" / "registry.db").touch()
-    asset = tmp_path / "out" / "assets" / "cup-0000000000" / "asset.urdf"
-    asset.write_text("<robot/>")
-    (tmp_path / "cup.glb").touch()
-    assert find_inputs((tmp_path,)) == (tmp_path / "cup.glb",)
+    asset = _touch(tmp_path / "out" / "assets" / "cup-0000000000" / "asset.urdf", "<robot/>")
+    _touch(tmp_path / "out" / "registry.db")
+    mesh = _touch(tmp_path / "cup.glb")
+    assert find_inputs((tmp_path,)) == (mesh,)
     # Unless somebody asks for it.
     assert find_inputs((tmp_path / "out" / "assets",)) == (asset,)
 

@@ -9,6 +9,7 @@ from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.intake.loading import load_mesh, load_visual
 
 LIMITS = IntakeConfig()
+PLACES = "property float x\nproperty float y\nproperty float z\n"
 
 
 def _volume(mesh):
@@ -94,21 +95,22 @@ def test_gltf_mirrored_instance_still_faces_outward(tmp_path):
     np.testing.assert_allclose(mesh.corner_normals[:, 0], _normals(mesh), atol=1e-6)
 
 
+def _appended(document, binary, *blobs):
+    """The binary part with more in it, each a view of its own."""
+    for blob in blobs:
+        view = {"buffer": 0, "byteOffset": len(binary), "byteLength": len(blob)}
+        document["bufferViews"].append(view)
+        binary += blob
+    document["buffers"][0]["byteLength"] = len(binary)
+    return binary
+
+
 @pytest.mark.parametrize(("mode", "indices"), [(5, [0, 1, 3, 2]), (6, [0, 1, 2, 3])])
 def test_gltf_strips_and_fans_become_triangles(mode, indices, tmp_path):
     document, binary = gltf_parts()
-    primitive = document["meshes"][0]["primitives"][0]
-    primitive.update(mode=mode)
-    offset = len(binary)
-    binary += np.array(indices, dtype="<u2").tobytes()
-    document["bufferViews"].append({"buffer": 0, "byteOffset": offset, "byteLength": 8})
-    document["accessors"][3] = {
-        "bufferView": 5,
-        "componentType": 5123,
-        "count": 4,
-        "type": "SCALAR",
-    }
-    document["buffers"][0]["byteLength"] = len(binary)
+    document["meshes"][0]["primitives"][0].update(mode=mode)
+    binary = _appended(document, binary, np.array(indices, dtype="<u2").tobytes())
+    document["accessors"][3] |= {"bufferView": 5, "count": 4}
     (tmp_path / "quad.glb").write_bytes(pack_glb(document, binary))
     normals = _normals(_load(tmp_path / "quad.glb").mesh)
     np.testing.assert_allclose(normals, [[-1, 0, 0], [-1, 0, 0]], atol=1e-6)
@@ -117,35 +119,23 @@ def test_gltf_strips_and_fans_become_triangles(mode, indices, tmp_path):
 def test_gltf_texture_transform_moves_coordinates(tmp_path):
     document, binary = gltf_parts()
     reference = document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]
-    reference["extensions"] = {
-        "KHR_texture_transform": {"offset": [0.25, 0.5], "scale": [0.5, 0.25]}
-    }
+    transform = {"offset": [0.25, 0.5], "scale": [0.5, 0.25]}
+    reference["extensions"] = {"KHR_texture_transform": transform}
     (tmp_path / "cube.glb").write_bytes(pack_glb(document, binary))
     uv = _load(tmp_path / "cube.glb").mesh.corner_uv
     assert uv is not None
-    original = cube()["uv"][cube()["faces"]]
-    expected = np.stack(
-        [0.25 + 0.5 * original[..., 0], 1 - (0.5 + 0.25 * (1 - original[..., 1]))], axis=-1
-    )
+    u, v = np.moveaxis(cube()["uv"][cube()["faces"]], -1, 0)
+    expected = np.stack([0.25 + 0.5 * u, 1 - (0.5 + 0.25 * (1 - v))], axis=-1)
     np.testing.assert_allclose(uv, expected, atol=1e-7)
 
 
 def test_gltf_sparse_accessor_moves_one_vertex(tmp_path):
     document, binary = gltf_parts()
-    offset = len(binary)
-    binary += (
-        np.array([0], dtype="<u2").tobytes() + b"\0\0" + np.array([-1, 0, 0], dtype="<f4").tobytes()
-    )
-    document["bufferViews"] += [
-        {"buffer": 0, "byteOffset": offset, "byteLength": 2},
-        {"buffer": 0, "byteOffset": offset + 4, "byteLength": 12},
-    ]
-    document["accessors"][0]["sparse"] = {
-        "count": 1,
-        "indices": {"bufferView": 5, "componentType": 5123},
-        "values": {"bufferView": 6},
-    }
-    document["buffers"][0]["byteLength"] = len(binary)
+    moved = np.array([-1, 0, 0], dtype="<f4").tobytes()
+    binary = _appended(document, binary, np.zeros(2, dtype="<u2").tobytes(), moved)
+    indices = {"bufferView": 5, "componentType": 5123}
+    sparse = {"count": 1, "indices": indices, "values": {"bufferView": 6}}
+    document["accessors"][0]["sparse"] = sparse
     (tmp_path / "cube.glb").write_bytes(pack_glb(document, binary))
     assert _load(tmp_path / "cube.glb").mesh.bounds[0].tolist() == [-1.0, 0.0, 0.0]
 
@@ -176,10 +166,7 @@ def test_broken_texture_is_left_out_and_named(tmp_path):
 
 def test_ply_vertex_colours_become_one_linear_colour(tmp_path):
     rows = "0 0 0 188 0 255\n1 0 0 188 0 255\n0 1 0 188 0 255\n"
-    head = (
-        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-        "property float z\n"
-    )
+    head = f"ply\nformat ascii 1.0\nelement vertex 3\n{PLACES}"
     colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
     tail = "element face 1\nproperty list uchar int vertex_index\nend_header\n"
     (tmp_path / "t.ply").write_text(head + colors + tail + rows + "3 0 1 2\n")
@@ -189,11 +176,8 @@ def test_ply_vertex_colours_become_one_linear_colour(tmp_path):
 
 @pytest.mark.parametrize("form", ["ascii", "binary_little_endian"])
 def test_ply_mixed_polygons_keep_their_order(form, tmp_path):
-    head = (
-        f"ply\nformat {form} 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
-        "property float z\n"
-        "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
-    ).encode()
+    lists = "element face 2\nproperty list uchar int vertex_indices\n"
+    head = f"ply\nformat {form} 1.0\nelement vertex 5\n{PLACES}{lists}end_header\n".encode()
     points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 2, 0]], dtype="<f4")
     polygons = [[0, 1, 2, 3], [3, 2, 4]]
     if form == "ascii":

@@ -54,6 +54,12 @@ def articulate(path, count=FACES):
     return AnnotatedArticulator(annotation, np.eye(4), np.arange(count)).articulate(strip(count))
 
 
+def refused(call):
+    with pytest.raises(InputRejected) as caught:
+        call()
+    return caught.value
+
+
 def test_moments_are_axis_cross_point(tmp_path):
     joint = read_prediction(save(tmp_path), FACES).joints[0]
     np.testing.assert_allclose(joint.origin, [1.0, 2.0, 0.0], atol=1e-12)
@@ -78,9 +84,8 @@ def test_all_four_motions_become_joints(tmp_path):
 
 
 def test_what_turns_and_slides_slides_along_the_turned_direction(tmp_path):
-    result = articulate(
-        save(tmp_path, revolute_range=np.array([[0, 0], [0, 1.5], [0, 0], [0, np.pi / 2]]))
-    )
+    ranges = np.array([[0, 0], [0, 1.5], [0, 0], [0, np.pi / 2]])
+    result = articulate(save(tmp_path, revolute_range=ranges))
     part = [p.name for p in result.parts].index("part_3")
     start = np.array([2.0, 2.0, 0.0, 1.0])
     moved = result.poses({"joint_3_turn": np.pi / 2.0, "joint_3_slide": 0.2})[part] @ start
@@ -122,31 +127,25 @@ def test_labels_of_faces_that_were_dropped_do_not_matter(tmp_path):
     ],
 )
 def test_unknown_shapes_are_refused_by_name(tmp_path, changes, says):
-    with pytest.raises(InputRejected) as caught:
-        read_prediction(save(tmp_path, **changes), FACES)
-    assert caught.value.code == "bad_annotation"
-    assert says in caught.value.message
+    refusal = refused(lambda: read_prediction(save(tmp_path, **changes), FACES))
+    assert refusal.code == "bad_annotation"
+    assert says in refusal.message
 
 
 def test_files_that_are_no_archives_are_refused(tmp_path):
     path = tmp_path / "pred.npz"
-    with pytest.raises(InputRejected) as caught:
-        read_prediction(path, FACES)
-    assert caught.value.code == "missing_file"
+    assert refused(lambda: read_prediction(path, FACES)).code == "missing_file"
     for content in (b"", b"PK\x03\x04 broken", b"\x80\x04K\x01."):
         path.write_bytes(content)
-        with pytest.raises(InputRejected) as caught:
-            read_prediction(path, FACES)
-        assert caught.value.code == "bad_annotation"
+        assert refused(lambda: read_prediction(path, FACES)).code == "bad_annotation"
 
 
 @pytest.mark.parametrize(
     "edges", [[[0, 1], [1, 2], [2, 1]], [[0, 1], [0, 2], [3, 2]], [[1, 0], [2, 1], [3, 2], [0, 3]]]
 )
 def test_hierarchies_that_are_no_forest_are_refused(tmp_path, edges):
-    with pytest.raises(InputRejected) as caught:
-        articulate(save(tmp_path, motion_hierarchy=np.array(edges)))
-    assert caught.value.code == "not_a_tree"
+    path = save(tmp_path, motion_hierarchy=np.array(edges))
+    assert refused(lambda: articulate(path)).code == "not_a_tree"
 
 
 PREDICTIONS = Path(__file__).parents[4] / "shared" / "fixtures" / "postprocess_e2e"

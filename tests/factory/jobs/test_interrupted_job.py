@@ -108,9 +108,8 @@ def test_with_one_worker_ctrl_c_builds_what_is_begun_and_no_more(tmp_path):
     for number in range(3):
         (tmp_path / "in" / f"nap_{number}.stl").write_text("solid nap")
     command = [sys.executable, str(SCRIPT), str(tmp_path / "in"), str(tmp_path / "out")]
-    with subprocess.Popen(
-        [*command, "--wind-up", "--one"], stdout=subprocess.PIPE, text=True
-    ) as process:
+    command = [*command, "--wind-up", "--one"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         wait_for(lambda: (tmp_path / "in" / MADE).exists() and made(tmp_path / "in"))
         process.send_signal(signal.SIGINT)
         assert process.stdout.read() == "passed\ninterrupted 2\n"

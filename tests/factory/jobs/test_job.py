@@ -146,19 +146,15 @@ def test_what_was_damaged_is_built_again_when_asked(tmp_path, damage):
     if damage == "missing":
         (folder / "asset.urdf").unlink()
     else:
-        (folder / ("asset.urdf" if damage == "altered" else "note.txt")).write_text(
-            "<robot name='other'/>"
-        )
+        damaged = folder / ("asset.urdf" if damage == "altered" else "note.txt")
+        damaged.write_text("<robot name='other'/>")
     assert all(result.known for result in job(inputs, tmp_path / "out").run())
     repaired = list(job(inputs, tmp_path / "out", budget=Budget(repair=True)).run())
-    assert sorted((result.entry.id == first.entry.id, result.known) for result in repaired) == [
-        (False, True),
-        (True, False),
-    ]
+    found = sorted((result.entry.id == first.entry.id, result.known) for result in repaired)
+    assert found == [(False, True), (True, False)]
     assert folder_digests(folder) == before
-    assert all(
-        result.known for result in job(inputs, tmp_path / "out", budget=Budget(repair=True)).run()
-    )
+    again = job(inputs, tmp_path / "out", budget=Budget(repair=True)).run()
+    assert all(result.known for result in again)
 
 
 def test_a_folder_that_is_gone_is_built_again_unasked(tmp_path):

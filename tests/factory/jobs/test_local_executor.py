@@ -53,11 +53,8 @@ def test_what_fails_costs_only_itself():
     limits = Limits(wall_s=60.0, memory_bytes=4 * 2**30)
     outcomes = {call.name: outcome for call, outcome in LocalExecutor(2).run(behave, calls, limits)}
     assert set(outcomes) == {call.name for call in calls}
-    assert {name: outcome.failure for name, outcome in outcomes.items() if outcome.failure} == {
-        "crash": "crashed",
-        "eat": "raised",
-        "raise": "raised",
-    }
+    failures = {name: outcome.failure for name, outcome in outcomes.items() if outcome.failure}
+    assert failures == {"crash": "crashed", "eat": "raised", "raise": "raised"}
     assert "SIGSEGV" in outcomes["crash"].detail
     assert "ran out of memory" in outcomes["eat"].detail
     for name in ("one", "two", "three", "four"):
@@ -85,10 +82,8 @@ def test_bad_luck_gets_one_more_try_in_a_new_process_and_no_more():
 
 def test_whoever_is_done_comes_first():
     calls = [Call(str(seconds), {"seconds": seconds}) for seconds in (1.0, 0.01)]
-    assert [outcome.value for _, outcome in LocalExecutor(2).run(nap, calls, GENEROUS)] == [
-        0.01,
-        1.0,
-    ]
+    naps = [outcome.value for _, outcome in LocalExecutor(2).run(nap, calls, GENEROUS)]
+    assert naps == [0.01, 1.0]
 
 
 def test_calls_are_taken_as_workers_come_free():
@@ -110,10 +105,8 @@ def test_calls_are_taken_as_workers_come_free():
 
 def test_workers_are_kept_and_replaced():
     calls = [Call(str(number), {"_": number}) for number in range(6)]
-    processes = [
-        outcome.unwrap()
-        for _, outcome in LocalExecutor(1, calls=3).run(process_id, calls, GENEROUS)
-    ]
+    ran = LocalExecutor(1, calls=3).run(process_id, calls, GENEROUS)
+    processes = [outcome.unwrap() for _, outcome in ran]
     assert processes[0] == processes[1] == processes[2] != processes[3]
     assert processes[3] == processes[4] == processes[5]
 
@@ -150,10 +143,8 @@ def test_what_is_not_wanted_or_too_late_is_not_made():
 
 def test_what_runs_past_its_time_is_ended_also_in_a_used_process():
     started = time.monotonic()
-    calls = [
-        Call("first", {"seconds": 0.0}),
-        Call("long", {"seconds": 60.0}, until=time.time() + 8.0),
-    ]
+    long = Call("long", {"seconds": 60.0}, until=time.time() + 8.0)
+    calls = [Call("first", {"seconds": 0.0}), long]
     *_, (_, outcome) = LocalExecutor(1).run(nap, calls, GENEROUS)
     assert (outcome.value, outcome.failure) == (None, None)
     assert time.monotonic() - started < 40.0
@@ -161,9 +152,8 @@ def test_what_runs_past_its_time_is_ended_also_in_a_used_process():
 
 def test_closing_kills_what_is_under_way():
     started = time.monotonic()
-    answers = LocalExecutor(2).run(
-        nap, [Call("short", {"seconds": 0.0}), Call("long", {"seconds": 600.0})], GENEROUS
-    )
+    calls = [Call("short", {"seconds": 0.0}), Call("long", {"seconds": 600.0})]
+    answers = LocalExecutor(2).run(nap, calls, GENEROUS)
     next(answers)
     answers.close()
     assert time.monotonic() - started < 30.0

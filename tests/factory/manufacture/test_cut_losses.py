@@ -99,8 +99,6 @@ def test_a_thin_board_counts_as_a_sheet_and_a_thick_one_does_not():
     assert thickness_m(Manifold.cube(size)) == pytest.approx(0.002, rel=0.05)
     assert thickness_m(Manifold.cube(size)) < SHEET_M < thickness_m(Manifold.cube(4.0 * size))
     # A box of such boards is as thin as they are, however much it surrounds.
-    box = Manifold.cube([0.2, 0.2, 0.2]) - Manifold.cube([0.196, 0.196, 0.196]).translate(
-        [0.002] * 3
-    )
+    box = Manifold.cube([0.2] * 3) - Manifold.cube([0.196] * 3).translate([0.002] * 3)
     assert thickness_m(box) == pytest.approx(0.002, rel=0.1)
     assert thickness_m(None) == 0.0

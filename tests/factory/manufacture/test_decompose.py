@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.config import DecomposeConfig
 from asset_factory.factory.errors import InputRejected, Unjudged
-from asset_factory.factory.manufacture.decompose import ladder
+from asset_factory.factory.manufacture.decompose import ladder, methods
 from asset_factory.factory.manufacture.decompose.convex import depth_below, hull_of, surface_points
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls, decompose
 from asset_factory.factory.manufacture.decompose.methods import MOST_SEARCHED, SolidPieces, refined
@@ -31,10 +31,9 @@ def one_part(vertices, faces):
 
 
 def boxes(*specs):
-    made = trimesh.util.concatenate(
-        [trimesh.creation.box(s).apply_translation(at) for s, at in specs]
-    )
-    return np.array(made.vertices), np.array(made.faces)
+    made = [trimesh.creation.box(size).apply_translation(at) for size, at in specs]
+    whole = trimesh.util.concatenate(made)
+    return np.array(whole.vertices), np.array(whole.faces)
 
 
 def only(vertices, faces, config=CONFIG):
@@ -64,14 +63,9 @@ def test_a_box_is_one_exact_hull():
 
 
 def test_boards_that_touch_are_one_hull_each_and_keep_their_cavity():
-    result = only(
-        *boxes(
-            ((0.6, 0.02, 0.8), (0, 0.2, 0)),
-            ((0.02, 0.4, 0.8), (-0.29, 0, 0)),
-            ((0.02, 0.4, 0.8), (0.29, 0, 0)),
-            ((0.56, 0.38, 0.02), (0, 0, 0.39)),
-        )
-    )
+    sides = [((0.02, 0.4, 0.8), (x, 0, 0)) for x in (-0.29, 0.29)]
+    back, top = ((0.6, 0.02, 0.8), (0, 0.2, 0)), ((0.56, 0.38, 0.02), (0, 0, 0.39))
+    result = only(*boxes(back, *sides, top))
     assert (result.method, result.exact, len(result.hulls)) == ("exact", True, 4)
     inside = np.random.default_rng(0).uniform(-1, 1, (500, 3)) * [0.27, 0.18, 0.37]
     assert max(depth_below(hull, inside).max() for hull in result.hulls) < 0.0
@@ -80,10 +74,8 @@ def test_boards_that_touch_are_one_hull_each_and_keep_their_cavity():
 def test_a_hollow_body_keeps_its_cavity():
     outer = boxes(((0.4, 0.4, 0.4), (0, 0, 0)))
     inner = boxes(((0.36, 0.36, 0.36), (0, 0, 0)))
-    result = only(
-        np.concatenate([outer[0], inner[0]]),
-        np.concatenate([outer[1], inner[1][:, ::-1] + len(outer[0])]),
-    )
+    faces = np.concatenate([outer[1], inner[1][:, ::-1] + len(outer[0])])
+    result = only(np.concatenate([outer[0], inner[0]]), faces)
     assert result.exact
     assert cover_volume(result) == pytest.approx(0.4**3 - 0.36**3)
 
@@ -107,18 +99,16 @@ def test_coacd_covers_a_curved_solid_keeps_its_hole_and_repeats_itself():
     assert (first.method, first.degraded) == ("coacd", ())
     assert uncovered(first.hulls, surface_points(*torus())) < 0.002
     assert max(depth_below(hull, np.zeros((1, 3))).max() for hull in first.hulls) < -0.03
-    assert [h.vertices.tobytes() for h in first.hulls] == [
-        h.vertices.tobytes() for h in again.hulls
-    ]
+    one, other = ([hull.vertices.tobytes() for hull in each.hulls] for each in (first, again))
+    assert one == other
 
 
 def test_a_curved_part_is_covered_and_a_cache_hit_equals_a_miss(tmp_path):
     articulation = one_part(*torus())
     store = Store(tmp_path)
     config = replace(CONFIG, error_m=0.015)
-    first, kept, anew = (
-        decompose(articulation, config, place)[0] for place in (store, store, None)
-    )
+    stores = (store, store, None)
+    first, kept, anew = (decompose(articulation, config, place)[0] for place in stores)
     assert all(len(hull.vertices) <= config.max_vertices for hull in first.hulls)
     assert uncovered(first.hulls, surface_points(*torus())) < 0.003
     for other in (kept, anew):
@@ -132,11 +122,10 @@ def test_a_curved_part_is_covered_and_a_cache_hit_equals_a_miss(tmp_path):
 def test_a_cached_result_is_not_computed_again(tmp_path, monkeypatch):
     articulation = one_part(*boxes(((0.4, 0.3, 0.2), (0, 0, 0))))
     store = Store(tmp_path)
-    first = decompose(articulation, CONFIG, store)
+    (first,) = decompose(articulation, CONFIG, store)
     monkeypatch.setattr("asset_factory.factory.manufacture.decompose.decompose.split_part", None)
-    assert len(decompose(articulation, replace(CONFIG, wall_s=1.0), store)[0].hulls) == len(
-        first[0].hulls
-    )
+    (again,) = decompose(articulation, replace(CONFIG, wall_s=1.0), store)
+    assert len(again.hulls) == len(first.hulls)
     with pytest.raises(TypeError):
         decompose(articulation, replace(CONFIG, error_m=0.001), store)
 
@@ -150,11 +139,7 @@ CUBE = boxes(((0.2, 0.2, 0.2), (0, 0, 0)))
         ("duplicated faces", CUBE[0], np.concatenate([CUBE[1], CUBE[1]]), 0.008),
         ("double-sided faces", CUBE[0], np.concatenate([CUBE[1], CUBE[1][:, ::-1]]), 0.008),
         ("inverted", CUBE[0], CUBE[1][:, ::-1], 0.008),
-        (
-            "overlapping bodies",
-            *boxes(((0.2, 0.2, 0.2), (0, 0, 0)), ((0.2, 0.2, 0.2), (0.1, 0.1, 0.1))),
-            0.015,
-        ),
+        ("overlapping bodies", *boxes(*(((0.2, 0.2, 0.2), [at] * 3) for at in (0, 0.1))), 0.015),
         ("unreferenced vertices", np.concatenate([CUBE[0], [[9.0, 9.0, 9.0]]]), CUBE[1], 0.008),
         ("far away", CUBE[0] + 1e4, CUBE[1], 0.008),
     ],
@@ -235,20 +220,15 @@ def test_a_crashing_engine_costs_a_found_and_leaves_a_sentence(monkeypatch):
 @pytest.mark.parametrize(
     ("outcome", "code"),
     [
-        (Outcome[object](None, Failure.TIMEOUT, "no answer within 60 s", "", 60.0), "timeout"),
-        (
-            Outcome[object](None, Failure.CRASHED, "killed by SIGKILL", "", 0.1, killed=True),
-            "killed",
-        ),
+        (Outcome(None, Failure.TIMEOUT, "no answer within 60 s", "", 60.0), "timeout"),
+        (Outcome(None, Failure.CRASHED, "killed by SIGKILL", "", 0.1, killed=True), "killed"),
     ],
 )
 def test_what_a_clock_or_somebody_stopped_is_unjudged_and_not_kept(
     monkeypatch, tmp_path, outcome, code
 ):
     monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: outcome)
-    monkeypatch.setattr(
-        "asset_factory.factory.manufacture.decompose.methods.cut_along_faces", lambda *_: None
-    )
+    monkeypatch.setattr(methods, "cut_along_faces", lambda *_: None)
     with pytest.raises(Unjudged) as caught:
         decompose(one_part(*torus()), CONFIG, Store(tmp_path))
     assert caught.value.finding.code == f"decomposition_{code}"
@@ -324,9 +304,7 @@ def test_a_hundred_thousand_faces_in_two_blobs_become_hulls(tmp_path):
 def test_without_memory_the_next_method_is_tried_and_that_is_kept(monkeypatch, tmp_path):
     full = Outcome[object](None, Failure.RAISED, "ran out of memory", "", 0.1, error=MemoryError())
     monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: full)
-    monkeypatch.setattr(
-        "asset_factory.factory.manufacture.decompose.methods.cut_along_faces", lambda *_: None
-    )
+    monkeypatch.setattr(methods, "cut_along_faces", lambda *_: None)
     first, kept = (decompose(one_part(*torus()), CONFIG, Store(tmp_path))[0] for _ in range(2))
     assert (first.method, first.degraded) == (kept.method, kept.degraded)
     assert "ran out of memory" in first.degraded[0]
@@ -334,9 +312,8 @@ def test_without_memory_the_next_method_is_tried_and_that_is_kept(monkeypatch, t
 
 
 def test_a_program_that_cannot_start_children_is_not_taken_for_a_bad_mesh(monkeypatch):
-    gone = Outcome[object](
-        None, "raised", "ImportError: no coacd", "", 0.1, error=ImportError("no coacd")
-    )
+    error = ImportError("no coacd")
+    gone = Outcome(None, "raised", "ImportError: no coacd", "", 0.1, error=error)
     monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: gone)
     with pytest.raises(ImportError):
         ladder.search(torus_solid(), 0.01, CONFIG)
@@ -354,16 +331,12 @@ def test_coacd_that_takes_too_long_is_killed():
 @given(st.integers(0, 2**32 - 1), st.integers(1, 6))
 def test_any_pile_of_boxes_is_covered_and_nothing_reaches_farther_than_the_error(seed, count):
     random = np.random.default_rng(seed)
-    specs = [
-        (tuple(random.uniform(0.02, 0.3, 3)), tuple(random.uniform(-0.3, 0.3, 3)))
-        for _ in range(count)
-    ]
+    specs = [(random.uniform(0.02, 0.3, 3), random.uniform(-0.3, 0.3, 3)) for _ in range(count)]
     vertices, faces = boxes(*specs)
     result = only(vertices, faces)
     assert uncovered(result.hulls, surface_points(vertices, faces)) < 1e-6
-    solid = union(
-        [manifold_of_hull(hull) for size, at in specs for hull in only(*boxes((size, at))).hulls]
-    )
+    single = [hull for spec in specs for hull in only(*boxes(spec)).hulls]
+    solid = union([manifold_of_hull(hull) for hull in single])
     extra = cover_volume(result) - solid.volume()
     assert extra >= -1e-9
     assert extra <= 0.005 * solid.surface_area()

@@ -48,9 +48,8 @@ def test_what_would_fill_too_much_stays_open(tmp_path):
     assert not nothing
     assert len(first[0].hulls) == 10
     again, _ = fewer(pieces, 4, 16.0, CONFIG, store)
-    assert [hull.vertices.tolist() for hull in again[0].hulls] == [
-        hull.vertices.tolist() for hull in first[0].hulls
-    ]
+    for one, other in zip(first[0].hulls, again[0].hulls, strict=True):
+        assert one.vertices.tolist() == other.vertices.tolist()
 
 
 def test_slots_stay_open_while_the_error_is_small_and_a_small_error_leaves_many():

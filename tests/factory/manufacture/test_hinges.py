@@ -1,7 +1,5 @@
 """A door that is hung at its front edge turns clear of the frame around it."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from modelled_furniture import board
@@ -25,19 +23,11 @@ def inset_door(**changed):
     door = board((LEFT, 0.0, 0.0), (RIGHT, THICK, 0.6))
     handle = board((0.33, -0.03, 0.2), (0.35, 0.0, 0.4))
     mesh = concatenate([post, door, handle])
-    hinge = Joint(
-        "hinge",
-        JointKind.REVOLUTE,
-        0,
-        1,
-        np.array([0.0, 0.0, -1.0]),
-        np.array([LEFT, THICK, 0.3]),
-        upper=1.5,
-        confidence=0.9,
-    )
+    place = ([0, 0, -1], [LEFT, THICK, 0.3])
+    stated = {"upper": 1.5, "confidence": 0.9, "kind": JointKind.REVOLUTE, **changed}
+    hinge = Joint("hinge", stated.pop("kind"), 0, 1, *place, **stated)
     parts = (Part("base", np.arange(12)), Part("door", np.arange(12, 36)))
-    joints = (replace(hinge, **changed),)
-    return located(Articulation(mesh, parts, joints, "auto"))
+    return located(Articulation(mesh, parts, (hinge,), "auto"))
 
 
 def farthest_left(door, joint):

@@ -20,6 +20,12 @@ def solid_box(size, at=(0, 0, 0)):
     return Manifold.cube(size).translate(at)
 
 
+def round_hole(diameter):
+    """What makes a round hole in a board of 0.4 x 0.3 x 0.1 m."""
+    cylinder = Manifold.cylinder(0.2, diameter / 2, diameter / 2, 16)
+    return cylinder.translate((0.2, 0.1, -0.05))
+
+
 def hull_box(size, at=(0, 0, 0)):
     corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * size + at
     hull = hull_of(corners.astype(float))
@@ -66,14 +72,8 @@ def test_a_hull_may_fill_dents_and_slots_within_the_error_and_nothing_wider():
         (solid_box((0.2, 0.2, 0.02), (0.1, 0.05, 0.08)), False),  # a wide dent, 20 mm deep
         (solid_box((0.008, 0.2, 0.05), (0.1, 0.05, 0.05)), True),  # a slot 8 mm wide, 50 mm deep
         (solid_box((0.02, 0.2, 0.05), (0.1, 0.05, 0.05)), False),  # a slot 20 mm wide
-        (
-            Manifold.cylinder(0.2, 0.0025, 0.0025, 16).translate((0.2, 0.1, -0.05)),
-            True,
-        ),  # a hole of 5 mm
-        (
-            Manifold.cylinder(0.2, 0.02, 0.02, 16).translate((0.2, 0.1, -0.05)),
-            False,
-        ),  # a hole of 40 mm
+        (round_hole(0.005), True),
+        (round_hole(0.04), False),
     ):
         assert fills_little(hull_box((0.4, 0.3, 0.1)), board - cut, 0.005) is allowed
 
@@ -113,9 +113,8 @@ def test_halves_of_a_board_are_joined_and_the_legs_of_a_table_are_not():
 
 def test_joining_covers_whatever_was_given():
     random = np.random.default_rng(3)
-    hulls = [
-        hull_box((0.03, 0.03, 0.01), tuple(random.random(3) * [0.2, 0.2, 0.01])) for _ in range(40)
-    ]
+    places = random.random((40, 3)) * [0.2, 0.2, 0.01]
+    hulls = [hull_box((0.03, 0.03, 0.01), place) for place in places]
     merged = merge(hulls, 0.005)
     assert len(merged) < len(hulls)
     assert uncovered(merged, np.concatenate([hull.vertices for hull in hulls])) < 1e-9
@@ -135,9 +134,8 @@ def test_an_open_box_becomes_five_walls_with_room_between():
 
 
 def test_a_flat_sheet_of_an_l_keeps_its_notch():
-    vertices = np.array(
-        [[0, 0, 0], [1, 0, 0], [1, 0.4, 0], [0.4, 0.4, 0], [0.4, 1, 0], [0, 1, 0.0]]
-    )
+    outline = np.array([[0, 0], [1, 0], [1, 0.4], [0.4, 0.4], [0.4, 1], [0, 1]])
+    vertices = np.column_stack([outline, np.zeros(6)])
     faces = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]])
     plates = slabs(OpenSurface(vertices, faces), 0.005, 0.0015, np.array([0.5, 0.5, -1.0]))
     assert sum(plate.volume for plate in plates) == pytest.approx(0.64 * 0.0015, rel=1e-6)

@@ -63,18 +63,16 @@ def test_a_cylinder_comes_close_to_its_textbook_inertia():
     mass = DENSITY * np.pi * radius**2 * height
     across = mass * (3 * radius**2 + height**2) / 12
     assert found.mass == pytest.approx(mass, rel=1e-3)
-    np.testing.assert_allclose(
-        found.tensor, np.diag([across, across, mass * radius**2 / 2]), rtol=1e-3, atol=1e-9
-    )
+    tensor = np.diag([across, across, mass * radius**2 / 2])
+    np.testing.assert_allclose(found.tensor, tensor, rtol=1e-3, atol=1e-9)
 
 
 @pytest.mark.parametrize("shell", [(False, True), (True, False)], ids=["proper", "all_inside_out"])
 def test_a_closed_shell_inside_another_is_a_cavity(shell):
     outer = UNIT
     inner = box((0.02, 0.38), (0.02, 0.28), (0.02, 0.18), PLAIN)
-    parts = [
-        inside_out(m) if turned else m for m, turned in zip((outer, inner), shell, strict=True)
-    ]
+    pairs = zip((outer, inner), shell, strict=True)
+    parts = [inside_out(mesh) if turned else mesh for mesh, turned in pairs]
     found = inertial(concatenate(parts))
     solid = DENSITY * 0.4 * 0.3 * 0.2
     hole = DENSITY * 0.36 * 0.26 * 0.16
@@ -106,24 +104,17 @@ def test_overlapping_boxes_count_their_overlap_once():
     other = UNIT.transformed([[1, 0, 0, 0.2], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
     found = inertial(concatenate([UNIT, other]))
     assert found.mass == pytest.approx(DENSITY * 0.6 * 0.3 * 0.2)
-    np.testing.assert_allclose(
-        found.tensor, box_tensor(found.mass, 0.6, 0.3, 0.2), rtol=1e-9, atol=1e-12
-    )
+    tensor = box_tensor(found.mass, 0.6, 0.3, 0.2)
+    np.testing.assert_allclose(found.tensor, tensor, rtol=1e-9, atol=1e-12)
 
 
 def test_two_touching_boxes_that_share_an_edge_are_two_solids():
-    vertices = np.unique(
-        np.vstack([UNIT.vertices, UNIT.vertices + np.array([0.4, 0.3, 0.0])]), axis=0
-    )
-    lookup = {tuple(np.round(v, 9)): i for i, v in enumerate(vertices)}
-    corners = [
-        np.round(UNIT.vertices[UNIT.faces] + shift, 9)
-        for shift in ([0.0, 0.0, 0.0], [0.4, 0.3, 0.0])
-    ]
-    faces = [[lookup[tuple(v)] for v in face] for block in corners for face in block]
-    assert inertial(Mesh.from_triangles(vertices, faces)).mass == pytest.approx(
-        2 * inertial(UNIT).mass
-    )
+    corners = UNIT.vertices[UNIT.faces]
+    both = np.concatenate([corners, corners + np.array([0.4, 0.3, 0.0])]).reshape(-1, 3)
+    vertices, index = np.unique(np.round(both, 9), axis=0, return_inverse=True)
+    assert len(vertices) == 14
+    found = inertial(Mesh.from_triangles(vertices, index.reshape(-1, 3)))
+    assert found.mass == pytest.approx(2 * inertial(UNIT).mass)
 
 
 def test_two_parts_together_are_the_sum_of_both():
@@ -157,10 +148,8 @@ def test_a_closed_surface_without_thickness_is_a_sheet():
 
 
 def test_an_open_box_of_sheets_is_walls_and_not_a_block():
-    normals = np.cross(
-        UNIT.vertices[UNIT.faces[:, 1]] - UNIT.vertices[UNIT.faces[:, 0]],
-        UNIT.vertices[UNIT.faces[:, 2]] - UNIT.vertices[UNIT.faces[:, 0]],
-    )
+    a, b, c = np.moveaxis(UNIT.vertices[UNIT.faces], 1, 0)
+    normals = np.cross(b - a, c - a)
     tray = UNIT.submesh(np.flatnonzero(~(normals[:, 2] > 0)))
     area = 0.4 * 0.3 + 2 * 0.4 * 0.2 + 2 * 0.3 * 0.2
     found = inertial(tray)

@@ -33,13 +33,8 @@ def test_parts_of_many_hulls_are_joined_and_named(kept):
     joined, told = made(kept, 8, Plan())
     assert not nothing
     assert joined.hull_count < plain.hull_count
-    fewer = {
-        part.name
-        for part, before, after in zip(
-            plain.articulation.parts, plain.bodies, joined.bodies, strict=True
-        )
-        if len(after.hulls) < len(before.hulls)
-    }
+    both = zip(plain.articulation.parts, plain.bodies, joined.bodies, strict=True)
+    fewer = {part.name for part, had, has in both if len(has.hulls) < len(had.hulls)}
     assert {part for each in told for part in each.parts} == fewer
     assert all(each.message.endswith(("of 7.5 mm", "of 10 mm")) for each in told)
 

@@ -1,43 +1,34 @@
 """What is no part of its own belongs to what it lies on; of guesses the small go first."""
 
 import numpy as np
-import trimesh
+from plain_solids import box_between
 
 from asset_factory.factory.articulation import Articulation, Joint, Part
 from asset_factory.factory.manufacture.lying import lying_on
 from asset_factory.factory.manufacture.plan import Plan, as_planned, dispensable_joints
-from asset_factory.factory.mesh import Mesh, concatenate
+from asset_factory.factory.mesh import concatenate
 
 
-def cupboard(badge_confidence=0.9):
+def cupboard():
     """A body, a door in front of it, and a badge on the door that is taken for a part."""
-    boxes = [
-        ((0.0, 0.0, 0.5), (0.8, 0.6, 1.0)),
-        ((0.0, -0.32, 0.5), (0.8, 0.03, 1.0)),
-        ((0.1, -0.34, 0.7), (0.1, 0.01, 0.1)),
-    ]
-    meshes = []
-    for center, size in boxes:
-        made = trimesh.creation.box(extents=size)
-        meshes.append(Mesh.from_triangles(made.vertices + np.array(center), made.faces))
-    parts = tuple(
-        Part(name, np.arange(12 * number, 12 * number + 12))
-        for number, name in enumerate(("body", "door", "badge"))
-    )
-    hinge = {"axis": [0, 0, -1], "lower": 0.0, "upper": 1.5}
+    boxes = {
+        "body": ((-0.4, -0.3, 0.0), (0.4, 0.3, 1.0)),
+        "door": ((-0.4, -0.335, 0.0), (0.4, -0.305, 1.0)),
+        "badge": ((0.05, -0.345, 0.65), (0.15, -0.335, 0.75)),
+    }
+    mesh = concatenate([box_between(*corners) for corners in boxes.values()])
+    faces = np.arange(36).reshape(3, 12)
+    parts = tuple(Part(name, own) for name, own in zip(boxes, faces, strict=True))
+
+    def hinge(name, child, origin, confidence):
+        motion = {"axis": [0, 0, -1], "origin": origin, "lower": 0.0, "upper": 1.5}
+        return Joint(name, "revolute", 0, child, **motion, confidence=confidence)
+
     joints = (
-        Joint("door_hinge", "revolute", 0, 1, origin=[-0.4, -0.3, 0.5], confidence=0.5, **hinge),
-        Joint(
-            "badge_hinge",
-            "revolute",
-            0,
-            2,
-            origin=[0.1, -0.34, 0.7],
-            confidence=badge_confidence,
-            **hinge,
-        ),
+        hinge("door_hinge", 1, [-0.4, -0.3, 0.5], 0.5),
+        hinge("badge_hinge", 2, [0.1, -0.34, 0.7], 0.9),
     )
-    return Articulation(concatenate(meshes), parts, joints, "test")
+    return Articulation(mesh, parts, joints, "test")
 
 
 def test_a_badge_goes_with_the_door_that_it_lies_on_and_not_with_its_parent():

@@ -1,6 +1,7 @@
 """A door without room for its edge is cut free; a door that is hung wrongly never is."""
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -66,17 +67,21 @@ def test_a_door_that_lies_3_mm_in_its_frame_is_cut_free():
 SHIFT = 0.05 * DIAGONAL
 SIDE = np.array([1.0, 0.0, 0.0])
 FRONT = np.array([0.0, -1.0, 0.0])
+
+
+def tilted(about, degrees):
+    return replace(HINGE, axis=rotation_about(about, np.radians(degrees)) @ HINGE.axis)
+
+
 TWINS = {
     "flipped": replace(HINGE, axis=-HINGE.axis),
     "swapped": replace(HINGE, lower=-HINGE.upper, upper=0.0),
     "shifted inwards": replace(HINGE, origin=HINGE.origin + SHIFT * SIDE),
     "shifted backwards": replace(HINGE, origin=HINGE.origin - SHIFT * FRONT),
-    "tilted sideways": replace(HINGE, axis=rotation_about(FRONT, np.radians(10)) @ HINGE.axis),
-    "tilted the other way": replace(
-        HINGE, axis=rotation_about(FRONT, -np.radians(10)) @ HINGE.axis
-    ),
-    "tilted backwards": replace(HINGE, axis=rotation_about(SIDE, np.radians(10)) @ HINGE.axis),
-    "tilted forwards": replace(HINGE, axis=rotation_about(SIDE, -np.radians(10)) @ HINGE.axis),
+    "tilted sideways": tilted(FRONT, 10.0),
+    "tilted the other way": tilted(FRONT, -10.0),
+    "tilted backwards": tilted(SIDE, 10.0),
+    "tilted forwards": tilted(SIDE, -10.0),
 }
 
 
@@ -92,18 +97,13 @@ def test_neighbours_whose_edges_overlap_are_cut_apart_and_broad_overlaps_are_not
     for overlap, refused in ((0.006, False), (0.06, True)):
         left = box((0, 0, 0), (0.5 + overlap / 2, 0.018, 0.6))
         right = box((0.5 - overlap / 2, 0, 0), (1, 0.018, 0.6))
-        parts = tuple(
-            Part(name, np.arange(12 * i, 12 * i + 12))
-            for i, name in enumerate(("back", "left", "right"))
-        )
-        joints = tuple(
-            Joint(name, "prismatic", 0, i, [0, -1, 0], [0, 0, 0], 0.0, 0.2)
-            for i, name in ((1, "one"), (2, "two"))
-        )
-        tree = Articulation(mesh_of([back, left, right]), parts, joints, "test")
-        pieces = tuple(
-            PartHulls(hulls_of([each]), "exact", (), True) for each in (back, left, right)
-        )
+        names = ("back", "left", "right")
+        parts = tuple(Part(name, np.arange(12 * i, 12 * i + 12)) for i, name in enumerate(names))
+        way = ([0, -1, 0], [0, 0, 0], 0.0, 0.2)
+        joints = (Joint("one", "prismatic", 0, 1, *way), Joint("two", "prismatic", 0, 2, *way))
+        boxes = (back, left, right)
+        tree = Articulation(mesh_of([*boxes]), parts, joints, "test")
+        pieces = tuple(PartHulls(hulls_of([each]), "exact", (), True) for each in boxes)
         result = separate(tree, pieces, [("left", "right")], CONFIG, 64)
         assert (("left", "right") in result.refused) == refused
 
@@ -119,10 +119,8 @@ def test_a_door_whose_far_edge_scrapes_its_frame_is_cut_back_there():
 
 def test_a_cap_that_turns_and_lifts_is_held_by_its_bottle():
     # It lies 7 mm in the neck, with nothing but a link without a body between.
-    neck, cap = (
-        box((-0.1, -0.1, 0), (0.1, 0.1, 0.3)),
-        box((-0.04, -0.04, 0.293), (0.04, 0.04, 0.34)),
-    )
+    neck = box((-0.1, -0.1, 0), (0.1, 0.1, 0.3))
+    cap = box((-0.04, -0.04, 0.293), (0.04, 0.04, 0.34))
     lift = Joint("lift", "prismatic", 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 0.05)
     apart, before, _ = cut([neck], [cap], lift)
     turn = Joint("turn", "continuous", 1, 2, [0, 0, 1], [0, 0, 0], -np.pi, np.pi)
@@ -137,10 +135,8 @@ def test_a_cap_that_turns_and_lifts_is_held_by_its_bottle():
 
 @pytest.mark.parametrize(("travel", "dug"), [(0.004, True), (0.03, False)])
 def test_a_button_digs_a_pit_for_itself_and_what_is_no_button_does_not(travel, dug):
-    panel, button = (
-        box((-0.2, -0.2, -0.02), (0.2, 0.2, 0)),
-        box((-0.01, -0.01, 0), (0.01, 0.01, 0.006)),
-    )
+    panel = box((-0.2, -0.2, -0.02), (0.2, 0.2, 0))
+    button = box((-0.01, -0.01, 0), (0.01, 0.01, 0.006))
     press = Joint("press", "prismatic", 0, 1, [0, 0, -1], [0, 0, 0], 0.0, travel)
     tree, _, result = cut([panel], [button], press)
     assert (PAIR not in result.refused) is dug
@@ -163,13 +159,8 @@ def test_a_sheet_that_lies_on_a_rim_gives_way_and_stays():
 def test_a_hinge_that_turns_half_a_turn_keeps_its_clearance_all_the_way():
     tree, result = hung(replace(HINGE, upper=np.pi))
     sides, door = (piece.hulls for piece in result.pieces)
-    gap = min(
-        -meeting(one, other, pose).depth
-        for pose in relative_poses(tree, 0, 1, 150)
-        for one in sides
-        for other in door
-    )
-    assert gap > 0.0022
+    pairs = product(sides, door, relative_poses(tree, 0, 1, 150))
+    assert min(-meeting(*each).depth for each in pairs) > 0.0022
 
 
 def test_what_a_slide_passes_between_two_poses_is_cut_too():

@@ -17,12 +17,8 @@ def block(size, center=(0.0, 0.0, 0.0)):
 
 PANEL = PartHulls((block((0.3, 0.3, 0.02)),), "exact", (), True)
 #: The panel in nine tiles, without the one in the middle.
-TILES = [
-    block((0.1, 0.1, 0.02), (0.1 * i, 0.1 * j, 0.0))
-    for i in (-1, 0, 1)
-    for j in (-1, 0, 1)
-    if (i, j) != (0, 0)
-]
+PLACES = [(x, y, 0.0) for x in (-0.1, 0.0, 0.1) for y in (-0.1, 0.0, 0.1) if (x, y) != (0.0, 0.0)]
+TILES = [block((0.1, 0.1, 0.02), place) for place in PLACES]
 
 
 def test_tiles_around_a_hole_become_four_walls_and_the_hole_stays_open():

@@ -5,6 +5,7 @@ import pytest
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from plain_solids import box_between
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.asset import Hull
@@ -115,11 +116,9 @@ def cylinder(radius, low, high):
 def test_a_round_stem_that_nearly_fills_its_column_is_kept_whole_in_a_socket():
     # A spout in its base: walls of four pieces would leave the column's own surface bare.
     column, stem = cylinder(0.05, 0.0, 0.2), cylinder(0.03, 0.05, 0.5)
-    count = len(column.faces)
-    parts = (
-        Part("base", np.arange(count)),
-        Part("mover", np.arange(count, count + len(stem.faces))),
-    )
+    faces = np.arange(len(column.faces) + len(stem.faces))
+    base, mover = np.split(faces, [len(column.faces)])
+    parts = (Part("base", base), Part("mover", mover))
     turn = Joint("turn", JointKind.CONTINUOUS, 0, 1, [0, 0, 1], [0, 0, 0], -np.pi, np.pi)
     tree = Articulation(concatenate([column, stem]), parts, (turn,), "test")
     hulls = [Hull(mesh.vertices, mesh.faces) for mesh in (column, stem)]
@@ -134,15 +133,11 @@ def test_a_round_stem_that_nearly_fills_its_column_is_kept_whole_in_a_socket():
 
 def test_a_slot_in_something_large_may_be_as_deep_as_it_is_large():
     # A toaster of three metres: its lever's tongue is 100 mm wide, the slot in its front 50.
-    sides = [
-        trimesh.creation.box(bounds=[low, high])
-        for low, high in (
-            ((-1.5, 0.0, 0.0), (-0.025, 3.0, 3.0)),
-            ((0.025, 0.0, 0.0), (1.5, 3.0, 3.0)),
-        )
+    solids = [
+        box_between((-1.5, 0.0, 0.0), (-0.025, 3.0, 3.0)),
+        box_between((0.025, 0.0, 0.0), (1.5, 3.0, 3.0)),
+        box_between((-0.05, -0.2, 1.5), (0.05, 0.25, 1.6)),
     ]
-    tongue = trimesh.creation.box(bounds=[(-0.05, -0.2, 1.5), (0.05, 0.25, 1.6)])
-    solids = [Mesh.from_triangles(each.vertices, each.faces) for each in (*sides, tongue)]
     parts = (Part("base", np.arange(24)), Part("mover", np.arange(24, 36)))
     slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, 0], 0.0, 0.4)
     tree = Articulation(concatenate(solids), parts, (slide,), "test")
@@ -167,14 +162,10 @@ def test_parts_that_get_deeper_along_the_joint_are_left_alone():
 
 def test_overlap_without_a_joint_between_is_left_alone():
     # Two neighbours, overlapping by 8 mm, both held by the base.
-    tree = object_of(
-        ((2, 2, 0.1), (0, 0, -2)),
-        ((0.5, 0.5, 0.5), (0, 0, 0)),
-        third=((0.5, 0.5, 0.5), (0, 0.492, 0)),
-    )
-    pieces = pieces_of(
-        hull((2, 2, 0.1), (0, 0, -2)), hull((0.5, 0.5, 0.5)), hull((0.5, 0.5, 0.5), (0, 0.492, 0))
-    )
+    shapes = [((2, 2, 0.1), (0, 0, -2))]
+    shapes += [((0.5, 0.5, 0.5), (0, y, 0)) for y in (0, 0.492)]
+    tree = object_of(shapes[0], shapes[1], third=shapes[2])
+    pieces = pieces_of(*(hull(*shape) for shape in shapes))
     result = separate(tree, pieces, [("mover", "third")], CONFIG, 64)
     assert "overlap by 8.00 mm at rest and no joint" in result.refused[("mover", "third")].reason
 
@@ -214,10 +205,8 @@ def test_a_cut_that_would_take_too_much_is_refused():
     turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
     tree = object_of(((0.06, 0.06, 0.1), (0, 0, 0)), stem, turn)
     pieces = pieces_of(hull((0.06, 0.06, 0.1)), hull(*stem))
-    assert (
-        "take 75% of 'mover'; at most 50% may go"
-        in separate(tree, pieces, [("base", "mover")], CONFIG, 64).refused[("base", "mover")].reason
-    )
+    refused = separate(tree, pieces, [("base", "mover")], CONFIG, 64).refused
+    assert "take 75% of 'mover'; at most 50% may go" in refused[("base", "mover")].reason
 
 
 def test_what_sticks_out_on_the_other_side_is_not_cut_off():
@@ -225,19 +214,13 @@ def test_what_sticks_out_on_the_other_side_is_not_cut_off():
     rod = ((0.02, 0.02, 0.4), (0, 0, 0))
     turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
     tree = object_of(((0.3, 0.3, 0.02), (0, 0, 0.1)), rod, turn)
-    result = separate(
-        tree,
-        pieces_of(hull((0.3, 0.3, 0.02), (0, 0, 0.1)), hull(*rod)),
-        [("base", "mover")],
-        CONFIG,
-        64,
-    )
+    pieces = pieces_of(hull((0.3, 0.3, 0.02), (0, 0, 0.1)), hull(*rod))
+    result = separate(tree, pieces, [("base", "mover")], CONFIG, 64)
     assert result.refused == {}
     rods = result.pieces[1].hulls
     assert sum(each.volume for each in rods) == pytest.approx(0.02**2 * (0.4 - 0.025))
-    assert sorted(float(np.ptp(each.vertices[:, 2])) for each in rods) == pytest.approx(
-        [0.0875, 0.2875]
-    )
+    lengths = sorted(float(np.ptp(each.vertices[:, 2])) for each in rods)
+    assert lengths == pytest.approx([0.0875, 0.2875])
 
 
 @settings(max_examples=60, deadline=None)
@@ -293,7 +276,6 @@ def test_what_a_plane_would_leave_of_a_hull_is_known_before_it_is_cut(seed):
 
 
 def test_a_box_cut_by_planes_along_its_faces_leaves_its_share():
-    shares = volumes_below(
-        hull((1, 2, 3), (5, 0, 0)), np.array([[1.0, 0, 0]] * 4), np.array([4.5, 4.75, 5.5, 9.0])
-    )
+    planes = np.array([[1.0, 0, 0]] * 4), np.array([4.5, 4.75, 5.5, 9.0])
+    shares = volumes_below(hull((1, 2, 3), (5, 0, 0)), *planes)
     assert shares == pytest.approx([0.0, 1.5, 6.0, 6.0])

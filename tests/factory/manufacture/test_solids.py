@@ -30,11 +30,10 @@ def box(size, at=(0.0, 0.0, 0.0)):
 
 
 def together(*meshes):
-    offset = np.cumsum([0, *[len(v) for v, _ in meshes]])
-    return (
-        np.concatenate([v for v, _ in meshes]),
-        np.concatenate([f + o for (_, f), o in zip(meshes, offset, strict=False)]),
-    )
+    vertices = [own for own, _ in meshes]
+    offset = np.cumsum([0, *map(len, vertices[:-1])])
+    faces = [own + start for (_, own), start in zip(meshes, offset, strict=True)]
+    return np.concatenate(vertices), np.concatenate(faces)
 
 
 def welded(mesh):
@@ -102,11 +101,8 @@ def test_an_open_box_is_a_sheet_wound_one_way():
     assert not gated.solids
     assert len(gated.sheets) == 1
     corners = gated.sheets[0].vertices[gated.sheets[0].faces]
-    outward = np.einsum(
-        "ij,ij->i",
-        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]),
-        corners[:, 0],
-    )
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    outward = np.einsum("ij,ij->i", across, corners[:, 0])
     assert abs(np.sign(outward).sum()) == len(outward)
 
 
@@ -114,11 +110,8 @@ def test_an_open_box_is_a_sheet_wound_one_way():
     "faces", [[], [[0, 1, 2]], [[0, 0, 1]], [[0, 1, 2], [2, 1, 3]], [[0, 1, 2]] * 5]
 )
 def test_what_encloses_nothing_is_no_solid(faces):
-    gated = gate(
-        np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]]),
-        np.array(faces, dtype=np.int64).reshape(-1, 3),
-    )
-    assert not gated.solids
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]])
+    assert not gate(corners, np.array(faces, dtype=np.int64).reshape(-1, 3)).solids
 
 
 def test_an_open_surface_is_refused_before_anything_native_sees_it():
@@ -137,9 +130,7 @@ def test_any_soup_is_gated_without_a_crash_and_only_closed_positive_solids_come_
     random = np.random.default_rng(seed)
     faces = random.integers(0, vertex_count, size=(face_count, 3))
     faces = np.concatenate([faces, faces[random.random(face_count) < 0.5][:, ::-1]])
-    faces = faces[
-        (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
-    ]
+    faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
     gated = gate(random.normal(size=(vertex_count, 3)), faces)
     for solid in (*gated.solids, *gated.cavities):
         assert solid.volume() > 0.0

@@ -39,14 +39,13 @@ def turned(solid, angle):
 KNOB = [trimesh.creation.cylinder(RADIUS, 0.06, sections=SIDES)]
 INNER = RADIUS * np.cos(np.pi / SIDES) + 0.001
 WIDTH = INNER * np.tan(np.pi / SIDES)
-RING = [
-    turned(
-        trimesh.creation.box(bounds=[(INNER, -WIDTH, -0.02), (INNER + 0.02, WIDTH, 0.0)]),
-        2.0 * np.pi * (number + 0.5) / SIDES,
-    )
-    for number in range(SIDES)
-]
+BOARD = trimesh.creation.box(bounds=[(INNER, -WIDTH, -0.02), (INNER + 0.02, WIDTH, 0.0)])
+ANGLES = 2.0 * np.pi * (np.arange(SIDES) + 0.5) / SIDES
+RING = [turned(BOARD.copy(), angle) for angle in ANGLES]
 FLOOR = [trimesh.creation.box(bounds=[(-0.3, -0.3, -0.2), (0.3, 0.3, -0.06)])]
+
+
+PIECES = tuple(PartHulls(hulls_of(each), "exact", (), True) for each in ([*RING, *FLOOR], KNOB))
 
 
 def object_of(joint):
@@ -88,19 +87,15 @@ def test_what_lies_on_a_panel_is_cut_across_the_axis():
 
 def test_a_knob_in_a_ring_of_flat_boards_is_cut_free():
     tree = object_of(TURN)
-    pieces = tuple(
-        PartHulls(hulls_of(solids), "exact", (), True) for solids in ([*RING, *FLOOR], KNOB)
-    )
-    result = separate(tree, pieces, [PAIR], CONFIG, 64)
+    result = separate(tree, PIECES, [PAIR], CONFIG, 64)
     assert result.refused == {}
     assert deepest(tree, *(list(piece.hulls) for piece in result.pieces)) == 0.0
 
 
+TILTED = rotation_about(ALONG, np.radians(10.0)) @ UP
 TWINS = {
     "shifted": replace(TURN, origin=0.05 * 0.7 * ALONG),
-    "tilted": replace(
-        TURN, axis=rotation_about(ALONG, np.radians(10.0)) @ UP, lower=0.0, upper=0.5
-    ),
+    "tilted": replace(TURN, axis=TILTED, lower=0.0, upper=0.5),
     "lying": replace(TURN, axis=ALONG),
 }
 
@@ -108,10 +103,7 @@ TWINS = {
 @pytest.mark.parametrize("name", TWINS)
 def test_a_knob_that_turns_about_another_axis_is_not_cut_free(name):
     tree = object_of(TWINS[name])
-    pieces = tuple(
-        PartHulls(hulls_of(solids), "exact", (), True) for solids in ([*RING, *FLOOR], KNOB)
-    )
-    result = separate(tree, pieces, [PAIR], CONFIG, 64)
+    result = separate(tree, PIECES, [PAIR], CONFIG, 64)
     assert PAIR in result.refused
     assert deepest(tree, *(list(piece.hulls) for piece in result.pieces)) > 0.001
 

@@ -109,9 +109,8 @@ def test_the_same_bytes_again_change_nothing(registry):
 
 def test_without_an_exchanging_rename_two_do(registry, monkeypatch):
     publish(registry)
-    monkeypatch.setattr(
-        "asset_factory.factory.registry.placing._exchanged", lambda first, second: errno.ENOSYS
-    )
+    exchanged = "asset_factory.factory.registry.placing._exchanged"
+    monkeypatch.setattr(exchanged, lambda first, second: errno.ENOSYS)
     folder = publish(registry, "two")
     assert (folder / "meshes" / "a.obj").read_text() == "two"
     assert list(registry.staging.iterdir()) == []

@@ -12,6 +12,12 @@ from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.claims import claim, drop_abandoned
 from asset_factory.factory.registry.cleaning import collect_garbage
 
+HOLDS = """import sys, time, pathlib
+from asset_factory.factory.registry.claims import claim
+held = claim(pathlib.Path(sys.argv[1]), "work")
+print("held", flush=True)
+time.sleep(60)"""
+
 
 def test_a_claim_is_had_by_one_until_it_is_released(tmp_path):
     first = claim(tmp_path / "claims", "work")
@@ -25,14 +31,8 @@ def test_a_claim_is_had_by_one_until_it_is_released(tmp_path):
 
 
 def test_a_claim_ends_with_its_process(tmp_path):
-    script = (
-        "import sys, time; from pathlib import Path; from asset_factory.factory.registry.claims "
-        "import claim;held = claim(Path(sys.argv[1]), 'work'); print('held', "
-        "flush=True); time.sleep(60)"
-    )
-    with subprocess.Popen(
-        [sys.executable, "-c", script, str(tmp_path)], stdout=subprocess.PIPE, text=True
-    ) as process:
+    command = [sys.executable, "-c", HOLDS, str(tmp_path)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout.readline() == "held\n"
         assert claim(tmp_path, "work") is None
         process.kill()

@@ -15,29 +15,15 @@ FAILED = replace(REJECTED, id="b")
 
 
 def test_each_change_has_its_group():
-    before = (
-        named("a"),
-        replace(FAILED, id="b"),
-        named("c"),
-        named("d"),
-        named("e"),
-        named("gone"),
-    )
-    after = (
-        named("a"),
-        named("b"),
-        replace(FAILED, id="c"),
-        named("d", joints=5),
-        named("e", key="new"),
-        named("new"),
-    )
+    before = (*(named(each) for each in ("a", "c", "d", "e", "gone")), FAILED)
+    altered = (replace(FAILED, id="c"), named("d", joints=5), named("e", key="new"))
+    after = (named("a"), named("b"), *altered, named("new"))
     found = diff(before, reversed(after))
     assert [entry.id for entry in found.new] == ["new"]
     assert [entry.id for entry in found.gone] == ["gone"]
     assert [change.after.id for change in found.newly_passed] == ["b"]
-    assert [(change.after.id, change.after.reason) for change in found.newly_failed] == [
-        ("c", "rest_penetration")
-    ]
+    failed = [(change.after.id, change.after.reason) for change in found.newly_failed]
+    assert failed == [("c", "rest_penetration")]
     assert [(change.after.id, change.columns) for change in found.changed] == [("d", ("joints",))]
     assert found.same == 2
     assert not found.empty

@@ -9,6 +9,7 @@ from registry_samples import named, publish
 
 from asset_factory.factory.errors import RegistryError
 from asset_factory.factory.registry.export import contents, write_export
+from asset_factory.factory.runtime.store import folder_digests
 
 
 def export(registry, target, layout="plain", **filters):
@@ -35,12 +36,7 @@ def test_sha256sum_agrees(registry, tmp_path):
     command = ["sha256sum", "--check", "--quiet", "--strict", "SHA256SUMS"]
     subprocess.run(command, cwd=tmp_path / "x", check=True)
     listed = {line[66:] for line in (tmp_path / "x" / "SHA256SUMS").read_text().splitlines()}
-    found = {
-        path.relative_to(tmp_path / "x").as_posix()
-        for path in (tmp_path / "x").rglob("*")
-        if path.is_file()
-    }
-    assert found == listed | {"SHA256SUMS"}
+    assert {*folder_digests(tmp_path / "x")} == listed | {"SHA256SUMS"}
 
 
 def test_filters_choose(registry, tmp_path):
@@ -72,12 +68,8 @@ def test_the_hub_finds_a_card_and_tables(registry, tmp_path):
     matter = card.split("---")[1]
     for line in ("license: other", "license_link: LICENSES.md", "  - n<1K", "      - split: train"):
         assert f"\n{line}\n" in matter
-    rows = [
-        row
-        for path in sorted((tmp_path / "x" / "metadata").iterdir())
-        for row in parquet.read_table(path).to_pylist()
-    ]
-    row = next(row for row in rows if row["id"] == "cabinet-1")
+    tables = [parquet.read_table(path) for path in (tmp_path / "x" / "metadata").iterdir()]
+    row = next(row for table in tables for row in table.to_pylist() if row["id"] == "cabinet-1")
     assert row["urdf"] == "assets/cabinet-1/asset.urdf"
     assert (tmp_path / "x" / row["urdf"]).is_file()
     wanted = ([0.5, 0.4, 0.8], 12.5, ["revolute", "prismatic"])
@@ -97,10 +89,9 @@ def test_tables_are_json_lines_without_pyarrow(registry, tmp_path, monkeypatch):
 
 def test_an_altered_asset_is_not_handed_on(registry, tmp_path):
     (registry.assets / "cabinet-1" / "asset.urdf").write_text("<robot/>")
+    told = r"cabinet-1 cannot be exported: .*asset.urdf: is not what was"
     for target in ("x", "x.tar"):
-        with pytest.raises(
-            RegistryError, match=r"cabinet-1 cannot be exported: .*asset.urdf: is not what was"
-        ):
+        with pytest.raises(RegistryError, match=told):
             export(registry, tmp_path / target)
         assert sorted(path.name for path in tmp_path.iterdir()) == ["out"]
 
@@ -127,11 +118,8 @@ def test_urls(registry, tmp_path):
     export(registry, "memory://bucket/folder")
     export(registry, tmp_path / "folder")
     system = fsspec.filesystem("memory")
-    for path in (path for path in (tmp_path / "folder").rglob("*") if path.is_file()):
-        assert (
-            system.cat(f"/bucket/folder/{path.relative_to(tmp_path / 'folder').as_posix()}")
-            == path.read_bytes()
-        )
+    for name in folder_digests(tmp_path / "folder"):
+        assert system.cat(f"/bucket/folder/{name}") == (tmp_path / "folder" / name).read_bytes()
     with pytest.raises(RegistryError, match="is there already"):
         export(registry, "memory://bucket/folder")
     with pytest.raises(RegistryError, match="nosuch"):

@@ -43,15 +43,12 @@ def test_a_round_trip_changes_nothing(registry, other, tmp_path, name):
 
 NAMES = st.text("abc_é .", min_size=1, max_size=8).filter(is_safe_path)
 FILES = st.dictionaries(NAMES, st.binary(max_size=50), max_size=3)
-ASSETS = st.dictionaries(
-    st.from_regex(r"[a-z]{1,5}-[0-9a-f]{4}", fullmatch=True), FILES, max_size=3
-)
+IDS = st.from_regex(r"[a-z]{1,5}-[0-9a-f]{4}", fullmatch=True)
+UNHURRIED = {"deadline": None, "suppress_health_check": [HealthCheck.function_scoped_fixture]}
 
 
-@given(assets=ASSETS, compressed=st.booleans())
-@settings(
-    max_examples=6, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@given(assets=st.dictionaries(IDS, FILES, max_size=3), compressed=st.booleans())
+@settings(max_examples=6, **UNHURRIED)
 def test_any_small_registry_survives_the_round_trip(tmp_path_factory, assets, compressed):
     root = tmp_path_factory.mktemp("any")
     registry = Registry(root / "out", create=True)
@@ -107,13 +104,10 @@ def test_tags_add_up(registry, other, tmp_path):
 
 def relist(folder):
     """Write the digests anew, as whoever alters an export would."""
-    files = sorted(
-        path for path in folder.rglob("*") if path.is_file() and path.name != "SHA256SUMS"
-    )
-    lines = [
-        f"{digest_bytes(path.read_bytes())}  {path.relative_to(folder).as_posix()}\n"
-        for path in files
-    ]
+    (folder / "SHA256SUMS").unlink(missing_ok=True)
+    files = sorted(path for path in folder.rglob("*") if path.is_file())
+    names = {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
+    lines = [f"{digest_bytes(data)}  {name}\n" for name, data in names.items()]
     (folder / "SHA256SUMS").write_text("".join(lines))
 
 
@@ -195,32 +189,25 @@ def member(name, content=b"x", **changes):
     return info, content
 
 
+OUT = "is no path in an export"
+NO_FILE = "link or a device"
+SPARSE = {"major": "1", "minor": "0", "realsize": "9" * 15}
 HOSTILE = {
-    "climbs": (member("../../etc/passwd"), "is no path in an export"),
-    "climbs_later": (member("assets/a/../../../b"), "is no path in an export"),
-    "absolute": (member("/etc/passwd"), "is no path in an export"),
-    "backslash": (member("assets\\..\\x"), "is no path in an export"),
-    "elsewhere": (member("bin/sh"), "is no path in an export"),
-    "newline": (member("assets/a\nb"), "is no path in an export"),
-    "symlink": (member("assets/a", b"", type=tarfile.SYMTYPE, linkname="/etc"), "link or a device"),
-    "hard_link": (
-        member("assets/a", b"", type=tarfile.LNKTYPE, linkname="README.md"),
-        "link or a device",
-    ),
-    "device": (member("assets/a", b"", type=tarfile.CHRTYPE), "link or a device"),
-    "pipe": (member("assets/a", b"", type=tarfile.FIFOTYPE), "link or a device"),
+    "climbs": (member("../../etc/passwd"), OUT),
+    "climbs_later": (member("assets/a/../../../b"), OUT),
+    "absolute": (member("/etc/passwd"), OUT),
+    "backslash": (member("assets\\..\\x"), OUT),
+    "elsewhere": (member("bin/sh"), OUT),
+    "newline": (member("assets/a\nb"), OUT),
+    "symlink": (member("assets/a", b"", type=tarfile.SYMTYPE, linkname="/etc"), NO_FILE),
+    "hard_link": (member("assets/a", b"", type=tarfile.LNKTYPE, linkname="README.md"), NO_FILE),
+    "device": (member("assets/a", b"", type=tarfile.CHRTYPE), NO_FILE),
+    "pipe": (member("assets/a", b"", type=tarfile.FIFOTYPE), NO_FILE),
     "twice": (member("README.md"), "cannot be unpacked"),
     "under_a_file": (member("README.md/x"), "cannot be unpacked"),
     "unlisted": (member("assets/cabinet-1/more.obj"), "'assets/cabinet-1/more.obj' is not listed"),
     "sparse": (
-        member(
-            "assets/a",
-            pax_headers={
-                "GNU.sparse.major": "1",
-                "GNU.sparse.minor": "0",
-                "GNU.sparse.realsize": "9" * 15,
-            },
-        ),
+        member("assets/a", pax_headers={f"GNU.sparse.{key}": SPARSE[key] for key in SPARSE}),
         "link or a device|cannot be unpacked",
     ),
     "larger_than_it_says": (
@@ -248,18 +235,20 @@ def test_sizes_are_bounded_before_anything_is_written(registry, other, tmp_path)
         refused(other, source, "more than 3 files", limits=ImportLimits(files=3))
 
 
-def test_an_archive_that_claims_more_than_it_has_is_refused(other, tmp_path):
+@pytest.mark.parametrize(
+    ("size", "kind", "match"),
+    [
+        (10**12, tarfile.REGTYPE, "bytes, want at most"),
+        (10**9, tarfile.REGTYPE, "ends within 'README.md'"),
+        (-512, tarfile.XHDTYPE, "has -512 bytes"),
+    ],
+)
+def test_an_archive_that_claims_more_than_it_has_is_refused(other, tmp_path, size, kind, match):
     info = tarfile.TarInfo("README.md")
-    info.size = 10**12
+    info.size = size
+    info.type = kind
     (tmp_path / "x.tar").write_bytes(info.tobuf(tarfile.GNU_FORMAT) + b"x")
-    refused(other, tmp_path / "x.tar", "bytes, want at most")
-    info.size = 10**9
-    (tmp_path / "x.tar").write_bytes(info.tobuf(tarfile.GNU_FORMAT) + b"x")
-    refused(other, tmp_path / "x.tar", "ends within 'README.md'")
-    info.size = -512
-    info.type = tarfile.XHDTYPE
-    (tmp_path / "x.tar").write_bytes(info.tobuf(tarfile.GNU_FORMAT) + b"x")
-    refused(other, tmp_path / "x.tar", "has -512 bytes")
+    refused(other, tmp_path / "x.tar", match)
 
 
 @pytest.mark.parametrize(

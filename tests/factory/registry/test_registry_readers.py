@@ -81,9 +81,8 @@ def publish_many(root, name, count):
 
 def test_two_jobs_on_one_registry(tmp_path):
     context = multiprocessing.get_context("fork")
-    jobs = [
-        context.Process(target=publish_many, args=(tmp_path, name, 5)) for name in ("left", "right")
-    ]
+    calls = [(tmp_path, name, 5) for name in ("left", "right")]
+    jobs = [context.Process(target=publish_many, args=call) for call in calls]
     for job in jobs:
         job.start()
     for job in jobs:

@@ -40,18 +40,12 @@ def test_rows_come_back_byte_for_byte(registry, how):
 
 @pytest.mark.parametrize(
     ("how", "message"),
-    [
-        ("garbage", "damaged"),
-        ("torn", "damaged"),
-        ("empty", "damaged"),
-        ("deleted", "no registry.db"),
-    ],
+    [*((how, "damaged") for how in ("garbage", "torn", "empty")), ("deleted", "no registry.db")],
 )
 def test_a_lost_database_says_what_brings_it_back(registry, how, message):
     lose(registry, how)
-    with pytest.raises(
-        RegistryError, match=f"{message}.*`factory registry rebuild --output {registry.root}`"
-    ):
+    remedy = f"`factory registry rebuild --output {registry.root}`"
+    with pytest.raises(RegistryError, match=f"{message}.*{remedy}"):
         Registry(registry.root).entries()
 
 
@@ -85,12 +79,10 @@ def test_a_report_that_is_none_is_named_and_left(registry, content):
 def test_a_newer_database_is_left_alone(registry):
     with closing(sqlite3.connect(registry.root / "registry.db")) as connection:
         connection.execute(f"PRAGMA user_version = {SCHEMA_VERSION + 1}")
-    for opening in (lambda: Registry(registry.root), lambda: rebuild(registry.root)):
-        with pytest.raises(
-            RegistryError,
-            match=rf"version {SCHEMA_VERSION + 1}, this program knows up to {SCHEMA_VERSION}; use",
-        ):
-            opening()
+    told = f"version {SCHEMA_VERSION + 1}, this program knows up to {SCHEMA_VERSION}; use"
+    for opening in (Registry, rebuild):
+        with pytest.raises(RegistryError, match=told):
+            opening(registry.root)
 
 
 def test_an_older_database_is_made_anew_from_the_folders(registry):

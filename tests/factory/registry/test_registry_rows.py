@@ -56,9 +56,7 @@ def test_filters(registry, filters, expected):
 @pytest.mark.parametrize("code", ["many_hulls", "many_hull_vertices", "oblong_hull"])
 def test_what_physx_does_not_take_on_a_gpu_is_filtered_out(registry, code, capsys):
     beyond = Finding(code, Severity.WARNING, "beyond what a GPU takes", value=65.0, limit=64.0)
-    harmless = Finding(
-        "collision_gap", Severity.WARNING, "a gap", value=12.0, unit="mm", limit=10.0
-    )
+    harmless = Finding("collision_gap", Severity.WARNING, "a gap", value=12.0, limit=10.0)
     for asset_id, finding in (("shelf-1", beyond), ("shelf-2", harmless)):
         told = BuildReport(Report("asset.urdf", findings=(finding,)))
         publish(registry, entry=named(asset_id), report=told)
@@ -76,9 +74,8 @@ def test_what_physx_does_not_take_on_a_gpu_is_filtered_out(registry, code, capsy
 
 def test_the_split_follows_from_the_id(registry):
     for split in ("train", "test"):
-        assert ids(registry.entries(split=split)) == [
-            e.id for e in registry.walk() if split_of(e.id) == split
-        ]
+        wanted = [each for each in ids(registry.walk()) if split_of(each) == split]
+        assert ids(registry.entries(split=split)) == wanted
     assert replace(PASSED, id="other").split == split_of("other")
 
 

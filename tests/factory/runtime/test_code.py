@@ -88,12 +88,8 @@ def test_a_package_counts_as_all_that_is_in_it(digest, tmp_path):
 
 def test_a_package_counts_where_a_name_is_its_own(digest):
     digest("kitchen.look")
-    assert modules_run_by("kitchen.look") == {
-        "kitchen.look",
-        "kitchen.tools",
-        "kitchen.tools.knives",
-        "kitchen.tools.spoons",
-    }
+    tools = {"kitchen.tools", "kitchen.tools.knives", "kitchen.tools.spoons"}
+    assert modules_run_by("kitchen.look") == {"kitchen.look", *tools}
 
 
 def test_line_ends_change_nothing(digest, tmp_path):
@@ -142,10 +138,8 @@ def _seen_by_python(tree, name, file):
 def test_articulators_imported_by_name_are_among_what_the_stage_runs():
     (stage,) = (stage for stage in STAGES if stage.name == "articulate")
     for name in ("geometric.geometric", "seams.movers", "auto.articulator"):
-        assert any(
-            module.startswith(f"asset_factory.factory.articulate.{name.partition('.')[0]}.")
-            for module in modules_run_by(*stage.code)
-        )
+        package = f"asset_factory.factory.articulate.{name.partition('.')[0]}."
+        assert any(each.startswith(package) for each in modules_run_by(*stage.code))
 
 
 def test_all_weights_that_the_package_brings_are_in_the_key_of_the_stage_that_asks_them():
@@ -159,11 +153,9 @@ def test_all_weights_that_the_package_brings_are_in_the_key_of_the_stage_that_as
 def test_a_stage_runs_its_own_module_and_no_page_or_command(stage):
     run = modules_run_by(*stage.code)
     assert run <= modules_run_by(PIPELINE, *stage.code)
-    assert not any(
-        module.startswith(f"asset_factory.factory.{above}.")
-        for module in run
-        for above in ("cli", "jobs", "report", "registry")
-    )
+    above = ("cli", "jobs", "report", "registry")
+    packages = tuple(f"asset_factory.factory.{name}." for name in above)
+    assert not any(module.startswith(packages) for module in run)
 
 
 def test_the_digest_imports_nothing_heavy_and_takes_no_time():
@@ -175,9 +167,7 @@ def test_the_digest_imports_nothing_heavy_and_takes_no_time():
         "spent = time.process_time() - started\n"
         "print(spent, *{'torch', 'scipy', 'trimesh', 'sapien', 'mujoco'} & set(sys.modules))\n"
     )
-    said = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=True
-    ).stdout.split()
+    said = subprocess.check_output([sys.executable, "-c", script], text=True).split()
     assert len(said) == 1
     # Some thirty milliseconds on a quiet machine.
     assert float(said[0]) < 0.5

@@ -86,22 +86,12 @@ def test_arrays_keep_their_bits_through_the_store(tmp_path):
 
 
 def test_a_report_comes_back_as_it_was():
-    finding = Finding(
-        "tilted",
-        Severity.WARNING,
-        "leans",
-        joint="hinge",
-        parts=("a", "b"),
-        value=1.5,
-        unit="deg",
-        limit=1,
-    )
-    split = Disagreement(
-        "opens", "hinge", {"sapien": "pass"}, {"sapien": None}, "rad", "nobody knows"
-    )
-    report = Report(
-        "asset.urdf", ("sapien",), (finding,), {"lint": {"mass": [1, 2.5, None]}}, (split,)
-    )
+    where = {"joint": "hinge", "parts": ("a", "b")}
+    finding = Finding("tilted", Severity.WARNING, "leans", **where, value=1.5, unit="deg", limit=1)
+    said = ({"sapien": "pass"}, {"sapien": None})
+    split = Disagreement("opens", "hinge", *said, "rad", "nobody knows")
+    figures = {"lint": {"mass": [1, 2.5, None]}}
+    report = Report("asset.urdf", ("sapien",), (finding,), figures, (split,))
     assert unpack(Report, pack(report)) == report
     assert unpack(Report, pack(report)).to_json() == report.to_json()
 

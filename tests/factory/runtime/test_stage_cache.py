@@ -87,9 +87,8 @@ def test_a_change_redoes_its_stage_and_what_follows(what, first, cabinet, tmp_pa
         product = make_asset(cabinet, tmp_path / "staging", config, cache, judge)
     assert product.entry.status == "passed", product.told.report.findings
     assert product.done == redone
-    assert set(product.result.reused) == {"articulate", "finish", "inspect", "validate"} - set(
-        redone
-    )
+    stages = {"articulate", "finish", "inspect", "validate"}
+    assert set(product.result.reused) == stages - set(redone)
 
 
 def test_a_pose_outside_the_range_is_built_and_kept(cabinet, judge, tmp_path):
@@ -106,9 +105,8 @@ def test_a_pose_outside_the_range_is_built_and_kept(cabinet, judge, tmp_path):
     (hinge,) = json.loads((first.bundle / "asset.json").read_text())["joints"]
     assert (hinge["lower"], hinge["upper"]) == pytest.approx((0.0, 1.3))
     # The door's free edge swung 0.6 m x sin(0.2) out of the carcass, whose front is at -0.2 m.
-    assert json.loads((first.bundle / "asset.json").read_text())["bounds"][0][
-        1
-    ] < -0.2 - 0.6 * math.sin(0.2)
+    low, _ = json.loads((first.bundle / "asset.json").read_text())["bounds"]
+    assert low[1] < -0.2 - 0.6 * math.sin(0.2)
 
 
 def test_a_rejection_is_remembered_with_its_number(tmp_path):
@@ -116,9 +114,8 @@ def test_a_rejection_is_remembered_with_its_number(tmp_path):
 
     def refuse():
         asked.append(1)
-        raise InputRejected(
-            "no_movable_joint", "nothing moves", value=0.0, unit="joints", limit=1.0
-        )
+        told = {"value": 0.0, "unit": "joints", "limit": 1.0}
+        raise InputRejected("no_movable_joint", "nothing moves", **told)
 
     for _ in range(2):
         stages = Stages(BASE, Store(tmp_path))

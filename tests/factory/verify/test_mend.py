@@ -42,10 +42,8 @@ def cabinet(axis=UP, origin=EDGE, upper=1.5, lower=0.0, kind=JointKind.REVOLUTE)
     hinge = Joint("hinge", kind, 0, 1, direction, np.asarray(origin), lower, upper)
     articulation = Articulation(mesh, parts, (hinge,), "annotated")
     inertial = Inertial(1.0, np.zeros(3), np.eye(3))
-    bodies = tuple(
-        PartBody((Hull(vertices, np.asarray(found)),), inertial, None, "exact", ())
-        for vertices, found in ((body, faces), (door, door_faces))
-    )
+    hulls = (Hull(body, np.asarray(faces)), Hull(door, np.asarray(door_faces)))
+    bodies = tuple(PartBody((hull,), inertial, None, "exact", ()) for hull in hulls)
     return Asset("cabinet", articulation, bodies, (), ())
 
 
@@ -68,11 +66,8 @@ def with_more(asset, name, boxes, hinge=None):
     else:
         bodies.append(replace(bodies[-1], hulls=tuple(hulls)))
     joints = (*tree.joints, *([hinge] if hinge else []))
-    return replace(
-        asset,
-        articulation=Articulation(mesh, tuple(parts.values()), joints, "annotated"),
-        bodies=tuple(bodies),
-    )
+    articulation = Articulation(mesh, tuple(parts.values()), joints, "annotated")
+    return replace(asset, articulation=articulation, bodies=tuple(bodies))
 
 
 def blocked(asset, clear_until):
@@ -168,10 +163,8 @@ def test_doors_on_one_line_are_turned_round_together():
     given = verdict(hard("sweep_penetration", name="hinge"), joints=stuck)
     started = Plan(separate=frozenset({("base", "door"), ("base", "upper")}))
     plan = next_plan(given, started, CONFIG, Spare(), asset)
-    assert {name: tuple(each.axis) for name, each in plan.mended.items()} == {
-        "hinge": DOWN,
-        "above": DOWN,
-    }
+    axes = {name: tuple(each.axis) for name, each in plan.mended.items()}
+    assert axes == {"hinge": DOWN, "above": DOWN}
 
 
 def test_what_is_askew_and_goes_too_far_is_straightened_and_ended():
@@ -195,18 +188,10 @@ def test_a_hinge_without_limits_goes_as_far_as_it_is_free_and_closes_where_it_is
     turn = shut.articulation.joints[0].motion(ajar)
     door = shut.bodies[1].hulls[0]
     moved = Hull(door.vertices @ turn[:3, :3].T + turn[:3, 3], door.faces)
-    endless = replace(
-        drawn.joints[0],
-        kind=JointKind.CONTINUOUS,
-        axis=np.array([0.0, 0.0, sign]),
-        lower=-np.pi,
-        upper=np.pi,
-    )
-    asset = replace(
-        shut,
-        articulation=replace(drawn, joints=(endless,)),
-        bodies=(shut.bodies[0], replace(shut.bodies[1], hulls=(moved,))),
-    )
+    turn = {"axis": np.array([0.0, 0.0, sign]), "lower": -np.pi, "upper": np.pi}
+    endless = replace(drawn.joints[0], kind=JointKind.CONTINUOUS, **turn)
+    bodies = (shut.bodies[0], replace(shut.bodies[1], hulls=(moved,)))
+    asset = replace(shut, articulation=replace(drawn, joints=(endless,)), bodies=bodies)
     plan = mended(asset)
     planned = as_planned(asset.articulation, plan)
     hinge = planned.joints[0]
@@ -298,9 +283,8 @@ def test_no_joint_ends_before_the_pose_as_modelled(clear_until, measured_alone):
 
 def test_a_joint_that_is_never_free_gets_no_end():
     asset = cabinet(axis=DOWN)
-    given = verdict(
-        hard("sweep_penetration", name="hinge"), joints=[joint(upper=1.5, clear_until=0.0)]
-    )
+    stuck = joint(upper=1.5, clear_until=0.0)
+    given = verdict(hard("sweep_penetration", name="hinge"), joints=[stuck])
     plan = next_plan(given, STARTED, CONFIG, Spare(), asset)
     assert plan is None or "hinge" not in plan.upper
 

@@ -21,15 +21,8 @@ NOTHING_DONE = Plan()
 
 
 def contact(depth_mm, links=("base", "door"), at=None):
-    figures = {
-        "links": links,
-        "shapes": links,
-        "depth_mm": depth_mm,
-        "point_m": None,
-        "kind": "plain",
-        "visual_mm": None,
-        "cause": None,
-    }
+    figures = {"links": links, "shapes": links, "depth_mm": depth_mm, "kind": "plain"}
+    figures |= dict.fromkeys(("point_m", "visual_mm", "cause"))
     if at is None:
         return MeasuredContact(**figures)
     return MeasuredPair(**figures, excess_mm=depth_mm, bound_mm=depth_mm, at=at)
@@ -117,10 +110,8 @@ def test_a_small_blocked_part_is_frozen_and_says_after_how_much():
 
 
 def test_one_hopeless_joint_makes_the_whole_hopeless():
-    given = verdict(
-        hard("sweep_penetration", name="hinge"),
-        joints=[joint(clear_until=0.1), joint("button", clear_until=0.1)],
-    )
+    joints = [joint(clear_until=0.1), joint("button", clear_until=0.1)]
+    given = verdict(hard("sweep_penetration", name="hinge"), joints=joints)
     assert planned(given, spare=Spare(frozenset({"button"}))) is None
 
 
@@ -140,9 +131,8 @@ GUESSES = Spare(frozenset({"a_hinge", "b_hinge"}), {"b": "b_hinge", "a": "a_hing
 
 
 def test_of_two_guessed_parts_that_lie_in_one_another_the_less_sure_is_given_up():
-    before = Plan(
-        separate=frozenset({("a", "b"), ("a", "base")}), exclude=frozenset({("b", "base")})
-    )
+    apart = frozenset({("a", "b"), ("a", "base")})
+    before = Plan(separate=apart, exclude=frozenset({("b", "base")}))
     plan = planned(verdict(lying_in("a", "b")), before, GUESSES)
     assert plan.given_up == {"b_hinge"}
     assert plan.separate == {("a", "base")}
@@ -158,9 +148,8 @@ def test_a_guessed_part_that_lies_in_a_known_one_is_given_up_and_two_known_ones_
 
 def test_of_what_jams_only_the_guess_worth_least_is_given_up():
     jammed = Finding("jammed", Severity.ERROR, "a jams", joint="a_hinge", joints=("b_hinge",))
-    pushed = Finding(
-        "others_moved", Severity.ERROR, "a is pushed", joint="best", joints=("a_hinge",)
-    )
+    moved = {"joint": "best", "joints": ("a_hinge",)}
+    pushed = Finding("others_moved", Severity.ERROR, "a is pushed", **moved)
     plan = planned(verdict(jammed, pushed), spare=GUESSES)
     assert plan.given_up == {"b_hinge"}
     assert [each.sentence for each in plan.repairs] == ["gave up b_hinge: a jams"]
@@ -178,9 +167,8 @@ def test_a_guessed_hinge_that_is_blocked_is_moved_to_the_front_edge_once():
     spare = Spare(hinges=frozenset({"hinge", "other"}))
     plan = planned(given, spare=spare)
     assert plan.rehung == {"hinge"}
-    assert [each.sentence for each in plan.repairs] == [
-        "moved hinge to the door's front edge: it ran into something"
-    ]
+    (repair,) = plan.repairs
+    assert repair.sentence == "moved hinge to the door's front edge: it ran into something"
     assert planned(given, plan, spare).upper == {"hinge": 1.5}
 
 

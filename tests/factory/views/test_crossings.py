@@ -18,9 +18,8 @@ def test_crossings_are_ordered_by_pixel_depth_and_place(found, scale):
     pixel = np.array([pair[0] for pair in found], dtype=np.int64) * scale
     depth = np.array([pair[1] for pair in found], dtype=np.float64)
     order = module._nearest_first(pixel, depth)
-    assert order.tolist() == sorted(
-        range(len(found)), key=lambda place: (pixel[place], depth[place], place)
-    )
+    rows = sorted(zip(pixel, depth, range(len(found)), strict=True))
+    assert order.tolist() == [place for _, _, place in rows]
 
 
 @given(pairs)

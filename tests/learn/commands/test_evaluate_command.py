@@ -187,24 +187,17 @@ def test_a_method_without_an_answer_is_scored_as_if_nothing_moved(monkeypatch):
 
 
 def test_repetitions_are_told_apart_and_their_spread_is_told():
-    rows = [
-        trials.Row(one_trial(repeat), Score({"a": value}, {"b": (value,)}))
-        for repeat, value in ((0, 1.0), (1, 3.0))
-    ]
+    scores = [Score({"a": value}, {"b": (value,)}) for value in (1.0, 3.0)]
+    rows = [trials.Row(one_trial(repeat), score) for repeat, score in enumerate(scores)]
     overall = summarised(rows)[0]
     assert overall["objects"] == 1
     assert overall["values"]["a"] == 2.0
-    assert overall["spread"] == {
-        "a": pytest.approx(np.sqrt(2.0), abs=1e-6),
-        "b": pytest.approx(np.sqrt(2.0), abs=1e-6),
-    }
+    assert overall["spread"] == pytest.approx({"a": np.sqrt(2.0), "b": np.sqrt(2.0)}, abs=1e-6)
 
 
 def test_one_object_of_many_parts_does_not_outvote_the_others():
-    rows = [
-        trials.Row(one_trial(0), Score({}, {"b": (0.0,) * 9})),
-        trials.Row(one_trial(0), Score({}, {"b": (1.0,)})),
-    ]
+    scores = [Score({}, {"b": (0.0,) * 9}), Score({}, {"b": (1.0,)})]
+    rows = [trials.Row(one_trial(0), score) for score in scores]
     assert summarised(rows)[0]["parts"]["b"] == {"count": 10, "mean": 0.1, "of_objects": 0.5}
 
 

@@ -41,14 +41,8 @@ def cabinet(folder, kind="revolute", depth=0.6):
 
 
 def bring(tmp_path, **changes):
-    return prepare(
-        "description",
-        tmp_path / "data",
-        tmp_path / "cache",
-        settings=SETTINGS,
-        workers=1,
-        **changes,
-    )
+    asked = {"settings": SETTINGS, "workers": 1, **changes}
+    return prepare("description", tmp_path / "data", tmp_path / "cache", **asked)
 
 
 @pytest.fixture
@@ -151,13 +145,8 @@ def test_front_turns_to_minus_y(dataset, front, origin):
 
 @pytest.mark.parametrize("front", ["-y", "x", "y", "-x"])
 def test_wrong_front_is_noticed_and_the_right_one_named(dataset, front):
-    prepared = prepare(
-        "description",
-        dataset / "data",
-        dataset / "cache",
-        settings=replace(SETTINGS, front=front),
-        workers=1,
-    )
+    asked = {"settings": replace(SETTINGS, front=front), "workers": 1}
+    prepared = prepare("description", dataset / "data", dataset / "cache", **asked)
     advice = front_advice(prepared.sampled_objects, front)
     assert advice.endswith("as they should" if front == "-y" else "want -y: try --front -y")
 
@@ -187,18 +176,16 @@ def test_registered_assets_are_objects(tmp_path):
                 registry.publish(entry, staging / name, REPORT)
         else:
             registry.reject(entry, BAD_REPORT)
-    prepared = prepare(
-        "registry", tmp_path / "data", tmp_path / "cache", settings=SETTINGS, workers=1
-    )
+    folders = (tmp_path / "data", tmp_path / "cache")
+    prepared = prepare("registry", *folders, settings=SETTINGS, workers=1)
     assert prepared.report.read == ("cabinet-1",)
     assert read_sampled(prepared.sampled_objects[0]).category == "cabinet"
 
 
 def test_command_prints_the_report_and_writes_splits(dataset, capsys):
     asked = ["--kind", "description", "--path", str(dataset / "data")]
-    assert (
-        main([*asked, "--cache", str(dataset / "cache"), "--points", "64", "--workers", "1"]) == 0
-    )
+    asked += ["--cache", str(dataset / "cache"), "--points", "64", "--workers", "1"]
+    assert main(asked) == 0
     assert "2 of 4 objects read" in capsys.readouterr().out
     assert main([*asked, "--write-split", str(dataset / "lists"), "--held-out", "0.5"]) == 0
     lists = [(dataset / f"lists.{part}.txt").read_text().split() for part in ("train", "held_out")]

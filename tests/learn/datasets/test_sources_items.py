@@ -34,10 +34,8 @@ def test_folder_with_a_description_is_one_object(tmp_path):
     touch(tmp_path / "lamp-2" / "notes.xml", "<notes/>")
     touch(tmp_path / ".hidden" / "x.urdf")
     items = find_descriptions(tmp_path)
-    assert [(item.name, item.main.name) for item in items] == [
-        ("kitchen/fridge_1", "fridge_1.urdf"),
-        ("lamp-2", "lamp.xml"),
-    ]
+    names = [(item.name, item.main.name) for item in items]
+    assert names == [("kitchen/fridge_1", "fridge_1.urdf"), ("lamp-2", "lamp.xml")]
     assert [item.category for item in items] == ["fridge", "lamp"]
     assert {path.name for path in items[0].files} == {"a.urdf", "fridge_1.urdf", "door.urdf"}
 
@@ -70,9 +68,8 @@ def test_digest_is_of_contents_and_not_of_looks(tmp_path):
 
 
 def test_category_from_inventory_prefix_or_metadata(tmp_path):
-    touch(
-        tmp_path / "data" / "INVENTORY.csv", "path,category\ndata/a_1,Refrigerator\nb_2,lamp\n,\n"
-    )
+    inventory = "path,category\ndata/a_1,Refrigerator\nb_2,lamp\n,\n"
+    touch(tmp_path / "data" / "INVENTORY.csv", inventory)
     category = categories_of(tmp_path / "data")
     wanted = ["fridge", "lamp", "wall_cabinet", ""]
     assert [category(name) for name in ("a_1", "b_2", "wall_cabinet_07", "123")] == wanted
@@ -84,10 +81,9 @@ def test_category_from_inventory_prefix_or_metadata(tmp_path):
     touch(tmp_path / "partnet" / "124" / "mobility.urdf")
     touch(tmp_path / "partnet" / "124" / "meta.json", "{")
     touch(tmp_path / "partnet" / "125" / "other.urdf")
-    assert [(item.name, item.category != "") for item in find_partnet(tmp_path / "partnet")] == [
-        ("123", True),
-        ("124", False),
-    ]
+    items = find_partnet(tmp_path / "partnet")
+    named = [(item.name, item.category != "") for item in items]
+    assert named == [("123", True), ("124", False)]
     wanted = ["Storage Furniture", "USB", "Box"]
     assert [words(name) for name in ("StorageFurniture", "USB", "Box")] == wanted
 
@@ -96,18 +92,11 @@ def chest():
     material = Material("wood")
     lid = np.eye(4)
     lid[:3, 3] = 0.0, 0.0, 0.55
-    mesh = concatenate(
-        [
-            primitives.box([1, 1, 1], material),
-            primitives.box([1, 1, 0.1], material).transformed(lid),
-        ]
-    )
-    hinge = Joint(
-        "lid", "revolute", 0, 1, np.array([-1.0, 0, 0]), np.array([0, 0.5, 0.5]), 0.0, 1.5
-    )
-    return Articulation(
-        mesh, (Part("base", np.arange(12)), Part("lid", np.arange(12, 24))), (hinge,), "made"
-    )
+    top = primitives.box([1, 1, 0.1], material).transformed(lid)
+    mesh = concatenate([primitives.box([1, 1, 1], material), top])
+    hinge = Joint("lid", "revolute", 0, 1, [-1.0, 0, 0], [0, 0.5, 0.5], 0.0, 1.5)
+    parts = (Part("base", np.arange(12)), Part("lid", np.arange(12, 24)))
+    return Articulation(mesh, parts, (hinge,), "made")
 
 
 @pytest.mark.parametrize("named", ["sidecar", "stem", "alone"])
@@ -136,11 +125,8 @@ def test_generated_meshes_in_one_folder_do_not_share_files(tmp_path):
         write_annotation(chest(), np.eye(4), tmp_path / f"{name}.pred.npz")
     items = find_predictions(tmp_path)
     assert [item.name for item in items] == ["chest_a", "chest_b"]
-    assert {path.name for path in items[0].files} == {
-        "chest_a.obj",
-        "chest_a.mtl",
-        "chest_a.pred.npz",
-    }
+    names = {path.name for path in items[0].files}
+    assert names == {"chest_a.obj", "chest_a.mtl", "chest_a.pred.npz"}
 
 
 @given(st.sets(st.text(min_size=1), min_size=1), st.floats(0.0, 1.0))

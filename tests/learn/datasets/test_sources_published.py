@@ -73,9 +73,8 @@ def test_parts_axes_and_ranges_agree(fixtures, name):
     seen = [part for part in range(len(ours.parts)) if len(ours.parts[part].faces)]
     pairs = matched(ours, theirs, centre, side)
     assert sorted(pairs) == seen
-    assert sorted(pairs.values()) == [
-        part for part in range(len(theirs.parts)) if len(theirs.parts[part].faces)
-    ]
+    filled = [number for number, part in enumerate(theirs.parts) if len(part.faces)]
+    assert sorted(pairs.values()) == filled
     for mine in ours.joints:
         child = (
             mine.child
@@ -90,9 +89,8 @@ def test_parts_axes_and_ranges_agree(fixtures, name):
         yours = next(joint for joint in chain if joint is not None and joint.kind == mine.kind)
         np.testing.assert_allclose(mine.axis, yours.axis, atol=1e-4)
         scale = 1.0 if mine.turns else side
-        np.testing.assert_allclose(
-            [mine.lower / scale, mine.upper / scale], [yours.lower, yours.upper], atol=1e-4
-        )
+        limits = [mine.lower / scale, mine.upper / scale]
+        np.testing.assert_allclose(limits, [yours.lower, yours.upper], atol=1e-4)
         if mine.turns:
             assert off_line((mine.origin - centre) / side, yours) < 1e-4
 

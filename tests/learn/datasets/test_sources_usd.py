@@ -37,9 +37,8 @@ def test_door_opens_to_the_front_with_positive_values(tmp_path):
 def test_lengths_on_a_scaled_body_are_scaled(tmp_path):
     base = body("base", (0, 0, 0), mesh("box", (0.5, 0.3, 0.4)), scale=2.0)
     hinge = HINGE.replace("(-0.5, -0.31, 0)", "(-0.25, -0.155, 0)")
-    scaled = read(
-        tmp_path, stage(base + DOOR + joint("hinge", "Revolute", "/obj/base", "/obj/door", hinge))
-    )
+    held = joint("hinge", "Revolute", "/obj/base", "/obj/door", hinge)
+    scaled = read(tmp_path, stage(base + DOOR + held))
     np.testing.assert_allclose(scaled.joints[0].origin[:2], [-0.5, -0.31], atol=1e-6)
 
 
@@ -65,9 +64,8 @@ def test_value_at_the_authored_pose_is_taken_off_the_limits(tmp_path, value, sec
         "quatf physics:localRot1 = (1, 0, 0, 0)\nfloat physics:lowerLimit = -0.2\n"
         "float physics:upperLimit = 0.3\n"
     )
-    slide = read(
-        tmp_path, stage(BASE + DOOR + joint("slide", "Prismatic", "/obj/base", "/obj/door", inside))
-    ).joints[0]
+    held = joint("slide", "Prismatic", "/obj/base", "/obj/door", inside)
+    slide = read(tmp_path, stage(BASE + DOOR + held)).joints[0]
     ends = sorted(abs(value) for value in (slide.lower, slide.upper))
     np.testing.assert_allclose(ends, sorted((abs(-0.2 - value), abs(0.3 - value))), atol=1e-6)
 
@@ -78,9 +76,8 @@ def test_turned_joint_frames_shift_a_hinge(tmp_path):
         "point3f physics:localPos1 = (-0.5, 0, 0)\n"
         f"quatf physics:localRot1 = ({np.cos(half):.8f}, 0, 0, {-np.sin(half):.8f})\n"
     )
-    hinge = read(
-        tmp_path, stage(BASE + DOOR + joint("hinge", "Revolute", "/obj/base", "/obj/door", inside))
-    ).joints[0]
+    held = joint("hinge", "Revolute", "/obj/base", "/obj/door", inside)
+    hinge = read(tmp_path, stage(BASE + DOOR + held)).joints[0]
     ends = sorted(abs(value) for value in (hinge.lower, hinge.upper))
     np.testing.assert_allclose(ends, np.radians([30.0, 30.0]), atol=1e-5)
 
@@ -88,13 +85,8 @@ def test_turned_joint_frames_shift_a_hinge(tmp_path):
 def test_hinge_without_limits_is_continuous_and_a_slide_without_them_is_refused(tmp_path):
     free = joint("hinge", "Revolute", "/obj/base", "/obj/door")
     assert read(tmp_path / "a", stage(BASE + DOOR + free)).joints[0].kind == "continuous"
-    assert (
-        refused(
-            tmp_path / "b",
-            stage(BASE + DOOR + joint("slide", "Prismatic", "/obj/base", "/obj/door")),
-        )
-        == "no_limits"
-    )
+    endless = joint("slide", "Prismatic", "/obj/base", "/obj/door")
+    assert refused(tmp_path / "b", stage(BASE + DOOR + endless)) == "no_limits"
 
 
 def test_fixed_bodies_are_one_part_and_loose_ones_stand_still(tmp_path):
@@ -112,9 +104,8 @@ def test_bodies_in_bodies_and_surfaces_that_are_no_body(tmp_path):
     nested = read(tmp_path / "a", stage(outer + hinge))
     assert [len(part.faces) for part in nested.parts] == [12, 12]
     shelf = mesh("shelf", (1.0, 0.6, 0.02))
-    static = read(
-        tmp_path / "b", stage(shelf + DOOR + joint("hinge", "Revolute", "", "/obj/door", HINGE))
-    )
+    held = joint("hinge", "Revolute", "", "/obj/door", HINGE)
+    static = read(tmp_path / "b", stage(shelf + DOOR + held))
     assert [part.name for part in static.parts] == ["base", "door"]
 
 
@@ -128,19 +119,14 @@ def test_colliders_guides_and_hidden_surfaces_are_not_seen(tmp_path):
     )
     base = body("base", (0, 0, 0), mesh("box", (1.0, 0.6, 0.8)) + extra)
     hinge = joint("hinge", "Revolute", "/obj/base", "/obj/door", HINGE)
-    assert [len(part.faces) for part in read(tmp_path, stage(base + DOOR + hinge)).parts] == [
-        12,
-        12,
-    ]
+    parts = read(tmp_path, stage(base + DOOR + hinge)).parts
+    assert [len(part.faces) for part in parts] == [12, 12]
 
 
 def test_instances_and_primitives(tmp_path):
     shape = '\nclass Xform "_shape"\n{\n' + mesh("panel", (1.0, 0.02, 0.8)) + "}\n"
-    door = body(
-        "door",
-        (0, -0.31, 0),
-        'def Xform "made" (instanceable = true\n references = </_shape>)\n{\n}\n',
-    )
+    made = 'def Xform "made" (instanceable = true\n references = </_shape>)\n{\n}\n'
+    door = body("door", (0, -0.31, 0), made)
     base = body("base", (0, 0, 0), 'def Cube "box"\n{\ndouble size = 0.6\n}\n')
     hinge = joint("hinge", "Revolute", "/obj/base", "/obj/door", HINGE)
     read_back = read(tmp_path, stage(base + door + hinge) + shape)
@@ -159,13 +145,9 @@ def test_loops_and_other_joints_are_refused(tmp_path):
 
 
 def test_broken_surfaces_and_still_objects_are_refused(tmp_path):
-    assert (
-        refused(tmp_path / "a", stage(CABINET.replace("[4, 4, 4, 4, 4, 4]", "[4, 4, 4, 4, 4, 9]")))
-        == "unreadable"
-    )
-    assert (
-        refused(tmp_path / "b", stage(CABINET.replace("[0, 1, 3, 2", "[0, 1, 99, 2")))
-        == "unreadable"
-    )
+    counts = CABINET.replace("[4, 4, 4, 4, 4, 4]", "[4, 4, 4, 4, 4, 9]")
+    assert refused(tmp_path / "a", stage(counts)) == "unreadable"
+    corners = CABINET.replace("[0, 1, 3, 2", "[0, 1, 99, 2")
+    assert refused(tmp_path / "b", stage(corners)) == "unreadable"
     assert refused(tmp_path / "c", stage(BASE + DOOR)) == "no_movable_joint"
     assert refused(tmp_path / "d", stage("")) == "empty"

@@ -26,9 +26,8 @@ def outside(tmp_path):
 
 
 def referring(folder, reference, how="references"):
-    return write(
-        folder, f'#usda 1.0\n(\n)\ndef Xform "obj" (prepend {how} = @{reference}@)\n{{\n}}\n'
-    )
+    text = f'#usda 1.0\n(\n)\ndef Xform "obj" (prepend {how} = @{reference}@)\n{{\n}}\n'
+    return write(folder, text)
 
 
 @pytest.mark.parametrize("how", ["references", "payload"])
@@ -53,11 +52,8 @@ def test_sublayer_and_variant_out_of_the_folder_are_refused(tmp_path, outside):
 
 def test_layer_of_a_layer_and_a_link_are_followed(tmp_path, outside):
     folder = tmp_path / "thing"
-    write(
-        folder / "parts",
-        f'#usda 1.0\ndef Xform "obj" (references = @../../{outside.name}@)\n{{\n}}\n',
-        "inner.usda",
-    )
+    text = f'#usda 1.0\ndef Xform "obj" (references = @../../{outside.name}@)\n{{\n}}\n'
+    write(folder / "parts", text, "inner.usda")
     assert refusal(referring(folder, "./parts/inner.usda")) == "external_reference"
     (folder / "link.usda").symlink_to(outside)
     assert refusal(referring(folder, "./link.usda")) == "external_reference"

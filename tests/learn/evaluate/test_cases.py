@@ -26,19 +26,21 @@ from asset_factory.learn.evaluate.physical import physical
 from asset_factory.learn.evaluate.transfer import merged
 from asset_factory.learn.objects.sample_files import write_sample
 
+HEAD = f"{','.join(COLUMNS)}\n"
+CABINETS = ["made__one__one--closed-front", "made__two__two--closed-front"]
+
 
 def same(first, second):
     """Whether two articulations are equal to the last bit."""
-    meshes = first.mesh, second.mesh
-    arrays = all(
-        np.array_equal(getattr(meshes[0], n), getattr(meshes[1], n)) for n in ("vertices", "faces")
+    one, other = (
+        (a.mesh.vertices.tobytes(), a.mesh.faces.tobytes(), face_parts(a).tobytes(), *limits_of(a))
+        for a in (first, second)
     )
-    limits = [
-        [(j.name, j.lower, j.upper, *j.axis, *j.origin) for j in a.joints] for a in (first, second)
-    ]
-    return (
-        arrays and np.array_equal(face_parts(first), face_parts(second)) and limits[0] == limits[1]
-    )
+    return one == other
+
+
+def limits_of(articulation):
+    return [(j.name, j.lower, j.upper, *j.axis, *j.origin) for j in articulation.joints]
 
 
 def cases(root, poses=("closed",), yaws=("front",), store=None):
@@ -75,12 +77,9 @@ def test_the_half_is_the_parity_of_a_hash():
     ("text", "message"),
     [
         ("path,source\n", "no column 'category'"),
-        (
-            f"{','.join(COLUMNS)}\na,s,c,d,a,{HALVES[half_of('a') == HALVES[0]]},\n",
-            "line 2: half is",
-        ),
-        (f"{','.join(COLUMNS)}\n,s,c,d,a,{half_of('a')},\n", "line 2: want a path"),
-        (f"{','.join(COLUMNS)}\na,s,c,d,a,{half_of('a')},left\n", "not 'left'"),
+        (f"{HEAD}a,s,c,d,a,{HALVES[half_of('a') == HALVES[0]]},\n", "line 2: half is"),
+        (f"{HEAD},s,c,d,a,{half_of('a')},\n", "line 2: want a path"),
+        (f"{HEAD}a,s,c,d,a,{half_of('a')},left\n", "not 'left'"),
     ],
 )
 def test_a_bad_list_is_refused(tmp_path, text, message):
@@ -111,20 +110,15 @@ def test_vertices_are_welded_across_parts():
     touching = cupboard(hinge())
     lowered = touching.mesh.vertices.copy()
     lowered[:, 1] = 0.0  # the front lies in the wall
-    mesh = type(touching.mesh).from_triangles(lowered, touching.mesh.faces)
-    whole = merged(
-        type(touching)(mesh, touching.parts, touching.joints, "true"), np.random.default_rng(0)
-    )
+    mesh = replace(touching.mesh, vertices=lowered)
+    whole = merged(replace(touching, mesh=mesh), np.random.default_rng(0))
     assert len(whole.mesh.vertices) == len(lowered) / 2
     assert len(whole.mesh.faces) == len(touching.mesh.faces)
 
 
 def test_a_case_is_closed_with_its_front_towards_minus_y(tmp_path):
     objects = real_requests(tmp_path, read_list(write_cabinets(tmp_path)), None)
-    assert [request.name for request in objects] == [
-        "made__one__one--closed-front",
-        "made__two__two--closed-front",
-    ]
+    assert [request.name for request in objects] == CABINETS
     assert objects[0].category == "cabinet"
     truth = make_case(objects[0])
     assert [joint.lower for joint in truth.joints] == [0.0, 0.0]
@@ -149,10 +143,8 @@ def test_open_cases_are_in_range_and_the_truth_still_fits_them(tmp_path):
 def test_a_case_is_the_same_again_with_and_without_what_was_kept(tmp_path):
     write_cabinets(tmp_path)
     store = Store(tmp_path / "kept")
-    read, kept, anew = (
-        cases(tmp_path, ("closed", "open"), ("front", "random"), each)
-        for each in (store, store, None)
-    )
+    drawn = (("closed", "open"), ("front", "random"))
+    read, kept, anew = (cases(tmp_path, *drawn, each) for each in (store, store, None))
     assert len(read) == 8
     assert all(same(a, b) and same(a, c) for a, b, c in zip(read, kept, anew, strict=True))
     yaws = {tuple(a.joints[1].axis.round(6)) for a in read}
@@ -186,10 +178,7 @@ def test_unknown_poses_and_yaws_are_named(tmp_path):
 def test_a_folder_of_objects_with_joints(tmp_path):
     write_cabinets(tmp_path / "things")
     requests = folder_requests(tmp_path / "things")
-    assert [request.name for request in requests] == [
-        "made__one__one--closed-front",
-        "made__two__two--closed-front",
-    ]
+    assert [request.name for request in requests] == CABINETS
     assert len(make_case(requests[0]).movable_joints) == 2
     (tmp_path / "empty").mkdir()
     with pytest.raises(ConfigError, match="holds no URDF"):

@@ -18,12 +18,8 @@ def row(method, case, *right, failed=False):
 
 def test_objects_count_alike_and_only_those_where_both_found_something():
     rows = [row("auto", "a", 1.0, 1.0, 0.0, 0.0), row("geometric", "a", 1.0)]
-    rows += [
-        row("auto", "b", 1.0),
-        row("geometric", "b", 0.0),
-        row("geometric", "c", 1.0),
-        row("auto", "c"),
-    ]
+    rows += [row("auto", "b", 1.0), row("geometric", "b", 0.0)]
+    rows += [row("geometric", "c", 1.0), row("auto", "c")]
     rows += [row("auto", "d", failed=True), row("geometric", "d", 1.0), row("auto", "e", 0.0)]
     (entry,) = compared(rows)
     assert entry["figure"] == "type_accuracy"
@@ -32,9 +28,5 @@ def test_objects_count_alike_and_only_those_where_both_found_something():
 
 
 def test_nothing_to_compare():
-    assert (
-        compared([])
-        == compared([row("auto", "a", 1.0)])
-        == compared([row("auto", "a"), row("naive", "a")])
-        == []
-    )
+    for rows in ([], [row("auto", "a", 1.0)], [row("auto", "a"), row("naive", "a")]):
+        assert compared(rows) == []

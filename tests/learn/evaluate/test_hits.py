@@ -4,9 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from cupboards import cupboard, hinge, in_one_piece, rail, stuck
+from cupboards import cupboard, hinge, in_one_piece, rail, stuck, turning_drawer
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.learn.evaluate.physical import physical
 
 DOOR = cupboard(hinge())
@@ -25,17 +24,6 @@ def tilted(degrees):
     angle = np.radians(degrees)
     axis = np.array([np.sin(angle), 0.0, np.cos(angle)])
     return cupboard(replace(hinge(), axis=axis, origin=np.array([0.0, 0.0, 0.5])))
-
-
-def both(x=0.0):
-    """The front slides in a carrier that turns."""
-    slide = Joint(
-        "slide", JointKind.PRISMATIC, 1, 2, np.array([0.0, -1.0, 0.0]), np.zeros(3), 0.0, 0.3
-    )
-    wall, front = DOOR.parts
-    return Articulation(
-        DOOR.mesh, (wall, Part("carrier", np.zeros(0, int)), front), (hinge(x), slide), "true"
-    )
 
 
 def test_the_truth_is_right_in_everything():
@@ -69,5 +57,6 @@ def test_another_type_has_neither_axis_nor_place():
 
 
 def test_half_of_what_turns_and_slides_has_an_axis_and_a_place_but_not_the_type():
-    assert of_all(both(), both()) == ((1.0,),) * 5
-    assert of_all(both(), cupboard(hinge(0.03))) == ((0.0,), (1.0,), (1.0,), (0.0,), (0.0,))
+    both = turning_drawer()
+    assert of_all(both, both) == ((1.0,),) * 5
+    assert of_all(both, cupboard(hinge(0.03))) == ((0.0,), (1.0,), (1.0,), (0.0,), (0.0,))

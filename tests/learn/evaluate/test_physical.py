@@ -2,11 +2,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from cupboards import cupboard, hinge, in_one_piece, rail, stuck
+from cupboards import cupboard, hinge, in_one_piece, rail, stuck, turning_drawer
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.articulation import Articulation, JointKind, Part
 from asset_factory.factory.geometry.posing import posed, turned
 from asset_factory.learn.evaluate.physical import STATES, physical
 from asset_factory.learn.evaluate.transfer import merged
@@ -77,9 +77,8 @@ def test_a_drawer_taken_for_a_door():
     score = physical(cupboard(rail()), DOOR)
     assert score.pooled["type_accuracy"] == (0.0,)
     assert score.pooled["recall"] == (1.0,)
-    assert not any(
-        score.pooled[name] for name in ("axis_angle_deg", "axis_offset", "range_error_size")
-    )
+    for name in ("axis_angle_deg", "axis_offset", "range_error_size"):
+        assert not score.pooled[name]
     assert score.pooled["opens_right_way"] == (1.0,)
     assert score.values["articulated_iou"] < 0.15
 
@@ -132,20 +131,8 @@ def test_which_way_a_joint_without_ends_points_means_nothing():
     assert score.pooled["axis_angle_deg"] == pytest.approx((0.0,))
 
 
-def turns_and_slides():
-    """The front slides in a carrier that turns."""
-    turn = hinge()
-    slide = Joint(
-        "slide", JointKind.PRISMATIC, 1, 2, np.array([0.0, -1.0, 0.0]), np.zeros(3), 0.0, 0.3
-    )
-    wall, front = DOOR.parts
-    return Articulation(
-        DOOR.mesh, (wall, Part("carrier", np.zeros(0, int)), front), (turn, slide), "true"
-    )
-
-
 def test_a_carrier_is_no_part_of_its_own():
-    both = turns_and_slides()
+    both = turning_drawer()
     score = physical(both, both)
     assert (score.values["true_parts"], score.values["true_moving"]) == (2.0, 1.0)
     assert score.values["articulated_iou"] == pytest.approx(1.0)

@@ -61,12 +61,9 @@ def test_a_preference_is_recovered_for_parts_never_seen(stored):
 def test_a_usual_range_is_recovered(stored, slides):
     usual = usual_of(stored, slides)
     unseen = [one for one in map(motion_sample, range(1000, 1060)) if one.setting.slides == slides]
-    assert (
-        np.mean(
-            [usual.range(one.setting, None) == pytest.approx(one.range, rel=1e-3) for one in unseen]
-        )
-        > 0.9
-    )
+    ranges = [usual.range(one.setting, None) for one in unseen]
+    wanted = [one.range for one in unseen]
+    assert np.isclose(ranges, wanted, rtol=1e-3, atol=0.0).mean() > 0.9
 
 
 def test_a_guess_decides_between_usual_ranges(stored):
@@ -89,9 +86,8 @@ def test_a_kind_that_nothing_has_is_refused(motion_samples):
 
 
 def test_the_command_writes_what_the_evidence_reads_and_a_card(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(
-        command, "generated", lambda seeds: generated(seeds, ["chest", "nightstand", "laptop"])
-    )
+    kinds = ["chest", "nightstand", "laptop"]
+    monkeypatch.setattr(command, "generated", lambda seeds: generated(seeds, kinds))
     output = tmp_path / "evidence.safetensors"
     asked = ["motions", str(output), "--seeds", "1", "--steps", "3"]
     assert command.main(asked) == 0

@@ -1,5 +1,7 @@
 """Cells tile the front, and doors are trimmed to what passes."""
 
+import itertools
+
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -8,15 +10,7 @@ from asset_factory.learn.objects.kit.chance import Chance
 from asset_factory.learn.objects.kit.hinges import SLACK, swing
 from asset_factory.learn.objects.kit.layouts import column, divided, drawers, random_node, row
 
-MIX = {
-    "drawer": 1.0,
-    "drawers": 1.0,
-    "door": 1.0,
-    "double": 1.0,
-    "open": 1.0,
-    "lift": 1.0,
-    "flap": 1.0,
-}
+MIX = dict.fromkeys(("drawer", "drawers", "door", "double", "open", "lift", "flap"), 1.0)
 
 
 @given(st.integers(0, 10**6), st.floats(0.3, 2.5), st.floats(0.3, 2.2), st.booleans())
@@ -30,10 +24,8 @@ def test_cells_tile_the_front_and_their_insides_lie_within(seed, width, height, 
         (left, right), (low, high) = cell.inner
         assert cell.x[0] < left < right < cell.x[1]
         assert cell.z[0] < low < high < cell.z[1]
-        assert cell.outer == tuple(
-            abs(a - b) < 1e-9
-            for a, b in zip((*cell.x, *cell.z), (0.0, width, 0.0, height), strict=True)
-        )
+        edges = zip((*cell.x, *cell.z), (0.0, width, 0.0, height), strict=True)
+        assert cell.outer == tuple(abs(a - b) < 1e-9 for a, b in edges)
     assert len(dividers) <= len(cells) - 1
 
 
@@ -50,21 +42,16 @@ def test_shares_are_heights_and_bare_drawers_have_no_boards_between_them():
     assert len(divided(pile, (0.0, 1.0), (0.0, 1.0), 0.02, False)[1]) == 3
 
 
-@given(
-    st.integers(0, 10**6),
-    st.floats(0.01, 0.08),
-    st.floats(0.1, 1.0),
-    st.floats(0.0005, 0.01),
-    st.floats(-0.3, 1.0),
-)
+SIZES = (st.floats(0.01, 0.08), st.floats(0.1, 1.0), st.floats(0.0005, 0.01))
+
+
+@given(st.integers(0, 10**6), *SIZES, st.floats(-0.3, 1.0))
 @settings(max_examples=100, deadline=None)
 def test_a_trimmed_front_turns_past_its_neighbours(seed, thickness, width, gap, taste):
     made = swing(Chance(np.random.default_rng(seed)), thickness, width, (gap, gap), taste, 92.0)
     angle = np.linspace(0.0, made.upper, 50)
-    corners = [
-        (x, y) for x in (0.0, width - made.trim) for y in (-made.setback, thickness - made.setback)
-    ]
-    for x, y in corners:
+    depths = (-made.setback, thickness - made.setback)
+    for x, y in itertools.product((0.0, width - made.trim), depths):
         across = x * np.cos(angle) + y * np.sin(angle)
         away = -x * np.sin(angle) + y * np.cos(angle)
         beside = (away > -made.setback) & (away < thickness - made.setback)

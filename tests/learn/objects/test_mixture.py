@@ -19,9 +19,8 @@ def test_any_seed_gives_a_closed_object_with_a_joint_and_the_same_one_again(seed
     assert len(one.movable_joints) < 16
     assert all(joint.lower <= 0.0 for joint in one.joints)
     assert one.mesh.vertices.tobytes() == again.mesh.vertices.tobytes()
-    np.testing.assert_array_equal(
-        np.sort(np.concatenate([p.faces for p in one.parts])), np.arange(len(one.mesh.faces))
-    )
+    faces = np.sort(np.concatenate([part.faces for part in one.parts]))
+    np.testing.assert_array_equal(faces, np.arange(len(one.mesh.faces)))
 
 
 def test_a_name_says_how_to_make_the_object_again():
@@ -36,10 +35,8 @@ def test_a_name_says_how_to_make_the_object_again():
 
 def test_characters_come_in_their_shares():
     settings = MixtureSettings(categories=("trash_can",), artist=0.5, generated=0.5, plain=0.5)
-    drawn = [
-        sample_object(np.random.default_rng(seed), settings)[0].split("-")[2] for seed in range(60)
-    ]
-    found = collections.Counter(drawn)
+    names = (sample_object(np.random.default_rng(seed), settings)[0] for seed in range(60))
+    found = collections.Counter(name.split("-")[2] for name in names)
     assert 20 <= found["generated"] <= 40
     assert 6 <= found["plain"] <= 25
     assert 6 <= found["artist"] <= 25

@@ -17,6 +17,7 @@ from asset_factory.learn.objects.catalog import CATEGORIES, DEMO_CATEGORIES
 from asset_factory.learn.objects.kit.looks import wood
 
 EXAMPLES = Path(__file__).parents[3] / "examples" / "meshes"
+SETTINGS = {"category", "up", "height", "scale", "density", "license", "annotation"}
 SEEDS = (0, 1, 2)
 CLEARANCE_M = 0.0009
 #: Of every file in the folder of demo meshes, its name and its bytes.
@@ -40,12 +41,9 @@ def test_parts_never_meet_anywhere_along_a_joint(category, seed):
             moved = solids[joint.child].transform(pose[:3])
             for other, solid in enumerate(solids):
                 if other != joint.child:
-                    assert (moved ^ solid).volume() == 0.0, (
-                        joint.name,
-                        value,
-                        articulation.parts[other].name,
-                    )
-                    assert moved.min_gap(solid, 0.005) > CLEARANCE_M, (joint.name, value)
+                    where = (joint.name, value, articulation.parts[other].name)
+                    assert (moved ^ solid).volume() == 0.0, where
+                    assert moved.min_gap(solid, 0.005) > CLEARANCE_M, where
 
 
 @pytest.mark.parametrize("category", DEMO_CATEGORIES)
@@ -66,10 +64,8 @@ def test_objects_stand_closed_on_the_ground_and_face_minus_y(category):
         for joint in articulation.movable_joints:
             assert joint.lower == 0.0 < joint.upper
             before = articulation.part_mesh(joint.child).vertices
-            after = (
-                before @ joint.motion(joint.upper / 2)[:3, :3].T
-                + joint.motion(joint.upper / 2)[:3, 3]
-            )
+            motion = joint.motion(joint.upper / 2)
+            after = before @ motion[:3, :3].T + motion[:3, 3]
             opens_ahead = after[:, 1].min() < before[:, 1].min() - 0.01
             opens_up = after[:, 2].max() > before[:, 2].max() + 0.01
             small = "knob" in joint.name or "pedal" in joint.name
@@ -122,15 +118,7 @@ def test_every_demo_mesh_has_a_sidecar_and_fused_ones_their_ground_truth():
     annotated = 0
     for path in meshes:
         sidecar = tomllib.loads(path.with_suffix(".toml").read_text())
-        assert set(sidecar) <= {
-            "category",
-            "up",
-            "height",
-            "scale",
-            "density",
-            "license",
-            "annotation",
-        }
+        assert set(sidecar) <= SETTINGS
         assert ("height" in sidecar) != ("scale" in sidecar)
         if "annotation" in sidecar:
             annotated += 1

@@ -20,15 +20,8 @@ from asset_factory.learn.samples.sample import DrawSettings, draw
 from asset_factory.learn.samples.sampled_object import read_sampled, sampled_from, write_sampled
 
 EXACT = DrawSettings(points=400, scale=(1.0, 1.0), shift=0.0)
-BUSY = DrawSettings(
-    points=400,
-    turned_share=0.5,
-    facing_share=0.5,
-    mirrored_share=0.5,
-    stretch=0.6,
-    merged_share=0.5,
-    components=True,
-)
+SHARES = dict.fromkeys(("turned_share", "facing_share", "mirrored_share", "merged_share"), 0.5)
+BUSY = DrawSettings(points=400, **SHARES, stretch=0.6, components=True)
 
 
 def sampled(category="cabinet", seed=0, points=3000):
@@ -44,9 +37,8 @@ CABINET = sampled()
 def lid_on_a_post():
     """A root, a turning carrier, a lid sliding on it (one part, both motions), a fixed foot."""
     cube = trimesh.creation.box((1.0, 1.0, 1.0))
-    mesh = concatenate(
-        [Mesh.from_triangles(cube.vertices + np.array([0, 0, 2 * k]), cube.faces) for k in range(3)]
-    )
+    rows = [cube.vertices + np.array([0, 0, 2 * number]) for number in range(3)]
+    mesh = concatenate([Mesh.from_triangles(row, cube.faces) for row in rows])
     up = np.array([0.0, 0.0, 1.0])
     none = np.zeros(0, dtype=np.int64)
     parts = (
@@ -64,14 +56,8 @@ def lid_on_a_post():
 
 
 def test_a_part_behind_a_carrier_turns_and_slides_and_what_is_fixed_is_one_with_its_parent():
-    found = sampled_from(
-        lid_on_a_post(),
-        name="lid",
-        category="",
-        source="",
-        points=500,
-        rng=np.random.default_rng(0),
-    )
+    named = {"name": "lid", "category": "", "source": ""}
+    found = sampled_from(lid_on_a_post(), **named, points=500, rng=np.random.default_rng(0))
     assert found.motion.tolist() == [MotionClass.FIXED, MotionClass.BOTH]
     assert found.parents.tolist() == [-1, 0]
     assert found.endless.tolist() == [False, True]
@@ -108,9 +94,8 @@ def test_answers_come_true(seed):
 def test_examples_lie_in_the_networks_box_whatever_is_done_to_them(seed):
     sample = draw(CABINET, np.random.default_rng(seed), BUSY)
     assert np.abs(sample.points).max() < 0.5 * 1.05 + 5 * 0.02
-    lengths = np.linalg.norm(
-        sample.revolute_direction[sample.motion == MotionClass.REVOLUTE], axis=1
-    )
+    turning = sample.motion == MotionClass.REVOLUTE
+    lengths = np.linalg.norm(sample.revolute_direction[turning], axis=1)
     np.testing.assert_allclose(lengths, 1.0, rtol=1e-5)
     assert (np.linalg.norm(sample.normals, axis=1) < 1.0 + 1e-5).all()
     assert np.isfinite(sample.features).all()
@@ -128,18 +113,16 @@ def test_a_mirrored_door_still_opens_outwards():
             foot = sample.closest_points[mine]
             turn = rotation_about(sample.revolute_direction[door].astype(float), 0.5)
             moved = foot + (sample.points[mine] - foot) @ turn.T
-            assert moved[:, 1].mean() < sample.points[mine][:, 1].mean() - 0.02, (
-                "towards -Y, the front"
-            )
+            # Towards -Y, the front.
+            assert moved[:, 1].mean() < sample.points[mine][:, 1].mean() - 0.02
 
 
 def test_half_of_the_points_lie_on_sharp_edges_and_the_same_seed_draws_the_same():
     one, two = (draw(CABINET, np.random.default_rng(3), BUSY) for _ in range(2))
     assert np.array_equal(one.points, two.points)
     assert np.array_equal(one.features, two.features)
-    on_face = np.isclose(
-        np.linalg.norm(draw(CABINET, np.random.default_rng(3), EXACT).normals, axis=1), 1.0
-    )
+    normals = draw(CABINET, np.random.default_rng(3), EXACT).normals
+    on_face = np.isclose(np.linalg.norm(normals, axis=1), 1.0)
     assert on_face.mean() == pytest.approx(0.5, abs=0.02)
 
 
@@ -172,9 +155,8 @@ def test_files_that_training_would_stumble_over_are_refused(tmp_path, changes, s
 def test_files_that_say_they_are_huge_are_refused_unread(tmp_path, monkeypatch):
     monkeypatch.setattr(sampled_objects, "MOST_BYTES", 1_000_000)
     box = box_sampled(0)
-    arrays = {each.name: getattr(box, each.name) for each in fields(box)} | {
-        "points": np.zeros((200_000, 3))
-    }
+    arrays = {each.name: getattr(box, each.name) for each in fields(box)}
+    arrays |= {"points": np.zeros((200_000, 3))}
     np.savez_compressed(tmp_path / "bomb.npz", **arrays)
     with pytest.raises(InputRejected) as refused:
         read_sampled(tmp_path / "bomb.npz")
@@ -186,10 +168,8 @@ def test_an_array_that_says_it_is_huge_and_is_not_is_refused(tmp_path):
     header += b" " * (117 - len(header)) + b"\n"
     with zipfile.ZipFile(tmp_path / "a.npz", "w") as archive:
         for each in fields(CABINET):
-            archive.writestr(
-                f"{each.name}.npy",
-                b"\x93NUMPY\x01\x00" + len(header).to_bytes(2, "little") + header,
-            )
+            start = b"\x93NUMPY\x01\x00" + len(header).to_bytes(2, "little")
+            archive.writestr(f"{each.name}.npy", start + header)
     with pytest.raises(InputRejected, match="cannot be read as a sampled object"):
         read_sampled(tmp_path / "a.npz")
 
@@ -206,11 +186,8 @@ def test_a_sampled_survives_its_file(tmp_path):
 
 
 def test_what_cannot_be_learnt_from_says_so():
-    rigid = replace(
-        make_object("fridge", 0),
-        joints=(),
-        parts=(Part("all", np.arange(len(make_object("fridge", 0).mesh.faces))),),
-    )
+    fridge = make_object("fridge", 0)
+    rigid = replace(fridge, joints=(), parts=(Part("all", np.arange(len(fridge.mesh.faces))),))
     with pytest.raises(InputRejected) as caught:
         sampled_from(
             rigid, name="rock", category="", source="", points=100, rng=np.random.default_rng(0)

@@ -165,9 +165,8 @@ def test_quartering_some_faces_keeps_area_and_labels():
     mesh = solids(UNIT, BESIDE)
     finer = quartered(mesh, mesh.part == 1)
     assert len(finer.faces) == 12 + 48
-    np.testing.assert_allclose(
-        np.bincount(finer.part, finer.areas), np.bincount(mesh.part, mesh.areas)
-    )
+    areas = np.bincount(mesh.part, mesh.areas)
+    np.testing.assert_allclose(np.bincount(finer.part, finer.areas), areas)
 
 
 def test_a_flattened_panel_is_one_sheet_in_the_plane_of_its_front():
@@ -261,9 +260,8 @@ def test_stretched_and_mirrored_objects_move_as_their_stretched_and_mirrored_mot
         for joint, was in zip(changed.joints, original.joints, strict=True):
             full = was.motion(was.upper)
             if not joint.turns:
-                np.testing.assert_allclose(
-                    joint.axis * joint.upper, linear @ (was.axis * was.upper), atol=1e-12
-                )
+                wanted = linear @ (was.axis * was.upper)
+                np.testing.assert_allclose(joint.axis * joint.upper, wanted, atol=1e-12)
                 continue
             np.testing.assert_allclose(joint.origin, linear @ was.origin)
             assert joint.upper == was.upper
@@ -296,9 +294,8 @@ def test_a_fused_object_is_closed_near_the_original_and_keeps_every_part(categor
     np.testing.assert_allclose(fused.mesh.bounds, original.mesh.bounds, atol=2.0 * cell)
     for part in range(len(original.parts)):
         low, high = original.part_mesh(part).bounds
-        inside = (fused.part_mesh(part).vertices > low - 3 * cell) & (
-            fused.part_mesh(part).vertices < high + 3 * cell
-        )
+        vertices = fused.part_mesh(part).vertices
+        inside = (vertices > low - 3 * cell) & (vertices < high + 3 * cell)
         assert inside.all()
     again = fused_like(original, 2)
     assert fused.mesh.vertices.tobytes() == again.mesh.vertices.tobytes()
@@ -315,17 +312,15 @@ def nested(part, parents):
         Joint(f"joint_{i}", JointKind.PRISMATIC, parent, i + 1, axis, np.zeros(3), 0.0, 0.1)
         for i, parent in enumerate(parents)
     ]
-    return Articulation(
-        Mesh.from_triangles(mesh.vertices, mesh.faces), tuple(parts), tuple(joints), "procedural"
-    )
+    bare = Mesh.from_triangles(mesh.vertices, mesh.faces)
+    return Articulation(bare, tuple(parts), tuple(joints), "procedural")
 
 
 def test_a_part_that_nobody_sees_is_not_in_a_fused_object():
     fused = fused_like(nested((0, 1, 2), (0, 0)), 0)
     assert [part.name for part in fused.parts] == ["part_0", "part_2"]
-    assert [(joint.name, joint.parent, joint.child) for joint in fused.joints] == [
-        ("joint_1", 0, 1)
-    ]
+    (joint,) = fused.joints
+    assert (joint.name, joint.parent, joint.child) == ("joint_1", 0, 1)
 
 
 @pytest.mark.parametrize(("part", "parents"), [((0, 1, 0), (0,)), ((0, 1, 2), (0, 1))])
@@ -370,9 +365,8 @@ def test_faces_of_a_skin_belong_to_the_part_that_is_nearest():
     original = make_object("dishwasher", 4)
     made = skin_like(original, 5, cells=96)
     part = face_parts(original)
-    points, faces = trimesh.sample.sample_surface(
-        trimesh.Trimesh(original.mesh.vertices, original.mesh.faces, process=False), 40_000, seed=0
-    )
+    plain = trimesh.Trimesh(original.mesh.vertices, original.mesh.faces, process=False)
+    points, faces = trimesh.sample.sample_surface(plain, 40_000, seed=0)
     centers = made.mesh.vertices[made.mesh.faces].mean(axis=1)
     _, nearest = cKDTree(points).query(centers)
     agreed = face_parts(made) == part[faces[nearest]]

@@ -2,6 +2,7 @@
 
 import multiprocessing
 import os
+import traceback
 from dataclasses import fields, replace
 from queue import Queue
 
@@ -48,10 +49,8 @@ def pools(config, tmp_path):
 
 
 def assert_equal(one, other):
-    for each in fields(one):
-        np.testing.assert_array_equal(
-            getattr(one, each.name), getattr(other, each.name), err_msg=each.name
-        )
+    for name in (each.name for each in fields(one)):
+        np.testing.assert_array_equal(getattr(one, name), getattr(other, name), err_msg=name)
 
 
 def test_the_order_of_asking_changes_no_sample(config, pools):
@@ -64,12 +63,8 @@ def test_the_order_of_asking_changes_no_sample(config, pools):
 
 def test_other_steps_numbers_and_seeds_give_other_samples(config, pools):
     dataset = Dataset(config, pools)
-    others = [
-        dataset.sample(1, 0),
-        dataset.sample(0, 1),
-        Dataset(replace(config, seed=1), pools).sample(0, 0),
-    ]
-    for other in others:
+    reseeded = Dataset(replace(config, seed=1), pools)
+    for other in (dataset.sample(1, 0), dataset.sample(0, 1), reseeded.sample(0, 0)):
         assert not np.array_equal(dataset.sample(0, 0).points, other.points)
 
 
@@ -142,9 +137,8 @@ def test_workers_that_only_die_end_the_run(config, pools, monkeypatch):
 
 
 def test_a_made_object_that_goes_wrong_costs_only_itself(config, monkeypatch):
-    pool = Generator(
-        DataSource("procedural", points=256), supplying.MixtureSettings(categories=("laptop",)), 1.0
-    )
+    mixture = supplying.MixtureSettings(categories=("laptop",))
+    pool = Generator(DataSource("procedural", points=256), mixture, 1.0)
     make = supplying.sample_object
     calls = []
 
@@ -172,12 +166,7 @@ def test_refusals_that_are_kept_hold_nothing_else(config, tmp_path):
     for _ in range(3):
         with pytest.raises(InputRejected) as caught:
             kept.read(tmp_path / "broken.npz")
-    depth = 0
-    trace = caught.value.__traceback__
-    while trace is not None:
-        depth = depth + 1
-        trace = trace.tb_next
-    assert depth <= 3
+    assert len(list(traceback.walk_tb(caught.value.__traceback__))) <= 3
 
 
 def test_a_broken_held_out_file_is_passed_over(config, pools, tmp_path):
@@ -191,21 +180,19 @@ def test_a_broken_held_out_file_is_passed_over(config, pools, tmp_path):
 
 
 def test_what_was_passed_over_is_told_and_counted(tmp_path):
+    source = DataSource("description", path=str(tmp_path / "data"))
     (tmp_path / "data" / "one").mkdir(parents=True)
     (tmp_path / "data" / "one" / "a.urdf").write_text("<robot")
-    with pytest.raises(
-        ConfigError, match=r"no object in it can be used(?s:.*)1 skipped: \w+; first one"
-    ):
-        find_pools([DataSource("description", path=str(tmp_path / "data"))], tmp_path / "cache")
+    said = r"no object in it can be used(?s:.*)1 skipped: \w+; first one"
+    with pytest.raises(ConfigError, match=said):
+        find_pools([source], tmp_path / "cache")
     (tmp_path / "data" / "two").mkdir()
     (tmp_path / "data" / "two" / "a.urdf").write_text(CABINET)
-    pools = find_pools([DataSource("description", path=str(tmp_path / "data"))], tmp_path / "cache")
+    pools = find_pools([source], tmp_path / "cache")
     read = len(pools[0].paths)
     assert read > 0
-    assert (
-        source_lines(pools)[0]
-        == f"description: {read} of {read + 1} objects read, {read} of them new"
-    )
+    told = f"description: {read} of {read + 1} objects read, {read} of them new"
+    assert source_lines(pools)[0] == told
     assert source_counts(pools)[0]["sampled"] == read
     assert sum(source_counts(pools)[0]["skipped"].values()) == 1
 
@@ -234,9 +221,8 @@ def test_a_generator_makes_each_object_once_and_uses_it_as_often_as_asked(config
 
 
 def test_held_out_examples_are_always_the_same(config, pools):
-    for one, other in zip(
-        held_out_samples(config, pools), held_out_samples(config, pools), strict=True
-    ):
+    first, again = (held_out_samples(config, pools) for _ in range(2))
+    for one, other in zip(first, again, strict=True):
         assert_equal(one, other)
 
 

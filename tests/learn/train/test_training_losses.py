@@ -51,11 +51,10 @@ def network():
     return PartArticulationTransformer(SHAPE)
 
 
-def boxes(count, points=40):
+def boxes(count):
     rng = np.random.default_rng(0)
-    return collate(
-        [draw(box_sampled(seed), rng, DrawSettings(points=points)) for seed in range(count)], 6
-    ).to("cpu")
+    drawn = [draw(box_sampled(seed), rng, DrawSettings(points=40)) for seed in range(count)]
+    return collate(drawn, 6).to("cpu")
 
 
 def found_losses(network, batch, settings, counts=None):
@@ -90,16 +89,13 @@ def test_the_losses_and_the_matcher_are_the_originals(fixtures, seed):
     settings = LossSettings(dice=1.0)
     found = found_losses(network, batch, settings)
     for name, original in ORIGINAL.items():
-        np.testing.assert_allclose(
-            found[name].item(), wanted[f"loss_matched_{original}"], rtol=1e-4, err_msg=name
-        )
-    queries = match(
-        torch.from_numpy(wanted["matcher_logits"]), batch.part_ids, batch.counts
-    ).numpy()
-    for row, chosen, columns in zip(
-        queries, batch.counts.tolist(), wanted["matcher_sorted_columns"], strict=True
-    ):
-        np.testing.assert_array_equal(row[:chosen], columns[:chosen])
+        loss = wanted[f"loss_matched_{original}"]
+        np.testing.assert_allclose(found[name].item(), loss, rtol=1e-4, err_msg=name)
+    logits = torch.from_numpy(wanted["matcher_logits"])
+    queries = match(logits, batch.part_ids, batch.counts).numpy()
+    columns = wanted["matcher_sorted_columns"]
+    for row, chosen, column in zip(queries, batch.counts.tolist(), columns, strict=True):
+        np.testing.assert_array_equal(row[:chosen], column[:chosen])
 
 
 @given(st.integers(0, 1000), st.integers(1, 6), st.booleans())
@@ -143,9 +139,8 @@ def test_nothing_that_moves_and_no_edge_teach_nothing_wrong(network):
     assert all(np.isfinite(found[name].item()) for name in NAMES)
     for name in (*moving, "closest_points"):
         assert found[name].item() == 0.0
-    assert all(
-        torch.isfinite(each.grad).all() for each in network.parameters() if each.grad is not None
-    )
+    gradients = [each.grad for each in network.parameters() if each.grad is not None]
+    assert all(torch.isfinite(gradient).all() for gradient in gradients)
 
 
 def test_micro_batches_add_up_to_the_whole_step(network):
@@ -153,32 +148,21 @@ def test_micro_batches_add_up_to_the_whole_step(network):
     settings = LossSettings(dice=1.0, auxiliary=0.5)
     whole = found_losses(network, batch, settings)
     micro = list(batch.split(2))
-    counts = Counts(
-        *(
-            sum(c)
-            for c in zip(*(count(m, targets_of(m, settings), settings) for m in micro), strict=True)
-        )
-    )
+    counted = [count(each, targets_of(each, settings), settings) for each in micro]
+    counts = Counts(*map(sum, zip(*counted, strict=True)))
     shares = [found_losses(network, each, settings, counts) for each in micro]
     for name in NAMES:
-        assert sum(share[name].item() for share in shares) == pytest.approx(
-            whole[name].item(), rel=1e-5
-        ), name
+        added = sum(share[name].item() for share in shares)
+        assert added == pytest.approx(whole[name].item(), rel=1e-5), name
 
 
 def test_an_opposite_direction_is_as_good_where_the_range_reads_the_same_from_both_ends(network):
     batch = boxes(1)
     direction = torch.tensor([0.0, 0.0, 1.0]).expand(1, 6, 3)
-    limits = torch.tensor(
-        [[-1.0, 1.0], [0.0, 1.0], [-3.2, 3.2], [-1.0, 0.5], [0.0, 6.3], [-0.1, 0.1]]
-    )[None]
-    batch = replace(
-        batch,
-        counts=torch.tensor([6]),
-        motion=torch.ones(1, 6, dtype=torch.long),
-        revolute_direction=direction,
-    )
-    batch = replace(batch, revolute_range=limits)
+    limits = [[-1.0, 1.0], [0.0, 1.0], [-3.2, 3.2], [-1.0, 0.5], [0.0, 6.3], [-0.1, 0.1]]
+    turning = {"counts": torch.tensor([6]), "motion": torch.ones(1, 6, dtype=torch.long)}
+    turning["revolute_range"] = torch.tensor(limits)[None]
+    batch = replace(batch, revolute_direction=direction, **turning)
     answers, _ = forward(network, batch, LossSettings())
     said = replace(answers.parts, revolute_direction=-direction)
     answers = Answers(answers.queries, answers.mask_logits, said, answers.closest_points)

@@ -44,6 +44,20 @@ def written(tmp_path_factory):
     return path, folder / "run"
 
 
+def assert_same_files(folder, output):
+    for name in SAME:
+        assert (folder / name).read_bytes() == (output / name).read_bytes(), name
+
+
+def edited(path, target, *edits):
+    """A recipe with other texts, written elsewhere; the path as a text."""
+    text = path.read_text()
+    for old, new in edits:
+        text = text.replace(old, new)
+    target.write_text(text)
+    return str(target)
+
+
 def test_a_run_leaves_weights_that_load_and_figures(written):
     _, output = written
     model = load_model(str(output / "model.safetensors"), max_parts=6)
@@ -66,8 +80,7 @@ def test_a_run_leaves_weights_that_load_and_figures(written):
 def test_the_same_recipe_gives_the_same_bytes_and_workers_change_nothing(written, tmp_path):
     path, output = written
     assert train(Train(str(path), tmp_path / "again", workers=2))
-    for name in SAME:
-        assert (tmp_path / "again" / name).read_bytes() == (output / name).read_bytes(), name
+    assert_same_files(tmp_path / "again", output)
 
 
 def test_a_killed_run_goes_on_as_if_it_had_not_been(written, tmp_path):
@@ -77,16 +90,14 @@ def test_a_killed_run_goes_on_as_if_it_had_not_been(written, tmp_path):
     one_thread = {**os.environ, "OMP_NUM_THREADS": "1"}
     process = subprocess.Popen(command, stderr=subprocess.DEVNULL, env=one_thread)
     deadline = time.monotonic() + 120.0
-    while (
-        not (other / "last.pt").is_file() and time.monotonic() < deadline and process.poll() is None
-    ):
+    while not (other / "last.pt").is_file() and process.poll() is None:
+        assert time.monotonic() < deadline
         time.sleep(0.005)
     process.kill()
     process.wait()
     assert read_state(other / "last.pt").step >= 3
     assert train(Train(str(path), other, resume=True))
-    for name in SAME:
-        assert (other / name).read_bytes() == (output / name).read_bytes(), name
+    assert_same_files(other, output)
 
 
 def test_asked_to_end_it_writes_a_checkpoint_and_goes_on_later(written, tmp_path, monkeypatch):
@@ -105,8 +116,7 @@ def test_asked_to_end_it_writes_a_checkpoint_and_goes_on_later(written, tmp_path
     monkeypatch.undo()
     assert read_state(tmp_path / "run" / "last.pt").step == 6
     assert run(["train", str(path), "--output", str(tmp_path / "run"), "--resume"]) == 0
-    for name in SAME:
-        assert (tmp_path / "run" / name).read_bytes() == (output / name).read_bytes(), name
+    assert_same_files(tmp_path / "run", output)
 
 
 def test_a_run_goes_on_by_its_own_recipe_alone(written, tmp_path):
@@ -115,21 +125,17 @@ def test_a_run_goes_on_by_its_own_recipe_alone(written, tmp_path):
         train(Train(str(path), output))
     with pytest.raises(ConfigError, match="holds no run"):
         train(Train(str(path), tmp_path / "none", resume=True))
-    changed = tmp_path / "changed.toml"
-    changed.write_text(
-        path.read_text().replace("3e-3", "4e-3").replace("log_every = 4", "log_every = 5")
-    )
+    edits = (("3e-3", "4e-3"), ("log_every = 4", "log_every = 5"))
+    changed = edited(path, tmp_path / "changed.toml", *edits)
     with pytest.raises(ConfigError, match=r"another schedule\.rate"):
-        train(Train(str(changed), output, resume=True))
+        train(Train(changed, output, resume=True))
 
 
 def test_other_data_start_from_the_weights_of_a_run(written, tmp_path):
     path, output = written
-    recipe_text = (
-        path.read_text().replace("steps = 12", "steps = 1").replace("rate = 3e-3", "rate = 1e-12")
-    )
-    (tmp_path / "more.toml").write_text(recipe_text)
-    assert train(Train(str(tmp_path / "more.toml"), tmp_path / "run", start=output / "last.pt"))
+    edits = (("steps = 12", "steps = 1"), ("rate = 3e-3", "rate = 1e-12"))
+    more = edited(path, tmp_path / "more.toml", *edits)
+    assert train(Train(more, tmp_path / "run", start=output / "last.pt"))
     before = read_weights(output / "model.safetensors")
     after = read_weights(tmp_path / "run" / "model.safetensors")
     for name, tensor in before.items():
@@ -175,21 +181,18 @@ def test_weights_that_are_no_numbers_are_never_written(written, tmp_path, monkey
     with pytest.raises(ConfigError, match=r"step 5: .* is not finite any more"):
         train(Train(str(path), tmp_path / "run"))
     assert read_state(tmp_path / "run" / "last.pt").step == 3
-    for weights in (
-        read_state(tmp_path / "run" / "last.pt").weights,
-        read_weights(tmp_path / "run" / "model.safetensors"),
-    ):
+    kept = read_weights(tmp_path / "run" / "model.safetensors")
+    for weights in (read_state(tmp_path / "run" / "last.pt").weights, kept):
         assert all(bool(torch.isfinite(each).all()) for each in weights.values())
 
 
 def test_a_run_whose_gradients_stay_infinite_ends(written, tmp_path, monkeypatch):
     path, _ = written
-    (tmp_path / "nan.toml").write_text(path.read_text().replace("steps = 12", "steps = 40"))
+    long = edited(path, tmp_path / "nan.toml", ("steps = 12", "steps = 40"))
     monkeypatch.setattr(training, "total", lambda found, settings: found["mask"] * float("nan"))
-    with pytest.raises(
-        ConfigError, match="step 19: the gradients of 20 steps in a row are not finite"
-    ):
-        train(Train(str(tmp_path / "nan.toml"), tmp_path / "run"))
+    said = "step 19: the gradients of 20 steps in a row are not finite"
+    with pytest.raises(ConfigError, match=said):
+        train(Train(long, tmp_path / "run"))
 
 
 def test_an_answer_that_overflowed_is_matched_anyhow():
@@ -209,9 +212,9 @@ def test_a_folder_belongs_to_one_run_at_a_time(written, tmp_path):
 
 def test_a_run_that_could_not_begin_leaves_none_to_go_on_with(written, tmp_path):
     path, _ = written
-    (tmp_path / "bad.toml").write_text(path.read_text().replace('path = "', 'path = "/none'))
+    bad = edited(path, tmp_path / "bad.toml", ('path = "', 'path = "/none'))
     with pytest.raises(ConfigError, match="no such folder"):
-        train(Train(str(tmp_path / "bad.toml"), tmp_path / "run"))
+        train(Train(bad, tmp_path / "run"))
     with pytest.raises(ConfigError, match="No such file"):
         train(Train(str(path), tmp_path / "run", start=tmp_path / "none.safetensors"))
     with pytest.raises(ConfigError, match="holds no run to go on with"):
@@ -262,9 +265,8 @@ def test_a_full_disk_ends_the_run_with_a_sentence_and_leaves_what_was_there(
         write(target, state)
 
     monkeypatch.setattr(loop, "write_state", full)
-    with pytest.raises(
-        ConfigError, match="No space left on device; what was stored before is whole, and --resume"
-    ):
+    said = "No space left on device; what was stored before is whole, and --resume"
+    with pytest.raises(ConfigError, match=said):
         train(Train(str(path), tmp_path / "run"))
     assert read_state(tmp_path / "run" / "last.pt").step == 3
     assert not list((tmp_path / "run").glob(".writing-*"))

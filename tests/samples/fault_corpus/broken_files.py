@@ -6,7 +6,9 @@ from .good_things import kiosk
 URDF = urdf(kiosk())
 MJCF = mjcf(kiosk())
 DOOR = ".//body[@name='door']/inertial"
+LID = ".//body[@name='lid']"
 LID_ORIGIN = ".//joint[@name='flap']/origin"
+NEEDLE = "0.9 0.01 0.01 0 0 0"
 ENDLESS = '<cylinder radius="0.1" length="inf"/>'
 #: Nine levels of ten: a billion words, were anyone to expand them.
 BOMB = (
@@ -25,14 +27,17 @@ PNG = bytes.fromhex(
 ASSET = '<mujoco><asset><mesh name="inner" file="../secret.obj"/></asset></mujoco>'
 MODEL = '<mujoco><worldbody><body name="inner"><geom size="0.1"/></body></worldbody></mujoco>'
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+LOST_CORNER = "v nan 0 1\nf 1 2 3\nf 1 2 4\n"
+INCLUDE = '<include file="../more.xml"/>'
 
 
-def _urdf(old, new):
+def in_urdf(old, new):
     """The kiosk as URDF, with one text in the place of another."""
     return edited(URDF, (old, new))
 
 
-def _mjcf(old, new):
+def in_mjcf(old, new):
+    """The kiosk as MJCF, edited in the same way."""
     return edited(MJCF, (old, new))
 
 
@@ -44,63 +49,39 @@ def broken_files():
         ("mesh_missing.urdf", "missing_file", refiled(URDF, hull, None)),
         ("visual_missing.urdf", "missing_file", refiled(URDF, "door_seen_0.obj", None)),
         ("mesh_missing.mjcf", "unreadable", refiled(MJCF, hull, None)),
-        ("mesh_outside.urdf", "outside_folder", _urdf(hull, f"../{hull}")),
-        ("mesh_absolute.urdf", "outside_folder", _urdf(hull, "/etc/hostname")),
-        ("mesh_from_the_net.urdf", "outside_folder", _urdf(hull, f"http://example.org/{hull}")),
-        ("mesh_outside.mjcf", "outside_folder", _mjcf(hull, f"../{hull}")),
-        (
-            "include_outside.mjcf",
-            "outside_folder",
-            _mjcf("<asset>", '<include file="../more.xml"/><asset>'),
-        ),
-        ("entity_bomb.urdf", "forbidden_doctype", _urdf('<robot name="kiosk">', BOMB)),
-        ("cut_off.urdf", "invalid_xml", _urdf("</robot>", "")),
-        ("cut_off.mjcf", "invalid_xml", _mjcf("</mujoco>", "")),
-        (
-            "other_format.urdf",
-            "unknown_format",
-            edited(URDF, ("<robot", "<sdf"), ("</robot>", "</sdf>")),
-        ),
+        ("mesh_outside.urdf", "outside_folder", in_urdf(hull, f"../{hull}")),
+        ("mesh_absolute.urdf", "outside_folder", in_urdf(hull, "/etc/hostname")),
+        ("mesh_from_the_net.urdf", "outside_folder", in_urdf(hull, f"http://example.org/{hull}")),
+        ("mesh_outside.mjcf", "outside_folder", in_mjcf(hull, f"../{hull}")),
+        ("include_outside.mjcf", "outside_folder", in_mjcf("<asset>", f"{INCLUDE}<asset>")),
+        ("entity_bomb.urdf", "forbidden_doctype", in_urdf('<robot name="kiosk">', BOMB)),
+        ("cut_off.urdf", "invalid_xml", in_urdf("</robot>", "")),
+        ("cut_off.mjcf", "invalid_xml", in_mjcf("</mujoco>", "")),
+        ("other_format.urdf", "unknown_format", edited(URDF, ("robot", "sdf"), count=-1)),
         ("empty_robot.urdf", "no_links", lambda folder: _text(folder, '<robot name="nothing"/>')),
-        ("link_without_name.urdf", "missing_name", _urdf('<link name="door">', "<link>")),
-        ("joint_without_child.urdf", "missing_element", _urdf('<child link="door"/>', "")),
-        ("no_geometry.urdf", "missing_geometry", _urdf(shape, "")),
-        ("cone.urdf", "unknown_geometry", _urdf(shape, '<cone radius="1"/>')),
-        ("no_radius.urdf", "missing_number", _urdf(shape, '<sphere diameter="1"/>')),
-        (
-            "origin_nan.urdf",
-            "not_finite",
-            _urdf('<origin xyz="0.0 -0.004', '<origin xyz="nan -0.004'),
-        ),
-        ("sphere_nan.urdf", "not_finite", _urdf(shape, '<sphere radius="nan"/>')),
-        ("rod_without_end.urdf", "not_finite", _urdf(shape, ENDLESS)),
+        ("link_without_name.urdf", "missing_name", in_urdf('<link name="door">', "<link>")),
+        ("joint_without_child.urdf", "missing_element", in_urdf('<child link="door"/>', "")),
+        ("no_geometry.urdf", "missing_geometry", in_urdf(shape, "")),
+        ("cone.urdf", "unknown_geometry", in_urdf(shape, '<cone radius="1"/>')),
+        ("no_radius.urdf", "missing_number", in_urdf(shape, '<sphere diameter="1"/>')),
+        ("origin_nan.urdf", "not_finite", in_urdf('xyz="0.0 -0.004', 'xyz="nan -0.004')),
+        ("sphere_nan.urdf", "not_finite", in_urdf(shape, '<sphere radius="nan"/>')),
+        ("rod_without_end.urdf", "not_finite", in_urdf(shape, ENDLESS)),
         ("origin_1e300.urdf", "not_finite", restated(URDF, LID_ORIGIN, xyz="1e300 0 0")),
-        ("scale_1e200.urdf", "not_finite", _urdf(f'"{hull}"/>', f'"{hull}" scale="1e200 1 1"/>')),
-        ("lid_at_nan.mjcf", "not_finite", restated(MJCF, ".//body[@name='lid']", pos="nan 0 0")),
-        (
-            "geom_at_infinity.mjcf",
-            "not_finite",
-            restated(MJCF, ".//body[@name='lid']/geom", pos="inf 0 0"),
-        ),
-        ("limit_in_words.urdf", "invalid_number", _urdf('upper="0.3"', 'upper="wide"')),
+        ("scale_1e200.urdf", "not_finite", in_urdf(f'"{hull}"/>', f'"{hull}" scale="1e200 1 1"/>')),
+        ("lid_at_nan.mjcf", "not_finite", restated(MJCF, LID, pos="nan 0 0")),
+        ("geom_at_infinity.mjcf", "not_finite", restated(MJCF, f"{LID}/geom", pos="inf 0 0")),
+        ("limit_in_words.urdf", "invalid_number", in_urdf('upper="0.3"', 'upper="wide"')),
         ("step_file.urdf", "unsupported_mesh", _renamed(hull, "door.step")),
         ("garbage_mesh.urdf", "unreadable_mesh", _renamed(hull, "door.glb")),
         ("face_out_of_range.urdf", "unreadable_mesh", refiled(URDF, hull, TRIANGLE + "f 1 2 9\n")),
         ("empty_mesh.urdf", "empty_mesh", refiled(URDF, hull, "# nothing\n")),
-        (
-            "mesh_nan.urdf",
-            "not_finite",
-            refiled(URDF, hull, TRIANGLE + "v nan 0 1\nf 1 2 3\nf 1 2 4\n"),
-        ),
-        (
-            "needle_inertia.mjcf",
-            "unreadable",
-            restated(MJCF, DOOR, fullinertia="0.9 0.01 0.01 0 0 0"),
-        ),
-        ("negative_mass.mjcf", "unreadable", _mjcf('mass="2.5"', 'mass="-2.5"')),
-        ("axis_zero.mjcf", "unreadable", _mjcf('axis="0.0 -1.0 0.0"', 'axis="0 0 0"')),
-        ("limits_swapped.mjcf", "unreadable", _mjcf('range="0.0 0.3"', 'range="0.3 0.0"')),
-        ("names_twice.mjcf", "unreadable", _mjcf('<joint name="hinge"', '<joint name="slide"')),
+        ("mesh_nan.urdf", "not_finite", refiled(URDF, hull, TRIANGLE + LOST_CORNER)),
+        ("needle_inertia.mjcf", "unreadable", restated(MJCF, DOOR, fullinertia=NEEDLE)),
+        ("negative_mass.mjcf", "unreadable", in_mjcf('mass="2.5"', 'mass="-2.5"')),
+        ("axis_zero.mjcf", "unreadable", in_mjcf('axis="0.0 -1.0 0.0"', 'axis="0 0 0"')),
+        ("limits_swapped.mjcf", "unreadable", in_mjcf('range="0.0 0.3"', 'range="0.3 0.0"')),
+        ("names_twice.mjcf", "unreadable", in_mjcf('<joint name="hinge"', '<joint name="slide"')),
         ("huge_document.urdf", "too_large", _padded),
     ):
         yield Exhibit(name, build, code)
@@ -114,7 +95,7 @@ def _text(folder, text):
 
 def _renamed(hull, name):
     def write(folder):
-        path = _urdf(hull, name)(folder)
+        path = in_urdf(hull, name)(folder)
         (folder / name).write_bytes(b"neither a mesh nor a text \0\1\2")
         return path
 
@@ -130,18 +111,16 @@ def _padded(folder):
 
 def reaching_out():
     """References that lead to a file just outside the folder, which is there."""
-    include = _mjcf("<worldbody>", '<include file="inner.xml"/><worldbody>')
-    texture = _mjcf("<asset>", '<asset><texture name="t" type="2d" file="../secret.png"/>')
-    model = _mjcf("<asset>", '<asset><model name="m" file="../secret.xml"/>')
-    mesh = _urdf("door_hull_0.obj", "../secret.obj")
+    include = in_mjcf("<worldbody>", '<include file="inner.xml"/><worldbody>')
+    texture = in_mjcf("<asset>", '<asset><texture name="t" type="2d" file="../secret.png"/>')
+    model = in_mjcf("<asset>", '<asset><model name="m" file="../secret.xml"/>')
+    mesh = in_urdf("door_hull_0.obj", "../secret.obj")
+    copied = {"secret.obj": "door_hull_0.obj"}
     for name, build in (
-        (
-            "include_reaches_out.mjcf",
-            _beside(include, {"inner.xml": ASSET.encode()}, {"secret.obj": "door_hull_0.obj"}),
-        ),
+        ("include_reaches_out.mjcf", _beside(include, {"inner.xml": ASSET.encode()}, copied)),
         ("texture_outside.mjcf", _beside(texture, {}, {"secret.png": PNG})),
         ("model_outside.mjcf", _beside(model, {}, {"secret.xml": MODEL.encode()})),
-        ("mesh_just_outside.urdf", _beside(mesh, {}, {"secret.obj": "door_hull_0.obj"})),
+        ("mesh_just_outside.urdf", _beside(mesh, {}, copied)),
     ):
         yield Exhibit(name, build, "outside_folder")
 

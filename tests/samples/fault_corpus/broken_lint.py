@@ -5,15 +5,16 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import trimesh
 
+from .broken_files import MJCF, URDF, in_urdf
 from .exhibits import Exhibit, edited, mjcf, refiled, restated, urdf
 from .good_things import cabinet, kiosk
 from .things import box, shifted, with_body, with_move, words
 
-URDF = urdf(kiosk())
-MJCF = mjcf(kiosk())
+LID = '<link name="lid">'
 DOOR_MASS = ".//link[@name='door']/inertial/mass"
 DOOR_TENSOR = ".//link[@name='door']/inertial/inertia"
 SLIDE = ".//joint[@name='slide']"
+LIMIT = f"{SLIDE}/limit"
 HINGE = ".//joint[@name='hinge']"
 HINGE_AXIS = f"{HINGE}/axis"
 DOOR_CENTER = ".//link[@name='door']/inertial/origin"
@@ -34,54 +35,27 @@ DOOR_FRAME = np.array([-0.3, -0.004, 0.5])
 
 def broken_joints():
     """The tree and its joints."""
-    second = (
-        '<joint name="more" type="fixed"><parent link="drawer"/><child link="door"/>'
-        "</joint></robot>"
-    )
+    second = '<joint name="more" type="fixed"><parent link="drawer"/><child link="door"/></joint>'
     loop = '<link name="a"/><link name="b"/>' + "".join(
         f'<joint name="{a}{b}" type="fixed"><parent link="{a}"/><child link="{b}"/></joint>'
         for a, b in ("ab", "ba")
     )
     for name, code, build in (
-        (
-            "two_roots.urdf",
-            "not_a_tree",
-            edited(URDF, ('<link name="lid">', '<link name="loose"/><link name="lid">')),
-        ),
-        ("two_parents.urdf", "not_a_tree", edited(URDF, ("</robot>", second))),
-        ("loop.urdf", "not_a_tree", edited(URDF, ("</robot>", f"{loop}</robot>"))),
-        (
-            "links_named_alike.urdf",
-            "not_a_tree",
-            edited(URDF, ('<link name="lid">', '<link name="door">')),
-        ),
+        ("two_roots.urdf", "not_a_tree", in_urdf(LID, f'<link name="loose"/>{LID}')),
+        ("two_parents.urdf", "not_a_tree", in_urdf("</robot>", f"{second}</robot>")),
+        ("loop.urdf", "not_a_tree", in_urdf("</robot>", f"{loop}</robot>")),
+        ("links_named_alike.urdf", "not_a_tree", in_urdf(LID, '<link name="door">')),
         ("parent_unknown.urdf", "not_a_tree", restated(URDF, f"{HINGE}/parent", link="wall")),
-        (
-            "joints_named_alike.urdf",
-            "duplicate_name",
-            edited(URDF, ('name="hinge" type', 'name="slide" type')),
-        ),
-        (
-            "planar_joint.urdf",
-            "unknown_joint_type",
-            edited(URDF, ('type="prismatic"', 'type="planar"')),
-        ),
-        ("box_inside_out.urdf", "invalid_size", edited(URDF, (MESH, '<box size="-1 1 1"/>'))),
+        ("joints_named_alike.urdf", "duplicate_name", in_urdf('"hinge" type', '"slide" type')),
+        ("planar_joint.urdf", "unknown_joint_type", in_urdf('"prismatic"', '"planar"')),
+        ("box_inside_out.urdf", "invalid_size", in_urdf(MESH, '<box size="-1 1 1"/>')),
         ("hinge_axis_of_length_2.urdf", "axis_not_unit", restated(URDF, HINGE_AXIS, xyz="0 0 -2")),
         ("axis_zero.urdf", "zero_axis", restated(URDF, f"{SLIDE}/axis", xyz="0 0 0")),
         ("no_limits.urdf", "missing_limits", _without_limits),
-        (
-            "limits_infinite.urdf",
-            "limits_not_finite",
-            restated(URDF, f"{SLIDE}/limit", upper="inf"),
-        ),
-        ("limits_nan.urdf", "limits_not_finite", restated(URDF, f"{SLIDE}/limit", lower="nan")),
-        (
-            "limits_swapped.urdf",
-            "limits_not_ordered",
-            urdf(with_move(kiosk(), "slide", lower=0.3, upper=0.0)),
-        ),
-        ("limits_equal.urdf", "limits_not_ordered", urdf(with_move(kiosk(), "slide", upper=0.0))),
+        ("limits_infinite.urdf", "limits_not_finite", restated(URDF, LIMIT, upper="inf")),
+        ("limits_nan.urdf", "limits_not_finite", restated(URDF, LIMIT, lower="nan")),
+        ("limits_swapped.urdf", "limits_not_ordered", _sliding(lower=0.3, upper=0.0)),
+        ("limits_equal.urdf", "limits_not_ordered", _sliding(upper=0.0)),
         ("damping_negative.urdf", "invalid_dynamics", _dynamics('damping="-1"')),
         ("friction_nan.urdf", "invalid_dynamics", _dynamics('friction="nan"')),
         ("rusted.urdf", "friction_excessive", _dynamics('friction="10000"')),
@@ -91,15 +65,12 @@ def broken_joints():
         ("mimic_not_finite.urdf", "mimic_not_finite", _mimic("flap", 'multiplier="inf"')),
     ):
         yield Exhibit(name, build, code, engines=HELD.get(name, {}))
+    fixed = (('"prismatic"', '"fixed"'), ('"revolute"', '"fixed"'))
     for name, code, build in (
         ("stiff_damping.urdf", "damping_stiff", _dynamics('damping="850"')),
-        ("no_effort.urdf", "invalid_effort", restated(URDF, f"{SLIDE}/limit", effort="0")),
-        ("zero_outside.urdf", "zero_outside_limits", urdf(with_move(kiosk(), "slide", lower=0.05))),
-        (
-            "nothing_moves.urdf",
-            "no_moving_joint",
-            edited(URDF, ('"prismatic"', '"fixed"'), ('"revolute"', '"fixed"'), count=-1),
-        ),
+        ("no_effort.urdf", "invalid_effort", restated(URDF, LIMIT, effort="0")),
+        ("zero_outside.urdf", "zero_outside_limits", _sliding(lower=0.05)),
+        ("nothing_moves.urdf", "no_moving_joint", edited(URDF, *fixed, count=-1)),
         ("follower_too_short.urdf", "mimic_limits", _mimic("flap", 'multiplier="1"')),
     ):
         yield Exhibit(name, build, code, "warning")
@@ -108,34 +79,24 @@ def broken_joints():
 def broken_bodies():
     """Masses and inertias."""
     needle = {"ixx": "0.9", "iyy": "0.01", "izz": "0.01", "ixy": "0", "ixz": "0", "iyz": "0"}
+    zero = dict.fromkeys(needle, "0")
+    house = {"ixx": "9", "iyy": "9", "izz": "9"}
     for name, code, build in (
         ("needle_inertia.urdf", "inertia_triangle", restated(URDF, DOOR_TENSOR, **needle)),
         ("inertia_indefinite.urdf", "inertia_not_positive", restated(URDF, DOOR_TENSOR, ixy="5")),
-        (
-            "inertia_zero.urdf",
-            "inertia_not_positive",
-            restated(URDF, DOOR_TENSOR, **dict.fromkeys(needle, "0")),
-        ),
+        ("inertia_zero.urdf", "inertia_not_positive", restated(URDF, DOOR_TENSOR, **zero)),
         ("inertia_nan.urdf", "inertia_not_finite", restated(URDF, DOOR_TENSOR, ixx="nan")),
-        (
-            "inertia_of_a_house.urdf",
-            "inertia_impossible",
-            restated(URDF, DOOR_TENSOR, ixx="9", iyy="9", izz="9"),
-        ),
+        ("inertia_of_a_house.urdf", "inertia_impossible", restated(URDF, DOOR_TENSOR, **house)),
         ("mass_infinite.urdf", "inertia_not_finite", restated(URDF, DOOR_MASS, value="inf")),
         ("mass_negative.urdf", "mass_not_positive", restated(URDF, DOOR_MASS, value="-2.5")),
         ("mass_zero.urdf", "mass_not_positive", restated(URDF, DOOR_MASS, value="0")),
-        (
-            "door_of_a_milligram.urdf",
-            "density_implausible",
-            urdf(with_body(kiosk(), "door", mass=1e-6)),
-        ),
+        ("door_of_a_milligram.urdf", "density_implausible", urdf(_weighing(1e-6))),
         ("center_elsewhere.urdf", "center_outside", restated(URDF, DOOR_CENTER, xyz="0 1.4 0")),
         ("center_105_mm_out.urdf", "center_outside", restated(URDF, DOOR_CENTER, xyz=OUTSIDE)),
         ("center_105_mm_out.mjcf", "center_outside", restated(MJCF, DOOR_BODY, pos=OUTSIDE)),
         ("denser_than_osmium.urdf", "density_implausible", urdf(_weighing(100.0))),
         ("denser_than_osmium.mjcf", "density_implausible", mjcf(_weighing(100.0))),
-        ("door_without_inertia.urdf", "missing_inertia", _bare("door")),
+        ("door_without_inertia.urdf", "missing_inertia", _bare(URDF, ".//link[@name='door']")),
     ):
         yield Exhibit(name, build, code, engines=HELD.get(name, {}))
     wide = {"ixx": "0.176", "iyy": "0.35", "izz": "0.176"}
@@ -144,7 +105,7 @@ def broken_bodies():
         ("lighter_than_air.urdf", "density_implausible", urdf(_weighing(0.001))),
         ("inertia_of_a_gate.urdf", "inertia_implausible", restated(URDF, DOOR_TENSOR, **wide)),
         ("center_40_mm_out.urdf", "center_outside", restated(URDF, DOOR_CENTER, xyz="0.3 0.04 0")),
-        ("no_inertia_of_the_base.urdf", "missing_inertia", _bare("carcass")),
+        ("no_inertia_of_the_base.urdf", "missing_inertia", _bare(URDF, "link[@name='carcass']")),
     ):
         yield Exhibit(name, build, code, "warning")
 
@@ -156,7 +117,7 @@ def sound_neighbours():
         ("steel_door.mjcf", mjcf(_weighing(33.0))),
         ("center_at_the_edge.urdf", restated(URDF, DOOR_CENTER, xyz="0.3 0.01 0")),
         ("axis_that_mujoco_normalises.mjcf", restated(MJCF, HINGE, axis="0 0 -2")),
-        ("inertia_that_mujoco_computes.mjcf", _computed),
+        ("inertia_that_mujoco_computes.mjcf", _bare(MJCF, ".//body[@name='door']")),
     ):
         yield Exhibit(name, build, None, "error", ())
 
@@ -166,9 +127,11 @@ def broken_shapes():
     thing = kiosk()
     door = thing.bodies[2].pieces[0]
     middle = (door.min(axis=0) + door.max(axis=0)) / 2.0
-    flat = door * [1.0, 0.0, 1.0] + [0.0, -0.013, 0.0]
+    scaled = f'{MESH[:-2]} scale="1e3 1e3 1e3"/>'
+    flat = door * [1.0, 0.0, 1.0] + [0.0, -0.013, 0.0] - DOOR_FRAME
     short = box((0.0, -0.013, 0.45), (0.6, 0.018, 0.29))
     sheet = box((0.0, -0.013, 0.5), (0.6, 0.006, 0.396))
+    knife = _wedge(sheet, 0.5)
 
     def touched(*pieces, seen=door):
         return with_body(thing, "door", pieces=pieces, looks=(seen,))
@@ -176,45 +139,33 @@ def broken_shapes():
     for name, code, build in (
         ("no_collision.urdf", "no_collision", urdf(touched())),
         ("no_collision.mjcf", "no_collision", mjcf(touched())),
-        (
-            "collision_in_millimetres.urdf",
-            "collision_scale",
-            edited(URDF, (MESH, f'{MESH[:-2]} scale="1e3 1e3 1e3"/>')),
-        ),
-        (
-            "flat_collision.urdf",
-            "degenerate_collision",
-            refiled(URDF, HULL, _flat(flat - DOOR_FRAME)),
-        ),
+        ("collision_in_millimetres.urdf", "collision_scale", in_urdf(MESH, scaled)),
+        ("flat_collision.urdf", "degenerate_collision", refiled(URDF, HULL, _flat(flat))),
         ("offset_collision.urdf", "collision_offset", urdf(_imported(0.15))),
         ("offset_collision.mjcf", "collision_offset", mjcf(_imported(0.15))),
         ("collision_too_short.urdf", "collision_gap", urdf(touched(short))),
         ("collision_shrunk.urdf", "collision_gap", urdf(touched(0.3 * door + 0.7 * middle))),
-        (
-            "collision_knife_edge.urdf",
-            "collision_gap",
-            urdf(touched(_wedge(sheet, 0.5), seen=sheet)),
-        ),
+        ("collision_knife_edge.urdf", "collision_gap", urdf(touched(knife, seen=sheet))),
         ("filled_drawer.urdf", "interior_filled", urdf(_filled_drawer())),
         ("filled_drawer.mjcf", "interior_filled", mjcf(_filled_drawer())),
     ):
         yield Exhibit(name, build, code)
     thick = box((0.0, -0.064, 0.5), (0.6, 0.12, 0.396))
     thin = box((0.0, -0.013, 0.5), (0.6, 0.002, 0.396))
-    crumbs = tuple(
-        box((x, -0.013, 0.5), (0.008, 0.018, 0.396)) for x in np.linspace(-0.296, 0.296, 65)
-    )
+    places = np.linspace(-0.296, 0.296, 65)
+    crumbs = tuple(box((x, -0.013, 0.5), (0.008, 0.018, 0.396)) for x in places)
     ball = trimesh.creation.icosphere(subdivisions=3, radius=0.05).vertices
+    knob = shifted(ball, 0.2, -0.08, 0.5)
     bowl = "".join(f"v {words(v)}\n" for v in _notched()) + "".join(
         "f {} {} {}\n".format(*(f + 1)) for f in NOTCH_FACES
     )
     for name, code, build in (
-        ("sheet_metal.urdf", "oblong_hull", urdf(with_body(thing, "door", pieces=(thin,)))),
+        ("sheet_metal.urdf", "oblong_hull", urdf(touched(thin, seen=thin))),
         ("crumbs.urdf", "many_hulls", urdf(touched(*crumbs))),
         (
             "round_knob.urdf",
             "many_hull_vertices",
-            urdf(with_body(thing, "door", pieces=(door, shifted(ball, 0.2, -0.08, 0.5)))),
+            urdf(with_body(thing, "door", pieces=(door, knob))),
         ),
         ("notched_mesh.urdf", "nonconvex_collision", refiled(URDF, HULL, bowl)),
         ("collision_too_thick.urdf", "collision_gap", urdf(touched(thick))),
@@ -244,27 +195,23 @@ def _weighing(mass):
     return with_body(kiosk(), "door", mass=mass)
 
 
-def _bare(link):
-    """The kiosk with no inertial in that link."""
+def _sliding(**limits):
+    """The kiosk with other limits of its drawer."""
+    return urdf(with_move(kiosk(), "slide", **limits))
+
+
+def _bare(build, element):
+    """The kiosk with no inertial in that link or body."""
 
     def write(folder):
-        path = URDF(folder)
+        path = build(folder)
         document = ET.parse(path)
-        element = document.find(f".//link[@name='{link}']")
-        element.remove(element.find("inertial"))
+        found = document.find(element)
+        found.remove(found.find("inertial"))
         document.write(path)
         return path
 
     return write
-
-
-def _computed(folder):
-    path = MJCF(folder)
-    document = ET.parse(path)
-    body = document.find(".//body[@name='door']")
-    body.remove(body.find("inertial"))
-    document.write(path)
-    return path
 
 
 def _dynamics(attributes):
@@ -276,11 +223,9 @@ def _mimic(leader, more=""):
 
 
 def _imported(height):
-    thing = kiosk()
-    door = thing.bodies[2].pieces
-    return with_body(
-        thing, "door", pieces=tuple(shifted(piece, 0.0, -height, 0.0) for piece in door), looks=door
-    )
+    door = kiosk().bodies[2].pieces
+    below = tuple(shifted(piece, 0.0, -height, 0.0) for piece in door)
+    return with_body(kiosk(), "door", pieces=below, looks=door)
 
 
 def _filled_drawer():

@@ -21,48 +21,31 @@ def overlapping() -> Iterator[Exhibit]:
     wide = tuple(piece * [0.574 / 0.556, 1.0, 1.0] for piece in tub[:-1])
     long = _longer(tub, 0.013 + 2 * GAP)
     low = door + np.where(door[:, 2:] < 0.4, [[0.0, 0.0, -0.012]], [[0.0, 0.0, 0.0]])
-    yield from both(
-        "drawer_too_wide", with_body(thing, "drawer", pieces=(*wide, tub[-1])), "rest_penetration"
-    )
-    for exhibit in both(
-        "drawer_too_long", with_body(thing, "drawer", pieces=long), "rest_penetration"
-    ):
+    too_wide = with_body(thing, "drawer", pieces=(*wide, tub[-1]))
+    yield from both("drawer_too_wide", too_wide, "rest_penetration")
+    too_long = with_body(thing, "drawer", pieces=long)
+    for exhibit in both("drawer_too_long", too_long, "rest_penetration"):
         yield replace(exhibit, engines={"mujoco": "pushed_at_rest"})
     yield from both("fronts_overlap", with_body(thing, "door", pieces=(low,)), "rest_penetration")
-    yield from both(
-        "cavity_filled",
-        with_body(thing, "carcass", pieces=(np.vstack(shell),), looks=shell),
-        "interior_filled",
-    )
-    deep = replace(
-        thing,
-        bodies=(*thing.bodies[:2], _shifted(thing.bodies[2], (0.0, 0.1, 0.0)), thing.bodies[3]),
-    )
-    yield from both("door_10_cm_inside", deep, "rest_penetration")
+    filled = with_body(thing, "carcass", pieces=(np.vstack(shell),), looks=shell)
+    yield from both("cavity_filled", filled, "interior_filled")
+    yield from both("door_10_cm_inside", _shifted(thing, 2, (0.0, 0.1, 0.0)), "rest_penetration")
 
 
 def colliding() -> Iterator[Exhibit]:
     """Nothing overlaps closed; opening makes parts penetrate."""
     thing = cabinet()
-    yield from both(
-        "hinge_opens_inwards", with_move(thing, "hinge", axis=(0.0, 0.0, 1.0)), "sweep_penetration"
-    )
-    yield from both(
-        "drawer_opens_backwards",
-        with_move(thing, "slide", axis=(0.0, 1.0, 0.0)),
-        "sweep_penetration",
-    )
-    yield from both(
-        "drawer_moves_sideways",
-        with_move(thing, "slide", axis=(1.0, 0.0, 0.0)),
-        "sweep_penetration",
-    )
-    inside = with_body(thing, "door", frame=at(-0.25, -GAP, 0.5))
-    yield from both("hinge_inside_the_door", inside, "sweep_penetration")
-    yield from both("lid_turns_too_far", with_move(thing, "flap", upper=4.5), "sweep_penetration")
-    yield from both("door_turns_too_far", with_move(thing, "hinge", upper=5.5), "sweep_penetration")
-    yield from both("screw_in_the_way", screw_in_the_way(), "sweep_penetration")
-    yield from both("wall_in_front", wall_in_front(), "sweep_penetration")
+    for name, blocked in (
+        ("hinge_opens_inwards", with_move(thing, "hinge", axis=(0.0, 0.0, 1.0))),
+        ("drawer_opens_backwards", with_move(thing, "slide", axis=(0.0, 1.0, 0.0))),
+        ("drawer_moves_sideways", with_move(thing, "slide", axis=(1.0, 0.0, 0.0))),
+        ("hinge_inside_the_door", with_body(thing, "door", frame=at(-0.25, -GAP, 0.5))),
+        ("lid_turns_too_far", with_move(thing, "flap", upper=4.5)),
+        ("door_turns_too_far", with_move(thing, "hinge", upper=5.5)),
+        ("screw_in_the_way", screw_in_the_way()),
+        ("wall_in_front", wall_in_front()),
+    ):
+        yield from both(name, blocked, "sweep_penetration")
     yield from both("flap_on_an_open_drawer", flap_over_drawer(), "joint_obstructed")
     for exhibit in both("each_bars_the_other", deadlock(), "sweep_penetration"):
         heard = ("mujoco",) if exhibit.name.endswith("mjcf") else ENGINES
@@ -74,16 +57,11 @@ def astray() -> Iterator[Exhibit]:
     thing = cabinet()
     far = with_body(thing, "door", frame=at(-0.3, -2.0, 0.5))
     yield from both("hinge_far_away", far, "axis_remote")
-    away = replace(thing, bodies=(*thing.bodies[:3], _shifted(thing.bodies[3], (30.0, 0.0, 0.0))))
-    yield from both("lid_next_door", away, "part_remote")
-    floating = replace(
-        thing, bodies=(*thing.bodies[:3], _shifted(thing.bodies[3], (0.0, 0.0, 0.3)))
-    )
-    yield from both("lid_in_the_air", floating, "part_detached")
+    yield from both("lid_next_door", _shifted(thing, 3, (30.0, 0.0, 0.0)), "part_remote")
+    yield from both("lid_in_the_air", _shifted(thing, 3, (0.0, 0.0, 0.3)), "part_detached")
     yield from both("drawer_leaves", with_move(thing, "slide", upper=3.0), "range_implausible")
-    yield from both(
-        "hardly_a_range", with_move(thing, "slide", upper=1e-4), "range_tiny", "warning"
-    )
+    short = with_move(thing, "slide", upper=1e-4)
+    yield from both("hardly_a_range", short, "range_tiny", "warning")
 
 
 def meeting() -> Iterator[Exhibit]:
@@ -95,32 +73,20 @@ def meeting() -> Iterator[Exhibit]:
         yield replace(exhibit, engines={"mujoco": "jammed"})
     yield from both("knuckle_too_long", knuckle(0.5), "rest_penetration")
     exclude = '<contact><exclude body1="drawer" body2="carcass"/></contact></mujoco>'
-    wide = with_body(
-        cabinet(),
-        "drawer",
-        pieces=tuple(piece * [1.03, 1.0, 1.0] for piece in cabinet().bodies[1].pieces),
-    )
-    yield Exhibit(
-        "excluded_overlap.mjcf",
-        edited(mjcf(wide), ("</mujoco>", exclude)),
-        "excluded_penetration",
-        "warning",
-    )
+    tub = tuple(piece * [1.03, 1.0, 1.0] for piece in cabinet().bodies[1].pieces)
+    wide = edited(mjcf(with_body(cabinet(), "drawer", pieces=tub)), ("</mujoco>", exclude))
+    yield Exhibit("excluded_overlap.mjcf", wide, "excluded_penetration", "warning")
 
 
 def screw_in_the_way(at_value: float = 0.2017, width: float = 0.002) -> Thing:
     """A drawer with a 2 mm pin on its side, a wall with a 1 mm fin; they meet at one value only."""
     thing = cabinet()
-    tub = thing.bodies[1].pieces
-    shell = thing.bodies[0].pieces
+    shell, tub, *_ = (body.pieces for body in thing.bodies)
     # The pin stands 3 mm out into the 4 mm gap; the fin reaches 3 mm into it from the other side.
     pin = box((-0.2795, 0.3, 0.15), (0.005, width, width))
     fin = box((-0.2805, 0.3 - at_value, 0.15), (0.003, 0.001, 0.1))
-    bodies = (
-        replace(thing.bodies[0], pieces=(*shell, fin)),
-        replace(thing.bodies[1], pieces=(*tub, pin)),
-    )
-    return replace(thing, bodies=(*bodies, *thing.bodies[2:]))
+    walled = with_body(thing, "carcass", pieces=(*shell, fin))
+    return with_body(walled, "drawer", pieces=(*tub, pin))
 
 
 def wall_in_front() -> Thing:
@@ -203,7 +169,10 @@ def _longer(tub: tuple[np.ndarray, ...], more: float) -> tuple[np.ndarray, ...]:
     return tuple(np.where(piece > 0.3, shifted(piece, 0.0, more, 0.0), piece) for piece in tub)
 
 
-def _shifted(body: Body, by: tuple[float, float, float]) -> Body:
+def _shifted(thing: Thing, index: int, by: tuple[float, float, float]) -> Thing:
+    """The thing with one body elsewhere, frame and all [m]."""
+    body = thing.bodies[index]
     frame = body.frame.copy()
     frame[:3, 3] += by
-    return replace(body, pieces=tuple(piece + np.array(by) for piece in body.pieces), frame=frame)
+    pieces = tuple(piece + np.array(by) for piece in body.pieces)
+    return with_body(thing, body.name, pieces=pieces, frame=frame)

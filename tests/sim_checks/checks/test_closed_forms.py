@@ -1,7 +1,6 @@
 """Depth and gap of two shapes whose distance is known in closed form, in any pose, from a file."""
 
 import tempfile
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -32,12 +31,12 @@ rotations = st.integers(0, 2**32 - 1).map(
 )
 sizes = st.floats(0.3, 0.8)
 
-#: Geometry element, rotation, centre [m].
-Placed = tuple[str, Rotation, Sequence[float]]
-
 
 def measured(first, second, whole):
-    """Depth at rest [m] as the judge reads it from a URDF, the whole turned; negative is a gap."""
+    """Depth at rest [m] as the judge reads it from a URDF, the whole turned; negative is a gap.
+
+    Each of the two is an element, its rotation and its centre [m].
+    """
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         origins = []
@@ -91,6 +90,11 @@ def half_height(rotation, size):
     return 0.5 * float(np.abs(rotation.as_matrix()[2]) @ np.asarray(size))
 
 
+def lying(element):
+    """At the world's origin as it is."""
+    return element, UPRIGHT, (0, 0, 0)
+
+
 def agrees(found, true, sag=0.0):
     """Within 2 % or 0.02 mm, and short by a tessellation's sag at most [m]."""
     slack = max(2e-5, 0.02 * abs(true))
@@ -102,20 +106,12 @@ UPRIGHT = Rotation.identity()
 
 
 @settings(max_examples=40)
-@given(
-    depth=depths,
-    whole=rotations,
-    turn=rotations,
-    size=st.tuples(sizes, sizes, sizes),
-    as_mesh=st.booleans(),
-)
+@given(depths, rotations, rotations, st.tuples(sizes, sizes, sizes), st.booleans())
 def test_a_box_in_any_pose_on_a_slab(depth, whole, turn, size, as_mesh):
     height = 0.5 + half_height(turn, size) - depth
-    slab = box_element(SLAB, not as_mesh)
-    block = box_element(size, as_mesh)
-    assert agrees(
-        measured((slab, UPRIGHT, (0, 0, 0)), (block, turn, (0.1, -0.2, height)), whole), depth
-    )
+    slab = lying(box_element(SLAB, not as_mesh))
+    block = (box_element(size, as_mesh), turn, (0.1, -0.2, height))
+    assert agrees(measured(slab, block, whole), depth)
 
 
 @settings(max_examples=25)
@@ -131,44 +127,25 @@ def test_two_boxes_edge_on_edge(depth, whole, a, b):
 
 
 @settings(max_examples=25)
-@given(
-    depth=depths,
-    whole=rotations,
-    turn=rotations,
-    radius=st.floats(0.02, 0.5),
-    as_mesh=st.booleans(),
-)
+@given(depths, rotations, rotations, st.floats(0.02, 0.5), st.booleans())
 def test_a_ball_on_a_slab(depth, whole, turn, radius, as_mesh):
     # A ball sunk deeper than its centre still has its shortest way out upwards.
     ball = mesh("ball", radius) if as_mesh else f'<sphere radius="{radius!r}"/>'
     sag = radius * (0.02 if as_mesh else RING_SAG + SIDE_SAG)
-    found = measured(
-        (box_element(SLAB, False), UPRIGHT, (0, 0, 0)),
-        (ball, turn, (0, 0, 0.5 + radius - depth)),
-        whole,
-    )
-    assert agrees(found, depth, sag)
+    resting = (ball, turn, (0, 0, 0.5 + radius - depth))
+    assert agrees(measured(lying(box_element(SLAB, False)), resting, whole), depth, sag)
 
 
 @settings(max_examples=25)
-@given(
-    depth=depths,
-    whole=rotations,
-    turn=rotations,
-    radius=st.floats(0.05, 0.3),
-    as_mesh=st.booleans(),
-)
+@given(depths, rotations, rotations, st.floats(0.05, 0.3), st.booleans())
 def test_a_rod_at_any_slant_on_a_slab(depth, whole, turn, radius, as_mesh):
     length = 0.7
     lean = abs(float(turn.as_matrix()[2, 2]))
     reach = radius * np.sqrt(1.0 - lean**2) + 0.5 * length * lean
-    rod = (
-        mesh("rod", radius, length)
-        if as_mesh
-        else f'<cylinder radius="{radius!r}" length="{length}"/>'
-    )
-    center = (0.3, 0.1, 0.5 + reach - depth)
-    found = measured((box_element(SLAB, True), UPRIGHT, (0, 0, 0)), (rod, turn, center), whole)
+    primitive = f'<cylinder radius="{radius!r}" length="{length}"/>'
+    rod = mesh("rod", radius, length) if as_mesh else primitive
+    resting = (rod, turn, (0.3, 0.1, 0.5 + reach - depth))
+    found = measured(lying(box_element(SLAB, True)), resting, whole)
     assert agrees(found, depth, radius * SIDE_SAG)
 
 
@@ -188,12 +165,8 @@ def test_two_crossed_rods(depth, whole, angle, spin):
 def test_a_ball_with_a_thousand_corners_in_another(depth):
     """Many edge pairs take another road to the depth; it must lead to the same place."""
     ball = mesh("ball", 0.2)
-    lifted = (0.0, 0.0, 0.4 - depth)
-    found = measured(
-        (ball, UPRIGHT, (0, 0, 0)),
-        (ball, UPRIGHT, lifted),
-        Rotation.from_euler("xyz", (0.3, 0.5, 0.7)),
-    )
+    lifted = (ball, UPRIGHT, (0.0, 0.0, 0.4 - depth))
+    found = measured(lying(ball), lifted, Rotation.from_euler("xyz", (0.3, 0.5, 0.7)))
     # Both have a corner at the pole, so nothing sags along the line between them.
     assert found <= depth + 2e-5
     assert found >= depth - 0.4 * 0.02

@@ -1,7 +1,6 @@
 """Sweeps of known answer: drawers, doors, pins, hinges, nests; and what changes no number."""
 
 import tempfile
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -35,8 +34,6 @@ WIDE = PenetrationConfig(clearance_m=0.05)
 #: The search is sure of the worst to this [mm], or to 2 % of it.
 SURE = 0.02
 
-Writer = Callable[[Thing, Path], Path]
-
 
 def judged(thing, config=CONFIG, write=write_urdf):
     with tempfile.TemporaryDirectory() as folder:
@@ -47,8 +44,19 @@ def joint(result, name):
     return next(item for item in result.measurements["joints"] if item["joint"] == name)
 
 
+def codes(result):
+    return [finding.code for finding in result.findings]
+
+
 def hard(result):
     return [finding.code for finding in result.findings if finding.severity is Severity.ERROR]
+
+
+def doorway(still, door, axis):
+    """A door hinged about an axis through the world's origin, and what stands beside it."""
+    bodies = (Body("wall", (still,), at(0, 0, 0), 5.0), Body("door", (door,), at(0, 0, 0), 2.0))
+    hinge = Move("hinge", "revolute", "wall", "door", axis, 0.0, 1.5)
+    return Thing("doorway", bodies, (hinge,))
 
 
 def tray(side, top, back, travel=0.3):
@@ -66,9 +74,8 @@ def tray(side, top, back, travel=0.3):
         Body("bay", bay, at(0, 0, 0), 10.0),
         Body("block", (box((low + high) / 2, high - low),), at(0, 0, 0.1), 1.0),
     )
-    return Thing(
-        "tray", bodies, (Move("slide", "prismatic", "bay", "block", (0.0, -1.0, 0.0), 0.0, travel),)
-    )
+    slide = Move("slide", "prismatic", "bay", "block", (0.0, -1.0, 0.0), 0.0, travel)
+    return Thing("tray", bodies, (slide,))
 
 
 @pytest.mark.parametrize(
@@ -102,11 +109,8 @@ def test_a_drawer_driven_into_a_post_goes_as_deep_as_its_travel_is_too_long(beyo
     found = joint(result, "slide")
     assert found["pairs"][0]["at"] == pytest.approx(0.2 + beyond, abs=2e-5 + 0.02 * beyond)
     # It may go until it is one millimetre in, found by seven halvings, and is never let go too far.
-    assert (
-        0.2 + CONFIG.excess_m - beyond - (0.2 + beyond) / 2**7
-        <= found["clear_until"]
-        <= 0.2 + CONFIG.excess_m + 1e-6
-    )
+    most = 0.2 + CONFIG.excess_m
+    assert most - beyond - (0.2 + beyond) / 2**7 <= found["clear_until"] <= most + 1e-6
 
 
 @pytest.mark.parametrize("gap", [5e-5, 2e-4, 4e-4])
@@ -119,11 +123,7 @@ def test_a_door_s_corner_cuts_the_jamb_where_the_circle_says(gap, sign):
     start = np.arctan2(thick, width)
     jamb = box((width + gap + 0.1, 0.0, 0.0), (0.2, 0.5, 1.0))
     door = box((width / 2, sign * thick / 2, 0.0), (width, thick, 0.9))
-    bodies = (Body("jamb", (jamb,), at(0, 0, 0), 5.0), Body("door", (door,), at(0, 0, 0), 2.0))
-    thing = Thing(
-        "doorway", bodies, (Move("hinge", "revolute", "jamb", "door", (0.0, 0.0, -sign), 0.0, 1.5),)
-    )
-    result = judged(thing)
+    result = judged(doorway(jamb, door, (0.0, 0.0, -sign)))
     worst = radius - width - gap
     found = joint(result, "hinge")
     assert worst > CONFIG.excess_m
@@ -160,13 +160,9 @@ def test_a_pin_on_a_door_that_meets_a_thread_between_two_samples_of_a_turn(step)
     size = 0.002
     pin = box((arm, 0.0, 0.0), (size, size, size))
     thread = box((arm * np.cos(angle), arm * np.sin(angle), 0.0), (0.001, 0.001, 1.0))
-    bodies = (Body("wall", (thread,), at(0, 0, 0), 5.0), Body("door", (pin,), at(0, 0, 0), 2.0))
-    thing = Thing(
-        "doorway", bodies, (Move("hinge", "revolute", "wall", "door", (0.0, 0.0, 1.0), 0.0, 1.5),)
-    )
     # 64 poses are 11.9 mm apart out there.
     assert arm * abs(angle - 1.5 / 63 * round(step)) > 0.003
-    result = judged(thing)
+    result = judged(doorway(thread, pin, (0.0, 0.0, 1.0)))
     assert hard(result) == ["sweep_penetration"]
     # Square in square, turned against one another: between face on face and corner on corner.
     assert 1.5 * 0.98 <= (result.findings[0].value or 0.0) <= 1.5 * np.sqrt(2.0)
@@ -197,9 +193,7 @@ def test_a_tray_in_a_swinging_door_hits_the_back_behind_it_unless_the_door_is_op
 )
 def test_the_same_thing_gives_the_same_numbers_from_both_formats(thing):
     urdf, mjcf = (judged(thing, WIDE, write) for write in (write_urdf, write_mjcf))
-    assert [finding.code for finding in urdf.findings] == [
-        finding.code for finding in mjcf.findings
-    ]
+    assert codes(urdf) == codes(mjcf)
     assert numbers(mjcf) == pytest.approx(numbers(urdf), abs=2 * SURE, rel=0.02)
 
 
@@ -232,18 +226,11 @@ def test_neither_place_nor_pose_nor_size_changes_the_verdict(thing, seed, shift,
     pose[:3, :3] = Rotation.random(random_state=generator).as_matrix()
     other = moved(thing, pose, scale)
     other = replace(other, bodies=tuple(_reframed(body, generator) for body in other.bodies))
-    grown = replace(
-        WIDE,
-        rest_m=scale * WIDE.rest_m,
-        excess_m=scale * WIDE.excess_m,
-        clearance_m=scale * WIDE.clearance_m,
-        hinge_radius_m=scale * WIDE.hinge_radius_m,
-    )
+    lengths = ("rest_m", "excess_m", "clearance_m", "hinge_radius_m")
+    grown = replace(WIDE, **{name: scale * getattr(WIDE, name) for name in lengths})
     before = judged(thing, WIDE)
     after = judged(other, grown)
-    assert [finding.code for finding in before.findings] == [
-        finding.code for finding in after.findings
-    ]
+    assert codes(before) == codes(after)
     slack = 2 * SURE * max(1.0, 1.0 / scale)
     assert numbers(after) / scale == pytest.approx(numbers(before), abs=slack, rel=0.03)
 
@@ -251,9 +238,7 @@ def test_neither_place_nor_pose_nor_size_changes_the_verdict(thing, seed, shift,
 def numbers(result):
     """Depths at rest, and excess and clearance of every joint [mm]."""
     rest = [contact["depth_mm"] for contact in result.measurements["rest"]]
-    swept = [
-        item[key] for item in result.measurements["joints"] for key in ("excess_mm", "clearance_mm")
-    ]
+    swept = [row[k] for row in result.measurements["joints"] for k in ("excess_mm", "clearance_mm")]
     return np.array([*rest, *(-1.0 if number is None else number for number in swept)])
 
 

@@ -100,9 +100,7 @@ def test_blocks_that_cannot_meet_are_left_alone_at_the_same_time():
     before = one_by_one.steps
     held = hold(one_by_one, motions, CONFIG)
     at_once = hold(together, motions, CONFIG, (("j0", "j1"),))
-    assert [(item.joint, item.moved) for item in at_once] == [
-        (item.joint, item.moved) for item in held
-    ]
+    assert [(one.joint, one.moved) for one in at_once] == [(one.joint, one.moved) for one in held]
     assert 2 * together.steps == one_by_one.steps - before
 
 

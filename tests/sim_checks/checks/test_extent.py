@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 from box_world import cabinet, write_urdf
 from many_joints import chain, keyboard
+from ros_packages import SLIDE
 
 from asset_factory.sim_checks import run_checks
 from asset_factory.sim_checks.checks.extent import oversized, undriven
@@ -16,10 +17,6 @@ from asset_factory.sim_checks.report import Report, Status
 
 PLENTY = WorkConfig()
 BOXES = ((0.0, "shell"), (0.3, "drawer"))
-SLIDE = (
-    '<joint name="slide" type="prismatic"><parent link="shell"/><child link="drawer"/>'
-    '<axis xyz="1 0 0"/><limit lower="0" upper="0.3" effort="10" velocity="1"/></joint>'
-)
 
 
 @pytest.mark.parametrize(
@@ -60,9 +57,8 @@ def test_a_simulator_is_not_asked_for_more_than_it_can_drive():
 
 
 def test_what_is_too_large_never_passes(tmp_path):
-    path = write_urdf(
-        tmp_path, {name: ((x, 0.0, 0.1), (0.2, 0.2, 0.2)) for x, name in BOXES}, SLIDE
-    )
+    boxes = {name: ((x, 0.0, 0.1), (0.2, 0.2, 0.2)) for x, name in BOXES}
+    path = write_urdf(tmp_path, boxes, SLIDE)
     small = replace(CheckConfig(), work=replace(PLENTY, hulls=1))
     assert examine_here(path, CheckConfig()).description is not None
     report = run_checks(path, ("mujoco",), small)

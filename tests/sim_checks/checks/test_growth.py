@@ -10,8 +10,10 @@ from asset_factory.sim_checks.geometry import kinematics
 from asset_factory.sim_checks.geometry.collision import Collider
 from asset_factory.sim_checks.geometry.path import Orbit
 
+POSING = (kinematics, "joint_motion")
 
-def counted(monkeypatch, owner, name, work):
+
+def counted(monkeypatch, owner, name, check, description, config):
     calls = 0
     original = getattr(owner, name)
 
@@ -22,32 +24,23 @@ def counted(monkeypatch, owner, name, work):
 
     with monkeypatch.context() as patch:
         patch.setattr(owner, name, call)
-        work()
+        check(description, config)
     return calls
 
 
-@pytest.mark.parametrize("make", [chain, keyboard])
 @pytest.mark.parametrize(
-    ("owner", "name"), [(Collider, "stand"), (Orbit, "swept_bounds"), (kinematics, "joint_motion")]
+    ("owner", "name", "check", "config", "make"),
+    [
+        *(
+            (*counting, check_penetration, PenetrationConfig(combinations=0), make)
+            for make in (chain, keyboard)
+            for counting in ((Collider, "stand"), (Orbit, "swept_bounds"), POSING)
+        ),
+        (*POSING, check_standing, StandingConfig(), keyboard),
+    ],
 )
-def test_twice_the_links_take_twice_the_work(make, owner, name, monkeypatch):
-    config = PenetrationConfig(combinations=0)
-
-    def work(description):
-        return counted(monkeypatch, owner, name, lambda: check_penetration(description, config))
-
-    small = work(make(12))
-    assert small > 0
-    assert work(make(24)) <= 2.5 * small
-
-
-def test_standing_poses_only_what_a_joint_moves(monkeypatch):
-    def work(description):
-        return counted(
-            monkeypatch,
-            kinematics,
-            "joint_motion",
-            lambda: check_standing(description, StandingConfig()),
-        )
-
-    assert work(keyboard(24)) <= 2.5 * work(keyboard(12))
+def test_twice_the_links_take_twice_the_work(owner, name, check, config, make, monkeypatch):
+    small, large = (
+        counted(monkeypatch, owner, name, check, make(count), config) for count in (12, 24)
+    )
+    assert 0 < large <= 2.5 * small

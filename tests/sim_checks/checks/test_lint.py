@@ -19,9 +19,7 @@ SOFT = Severity.WARNING
 
 
 def found(description):
-    return {
-        finding.code: finding.severity for finding in check_lint(description, LintConfig()).findings
-    }
+    return {each.code: each.severity for each in check_lint(description, LintConfig()).findings}
 
 
 def inertia(mass=2.0, moments=(0.01, 0.01, 0.01), at=-0.2):
@@ -45,6 +43,14 @@ def hollow(shapes):
 
 def scaled(shape, factor):
     return replace(shape, vertices=shape.vertices * factor)
+
+
+def drawer_scaled(factor):
+    return drawer_collisions(lambda shapes: tuple(scaled(shape, factor) for shape in shapes))
+
+
+def with_fine_ball(shapes):
+    return (*shapes, scaled(fine_ball(5000), 0.05))
 
 
 def fine_ball(corners):
@@ -73,19 +79,11 @@ def test_a_sound_cabinet_has_no_findings():
         (inertia(moments=(10.0, 10.0, 10.0)), "inertia_impossible", HARD),
         (inertia(mass=1e300), "inertia_not_finite", HARD),
         (inertia(mass=1e-300, moments=(1e-5, 1e-5, 1e-5)), "inertia_impossible", HARD),
-        (
-            drawer_collisions(lambda s: (*s, scaled(fine_ball(5000), 0.05))),
-            "many_hull_vertices",
-            HARD,
-        ),
-        (drawer_collisions(lambda s: tuple(scaled(x, 0.001) for x in s)), "collision_scale", HARD),
-        (drawer_collisions(lambda s: tuple(scaled(x, 1000.0) for x in s)), "collision_scale", HARD),
-        (drawer_collisions(lambda s: tuple(scaled(x, 1e-200) for x in s)), "collision_scale", HARD),
-        (
-            drawer_collisions(lambda s: tuple(scaled(x, 1e-200) for x in s)),
-            "degenerate_collision",
-            HARD,
-        ),
+        (drawer_collisions(with_fine_ball), "many_hull_vertices", HARD),
+        (drawer_scaled(0.001), "collision_scale", HARD),
+        (drawer_scaled(1000.0), "collision_scale", HARD),
+        (drawer_scaled(1e-200), "collision_scale", HARD),
+        (drawer_scaled(1e-200), "degenerate_collision", HARD),
     ],
 )
 def test_numbers_at_the_end_of_their_range_have_a_code_too(broken, code, severity):
@@ -126,13 +124,8 @@ def test_a_file_without_any_collision_is_told_once():
     description = cabinet()
     for name in ("carcass", "drawer", "door"):
         description = with_link(description, name, collisions=())
-    findings = [
-        item
-        for item in check_lint(description, LintConfig()).findings
-        if item.code == "no_collision"
-    ]
-    assert len(findings) == 1
-    assert findings[0].parts == ()
+    findings = check_lint(description, LintConfig()).findings
+    assert [each.parts for each in findings if each.code == "no_collision"] == [()]
 
 
 def test_a_free_root_is_no_fault_but_a_free_limb_is():
@@ -141,7 +134,7 @@ def test_a_free_root_is_no_fault_but_a_free_limb_is():
     assert found(described(cubes[:2], [free]))["unknown_joint_type"] is SOFT
     limb = joint("limb", "floating", "body", "limb", (0, 0, 0), (1, 0, 0), None)
     severities = [
-        item.severity for item in check_lint(described(cubes, [free, limb]), LintConfig()).findings
+        each.severity for each in check_lint(described(cubes, [free, limb]), LintConfig()).findings
     ]
     assert HARD in severities
 
@@ -150,17 +143,13 @@ def test_a_free_root_is_no_fault_but_a_free_limb_is():
     ("factor", "code"), [(0.2, None), (0.09, "collision_scale"), (11.0, "collision_scale")]
 )
 def test_only_a_collision_shape_of_another_scale_is_another_s(factor, code):
-    description = drawer_collisions(lambda s: tuple(scaled(x, factor) for x in s))(cabinet())
-    finding = next(
-        (x for x in check_lint(description, LintConfig()).findings if x.code == "collision_scale"),
-        None,
-    )
-    assert (finding and finding.code) == code
-    assert finding is None or finding.value == pytest.approx(factor, rel=1e-3)
+    findings = check_lint(drawer_scaled(factor)(cabinet()), LintConfig()).findings
+    told = [(each.code, each.value) for each in findings if each.code == "collision_scale"]
+    assert told == ([(code, pytest.approx(factor, rel=1e-3))] if code else [])
 
 
 def test_every_number_told_of_a_link_shrunk_to_nothing_can_be_written():
-    description = drawer_collisions(lambda s: tuple(scaled(x, 1e-200) for x in s))(cabinet())
-    result = check_lint(inertia(mass=1e-300, moments=(1e-5, 1e-5, 1e-5))(description), LintConfig())
+    light = inertia(mass=1e-300, moments=(1e-5, 1e-5, 1e-5))
+    result = check_lint(light(drawer_scaled(1e-200)(cabinet())), LintConfig())
     text = Report("x", (), result.findings, result.measurements).to_json()
     assert "collision_scale" in text

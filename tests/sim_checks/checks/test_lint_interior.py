@@ -35,6 +35,7 @@ TABLE = (
     ((0.0, 0.0, 0.7), (1.2, 0.8, 0.03)),
     *(((x, y, 0.34), (0.05, 0.05, 0.68)) for x in (-0.55, 0.55) for y in (-0.35, 0.35)),
 )
+NONE = {"interior_kept": None, "pocket_kept": None}
 #: A drawer, open above.
 DRAWER = (
     ((-0.2, 0.0, 0.1), (T, 0.4, 0.2)),
@@ -47,11 +48,8 @@ DRAWER = (
 
 def seen_and_touched(seen, touched):
     visuals, collisions = (body("part", boxes).visuals for boxes in (seen, touched))
-    return Link("part", None, collisions, as_meshes(visuals))
-
-
-def as_meshes(shapes):
-    return tuple(replace(shape, kind="mesh") for shape in shapes)
+    meshes = tuple(replace(shape, kind="mesh") for shape in visuals)
+    return Link("part", None, collisions, meshes)
 
 
 def told(link, down=DOWN):
@@ -61,16 +59,12 @@ def told(link, down=DOWN):
     return [finding.severity for finding in findings], numbers
 
 
-def test_boards_as_hulls_leave_the_whole_inside_free():
-    severities, numbers = told(seen_and_touched(BOARDS, BOARDS))
-    assert severities == []
-    assert numbers == {"interior_kept": 1.0, "pocket_kept": 1.0}
-
-
-def test_one_hull_over_the_whole_carcass_leaves_nothing():
-    severities, numbers = told(seen_and_touched(BOARDS, SOLID))
-    assert severities == [Severity.ERROR]
-    assert numbers == {"interior_kept": 0.0, "pocket_kept": 0.0}
+@pytest.mark.parametrize(
+    ("hulls", "severities", "kept"), [(BOARDS, [], 1.0), (SOLID, [Severity.ERROR], 0.0)]
+)
+def test_boards_as_hulls_leave_the_whole_inside_free_and_one_hull_nothing(hulls, severities, kept):
+    numbers = {"interior_kept": kept, "pocket_kept": kept}
+    assert told(seen_and_touched(BOARDS, hulls)) == (severities, numbers)
 
 
 @given(share=st.floats(0.0, 1.0))
@@ -92,10 +86,7 @@ def test_a_table_is_no_container_so_its_filled_underside_is_only_reported():
 
 @pytest.mark.parametrize("boxes", [SOLID, (((0.0, 0.0, 0.0), (0.01, 0.02, 0.03)),)])
 def test_a_solid_has_no_inside(boxes):
-    assert told(seen_and_touched(boxes, boxes)) == (
-        [],
-        {"interior_kept": None, "pocket_kept": None},
-    )
+    assert told(seen_and_touched(boxes, boxes)) == ([], NONE)
 
 
 def test_the_gap_behind_a_handle_is_not_worth_a_word():
@@ -110,17 +101,12 @@ def test_the_gap_behind_a_handle_is_not_worth_a_word():
 
 def test_a_closed_box_has_an_inside_that_nobody_reaches():
     closed = (*BOARDS, ((0.0, -0.191, 0.4), (0.564, T, 0.764)))
-    assert told(seen_and_touched(closed, SOLID)) == (
-        [],
-        {"interior_kept": None, "pocket_kept": None},
-    )
+    assert told(seen_and_touched(closed, SOLID)) == ([], NONE)
 
 
 def test_a_slot_too_narrow_for_a_hand_is_no_pocket():
     small = tuple((np.multiply(center, 0.06), np.multiply(size, 0.06)) for center, size in DRAWER)
-    severities, numbers = told(
-        seen_and_touched(small, (((0.0, 0.0, 0.006), (0.024, 0.024, 0.012)),))
-    )
+    severities, numbers = told(seen_and_touched(small, [((0, 0, 0.006), (0.024, 0.024, 0.012))]))
     assert Severity.ERROR not in severities
     assert numbers["pocket_kept"] is None
 
@@ -136,21 +122,19 @@ def test_thin_sheets_do_not_leak_whatever_their_direction():
     vertices, faces = cylinder(0.3, 0.6)
     tube = DescribedShape("tube", "mesh", vertices @ turn.T, faces)
     link = Link("part", None, (tube,), (tube,))
-    assert told(link) == ([], {"interior_kept": None, "pocket_kept": None})
+    assert told(link) == ([], NONE)
 
 
 def test_shapes_that_are_seen_as_they_are_touched_need_no_look():
     link = body("part", BOARDS)
-    assert told(link) == ([], {"interior_kept": None, "pocket_kept": None})
+    assert told(link) == ([], NONE)
     mirrored = replace(link, visuals=(*link.visuals, box_shape((0, -0.19, 0.4), (0.5, 0.01, 0.1))))
     assert told(mirrored)[1]["interior_kept"] == 1.0
 
 
 def test_a_dense_round_mesh_costs_no_more_memory_than_its_points():
     ball = trimesh.creation.icosphere(subdivisions=6, radius=0.3)
-    shape = DescribedShape(
-        "ball", "mesh", np.array(ball.vertices), np.array(ball.faces, dtype=np.int64)
-    )
+    shape = DescribedShape("ball", "mesh", np.array(ball.vertices), ball.faces.astype(np.int64))
     inner = replace(shape, vertices=0.9 * shape.vertices)
     bowl = tuple(
         replace(s, faces=s.faces[s.vertices[s.faces][:, :, 2].max(axis=1) < 0.05])
@@ -168,7 +152,7 @@ def bowl(radius):
     """Staves around a floor, [m]."""
     turns = np.linspace(0.0, 2.0 * np.pi, 13)
     rings = [
-        scale * radius * np.column_stack([np.cos(turns), np.sin(turns)]) for scale in (0.85, 1.0)
+        scale * np.column_stack([np.cos(turns), np.sin(turns)]) for scale in (0.85 * radius, radius)
     ]
     staves = [
         np.array([[*ring[k + j], z] for ring in rings for j in (0, 1) for z in (0.0, radius)])

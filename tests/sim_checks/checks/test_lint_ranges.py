@@ -13,9 +13,7 @@ from asset_factory.sim_checks.report import Report, Severity
 
 
 def finding(description, code):
-    return next(
-        (item for item in check_lint(description, LintConfig()).findings if item.code == code), None
-    )
+    return next((f for f in check_lint(description, LintConfig()).findings if f.code == code), None)
 
 
 def hinged(distance, rest=0.0):
@@ -24,9 +22,7 @@ def hinged(distance, rest=0.0):
         body("base", [((0.3 - rest, 0.0, 0.0), (0.2, 0.2, 0.2))]),
         body("flap", [((-0.2, 0.0, 0.0), (0.4, 0.3, 0.02))], (0.0, distance + 0.15, 0.0)),
     ]
-    hinge = joint(
-        "hinge", "revolute", "base", "flap", (0.0, distance + 0.15, 0.0), (1, 0, 0), (0.0, 1.0)
-    )
+    hinge = joint("hinge", "revolute", "base", "flap", (0, distance + 0.15, 0), (1, 0, 0), (0, 1))
     return described(links, [hinge])
 
 
@@ -48,13 +44,9 @@ def test_limits_whose_difference_is_no_number_can_be_told():
 
 def test_the_longest_fair_slide_is_two_diagonals():
     diagonal = float(np.linalg.norm([0.6, 0.422, 0.8]))
-    assert (
-        finding(with_joint(cabinet(), "slide", upper=1.98 * diagonal), "range_implausible") is None
-    )
-    assert (
-        finding(with_joint(cabinet(), "slide", upper=2.02 * diagonal), "range_implausible")
-        is not None
-    )
+    for share, fair in ((1.98, True), (2.02, False)):
+        slide = with_joint(cabinet(), "slide", upper=share * diagonal)
+        assert (finding(slide, "range_implausible") is None) is fair
 
 
 @pytest.mark.parametrize(("upper", "reason"), [(90.0, "degrees"), (1e6, "")])
@@ -94,9 +86,8 @@ def test_a_drive_that_cannot_drive_is_told(word, number):
 
 
 def test_a_drive_that_drives_is_fair():
-    assert (
-        finding(with_joint(cabinet(), "slide", effort=50.0, velocity=2.0), "invalid_effort") is None
-    )
+    driven = with_joint(cabinet(), "slide", effort=50.0, velocity=2.0)
+    assert finding(driven, "invalid_effort") is None
 
 
 @pytest.mark.parametrize(
@@ -111,10 +102,7 @@ def test_a_hinge_axis_far_from_everything_is_told(distance, severity):
 
 
 def test_a_long_arm_from_a_hinge_on_the_base_is_fair():
-    links = [
-        body("base", [((0, 0, 0), (0.2, 0.2, 0.2))]),
-        body("tip", [((3.0, 0.0, 0.0), (0.1, 0.1, 0.1))]),
-    ]
+    links = [body("base", [((0, 0, 0), [0.2] * 3)]), body("tip", [((3, 0, 0), [0.1] * 3)])]
     hinge = joint("hinge", "revolute", "base", "tip", (0, 0, 0), (0, 0, 1), (0.0, 1.0))
     assert finding(described(links, [hinge]), "axis_remote") is None
 
@@ -172,10 +160,7 @@ def test_resistance_counts_as_the_pull_at_the_far_edge(word, per_newton, force, 
 
 
 def test_a_slide_needs_no_lever():
-    links = [
-        body("frame", [((0.0, 0.0, 0.0), (0.1,) * 3)]),
-        body("drawer", [((0.0, 0.2, 0.0), (0.1,) * 3)]),
-    ]
+    links = [body("frame", [((0, 0, 0), (0.1,) * 3)]), body("drawer", [((0, 0.2, 0), (0.1,) * 3)])]
     slide = joint("slide", "prismatic", "frame", "drawer", (0.0, 0.0, 0.0), (0, 1, 0), (0.0, 0.3))
     found = finding(described(links, [replace(slide, friction=1e4)]), "friction_excessive")
     assert (found.value, found.severity) == (1e4, Severity.ERROR)

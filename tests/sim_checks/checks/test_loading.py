@@ -177,7 +177,7 @@ def test_a_link_put_nowhere_is_a_lie_that_can_be_written(description):
 )
 def test_an_engine_is_not_held_to_numbers_that_are_none(description, inertia):
     links = tuple(
-        replace(x, inertia=inertia) if x.name == "drawer" else x for x in description.links
+        replace(x, inertia=inertia if x.name == "drawer" else x.inertia) for x in description.links
     )
     assert found(replace(description, links=links), faithful(description)) == []
 

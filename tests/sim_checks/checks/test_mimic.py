@@ -18,24 +18,24 @@ from asset_factory.sim_checks.read.read import read_description, read_here
 from asset_factory.sim_checks.report import Severity
 
 NAMES = ("a", "b", "c")
+END = "/></joint>"
 
 
 def three(**mimics):
     """A base with three slides along x, side by side along y, each with a range of 1 m."""
-    links = [
-        body(name, [((0.0, float(y), 0.0), (0.1, 0.1, 0.1))])
-        for y, name in enumerate(("base", *NAMES))
-    ]
-    joints = [
-        joint(n, "prismatic", "base", n, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0))
-        for n in NAMES
-    ]
+    links = [body(name, [((0, y, 0), (0.1, 0.1, 0.1))]) for y, name in enumerate(("base", *NAMES))]
+    joints = [joint(n, "prismatic", "base", n, (0, 0, 0), (1, 0, 0), (0.0, 1.0)) for n in NAMES]
     return described(links, [replace(item, mimic=mimics.get(item.name)) for item in joints])
 
 
 def places(description, values):
     poses = build_tree(description).link_poses(values)
     return [float(poses[name][0, 3]) for name in NAMES]
+
+
+def mimic_faults(description):
+    findings = check_lint(description, LintConfig()).findings
+    return [finding for finding in findings if finding.code.startswith("mimic")]
 
 
 @given(value=st.floats(0, 1), multiplier=st.floats(-3, 3), offset=st.floats(-1, 1))
@@ -89,17 +89,17 @@ def test_a_follower_that_turns_far_enough_does_not_stop_its_leader(kind):
     turned = replace(description, joints=tuple(lines))
     tree = build_tree(turned)
     assert coupled_range(tree, tree.free[0]) == (0.0, 1.0)
-    assert [
-        f.code for f in check_lint(turned, LintConfig()).findings if f.code.startswith("mimic")
-    ] == []
+    assert mimic_faults(turned) == []
 
 
 def test_followers_that_agree_with_their_leader_but_not_with_each_other_hold_it_fast():
     description = three(b=Mimic("a", 1.0, 0.6), c=Mimic("a", 1.0, -0.6))
     tree = build_tree(description)
     assert coupled_range(tree, tree.free[0]) is None
-    found = [f for f in check_lint(description, LintConfig()).findings if f.code == "mimic_limits"]
-    assert [(f.joint, f.severity) for f in found] == [("b", Severity.ERROR), ("c", Severity.ERROR)]
+    found = mimic_faults(description)
+    assert [(f.joint, str(f.severity), f.code) for f in found] == [
+        (name, "error", "mimic_limits") for name in ("b", "c")
+    ]
     assert "so none can" in found[0].message
 
 
@@ -117,9 +117,7 @@ def test_followers_that_agree_with_their_leader_but_not_with_each_other_hold_it_
     ],
 )
 def test_each_fault_of_a_follower_has_its_code(mimics, code, severity, value):
-    findings = [
-        f for f in check_lint(three(**mimics), LintConfig()).findings if f.code.startswith("mimic")
-    ]
+    findings = mimic_faults(three(**mimics))
     assert {(f.code, f.severity, f.value) for f in findings} == {(code, severity, value)}
     assert findings[0].joint == "b"
 
@@ -128,9 +126,7 @@ def test_each_fault_of_a_follower_has_its_code(mimics, code, severity, value):
     "mimics", [{"b": Mimic("a", -1.0, 1.0)}, {"b": Mimic("a", 0.5), "c": Mimic("b", 2.0)}]
 )
 def test_a_sound_follower_has_no_findings(mimics):
-    assert [
-        f.code for f in check_lint(three(**mimics), LintConfig()).findings if "mimic" in f.code
-    ] == []
+    assert mimic_faults(three(**mimics)) == []
 
 
 def test_a_follower_of_nobody_moves_freely():
@@ -138,24 +134,16 @@ def test_a_follower_of_nobody_moves_freely():
 
 
 def test_urdf_says_who_follows_whom(tmp_path):
-    path = write_urdf(
-        tmp_path, replace={'velocity="2"/></joint>': 'velocity="2"/><mimic joint="slide"/></joint>'}
-    )
+    path = write_urdf(tmp_path, replace={END: '/><mimic joint="slide"/></joint>'})
     followers = {item.name: item.mimic for item in read_description(path).joints}
     assert followers["hinge"] == Mimic("slide", 1.0, 0.0)
-    path.write_text(
-        path.read_text().replace(
-            '<mimic joint="slide"/>', '<mimic joint="slide" multiplier="-5" offset="1"/>'
-        )
-    )
+    more = '<mimic joint="slide" multiplier="-5" offset="1"/>'
+    path.write_text(path.read_text().replace('<mimic joint="slide"/>', more))
     assert read_description(path).joints[-1].mimic == Mimic("slide", -5.0, 1.0)
 
 
 def test_a_mimic_without_a_joint_cannot_be_read(tmp_path):
-    path = write_urdf(
-        tmp_path,
-        replace={'velocity="2"/></joint>': 'velocity="2"/><mimic multiplier="2"/></joint>'},
-    )
+    path = write_urdf(tmp_path, replace={END: '/><mimic multiplier="2"/></joint>'})
     with pytest.raises(DescriptionError, match="names no joint"):
         read_description(path)
 

@@ -24,6 +24,14 @@ from asset_factory.sim_checks.simulators.simulator import (
     Touch,
 )
 
+NOTHING = LoadedModel((), (), ())
+
+
+def faults(observation):
+    """What the check says of an engine that saw this, of a file that says nothing."""
+    nothing = Description(Path("nothing.urdf"), "urdf", (), ())
+    return check_motion(nothing, "engine", observation, CheckConfig()).findings
+
 
 def only(world):
     (motion,) = sweep(world, CONFIG)
@@ -61,7 +69,7 @@ def test_a_jam_says_where_and_between_whom():
     assert motion.opening_force == motion.force_bound
     assert motion.weight_open is None
     observation = Observation(world.model, motions=(motion,))
-    (finding,) = check_motion(nothing(), "engine", observation, CheckConfig()).findings
+    (finding,) = faults(observation)
     assert finding.code == "jammed"
     assert "(at 0.12)" in finding.message
     assert "'block0' presses on 'post'" in finding.message
@@ -74,11 +82,8 @@ def test_a_joint_that_opens_is_blocked_by_nobody_and_tells_the_force_it_took():
     # Along half a cosine, acceleration is greatest at its start; the drive's drag adds the lag of
     # one step.
     inertial = 2.0 * 0.5 * 0.3 * (np.pi / CONFIG.ramp_s) ** 2
-    assert (
-        1.0
-        < motion.opening_force / inertial
-        < 1.0 + 2.1 * CONFIG.drive_frequency * CONFIG.time_step_s
-    )
+    lag = 2.1 * CONFIG.drive_frequency * CONFIG.time_step_s
+    assert 1.0 < motion.opening_force / inertial < 1.0 + lag
     assert (motion.weight_closed, motion.weight_open) == (6.0, 6.0)
 
 
@@ -87,9 +92,8 @@ def test_the_hand_never_pulls_harder_than_its_bound():
     world.wall = 0.12
     only(world)
     acceleration = 0.5 * 0.3 * (np.pi / CONFIG.ramp_s) ** 2
-    assert (
-        world.strongest <= CONFIG.hand_force_n + CONFIG.inertia_margin * 2.0 * acceleration + 1e-9
-    )
+    inertial = CONFIG.inertia_margin * 2.0 * acceleration
+    assert world.strongest <= CONFIG.hand_force_n + inertial + 1e-9
 
 
 def test_a_slider_behind_another_opens_once_the_other_is_open():
@@ -173,8 +177,7 @@ def test_a_joint_that_does_not_come_back_is_refused_and_makes_no_way_for_another
     assert latched.stuck_at == pytest.approx(0.2)
     assert (barred.reached, barred.needs_open) == (pytest.approx(0.05 / 0.3, abs=1e-3), ())
     observation = Observation(world.model, motions=(barred, latched))
-    findings = check_motion(nothing(), "engine", observation, CheckConfig()).findings
-    found = {finding.joint: (finding.code, str(finding.severity)) for finding in findings}
+    found = {each.joint: (each.code, str(each.severity)) for each in faults(observation)}
     assert found == {"j0": ("jammed", "error"), "j1": ("not_returned", "error")}
 
 
@@ -209,10 +212,8 @@ def test_a_drawer_that_can_push_its_door_open_needs_it_open_if_it_opens_alone(
     world = Pushed([2.0, 2.0])
     motions = {item.joint: item for item in sweep(world, CONFIG)}
     assert (motions["j0"].reached > 0.99, motions["j0"].needs_open) == (True, needs)
-    found = check_motion(
-        nothing(), "engine", Observation(world.model, motions=(motions["j0"],)), CheckConfig()
-    )
-    assert [item.code for item in found.findings if item.joint == "j0"] == code
+    found = faults(Observation(world.model, motions=(motions["j0"],)))
+    assert [item.code for item in found if item.joint == "j0"] == code
 
 
 def test_of_joints_that_move_together_one_that_opens_speaks_for_all():
@@ -306,8 +307,7 @@ GOOD = JointMotion("j", 1.0, 0.0, 0.0, 0.0, 1.0, finite=True, range=0.3, pushed=
     ],
 )
 def test_each_fault_of_a_motion_is_named_with_its_number(changes, expected):
-    observation = Observation(LoadedModel((), (), ()), motions=(replace(GOOD, **changes),))
-    findings = check_motion(nothing(), "engine", observation, CheckConfig()).findings
+    findings = faults(Observation(NOTHING, motions=(replace(GOOD, **changes),)))
     assert [(f.code, str(f.severity), f.value) for f in findings] == expected
 
 
@@ -321,8 +321,7 @@ def test_each_fault_of_a_motion_is_named_with_its_number(changes, expected):
     ],
 )
 def test_each_fault_at_rest_and_in_a_fall_is_named(observed, expected):
-    observation = Observation(LoadedModel((), (), ()), **observed)
-    findings = check_motion(nothing(), "engine", observation, CheckConfig()).findings
+    findings = faults(Observation(NOTHING, **observed))
     assert [(f.code, str(f.severity)) for f in findings] == expected
 
 
@@ -330,8 +329,7 @@ def test_made_up_energy_is_a_number_in_joules_against_what_is_allowed():
     resting = RestMotion("j", 0.0, 0.0, finite=True, energy=2.0, energy_height=0.1)
     falling = Fall(energy=4.0, energy_height=0.4)
     for rests, joint, value, limit in (((resting,), "j", 2.0, 1.0), ((), None, 4.0, 0.5)):
-        observation = Observation(LoadedModel((), (), ()), rest=rests, fall=falling)
-        (finding,) = check_motion(nothing(), "engine", observation, CheckConfig()).findings
+        (finding,) = faults(Observation(NOTHING, rest=rests, fall=falling))
         wanted = ("energy_grows", joint, value, limit)
         assert (finding.code, finding.joint, finding.value, finding.limit) == wanted
         assert finding.unit == "J"
@@ -342,18 +340,10 @@ def test_made_up_energy_is_a_number_in_joules_against_what_is_allowed():
 )
 def test_only_what_weight_moves_is_said_to_open_by_its_weight(pushed, expected):
     resting = RestMotion("j", 0.3 * pushed, pushed, finite=True, pushed_by=("door", "shelf"))
-    observation = Observation(
-        LoadedModel((), (), ()),
-        rest=(resting,),
-        fall=Fall((FallMotion("j", 0.12, 0.4), FallMotion("k", 0.01, 0.04))),
-    )
-    findings = check_motion(nothing(), "engine", observation, CheckConfig()).findings
+    falling = Fall((FallMotion("j", 0.12, 0.4), FallMotion("k", 0.01, 0.04)))
+    findings = faults(Observation(NOTHING, rest=(resting,), fall=falling))
     assert [(f.code, str(f.severity)) for f in findings] == [(code, "warning") for code in expected]
     assert all("'door' and 'shelf'" in f.message for f in findings if f.code == "pushed_at_rest")
-
-
-def nothing():
-    return Description(Path("nothing.urdf"), "urdf", (), ())
 
 
 def test_joints_that_cannot_meet_are_driven_at_the_same_time_and_to_the_same_end():

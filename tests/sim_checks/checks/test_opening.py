@@ -100,15 +100,10 @@ def test_a_drawer_behind_two_doors_one_behind_the_other_needs_both():
 
 
 def test_what_waits_for_a_door_that_never_opens_is_stuck_too():
-    post = body(
-        "base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1)), ((0.5, -0.05, 0.0), (0.05, 0.04, 2.0))]
-    )
+    post = body("base", [((0, 0, -1), (4, 4, 0.1)), ((0.5, -0.05, 0.0), (0.05, 0.04, 2))])
     link, slide = drawer()
     result, joints = checked(described([post, link, DOOR[0]], [slide, DOOR[1]]))
-    assert hard(result) == [
-        ("sweep_penetration", "drawer_slide"),
-        ("sweep_penetration", "door_slide"),
-    ]
+    assert hard(result) == [("sweep_penetration", f"{name}_slide") for name in ("drawer", "door")]
     assert joints["drawer_slide"]["waits_for"] == ["door_slide"]
     assert joints["door_slide"]["waits_for"] == []
     assert "door_slide would have to make way" in next(
@@ -120,12 +115,10 @@ def test_doors_that_open_only_one_at_a_time_do_not_free_what_needs_both():
     """Each opens alone, but both end in one place: what is behind the two stays shut."""
     left = gate("left", (-0.15, -0.05, 0.0), (0.28, 0.04, 0.4), (0.0, 0.0, 1.0))
     boxes: list[Box] = [
-        ((0.15, -0.05, 0.0), (0.28, 0.04, 0.4)),
-        ((-0.45, -0.05, 1.0), (0.1, 0.04, 0.1)),
+        ((0.15, -0.05, 0), (0.28, 0.04, 0.4)),
+        ((-0.45, -0.05, 1), (0.1, 0.04, 0.1)),
     ]
-    line = joint(
-        "right_slide", "prismatic", "base", "right", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.3)
-    )
+    line = joint("right_slide", "prismatic", "base", "right", (0, 0, 0), (1, 0, 0), (0.0, 0.3))
     right = body("right", boxes), line
     result, joints = checked(built(drawer(), left, right))
     assert set(hard(result)) == {("sweep_penetration", "drawer_slide")}

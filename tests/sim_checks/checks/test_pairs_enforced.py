@@ -5,16 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from box_world import write_urdf
+from engines import skipped_if_missing
 
 from asset_factory.sim_checks.config import MotionConfig
-from asset_factory.sim_checks.simulators.catalog import installed, simulator
+from asset_factory.sim_checks.simulators.catalog import simulator
 
-ENGINES = [
-    pytest.param(
-        name, marks=pytest.mark.skipif(not installed(name), reason=f"{name} is not installed")
-    )
-    for name in ("sapien", "mujoco", "pybullet")
-]
+ENGINES = skipped_if_missing("sapien", "mujoco", "pybullet")
 CUBE = (0.2, 0.2, 0.2)
 NEAR = 0.1
 FAR = 5.0
@@ -69,9 +65,8 @@ def look(path, engine, *, parents_touch=True):
         world.place(np.zeros(len(world.joints)))
         world.step(np.zeros(len(world.joints)))
         assert world.model.pairs is not None
-        return {
-            pair for pair, touch in world.contacts().items() if touch.presses
-        }, world.model.pairs
+        pressing = {pair for pair, touch in world.contacts().items() if touch.presses}
+        return pressing, world.model.pairs
     finally:
         world.close()
 

@@ -12,6 +12,7 @@ from asset_factory.sim_checks.config import PenetrationConfig
 from asset_factory.sim_checks.report import Severity
 
 CONFIG = PenetrationConfig()
+BASE = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1))])
 
 
 def check(description):
@@ -61,27 +62,25 @@ def test_a_part_wholly_inside_another_is_caught():
 
 
 def test_two_parts_that_only_meet_when_both_are_open_are_reported_softly():
-    base = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1))])
     left = body("left", [((-0.6, 0.0, 0.0), (0.2, 0.2, 0.2))])
     right = body("right", [((0.6, 0.0, 0.0), (0.2, 0.2, 0.2))])
     joints = [
         joint("a", "prismatic", "base", "left", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.55)),
         joint("b", "prismatic", "base", "right", (0, 0, 0), (-1.0, 0.0, 0.0), (0.0, 0.55)),
     ]
-    result = check(described([base, left, right], joints))
+    result = check(described([BASE, left, right], joints))
     assert codes(result) == ["joints_collide"]
     assert hard(result) == []
 
 
 def test_two_parts_that_only_meet_when_both_are_half_open_are_reported_too():
-    base = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1))])
     left = body("left", [((-1.0, 0.0, 0.0), (0.8, 0.8, 0.2))])
     front = body("front", [((0.0, -1.0, 0.0), (0.8, 0.8, 0.2))])
     joints = [
         joint("a", "prismatic", "base", "left", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 2.0)),
         joint("b", "prismatic", "base", "front", (0, 0, 0), (0.0, 1.0, 0.0), (0.0, 2.0)),
     ]
-    (finding,) = check(described([base, left, front], joints)).findings
+    (finding,) = check(described([BASE, left, front], joints)).findings
     assert finding.code == "joints_collide"
     assert set(finding.parts) == {"left", "front"}
 
@@ -119,10 +118,11 @@ def test_the_pose_a_file_was_drawn_in_counts_too():
     slider = body("slider", [((0.99, 0.0, 0.0), (1.0, 1.0, 1.0))])
     slide = joint("slide", "prismatic", "base", "slider", (0, 0, 0), (-1.0, 0.0, 0.0), (-0.2, 0.0))
     result = check(described([base, slider], [slide]))
-    assert [finding.value for finding in hard(result) if finding.code == "rest_penetration"] == [
-        pytest.approx(10.0)
-    ]
-    assert "at 0" in hard(result)[0].message
+    found = hard(result)
+    assert [each.value for each in found if each.code == "rest_penetration"] == pytest.approx(
+        [10.0]
+    )
+    assert "at 0" in found[0].message
 
 
 def test_a_continuous_joint_is_swept_over_a_whole_turn():

@@ -15,7 +15,8 @@ from hypothesis import strategies as st
 from asset_factory.sim_checks.checks.result import CheckResult
 from asset_factory.sim_checks.checks.standing import check_standing
 from asset_factory.sim_checks.config import StandingConfig
-from asset_factory.sim_checks.description import LinkInertia, Mimic
+from asset_factory.sim_checks.description import Mimic
+from asset_factory.sim_checks.geometry.kinematics import rotation_about
 
 #: 0.6 m wide, 0.4 m deep, 0.8 m high; the front looks along -y.
 CARCASS: Box = ((0.0, 0.0, 0.4), (0.6, 0.4, 0.8))
@@ -26,30 +27,26 @@ HINGE = (-0.3, -0.2, 0.4)
 def weighing(link, mass):
     share = mass / link.inertia.mass
     return replace(
-        link, inertia=LinkInertia(mass, link.inertia.center, share * link.inertia.tensor)
+        link, inertia=replace(link.inertia, mass=mass, tensor=share * link.inertia.tensor)
     )
 
 
-def with_door(door_mass, carcass_mass=10.0):
-    links = [
-        weighing(body("carcass", [CARCASS]), carcass_mass),
-        weighing(body("door", [DOOR], HINGE), door_mass),
-    ]
-    return described(
-        links, [joint("hinge", "revolute", "carcass", "door", HINGE, (0.0, 0.0, -1.0), (0.0, 2.0))]
-    )
+def with_door(door_mass):
+    carcass = weighing(body("carcass", [CARCASS]), 10.0)
+    door = weighing(body("door", [DOOR], HINGE), door_mass)
+    hinge = joint("hinge", "revolute", "carcass", "door", HINGE, (0, 0, -1), (0.0, 2.0))
+    return described([carcass, door], [hinge])
 
 
 def with_drawer(mass, reach=0.4, box=((0.0, 0.0, 0.4), (0.5, 0.4, 0.2))):
-    links = [weighing(body("carcass", [CARCASS]), 10.0), weighing(body("drawer", [box]), mass)]
-    return described(
-        links,
-        [
-            joint(
-                "slide", "prismatic", "carcass", "drawer", (0, 0, 0), (0.0, -1.0, 0.0), (0.0, reach)
-            )
-        ],
-    )
+    return sliding(weighing(body("drawer", [box]), mass), (0, -1, 0), reach)
+
+
+def sliding(moving, axis, reach):
+    """The carcass of 10 kg, and what slides out of it [m]."""
+    carcass = weighing(body("carcass", [CARCASS]), 10.0)
+    slide = joint("slide", "prismatic", "carcass", moving.name, (0, 0, 0), axis, (0.0, reach))
+    return described([carcass, moving], [slide])
 
 
 def judged(description):
@@ -77,9 +74,7 @@ def test_a_drawer_takes_the_centre_of_mass_along_by_its_share_of_the_weight(mass
     result = judged(with_drawer(mass, reach))
     (row,) = result.measurements["joints"]
     assert row["worst_at"] == pytest.approx(reach, abs=1e-6)
-    assert row["margin_mm"] == pytest.approx(
-        200.0 - 1000.0 * mass * reach / (10.0 + mass), abs=2e-3
-    )
+    assert row["margin_mm"] == pytest.approx(200.0 - 1000 * mass * reach / (10.0 + mass), abs=2e-3)
     assert (("topples", "slide") in codes(result)) == (row["margin_mm"] < 5.0)
 
 
@@ -89,21 +84,16 @@ def test_a_door_is_worst_where_its_centre_is_farthest_out_not_at_the_end_of_its_
     # About the hinge the door's centre lies (0.3, -0.01) away; it is farthest along -y where that
     # points along -y.
     assert row["worst_at"] == pytest.approx(math.atan2(0.3, 0.01), abs=1e-4)
-    assert row["margin_mm"] == pytest.approx(
-        200.0 - 0.5 * 1000.0 * (0.2 + math.hypot(0.3, 0.01)), abs=1e-3
-    )
+    assert row["margin_mm"] == pytest.approx(200 - 500 * (0.2 + math.hypot(0.3, 0.01)), abs=1e-3)
     assert codes(result) == [("topples", "hinge")]
     assert "-50.0 mm" not in result.findings[0].message
     assert "50.1 mm outside" in result.findings[0].message
 
 
 def test_all_joints_open_may_topple_what_each_alone_does_not():
-    left = [((x, 0.0, 0.4), (0.25, 0.4, 0.2)) for x in (-0.15, 0.15)]
-    links = [
-        weighing(body("carcass", [CARCASS]), 10.0),
-        *(body(f"drawer{i}", [box]) for i, box in enumerate(left)),
-    ]
-    links = [links[0], *(weighing(link, 5.0) for link in links[1:])]
+    links = [weighing(body("carcass", [CARCASS]), 10.0)]
+    for i, x in enumerate((-0.15, 0.15)):
+        links.append(weighing(body(f"drawer{i}", [((x, 0.0, 0.4), (0.25, 0.4, 0.2))]), 5.0))
     ways = [(0, 0, 0), (0.0, -1.0, 0.0), (0.0, 0.45)]
     joints = [joint(f"slide{i}", "prismatic", "carcass", f"drawer{i}", *ways) for i in (0, 1)]
     result = judged(described(links, joints))
@@ -122,14 +112,8 @@ def test_a_leg_on_the_moving_part_carries_it():
 
 
 def test_a_part_that_would_go_below_the_floor_rests_on_it():
-    links = [
-        weighing(body("carcass", [CARCASS]), 10.0),
-        weighing(body("lift", [((0.0, -0.3, 0.4), (0.5, 0.1, 0.2))]), 1.0),
-    ]
-    joints = [
-        joint("lift", "prismatic", "carcass", "lift", (0, 0, 0), (0.0, 0.0, -1.0), (0.0, 0.4))
-    ]
-    (row,) = judged(described(links, joints)).measurements["joints"]
+    lift = weighing(body("lift", [((0.0, -0.3, 0.4), (0.5, 0.1, 0.2))]), 1.0)
+    (row,) = judged(sliding(lift, (0, 0, -1), 0.4)).measurements["joints"]
     assert row["below_floor_mm"] == pytest.approx(100.0)
 
 
@@ -149,21 +133,15 @@ def test_a_light_tall_thing_is_pulled_over_by_a_hand():
         weighing(body("tower", [thin]), 3.0),
         weighing(body("drawer", [((0, 0, 1.3), (0.2, 0.09, 0.1))]), 0.2),
     ]
-    joints = [
-        joint("slide", "prismatic", "tower", "drawer", (0, 0, 0), (0.0, -1.0, 0.0), (0.0, 0.05))
-    ]
+    joints = [joint("slide", "prismatic", "tower", "drawer", (0, 0, 0), (0, -1, 0), (0.0, 0.05))]
     (finding,) = judged(described(links, joints)).findings
     assert finding.code == "topples_when_pulled"
     assert finding.value < finding.limit == 20.0
 
 
 def test_what_lifts_straight_up_cannot_be_pulled_over_from_within():
-    links = [
-        weighing(body("chest", [CARCASS]), 10.0),
-        weighing(body("plug", [((0.0, 0.0, 0.85), (0.1, 0.1, 0.1))]), 1.0),
-    ]
-    joints = [joint("lift", "prismatic", "chest", "plug", (0, 0, 0), (0.0, 0.0, 1.0), (0.0, 0.2))]
-    (row,) = judged(described(links, joints)).measurements["joints"]
+    plug = weighing(body("plug", [((0.0, 0.0, 0.85), (0.1, 0.1, 0.1))]), 1.0)
+    (row,) = judged(sliding(plug, (0, 0, 1), 0.2)).measurements["joints"]
     # Straight up tips only by lifting more than the edge opposite still holds.
     assert row["tipping_force_n"] == pytest.approx(9.81 * 11.0 * 0.2 / 0.25, rel=1e-4)
 
@@ -171,9 +149,7 @@ def test_what_lifts_straight_up_cannot_be_pulled_over_from_within():
 def test_a_follower_leans_out_with_its_leader():
     pair = with_drawer(5.0, 0.4)
     second = weighing(body("drawer2", [((0.0, 0.0, 0.65), (0.5, 0.4, 0.2))]), 5.0)
-    line = joint(
-        "slide2", "prismatic", "carcass", "drawer2", (0, 0, 0), (0.0, -1.0, 0.0), (0.0, 0.4)
-    )
+    line = joint("slide2", "prismatic", "carcass", "drawer2", (0, 0, 0), (0, -1, 0), (0.0, 0.4))
     coupled = replace(line, mimic=Mimic("slide"))
     result = judged(described([*pair.links, second], [*pair.joints, coupled]))
     (row,) = result.measurements["joints"]
@@ -182,10 +158,7 @@ def test_a_follower_leans_out_with_its_leader():
 
 def test_a_point_or_an_edge_is_no_footing():
     turned = body("roof", [((0.0, 0.0, 0.0), (0.3, 0.3, 0.3))])
-    angle = math.pi / 4
-    turn = np.array(
-        [[1, 0, 0], [0, math.cos(angle), -math.sin(angle)], [0, math.sin(angle), math.cos(angle)]]
-    )
+    turn = rotation_about(np.array([1.0, 0.0, 0.0]), math.pi / 4)
     (shape,) = turned.collisions
     on_edge = replace(turned, collisions=(replace(shape, vertices=shape.vertices @ turn.T),))
     assert codes(judged(described([on_edge], []))) == [("no_stable_footing", None)]
@@ -202,15 +175,10 @@ def test_an_underside_may_be_uneven_by_a_fraction_of_a_degree(bump, margin):
 
 
 def test_closed_and_already_falling_is_said_once():
-    overhung = weighing(body("box", [CARCASS]), 10.0)
-    assert overhung.inertia is not None
-    falling = replace(
-        overhung, inertia=replace(overhung.inertia, center=np.array([0.0, -0.25, 0.4]))
-    )
-    door = with_door(1.0)
-    assert codes(
-        judged(replace(door, links=(replace(falling, name="carcass"), door.links[1])))
-    ) == [("topples", None)]
+    carcass, door = with_door(1.0).links
+    falling = replace(carcass.inertia, center=np.array([0, -0.25, 0.4]))
+    links = (replace(carcass, inertia=falling), door)
+    assert codes(judged(replace(with_door(1.0), links=links))) == [("topples", None)]
 
 
 def test_without_masses_there_is_no_verdict():

@@ -62,9 +62,8 @@ def test_moving_a_collider_in_place_is_the_same_as_building_it_there():
 @pytest.mark.parametrize("gap", [1e-4, 1e-2])
 def test_long_crossed_rods_are_as_far_apart_as_they_are(angle, gap):
     """Two rods of 3 m on edge, crossed in any pose: a direction off by 1e-4 costs 0.3 mm."""
-    half = np.array(
-        [[x, y, z] for x in (-1.5, 1.5) for y, z in ((0.01, 0), (-0.01, 0), (0, 0.01), (0, -0.01))]
-    )
+    across = ((0.01, 0), (-0.01, 0), (0, 0.01), (0, -0.01))
+    half = np.array([[x, y, z] for x in (-1.5, 1.5) for y, z in across])
     turned = rotation_about(np.array([0.0, 0.0, 1.0]), angle)
     for seed in range(5):
         generator = np.random.default_rng(seed)

@@ -23,22 +23,22 @@ CONFIG = PenetrationConfig()
 Z = (0.0, 0.0, 1.0)
 
 
-def doors(width, *, mimic, gap=1.0, reach=3.14):
-    """Two doors hinged ``gap`` apart, open to the sides at first; they turn together and past."""
-    base = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1))])
-    half = gap / 2
-    left = body("left", [((-half - width / 2, 0.0, 0.0), (width, 0.02, 0.4))], (-half, 0.0, 0.0))
-    right = body("right", [((half + width / 2, 0.0, 0.0), (width, 0.02, 0.4))], (half, 0.0, 0.0))
+BASE = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1))])
+
+
+def following(mimic, *line):
+    return replace(joint(*line), mimic=mimic)
+
+
+def doors(width, *, mimic):
+    """Two doors hinged 1 m apart, open to the sides at first; they turn together and past."""
+    left = body("left", [((-0.5 - width / 2, 0.0, 0.0), (width, 0.02, 0.4))], (-0.5, 0.0, 0.0))
+    right = body("right", [((0.5 + width / 2, 0.0, 0.0), (width, 0.02, 0.4))], (0.5, 0.0, 0.0))
     lines = [
-        joint(
-            "lead", "revolute", "base", "left", (-half, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, reach)
-        ),
-        replace(
-            joint("led", "revolute", "base", "right", (half, 0.0, 0.0), Z, (0.0, reach)),
-            mimic=mimic,
-        ),
+        joint("lead", "revolute", "base", "left", (-0.5, 0.0, 0.0), (0, 0, -1), (0.0, 3.14)),
+        following(mimic, "led", "revolute", "base", "right", (0.5, 0.0, 0.0), Z, (0.0, 3.14)),
     ]
-    return described([base, left, right], lines)
+    return described([BASE, left, right], lines)
 
 
 def checked(description):
@@ -81,50 +81,39 @@ def test_coupled_doors_that_would_only_meet_at_different_angles_pass():
 def test_a_follower_that_runs_ahead_at_rest_stands_where_its_leader_puts_it():
     """With an offset of pi the follower is shut at the leader's rest, and hits what is there."""
     turned = doors(0.6, mimic=Mimic("lead", -1.0, 3.14))
-    post = body(
-        "base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1)), ((-0.08, 0.0, 0.0), (0.04, 0.04, 0.4))]
-    )
+    post = body("base", [((0, 0, -1), (4.0, 4.0, 0.1)), ((-0.08, 0, 0), (0.04, 0.04, 0.4))])
     findings, _ = checked(replace(turned, links=(post, *turned.links[1:])))
     assert ("rest_penetration", "error", None) in findings
 
 
 def test_two_slides_that_follow_one_another_are_measured_exactly():
     """Blocks run towards one another, one twice as fast: they overlap by 10 mm at the end."""
-    base = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1))])
     left = body("left", [((-0.4, 0.0, 0.0), (0.2, 0.2, 0.2))])
     right = body("right", [((0.5, 0.0, 0.0), (0.2, 0.2, 0.2))])
+    faster = Mimic("a", 2.0)
     lines = [
-        joint("a", "prismatic", "base", "left", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.71 / 3)),
-        replace(
-            joint("b", "prismatic", "base", "right", (0, 0, 0), (-1.0, 0.0, 0.0), (0.0, 1.0)),
-            mimic=Mimic("a", 2.0),
-        ),
+        joint("a", "prismatic", "base", "left", (0, 0, 0), (1, 0, 0), (0.0, 0.71 / 3)),
+        following(faster, "b", "prismatic", "base", "right", (0, 0, 0), (-1, 0, 0), (0.0, 1.0)),
     ]
-    findings, measured = checked(described([base, left, right], lines))
+    findings, measured = checked(described([BASE, left, right], lines))
     assert findings == [("sweep_penetration", "error", "a")]
     assert measured["joints"][0]["pairs"][0]["depth_mm"] == pytest.approx(10.0, rel=0.02)
 
 
 def test_a_coupled_drawer_needs_a_door_that_opens_alone():
-    base = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1))])
     door = body("door", [((0.0, -0.05, 0.0), (0.6, 0.04, 0.4))])
     tray = body("tray", [((-2.0, 0.25, 0.0), (0.2, 0.5, 0.2))])
     twin = body("twin", [((0.0, 0.25, 0.0), (0.2, 0.5, 0.2))])
-    out = (0.0, -1.0, 0.0)
+    out = ((0, 0, 0), (0, -1, 0), (0.0, 0.4))
     lines = [
-        joint("door_slide", "prismatic", "base", "door", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 1.0)),
-        joint("lead", "prismatic", "base", "tray", (0, 0, 0), out, (0.0, 0.4)),
-        replace(
-            joint("led", "prismatic", "base", "twin", (0, 0, 0), out, (0.0, 0.4)),
-            mimic=Mimic("lead"),
-        ),
+        joint("door_slide", "prismatic", "base", "door", (0, 0, 0), (1, 0, 0), (0.0, 1.0)),
+        joint("lead", "prismatic", "base", "tray", *out),
+        following(Mimic("lead"), "led", "prismatic", "base", "twin", *out),
     ]
-    findings, measured = checked(described([base, door, tray, twin], lines))
+    findings, measured = checked(described([BASE, door, tray, twin], lines))
     assert findings == [("joint_dependency", "warning", "lead")]
-    assert {item["joint"]: item["needs_open"] for item in measured["joints"]} == {
-        "door_slide": [],
-        "lead": ["door_slide"],
-    }
+    needed = {item["joint"]: item["needs_open"] for item in measured["joints"]}
+    assert needed == {"door_slide": [], "lead": ["door_slide"]}
 
 
 def arm(multipliers):
@@ -134,21 +123,15 @@ def arm(multipliers):
         body(name, [((0.3 * i, 0.1 * i, 0.05 * i), (0.2, 0.1, 0.1))])
         for i, name in enumerate(names)
     ]
-    kinds = [
-        ("revolute", "base", Z),
-        ("prismatic", "upper", (1.0, 0.0, 0.0)),
-        ("revolute", "middle", (0.0, 1.0, 0.0)),
+    ways = [("revolute", Z), ("prismatic", (1.0, 0.0, 0.0)), ("revolute", (0.0, 1.0, 0.0))]
+    mimics = [None, *(Mimic("j0", rate, 0.1 * i) for i, rate in enumerate(multipliers, 1))]
+    span = (-10.0, 10.0)
+    lines = [
+        following(mimics[i], f"j{i}", kind, *names[i : i + 2], (0.1 * i, 0.2, 0.0), axis, span)
+        for i, (kind, axis) in enumerate(ways)
     ]
-    lines: list[JointLine] = []
-    for i, (kind, parent, axis) in enumerate(kinds):
-        line = joint(f"j{i}", kind, parent, names[i + 1], (0.1 * i, 0.2, 0.0), axis, (-10.0, 10.0))
-        lines.append(
-            line if i == 0 else replace(line, mimic=Mimic("j0", multipliers[i - 1], 0.1 * i))
-        )
-    beside = joint(
-        "k", "revolute", "base", "beside", (0.5, 0.0, 0.0), (1.0, 0.0, 0.0), (-10.0, 10.0)
-    )
-    return described(links, [*lines, replace(beside, mimic=Mimic("j0", -0.7))])
+    beside = ("k", "revolute", "base", "beside", (0.5, 0.0, 0.0), (1, 0, 0), span)
+    return described(links, [*lines, following(Mimic("j0", -0.7), *beside)])
 
 
 @settings(max_examples=15, deadline=None)
@@ -168,9 +151,8 @@ def test_what_one_link_sees_of_another_is_what_the_kinematics_say(first, second,
                 continue
             seen = solids.seen(mover, stander, poses, 1.0).pose(0.8) @ poses[m]
             assert seen == pytest.approx(poses[s] @ np.linalg.inv(there[s]) @ there[m], abs=1e-9)
-            assert solids.way(mover, poses, 1.0).pose(0.8) @ poses[m] == pytest.approx(
-                there[m], abs=1e-9
-            )
+            moved = solids.way(mover, poses, 1.0).pose(0.8) @ poses[m]
+            assert moved == pytest.approx(there[m], abs=1e-9)
 
 
 @settings(max_examples=40, deadline=None)
@@ -181,9 +163,9 @@ def test_no_point_gets_beyond_the_bounds_between_two_places(seed):
     def line():
         axis = generator.normal(size=3)
         turning = bool(generator.integers(2))
-        return Path(
-            turning, generator.normal(size=3), axis / np.linalg.norm(axis), 1.0
-        ), generator.uniform(-2, 2)
+        unit = axis / np.linalg.norm(axis)
+        path = Path(turning, generator.normal(size=3), unit, 1.0)
+        return path, generator.uniform(-2, 2)
 
     path = CoupledPath(tuple(line() for _ in range(generator.integers(1, 5))), 1.5)
     points = box_hull((0.3, 0.0, 0.0), (0.5, 0.2, 0.1)).vertices
@@ -228,12 +210,9 @@ def tangle(seed):
         parent = names[generator.integers(i)]
         at, axis = generator.normal(size=(2, 3))
         line = joint(f"j{i}", kind, parent, name, 0.3 * at, axis, (-1.0, 1.5))
-        leader = Mimic(
-            f"j{generator.integers(1, max(i, 2))}",
-            generator.uniform(-1, 1),
-            generator.uniform(-0.1, 0.1),
-        )
-        lines.append(line if i == 1 else replace(line, mimic=leader))
+        leader = f"j{generator.integers(1, max(i, 2))}"
+        mimic = Mimic(leader, generator.uniform(-1, 1), generator.uniform(-0.1, 0.1))
+        lines.append(line if i == 1 else replace(line, mimic=mimic))
     return described(links, lines)
 
 
@@ -246,19 +225,15 @@ def test_no_pose_on_the_way_is_worse_than_what_is_found(seed):
     solids.place(lower)
     rest = Rest(lower, {"j1": 1.5}, tuple(solids.standings(CONFIG.clearance_m)), solids.diagonal())
     pairs = Pairs(solids, frozenset())
-    found = {
-        pair.parts: pair
-        for pair in JointCourse(tree.free[0], pairs, rest, CONFIG, lower).run().pairs
-    }
+    course = JointCourse(tree.free[0], pairs, rest, CONFIG, lower).run()
+    found = {pair.parts: pair for pair in course.pairs}
     known = {(pair.first, pair.second): max(0.0, pair.overlap.depth) for pair in rest.standings}
     for at in np.linspace(-1.0, 1.5, 100):
         solids.place({"j1": at})
         for pair in solids.standings(0.0):
-            parts = pairs.parts(pair.first, pair.second)
-            assert (
-                pair.overlap.depth - known.get((pair.first, pair.second), 0.0)
-                <= found[parts].bound + 1e-9
-            )
+            bound = found[pairs.parts(pair.first, pair.second)].bound
+            at_rest = known.get((pair.first, pair.second), 0.0)
+            assert pair.overlap.depth - at_rest <= bound + 1e-9
     for item in found.values():
         solids.place(item.contact.pose)
         one, other = (solids.items[index].collider for index in item.contact.hulls)

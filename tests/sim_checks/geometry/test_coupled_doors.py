@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from engines import skipped_if_missing
 from fault_corpus.things import Body, Move, Thing, at, box, write_mjcf, write_urdf
 from hypothesis import given
 from hypothesis import strategies as st
@@ -22,12 +23,8 @@ from asset_factory.sim_checks.simulators.joints import ranges
 from asset_factory.sim_checks.simulators.observe import observe
 
 CONFIG = MotionConfig()
-ENGINES = [
-    pytest.param(
-        name, marks=pytest.mark.skipif(not installed(name), reason=f"{name} is not installed")
-    )
-    for name in ("sapien", "mujoco", "pybullet")
-]
+ENGINES = skipped_if_missing("sapien", "mujoco", "pybullet")
+MIMICS = [Mimic("lead", -1.0), Mimic("lead", 1.0), Mimic("lead", -1.0, 0.5)]
 #: How far each door opens [rad].
 OPEN = 1.8
 
@@ -40,14 +37,10 @@ def doors(mimic, width, *, drawer):
     # At 0 the follower stands where it has yet to turn by the offset to be shut.
     right = shut @ rotation_about(np.array([0.0, 0.0, sign]), -mimic.offset).T + hinge
     lower, upper = sorted((mimic.offset, mimic.multiplier * OPEN + mimic.offset))
+    left = box((-0.5 + width / 2 + 0.005, -0.03, 0.0), (width, 0.02, 0.4))
     bodies = [
         Body("carcass", (box((0.0, 0.25, -0.25), (1.0, 0.5, 0.02)),), at(0.0, 0.0, 0.0), 10.0),
-        Body(
-            "left",
-            (box((-0.5 + width / 2 + 0.005, -0.03, 0.0), (width, 0.02, 0.4)),),
-            at(-0.5, -0.03, 0.0),
-            1.0,
-        ),
+        Body("left", (left,), at(-0.5, -0.03, 0.0), 1.0),
         Body("right", (right,), at(*hinge), 1.0),
     ]
     moves = [
@@ -55,11 +48,15 @@ def doors(mimic, width, *, drawer):
         Move("led", "revolute", "carcass", "right", (0.0, 0.0, sign), lower, upper),
     ]
     if drawer:
-        bodies.append(
-            Body("drawer", (box((0.0, 0.25, 0.0), (0.6, 0.45, 0.2)),), at(0.0, 0.0, 0.0), 2.0)
-        )
+        tray = box((0.0, 0.25, 0.0), (0.6, 0.45, 0.2))
+        bodies.append(Body("drawer", (tray,), at(0.0, 0.0, 0.0), 2.0))
         moves.append(Move("slide", "prismatic", "carcass", "drawer", (0.0, -1.0, 0.0), 0.0, 0.3))
     return Thing("doors", tuple(bodies), tuple(moves))
+
+
+def mimic_element(mimic):
+    words = f'joint="{mimic.leader}" multiplier="{mimic.multiplier}" offset="{mimic.offset}"'
+    return f"<mimic {words}/>"
 
 
 def coupled(folder, mimic, width=0.47, *, drawer=True, kind="urdf"):
@@ -68,13 +65,11 @@ def coupled(folder, mimic, width=0.47, *, drawer=True, kind="urdf"):
     text = path.read_text()
     if kind == "urdf":
         head, tail = text.split('<joint name="led"')
-        follows = f'<mimic joint="lead" multiplier="{mimic.multiplier}" offset="{mimic.offset}"/>'
-        text = f'{head}<joint name="led"{tail.replace("</joint>", f"{follows}</joint>", 1)}'
+        led = tail.replace("</joint>", f"{mimic_element(mimic)}</joint>", 1)
+        text = f'{head}<joint name="led"{led}'
     else:
-        follows = (
-            f'<joint joint1="led" joint2="lead" polycoef="{mimic.offset} '
-            f'{mimic.multiplier} 0 0 0"/>'
-        )
+        rate = f"{mimic.offset} {mimic.multiplier} 0 0 0"
+        follows = f'<joint joint1="led" joint2="lead" polycoef="{rate}"/>'
         text = text.replace("</mujoco>", f"<equality>{follows}</equality></mujoco>")
     path.write_text(text)
     return path
@@ -83,13 +78,10 @@ def coupled(folder, mimic, width=0.47, *, drawer=True, kind="urdf"):
 def judged(path, engine):
     description = read_description(path)
     seen = observe(engine, path, CONFIG, ())
-    findings = (
-        check(description, engine, seen, CheckConfig()).findings
-        for check in (check_loading, check_motion)
-    )
-    return [finding for found in findings for finding in found], {
-        motion.joint: motion for motion in seen.motions
-    }
+    findings = []
+    for check in (check_loading, check_motion):
+        findings += check(description, engine, seen, CheckConfig()).findings
+    return findings, {motion.joint: motion for motion in seen.motions}
 
 
 def hard(findings):
@@ -97,9 +89,7 @@ def hard(findings):
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize(
-    "mimic", [Mimic("lead", -1.0), Mimic("lead", 1.0), Mimic("lead", -1.0, 0.5)]
-)
+@pytest.mark.parametrize("mimic", MIMICS)
 @pytest.mark.parametrize("drawer", [False, True])
 def test_sound_coupled_doors_pass(tmp_path, engine, mimic, drawer):
     findings, motions = judged(coupled(tmp_path, mimic, drawer=drawer), engine)
@@ -114,9 +104,7 @@ def test_sound_coupled_doors_pass(tmp_path, engine, mimic, drawer):
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize(
-    "mimic", [Mimic("lead", -1.0), Mimic("lead", 1.0), Mimic("lead", -1.0, 0.5)]
-)
+@pytest.mark.parametrize("mimic", MIMICS)
 def test_coupled_doors_that_overlap_fail(tmp_path, engine, mimic):
     findings, _ = judged(coupled(tmp_path, mimic, width=0.52, drawer=False), engine)
     assert hard(findings) & {"jammed", "not_returned"}
@@ -127,11 +115,9 @@ def test_coupled_doors_that_overlap_fail(tmp_path, engine, mimic):
     "mimic", [Mimic("lead", -1.0), Mimic("lead", 1.0, 0.5), Mimic("lead", -0.9, 0.2)]
 )
 def test_doors_that_an_mjcf_equality_couples_pass_and_fail_alike(tmp_path, mimic):
-    (tmp_path / "wide").mkdir()
     assert judged(coupled(tmp_path, mimic, kind="mjcf"), "mujoco")[0] == []
-    assert "jammed" in hard(
-        judged(coupled(tmp_path / "wide", mimic, width=0.52, kind="mjcf"), "mujoco")[0]
-    )
+    findings, _ = judged(coupled(tmp_path, mimic, width=0.52, kind="mjcf"), "mujoco")
+    assert "jammed" in hard(findings)
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -158,14 +144,7 @@ def chain(parents, mimics):
     )
     lines = ""
     for name, parent, mimic in zip("abc", ("post", *parents), (None, *mimics), strict=True):
-        follows = (
-            ""
-            if mimic is None
-            else (
-                f'<mimic joint="{mimic.leader}" multiplier="{mimic.multiplier}" '
-                f'offset="{mimic.offset}"/>'
-            )
-        )
+        follows = "" if mimic is None else mimic_element(mimic)
         lines += (
             f'<joint name="j{name}" type="prismatic"><parent link="{parent}"/>'
             f'<child link="{name}"/><axis xyz="1 0 0"/>'
@@ -232,9 +211,7 @@ def test_whoever_moves_together_begins_and_ends_together_within_all_limits(rates
     world = Sliders([1.0, 1.0, 1.0])
     free = [replace(joint, lower=lower) for joint in world.joints]
     mimics = [None, *(Mimic(f"j{i}", rates[i], offsets[i]) for i in (0, 1))]
-    world.joints = tuple(
-        replace(joint, mimic=mimic) for joint, mimic in zip(free, mimics, strict=True)
-    )
+    world.joints = tuple(replace(joint, mimic=mimics[i]) for i, joint in enumerate(free))
     span = ranges(world)
     for end in (span.lower, span.upper):
         assert end[1] == pytest.approx(rates[0] * end[0] + offsets[0])

@@ -50,10 +50,9 @@ def test_depth_does_not_depend_on_where_the_world_is(seed):
     pose = np.eye(4)
     pose[:3, :3] = rotation_about(np.array([0.6, 0.0, 0.8]), generator.uniform(0.0, 6.0))
     pose[:3, 3] = generator.normal(size=3)
-    assert overlap(a.moved(pose), b.moved(pose)).depth == pytest.approx(
-        overlap(a, b).depth, abs=1e-12
-    )
-    assert overlap(b, a).depth == pytest.approx(overlap(a, b).depth, abs=1e-12)
+    depth = overlap(a, b).depth
+    assert overlap(a.moved(pose), b.moved(pose)).depth == pytest.approx(depth, abs=1e-12)
+    assert overlap(b, a).depth == pytest.approx(depth, abs=1e-12)
 
 
 def test_round_hulls_of_a_thousand_corners_are_still_exact():

@@ -33,9 +33,8 @@ def test_a_hull_of_many_corners_is_thinned_and_loses_little(stretch):
     hull = convex_hull(points)
     assert hull.corners == 20_000
     assert len(hull.vertices) <= MOST_CORNERS
-    assert hull.bounds == pytest.approx(
-        np.array([points.min(axis=0), points.max(axis=0)]), abs=1e-12
-    )
+    bounds = np.array([points.min(axis=0), points.max(axis=0)])
+    assert hull.bounds == pytest.approx(bounds, abs=1e-12)
     assert 0.996 < hull.volume / (4.0 / 3.0 * np.pi * np.prod(stretch)) < 1.0
     whole = ball(20_000)
     thinned = hull.vertices / stretch

@@ -39,13 +39,10 @@ def test_a_planar_arm_reaches_where_trigonometry_says(a, b, d):
     assert tip[:3, :3] == pytest.approx(rotation_about(np.array([0, 0, 1.0]), a + b), abs=1e-12)
 
 
-@given(
-    st.lists(
-        st.dictionaries(st.sampled_from(["shoulder", "elbow", "wrist"]), st.floats(-3, 3)),
-        min_size=2,
-        max_size=5,
-    )
-)
+VALUES = st.dictionaries(st.sampled_from(["shoulder", "elbow", "wrist"]), st.floats(-3, 3))
+
+
+@given(st.lists(VALUES, min_size=2, max_size=5))
 def test_posing_again_gives_the_digits_of_posing_for_the_first_time(samples):
     tree = arm()
     poser = Poser(tree)
@@ -69,14 +66,10 @@ def test_what_hangs_below_a_joint_moves_with_it():
 
 
 def test_a_path_moves_points_as_the_kinematics_do():
-    description = cabinet()
-    tree = build_tree(description)
-    hinge = next(item for item in tree.moving if item.name == "hinge")
-    rest = tree.link_poses({})["door"]
+    tree = build_tree(cabinet())
+    rest, turned = (tree.link_poses({"hinge": value})["door"] for value in (0.0, 0.7))
     path = Path(True, rest[:3, 3], np.array([0.0, 0.0, -1.0]), 1.57)
-    assert path.pose(0.7) @ rest == pytest.approx(
-        tree.link_poses({hinge.name: 0.7})["door"], abs=1e-12
-    )
+    assert path.pose(0.7) @ rest == pytest.approx(turned, abs=1e-12)
 
 
 @pytest.mark.parametrize(

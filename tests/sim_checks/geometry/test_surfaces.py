@@ -20,12 +20,11 @@ MARGIN = 0.005
 
 def boxes(*items):
     """Boxes of centre and size [m] as one surface."""
-    parts = [
-        (vertices + center, faces)
-        for center, size in items
-        for vertices, faces in [box(np.array(size))]
-    ]
-    return joined([VisibleSurface(vertices, faces.astype(np.int64)) for vertices, faces in parts])
+    surfaces = []
+    for center, size in items:
+        vertices, faces = box(np.array(size))
+        surfaces.append(VisibleSurface(vertices + center, faces.astype(np.int64)))
+    return joined(surfaces)
 
 
 def joined(surfaces):
@@ -41,9 +40,8 @@ def finer(surface, times=5):
         ab = (a + b) / 2
         bc = (b + c) / 2
         ca = (c + a) / 2
-        corners = np.concatenate(
-            [np.stack(t, 1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
-        )
+        quarters = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
+        corners = np.concatenate([np.stack(quarter, 1) for quarter in quarters])
         surface = VisibleSurface(corners.reshape(-1, 3), np.arange(len(corners) * 3).reshape(-1, 3))
     return surface
 
@@ -52,9 +50,8 @@ def opened(surface):
     """Without the face that looks along +x."""
     corners = surface.vertices[surface.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    return VisibleSurface(
-        surface.vertices, surface.faces[normals[:, 0] <= 0.9 * np.linalg.norm(normals, axis=1)]
-    )
+    kept = normals[:, 0] <= 0.9 * np.linalg.norm(normals, axis=1)
+    return VisibleSurface(surface.vertices, surface.faces[kept])
 
 
 def doubled(surface):
@@ -70,13 +67,9 @@ def met(a, b):
     region = contact_region(a, b)
     if len(region) == 0:
         low = np.maximum(a.bounds[0], b.bounds[0]) - MARGIN
-        high = np.minimum(a.bounds[1], b.bounds[1]) + MARGIN
-        return SurfaceMeeting(
-            np.minimum(low, high), np.maximum(low, high), found.depth, found.direction, MARGIN
-        )
-    return SurfaceMeeting(
-        region.min(axis=0), region.max(axis=0), found.depth, found.direction, MARGIN
-    )
+        region = np.array([low, np.minimum(a.bounds[1], b.bounds[1]) + MARGIN])
+    low, high = region.min(axis=0), region.max(axis=0)
+    return SurfaceMeeting(low, high, found.depth, found.direction, MARGIN)
 
 
 def stand(one, other, meeting, poses=POSES):
@@ -138,12 +131,10 @@ def test_a_drawer_too_wide_for_two_walls_lies_deep_in_neither():
     """One hull fills the hollow: the way out of it is long, but each wall is entered by 3 mm."""
     walls = boxes(((-0.2, 0.0, 0.0), (0.02, 0.4, 0.3)), ((0.2, 0.0, 0.0), (0.02, 0.4, 0.3)))
     drawer = boxes(((0.0, -0.05, 0.0), (0.386, 0.4, 0.2)))
-    hulls = (
-        box_hull((0.0, -0.05, 0.0), (0.386, 0.4, 0.2)),
-        box_hull((0.0, 0.0, 0.0), (0.42, 0.4, 0.3)),
-    )
-    assert met(*hulls).depth > 0.2
-    assert stand(drawer, walls, met(*hulls)) == pytest.approx(-0.003, rel=0.05)
+    fat = box_hull((0.0, 0.0, 0.0), (0.42, 0.4, 0.3))
+    meeting = met(box_hull((0.0, -0.05, 0.0), (0.386, 0.4, 0.2)), fat)
+    assert meeting.depth > 0.2
+    assert stand(drawer, walls, meeting) == pytest.approx(-0.003, rel=0.05)
 
 
 def test_what_lies_wholly_inside_a_solid_is_deep_and_inside_an_open_box_is_not():
@@ -198,16 +189,17 @@ def loose(chip):
     return strayed((here, there), meeting, POSES, 0.002)
 
 
-def test_a_chip_that_lies_in_the_other_part_has_strayed():
-    assert loose(((0.1, 0.042, 0.1), (0.03, 0.01, 0.03)))
-
-
-def test_a_peg_on_its_own_part_has_not():
-    assert not loose(((0.1, 0.04, 0.1), (0.03, 0.021, 0.03)))
-
-
-def test_a_large_piece_is_no_chip():
-    assert not loose(((0.0, 0.042, 0.0), (0.45, 0.01, 0.45)))
+@pytest.mark.parametrize(
+    ("center", "size", "has_strayed"),
+    [
+        ((0.1, 0.042, 0.1), (0.03, 0.01, 0.03), True),
+        ((0.1, 0.04, 0.1), (0.03, 0.021, 0.03), False),
+        ((0.0, 0.042, 0.0), (0.45, 0.01, 0.45), False),
+    ],
+    ids=["a chip in the other part", "a peg on its own part", "a large piece"],
+)
+def test_only_a_chip_that_lies_in_the_other_part_has_strayed(center, size, has_strayed):
+    assert loose((center, size)) == has_strayed
 
 
 def test_faces_that_touch_only_beside_where_the_hulls_meet_still_get_a_number(monkeypatch):
@@ -215,11 +207,6 @@ def test_faces_that_touch_only_beside_where_the_hulls_meet_still_get_a_number(mo
     monkeypatch.setattr(gaps, "_zones", lambda *_: iter(()))
     block = boxes(((0, 0, 0), (0.1, 0.1, 0.1)))
     plate = boxes(((0, 0, 0.053), (0.1, 0.1, 0.01)))
-    meeting = SurfaceMeeting(
-        np.array([-0.05, -0.05, 0.048]),
-        np.array([0.05, 0.05, 0.05]),
-        0.002,
-        np.array([0.0, 0.0, 1.0]),
-        MARGIN,
-    )
+    low, high, up = np.array([[-0.05, -0.05, 0.048], [0.05, 0.05, 0.05], [0.0, 0.0, 1.0]])
+    meeting = SurfaceMeeting(low, high, 0.002, up, MARGIN)
     assert visible_gap(block, plate, POSES, meeting) == pytest.approx(-0.002, rel=0.1)

@@ -15,12 +15,16 @@ from asset_factory.sim_checks.geometry.path import Path
 from asset_factory.sim_checks.geometry.sweep import Candidate, Sweep, Tolerance
 
 Z = np.array([0.0, 0.0, 1.0])
+SMALL = box_hull((0.0, 0.0, 0.0), (0.1, 0.1, 0.1))
 SLIDE = Path(turning=False, origin=np.zeros(3), axis=np.array([1.0, 0.0, 0.0]), length=1.0)
 
 
-def worst(path, moving, standing, steps=8, **tolerance):
-    sweep = Sweep(path, [Collider(moving)], [Collider(standing)], steps)
-    return sweep.worst([Candidate(0, 0, 0.0)], Tolerance(**tolerance))
+def swept(path, moving, standing, steps=8):
+    return Sweep(path, [Collider(moving)], [Collider(standing)], steps)
+
+
+def worst(path, moving, standing, **tolerance):
+    return swept(path, moving, standing).worst([Candidate(0, 0, 0.0)], Tolerance(**tolerance))
 
 
 def test_no_search_ends_before_it_knows_on_which_side_of_the_limit_it_falls():
@@ -44,38 +48,26 @@ def test_no_search_ends_before_it_knows_on_which_side_of_the_limit_it_falls():
 
 
 def test_a_parallel_slide_keeps_its_clearance_and_needs_few_looks():
-    sweep = Sweep(
-        SLIDE,
-        [Collider(box_hull((0.0, 0.0, 0.0), (0.1, 0.1, 0.1)))],
-        [Collider(box_hull((0.5, 0.102, 0.0), (1.0, 0.1, 1.0)))],
-        64,
-    )
+    sweep = swept(SLIDE, SMALL, box_hull((0.5, 0.102, 0.0), (1.0, 0.1, 1.0)), 64)
     found = sweep.worst([Candidate(0, 0, 0.0)], Tolerance())
     assert found.excess == pytest.approx(-0.002, abs=2e-5)
     assert sweep.looks <= 2
 
 
 def test_what_stays_wider_apart_than_the_floor_is_not_measured():
-    assert (
-        worst(
-            SLIDE, box_hull((0, 0, 0), (0.1, 0.1, 0.1)), box_hull((0.5, 0.2, 0.0), (1.0, 0.1, 0.1))
-        )
-        is None
-    )
+    assert worst(SLIDE, SMALL, box_hull((0.5, 0.2, 0.0), (1.0, 0.1, 0.1))) is None
 
 
 def test_an_overlap_that_does_not_grow_is_no_excess():
     rail = box_hull((0.5, 0.095, 0.0), (2.0, 0.1, 1.0))
-    sweep = Sweep(SLIDE, [Collider(box_hull((0, 0, 0), (0.1, 0.1, 0.1)))], [Collider(rail)], 64)
-    found = sweep.worst([Candidate(0, 0, 0.005)], Tolerance())
+    found = swept(SLIDE, SMALL, rail, 64).worst([Candidate(0, 0, 0.005)], Tolerance())
     assert found.excess == pytest.approx(0.0, abs=1e-12)
     assert found.depth == pytest.approx(0.005)
 
 
 def test_a_moving_hull_that_disappears_inside_another_is_found():
-    found = worst(
-        SLIDE, box_hull((0, 0, 0), (0.01, 0.01, 0.01)), box_hull((0.5, 0, 0), (0.4, 0.4, 0.4))
-    )
+    tiny = box_hull((0, 0, 0), (0.01, 0.01, 0.01))
+    found = worst(SLIDE, tiny, box_hull((0.5, 0, 0), (0.4, 0.4, 0.4)))
     assert found.depth == pytest.approx(0.205, rel=0.02)
 
 
@@ -85,9 +77,8 @@ def test_no_sampled_pose_is_worse_than_the_bound_and_the_worst_is_real(seed, tur
     generator = np.random.default_rng(seed)
     axis = generator.normal(size=3)
     axis /= np.linalg.norm(axis)
-    path = Path(
-        turning, generator.normal(size=3), axis, generator.uniform(0.5, 6.0 if turning else 3.0)
-    )
+    longest = 6.0 if turning else 3.0
+    path = Path(turning, generator.normal(size=3), axis, generator.uniform(0.5, longest))
     moving = convex_hull(generator.normal(size=(10, 3)) * 0.3)
     standing = convex_hull(generator.normal(size=(10, 3)) * 0.3 + generator.normal(size=3))
     found = worst(path, moving, standing, floor=0.1)

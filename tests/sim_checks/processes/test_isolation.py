@@ -2,7 +2,6 @@
 
 import ctypes
 import os
-import signal
 import subprocess
 import sys
 import time
@@ -111,15 +110,15 @@ def alive(pid):
     return state != "Z"
 
 
-def wait_until_gone(pid, seconds=5.0):
-    deadline = time.monotonic() + seconds
+def wait_until_gone(pid):
+    deadline = time.monotonic() + 5.0
     while alive(pid) and time.monotonic() < deadline:
         time.sleep(0.02)
     return not alive(pid)
 
 
-def pid_in(note, seconds=60.0):
-    deadline = time.monotonic() + seconds
+def pid_in(note):
+    deadline = time.monotonic() + 60.0
     while not (note.exists() and note.read_text().isdigit()) and time.monotonic() < deadline:
         time.sleep(0.02)
     return int(note.read_text())
@@ -161,18 +160,22 @@ def test_a_hang_takes_down_what_it_has_started(tmp_path):
 
 def test_nothing_survives_the_job(tmp_path):
     note = tmp_path / "pid"
-    script = tmp_path / "job.py"
+    work = f"t.run_isolated(t.note_pid_and_spin, {str(note)!r}, limits=t.GENEROUS)"
+    job = started_job(tmp_path, "test_isolation", work)
+    pid = pid_in(note)
+    job.kill()
+    job.wait()
+    assert wait_until_gone(pid)
+
+
+def started_job(folder, module, work):
+    """A process that does a line of work with a test's module, called ``t``."""
+    script = folder / "job.py"
     script.write_text(
         "import sys\n"
         f"sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
-        "import test_isolation as t\n"
+        f"import {module} as t\n"
         "if __name__ == '__main__':\n"
-        f"    t.run_isolated(t.note_pid_and_spin, {str(note)!r}, limits=t.GENEROUS)\n"
+        f"    {work}\n"
     )
-    job = subprocess.Popen([sys.executable, str(script)])
-    deadline = time.monotonic() + 20.0
-    while not (note.exists() and note.read_text()) and time.monotonic() < deadline:
-        time.sleep(0.05)
-    os.kill(job.pid, signal.SIGKILL)
-    job.wait()
-    assert wait_until_gone(int(note.read_text()))
+    return subprocess.Popen([sys.executable, str(script)])

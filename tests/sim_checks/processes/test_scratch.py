@@ -29,13 +29,8 @@ def asker(tmp_path):
     script = tmp_path / "asks.py"
     script.write_text(SCRIPT)
     environment = {**os.environ, "TMPDIR": str(tmp_path / "tmp")}
-    with subprocess.Popen(
-        [sys.executable, script],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-        env=environment,
-    ) as process:
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    with subprocess.Popen([sys.executable, script], env=environment, **pipes) as process:
         assert process.stdout.readline() == "asked\n"
         yield process
         process.kill()
@@ -68,14 +63,9 @@ def test_sockets_have_a_short_way_where_temporary_files_have_a_long_one(tmp_path
     far.mkdir()
     script = tmp_path / "asks.py"
     script.write_text(SCRIPT.replace("'asked'", "get_temp_dir()"))
-    asked = subprocess.run(
-        [sys.executable, script],
-        input="\n",
-        env={**os.environ, "TMPDIR": str(far)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    environment = {**os.environ, "TMPDIR": str(far)}
+    told = {"input": "\n", "capture_output": True, "text": True}
+    asked = subprocess.run([sys.executable, script], env=environment, check=False, **told)
     assert asked.returncode == 0, asked.stderr
     sockets = Path(asked.stdout.strip())
     assert sockets.parent == SHORT

@@ -41,15 +41,9 @@ def threads_of_children(folder, **given):
     script = folder / "asks.py"
     script.write_text(SCRIPT)
     environment = {name: value for name, value in os.environ.items() if name not in VARIABLES}
-    done = subprocess.run(
-        [sys.executable, script],
-        env={**environment, **given},
-        capture_output=True,
-        text=True,
-        check=True,
-        timeout=120,
-    )
-    return [int(count) for count in done.stdout.split()]
+    command = [sys.executable, script]
+    told = subprocess.check_output(command, env={**environment, **given}, text=True, timeout=120)
+    return [int(count) for count in told.split()]
 
 
 # On one processor OpenBLAS has one thread whatever it is told.

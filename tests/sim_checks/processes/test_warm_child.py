@@ -87,10 +87,10 @@ def ask_and_die(path):
     os.kill(os.getpid(), signal.SIGKILL)
 
 
-def test_one_process_answers_many_calls():
-    with WarmChild() as child:
-        answers = [child.call(remember, i, limits=GENEROUS).unwrap() for i in range(4)]
-    assert answers == [1, 2, 3, 4]
+@pytest.mark.parametrize(("most", "seen"), [({}, [1, 2, 3, 4, 5]), ({"calls": 2}, [1, 2, 1, 2, 1])])
+def test_one_process_answers_many_calls_and_is_replaced_after_so_many(most, seen):
+    with WarmChild(**most) as child:
+        assert [child.call(remember, i, limits=GENEROUS).unwrap() for i in range(5)] == seen
 
 
 def test_after_a_crash_a_new_process_answers():
@@ -103,11 +103,8 @@ def test_after_a_crash_a_new_process_answers():
 
 def test_every_failure_is_told_in_the_words_of_a_cold_child():
     tight = Limits(wall_s=5.0, cpu_s=1.0, memory_bytes=1_000_000_000)
-    for function, limits in (
-        (cold.crash, GENEROUS),
-        (cold.spin, Limits(0.2)),
-        (cold.leave, GENEROUS),
-    ):
+    failures = {cold.crash: GENEROUS, cold.spin: Limits(0.2), cold.leave: GENEROUS}
+    for function, limits in failures.items():
         one = run_isolated(function, limits=limits)
         with WarmChild() as child:
             child.call(cold.double, 1, limits=GENEROUS)
@@ -129,9 +126,8 @@ def test_processor_time_is_counted_by_call():
 def test_a_failure_in_a_used_child_is_not_believed(tmp_path):
     with WarmChild() as child:
         for _ in range(3):
-            assert (
-                child.call(first_or_nothing, str(tmp_path), limits=GENEROUS).value == tmp_path.name
-            )
+            outcome = child.call(first_or_nothing, str(tmp_path), limits=GENEROUS)
+            assert outcome.value == tmp_path.name
 
 
 def die_once(path):
@@ -171,12 +167,6 @@ def test_who_is_killed_again_and_again_is_told_from_one_that_crashes():
     assert (killed.failure, killed.killed, killed.tries) == ("crashed", True, 2)
     assert "killed by SIGKILL" in killed.detail
     assert (crashed.failure, crashed.killed, crashed.tries) == ("crashed", False, 1)
-
-
-def test_a_child_is_replaced_after_so_many_calls():
-    with WarmChild(calls=2) as child:
-        answers = [child.call(remember, i, limits=GENEROUS).unwrap() for i in range(5)]
-    assert answers == [1, 2, 1, 2, 1]
 
 
 def test_a_child_that_has_grown_is_replaced():
@@ -237,21 +227,11 @@ def test_a_warm_child_dies_with_its_parent(tmp_path):
 
 def test_an_idle_child_does_not_survive_a_killed_job(tmp_path):
     note = tmp_path / "pid"
-    script = tmp_path / "job.py"
-    script.write_text(
-        "import sys\n"
-        f"sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
-        "import test_warm_child as t\n"
-        "if __name__ == '__main__':\n"
-        f"    t.keep_asking({str(note)!r})\n"
-    )
-    job = subprocess.Popen([sys.executable, str(script)])
-    deadline = time.monotonic() + 20.0
-    while not (note.exists() and note.read_text()) and time.monotonic() < deadline:
-        time.sleep(0.05)
+    job = cold.started_job(tmp_path, "test_warm_child", f"t.keep_asking({str(note)!r})")
+    pid = cold.pid_in(note)
     job.kill()
     job.wait()
-    assert cold.wait_until_gone(int(note.read_text()))
+    assert cold.wait_until_gone(pid)
 
 
 def test_a_value_error_is_an_answer_and_costs_no_child():
@@ -268,7 +248,5 @@ def test_a_script_that_starts_children_while_it_is_imported_is_told_so(tmp_path)
         "from asset_factory.sim_checks.processes.isolation import Limits, run_isolated\n"
         "print(run_isolated(os.getpid, limits=Limits(wall_s=60.0)).detail)\n"
     )
-    run = subprocess.run(
-        [sys.executable, script], capture_output=True, text=True, timeout=120, check=True
-    )
-    assert "if __name__ == '__main__'" in run.stdout
+    told = subprocess.check_output([sys.executable, script], text=True, timeout=120)
+    assert "if __name__ == '__main__'" in told

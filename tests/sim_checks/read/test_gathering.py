@@ -94,13 +94,9 @@ def test_a_package_is_looked_for_a_few_levels_up_and_no_further(
     tmp_path: Path, checked: Checked
 ) -> None:
     deep = "/".join("abcdefgh"[:MOST_LEVELS])
-    path = write_package(
-        tmp_path / "near", "cabinet", "package://cabinet/meshes/", f"{deep}/c.urdf"
-    )
-    assert is_sound(checked(path))
-    path = write_package(
-        tmp_path / "far", "cabinet", "package://cabinet/meshes/", f"{deep}/z/c.urdf"
-    )
+    named = ("cabinet", "package://cabinet/meshes/")
+    assert is_sound(checked(write_package(tmp_path / "near", *named, f"{deep}/c.urdf")))
+    path = write_package(tmp_path / "far", *named, f"{deep}/z/c.urdf")
     report = checked(path)
     assert codes(report) == ["missing_file"]
     assert "--root" in report.errors[0].message
@@ -148,13 +144,8 @@ def test_materials_and_pictures_come_along(tmp_path: Path, checked: Checked) -> 
     mesh = tmp_path / "meshes" / "drawer.obj"
     mesh.write_text("mtllib ../textures/wood.mtl\n" + mesh.read_text())
     gathered = gather(path, tmp_path / "copy", OWN_PACKAGE)
-    assert {file.name for file in gathered.files} == {
-        "cabinet.urdf",
-        "shell.obj",
-        "drawer.obj",
-        "wood.mtl",
-        "wood.png",
-    }
+    names = {"cabinet.urdf", "shell.obj", "drawer.obj", "wood.mtl", "wood.png"}
+    assert {file.name for file in gathered.files} == names
     assert len(list((tmp_path / "copy").rglob("textures/wood.png"))) == 1
     assert is_sound(checked(path))
 

@@ -75,14 +75,13 @@ def be_killed(folder):
 
 def test_whatever_a_reader_raises_or_dies_of_is_a_sentence(tmp_path):
     with WarmChild() as child:
-        with pytest.raises(
-            DescriptionError, match=r"unreadable: thing\.usd: .*something of /thing"
+        for function, given, said in (
+            (raise_oddly, tmp_path, r"unreadable: thing\.usd: .*something of /thing"),
+            (take_memory, tmp_path, r"too_large: thing\.usd"),
+            (die, tmp_path / "times", r"unreadable: thing\.usd: .*SIGSEGV"),
         ):
-            ask_of(child, "thing.usd", raise_oddly, tmp_path, limits=SHORT)
-        with pytest.raises(DescriptionError, match=r"too_large: thing\.usd"):
-            ask_of(child, "thing.usd", take_memory, tmp_path, limits=SHORT)
-        with pytest.raises(DescriptionError, match=r"unreadable: thing\.usd: .*SIGSEGV"):
-            ask_of(child, "thing.usd", die, tmp_path / "times", limits=SHORT)
+            with pytest.raises(DescriptionError, match=said):
+                ask_of(child, "thing.usd", function, given, limits=SHORT)
         assert (tmp_path / "times").read_text().count("x") >= 2
         with pytest.raises(ChildProcessError):
             ask_of(child, "thing.usd", be_killed, tmp_path, limits=SHORT)

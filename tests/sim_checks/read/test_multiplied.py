@@ -37,9 +37,8 @@ def attaching(folder, depth, times):
     inner = f"<worldbody><body name='b'>{GEOM}</body></worldbody>"
     (folder / "m0.xml").write_text(f"<mujoco>{inner}</mujoco>")
     for level in range(1, depth + 1):
-        attach = "".join(
-            f"<frame><attach model='m' body='b' prefix='{k}_'/></frame>" for k in range(times)
-        )
+        attached = (f"<attach model='m' body='b' prefix='{k}_'/>" for k in range(times))
+        attach = "".join(f"<frame>{each}</frame>" for each in attached)
         text = f"<asset><model name='m' file='m{level - 1}.xml'/></asset>"
         text += f"<worldbody><body name='b'>{attach}</body></worldbody>"
         (folder / f"m{level}.xml").write_text(f"<mujoco>{text}</mujoco>")

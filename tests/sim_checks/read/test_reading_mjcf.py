@@ -22,6 +22,9 @@ MODEL = """<mujoco><compiler angle="radian"/><worldbody><geom type="plane" size=
   <contact><exclude body1="base" body2="door"/></contact></mujoco>"""
 
 
+WORLD = "<worldbody>{}</worldbody>"
+
+
 @pytest.fixture
 def model_path(tmp_path):
     path = tmp_path / "model.xml"
@@ -31,12 +34,8 @@ def model_path(tmp_path):
 
 def test_bodies_joints_and_geoms_arrive(model_path):
     description = read_description(model_path)
-    assert [link.name for link in description.links if not link.virtual] == [
-        "world",
-        "base",
-        "door",
-        "bolt",
-    ]
+    names = [link.name for link in description.links if not link.virtual]
+    assert names == ["world", "base", "door", "bolt"]
     kinds = {joint.name: joint.kind for joint in description.joints if joint.kind != "fixed"}
     assert kinds == {"hinge": "revolute", "slide": "prismatic", "twist": "continuous"}
     hinge = next(joint for joint in description.joints if joint.name == "hinge")
@@ -87,32 +86,17 @@ def test_bodies_whose_contact_bits_never_meet_are_excluded(tmp_path):
 @pytest.mark.parametrize(
     ("text", "code"),
     [
-        (
-            "<mujoco><worldbody><body><geom type='box' size='0 0 0'/></body></worldbody></mujoco>",
-            "unreadable",
-        ),
-        (
-            "<mujoco><worldbody><body pos='nan 0 0'><geom size='1'/></body></worldbody></mujoco>",
-            "not_finite",
-        ),
-        (
-            "<mujoco><worldbody><body><geom size='1' pos='inf 0 0'/></body></worldbody></mujoco>",
-            "not_finite",
-        ),
-        (
-            (
-                "<mujoco><worldbody><body><geom type='capsule' size='1 1e9'/></body>"
-                "</worldbody></mujoco>"
-            ),
-            "not_finite",
-        ),
-        ("<mujoco><asset><mesh file='../../etc/x.stl'/></asset></mujoco>", "outside_folder"),
-        ("<mujoco><include file='/etc/hosts'/></mujoco>", "outside_folder"),
+        (WORLD.format("<body><geom type='box' size='0 0 0'/></body>"), "unreadable"),
+        (WORLD.format("<body pos='nan 0 0'><geom size='1'/></body>"), "not_finite"),
+        (WORLD.format("<body><geom size='1' pos='inf 0 0'/></body>"), "not_finite"),
+        (WORLD.format("<body><geom type='capsule' size='1 1e9'/></body>"), "not_finite"),
+        ("<asset><mesh file='../../etc/x.stl'/></asset>", "outside_folder"),
+        ("<include file='/etc/hosts'/>", "outside_folder"),
     ],
 )
 def test_unreadable_models_say_why(tmp_path, text, code):
     path = tmp_path / "model.xml"
-    path.write_text(text)
+    path.write_text(f"<mujoco>{text}</mujoco>")
     with pytest.raises(DescriptionError) as caught:
         read_description(path)
     assert caught.value.code == code

@@ -15,9 +15,13 @@ from asset_factory.sim_checks.read.read import read_here
 pytest.importorskip("mujoco")
 BODY = "<worldbody><body><geom size='0.1'/></body></worldbody>"
 MODEL = f"<mujoco>{{}}{BODY}</mujoco>"
-BOX_URDF = (
-    '<robot name="r"><link name="base"><visual><geometry>{}</geometry>{}</visual></link>{}</robot>'
-)
+SEEN = "<visual><geometry>{}</geometry>{}</visual>"
+BOX_URDF = f'<robot name="r"><link name="base">{SEEN}</link>{{}}</robot>'
+PLAIN = BOX_URDF.format('<mesh filename="box.obj"/>', "", "")
+MESH = "<mesh name='m' file='box.obj'/>"
+TEXTURE = "<texture name='t' type='2d' file='{}'/>"
+PAINT = '<material name="m"><texture filename="{}pixel.png"/></material>'
+UNIT = '<box size="1 1 1"/>'
 
 
 @pytest.fixture
@@ -53,13 +57,10 @@ def code_of(folder, text, name="asset.xml"):
         "<asset><model name='m' file='{}part.xml'/></asset>",
         "<deformable><skin name='s' file='{}skin.skn'/></deformable>",
         "<include file='{}more.xml'/>",
-        "<compiler meshdir='{}'/><asset><mesh name='m' file='box.obj'/></asset>",
-        "<compiler assetdir='{}'/><asset><texture name='t' type='2d' file='pixel.png'/></asset>",
-        "<compiler texturedir='{}'/><asset><texture name='t' type='2d' file='pixel.png'/></asset>",
-        (
-            "<compiler meshdir='{}' strippath='true'/><asset>"
-            "<mesh name='m' file='sub/box.obj'/></asset>"
-        ),
+        f"<compiler meshdir='{{}}'/><asset>{MESH}</asset>",
+        f"<compiler assetdir='{{}}'/><asset>{TEXTURE.format('pixel.png')}</asset>",
+        f"<compiler texturedir='{{}}'/><asset>{TEXTURE.format('pixel.png')}</asset>",
+        f"<compiler meshdir='{{}}' strippath='true'/><asset>{MESH.replace('box', 'a/box')}</asset>",
     ],
 )
 def test_every_element_that_names_a_file_is_looked_at(folder, element):
@@ -75,20 +76,11 @@ def test_every_element_that_names_a_file_is_looked_at(folder, element):
 @pytest.mark.parametrize(
     "element",
     [
-        (
-            "<asset><mesh name='m' file='box.obj'/>"
-            "<texture name='t' type='2d' file='pixel.png'/></asset>"
-        ),
+        f"<asset>{MESH}{TEXTURE.format('pixel.png')}</asset>",
         "<asset><model name='m' file='meshes/part.xml'/></asset><include file='meshes/more.xml'/>",
-        "<compiler meshdir='meshes'/><asset><mesh name='m' file='box.obj'/></asset>",
-        (
-            "<compiler texturedir='meshes'/><asset>"
-            "<texture name='t' type='2d' file='../pixel.png'/></asset>"
-        ),
-        (
-            "<compiler assetdir='nowhere' meshdir='./meshes/'/><asset>"
-            "<mesh name='m' file='box.obj'/></asset>"
-        ),
+        f"<compiler meshdir='meshes'/><asset>{MESH}</asset>",
+        f"<compiler texturedir='meshes'/><asset>{TEXTURE.format('../pixel.png')}</asset>",
+        f"<compiler assetdir='nowhere' meshdir='./meshes/'/><asset>{MESH}</asset>",
         "<compiler strippath='true'/><asset><mesh name='m' file='C:\\Users\\me\\box.obj'/></asset>",
     ],
 )
@@ -99,11 +91,8 @@ def test_what_lies_in_the_folder_is_read(folder, element):
 def test_a_link_that_leads_out_is_followed_before_it_is_judged(folder):
     (folder / "linked.obj").symlink_to(folder.parent / "box.obj")
     (folder / "linked.xml").symlink_to(folder.parent / "more.xml")
-    assert (
-        code_of(folder, MODEL.format("<asset><mesh file='linked.obj'/></asset>"))
-        == "outside_folder"
-    )
-    assert code_of(folder, MODEL.format("<include file='linked.xml'/>")) == "outside_folder"
+    for element in ("<asset><mesh file='linked.obj'/></asset>", "<include file='linked.xml'/>"):
+        assert code_of(folder, MODEL.format(element)) == "outside_folder"
     (folder / "around.obj").symlink_to("around.obj")
     assert code_of(folder, MODEL.format("<asset><mesh file='around.obj'/></asset>")) is not None
 
@@ -114,9 +103,8 @@ def test_documents_nested_without_end_are_refused(folder):
     (folder / "b.xml").write_text("<mujoco><asset><model name='a' file='a.xml'/></asset></mujoco>")
     assert code_of(folder, MODEL.format("<include file='a.xml'/>")) == "nested_too_deep"
     for index in range(20):
-        (folder / f"n{index}.xml").write_text(
-            f"<mujoco><include file='n{index + 1}.xml'/></mujoco>"
-        )
+        include = f"<include file='n{index + 1}.xml'/>"
+        (folder / f"n{index}.xml").write_text(f"<mujoco>{include}</mujoco>")
     (folder / "n20.xml").write_text("<mujoco><asset/></mujoco>")
     assert code_of(folder, MODEL.format("<include file='n0.xml'/>")) == "nested_too_deep"
     assert code_of(folder, MODEL.format("<include file='n10.xml'/>")) is None
@@ -126,21 +114,9 @@ def test_documents_nested_without_end_are_refused(folder):
     "parts",
     [
         ('<mesh filename="{}box.obj"/>', "", ""),
-        (
-            '<box size="1 1 1"/>',
-            '<material name="m"><texture filename="{}pixel.png"/></material>',
-            "",
-        ),
-        (
-            '<box size="1 1 1"/>',
-            "",
-            '<material name="m"><texture filename="{}pixel.png"/></material>',
-        ),
-        (
-            '<box size="1 1 1"/>',
-            "",
-            '<gazebo><sensor><mesh filename="{}box.obj"/></sensor></gazebo>',
-        ),
+        (UNIT, PAINT, ""),
+        (UNIT, "", PAINT),
+        (UNIT, "", '<gazebo><sensor><mesh filename="{}box.obj"/></sensor></gazebo>'),
     ],
 )
 def test_every_file_that_a_urdf_names_is_looked_at(folder, parts):
@@ -153,33 +129,24 @@ def test_every_file_that_a_urdf_names_is_looked_at(folder, parts):
 
 def test_a_plugin_s_library_is_no_file_of_the_asset(folder):
     plugin = '<gazebo><plugin name="p" filename="/opt/lib/libx.so"/></gazebo>'
-    assert (
-        code_of(folder, BOX_URDF.format('<mesh filename="box.obj"/>', "", plugin), "asset.urdf")
-        is None
-    )
+    text = BOX_URDF.format('<mesh filename="box.obj"/>', "", plugin)
+    assert code_of(folder, text, "asset.urdf") is None
 
 
 def test_a_planning_file_beside_it_that_leads_out_is_refused(folder):
     (folder.parent / "asset.srdf").write_text("<robot/>")
     (folder / "asset.srdf").symlink_to(folder.parent / "asset.srdf")
-    assert (
-        code_of(folder, BOX_URDF.format('<mesh filename="box.obj"/>', "", ""), "asset.urdf")
-        == "outside_folder"
-    )
+    assert code_of(folder, PLAIN, "asset.urdf") == "outside_folder"
 
 
 def test_what_a_mesh_file_names_is_looked_at_too(folder):
-    text = BOX_URDF.format('<mesh filename="box.obj"/>', "", "")
-    plain = (folder / "box.obj").read_text()
+    mesh = (folder / "box.obj").read_text()
     for line, code in (("mtllib ../all.mtl", "outside_folder"), ("mtllib all.mtl", None)):
-        (folder / "box.obj").write_text(f"{line}\n{plain}")
-        assert code_of(folder, text, "asset.urdf") == code
-    for line, code in (
-        ("map_Kd -clamp on ../pixel.png", "outside_folder"),
-        ("map_Kd pixel.png", None),
-    ):
-        (folder / "all.mtl").write_text(f"newmtl a\n{line}\n")
-        assert code_of(folder, text, "asset.urdf") == code
+        (folder / "box.obj").write_text(f"{line}\n{mesh}")
+        assert code_of(folder, PLAIN, "asset.urdf") == code
+    for picture, code in (("-clamp on ../pixel.png", "outside_folder"), ("pixel.png", None)):
+        (folder / "all.mtl").write_text(f"newmtl a\nmap_Kd {picture}\n")
+        assert code_of(folder, PLAIN, "asset.urdf") == code
 
 
 @pytest.mark.parametrize("element", ["init_from", "c:init_from", "ref"])
@@ -211,9 +178,7 @@ def test_a_reader_of_meshes_opens_no_file_beside_it(folder, monkeypatch):
             opened.append(os.fsdecode(words[0]) if isinstance(words[0], str | bytes) else "")
 
     sys.addaudithook(hear)
-    assert (
-        code_of(folder, BOX_URDF.format('<mesh filename="box.obj"/>', "", ""), "asset.urdf") is None
-    )
+    assert code_of(folder, PLAIN, "asset.urdf") is None
     listening = False
     assert any(name.endswith("box.obj") for name in opened)
     assert not any(name.endswith("pixel.png") for name in opened)

@@ -10,10 +10,11 @@ from asset_factory.sim_checks.read.read import read_description
 
 LINK = '<link name="base"><collision><geometry>{}</geometry></collision></link>'
 MESH = LINK.format('<mesh filename="{}"/>')
+SCALED = LINK.format('<mesh filename="part.obj" scale="{}"/>')
 
 
-def urdf(folder, content, name="asset.urdf"):
-    path = folder / name
+def urdf(folder, content):
+    path = folder / "asset.urdf"
     path.write_text(f'<?xml version="1.0"?><robot name="r">{content}</robot>')
     return path
 
@@ -48,13 +49,8 @@ def test_everything_written_is_read(tmp_path):
     assert (shape.kind, shape.file) == ("mesh", "part.obj")
     assert shape.vertices.max(axis=0) == pytest.approx([0.05, 0.1, 1.15])
     (hinge,) = description.joints
-    assert (hinge.kind, hinge.lower, hinge.upper, hinge.damping, hinge.friction) == (
-        "revolute",
-        -0.5,
-        1.0,
-        0.1,
-        0.2,
-    )
+    assert (hinge.kind, hinge.lower, hinge.upper) == ("revolute", -0.5, 1.0)
+    assert (hinge.damping, hinge.friction) == (0.1, 0.2)
     assert hinge.origin[:3, 3] == pytest.approx([0, 1, 0])
 
 
@@ -70,32 +66,23 @@ def test_every_mesh_format_gives_the_same_triangles(tmp_path, suffix):
 def test_package_paths_are_found_by_their_tail(tmp_path):
     (tmp_path / "meshes").mkdir()
     trimesh.creation.box().export(tmp_path / "meshes" / "part.stl")
-    description = read_description(
-        urdf(tmp_path, MESH.format("package://some_robot/meshes/part.stl"))
-    )
+    text = MESH.format("package://some_robot/meshes/part.stl")
+    description = read_description(urdf(tmp_path, text))
     assert description.links[0].collisions[0].file == "meshes/part.stl"
 
 
 @pytest.mark.parametrize("scale", ["1e200 1 1", "nan 1 1", "1e7 1 1"])
 def test_a_mesh_scaled_beyond_all_measure_is_refused(tmp_path, scale):
-    trimesh.creation.box().export(tmp_path / "part.stl")
-    assert (
-        code_of(urdf(tmp_path, LINK.format(f'<mesh filename="part.stl" scale="{scale}"/>')))
-        == "not_finite"
-    )
+    trimesh.creation.box().export(tmp_path / "part.obj")
+    assert code_of(urdf(tmp_path, SCALED.format(scale))) == "not_finite"
 
 
 def test_a_mesh_far_beyond_all_measure_is_refused(tmp_path):
     mesh = trimesh.creation.box()
     mesh.apply_scale(1e5).export(tmp_path / "part.obj")
-    assert (
-        code_of(urdf(tmp_path, LINK.format('<mesh filename="part.obj" scale="100 1 1"/>')))
-        == "not_finite"
-    )
-    fair = urdf(tmp_path, LINK.format('<mesh filename="part.obj" scale="1e-5 1e-5 1e-5"/>'))
-    assert np.ptp(read_description(fair).links[0].collisions[0].vertices, axis=0) == pytest.approx(
-        [1, 1, 1]
-    )
+    assert code_of(urdf(tmp_path, SCALED.format("100 1 1"))) == "not_finite"
+    fair = read_description(urdf(tmp_path, SCALED.format("1e-5 1e-5 1e-5")))
+    assert np.ptp(fair.links[0].collisions[0].vertices, axis=0) == pytest.approx([1, 1, 1])
 
 
 @pytest.mark.parametrize(
@@ -105,9 +92,8 @@ def test_a_joint_that_is_nowhere_is_refused(tmp_path, where):
     joint = '<joint name="j" type="fixed"><parent link="a"/><child link="b"/>{}</joint>'
     links = '<link name="a"/><link name="b"/>'
     assert code_of(urdf(tmp_path, links + joint.format(where))) == "not_finite"
-    assert read_description(
-        urdf(tmp_path, links + joint.format('<origin xyz="1 2 3" rpy="1 2 3"/>'))
-    ).joints
+    somewhere = joint.format('<origin xyz="1 2 3" rpy="1 2 3"/>')
+    assert read_description(urdf(tmp_path, links + somewhere)).joints
 
 
 def test_what_may_drive_a_joint_is_kept(tmp_path):
@@ -140,21 +126,16 @@ def test_a_file_outside_the_folder_is_never_opened(tmp_path):
     inner.mkdir()
     trimesh.creation.box().export(tmp_path / "secret.stl")
     (inner / "link.stl").symlink_to(tmp_path / "secret.stl")
-    for reference in (
-        "../secret.stl",
-        str(tmp_path / "secret.stl"),
-        f"file://{tmp_path}/secret.stl",
-        "link.stl",
-    ):
+    there = f"{tmp_path}/secret.stl"
+    remote = "https://example.org/a.stl"
+    for reference in ("../secret.stl", there, f"file://{there}", "link.stl", remote):
         assert code_of(urdf(inner, MESH.format(reference))) == "outside_folder"
-    assert code_of(urdf(inner, MESH.format("https://example.org/a.stl"))) == "outside_folder"
 
 
 def test_entities_are_refused(tmp_path):
     path = tmp_path / "bomb.urdf"
-    path.write_text(
-        '<!DOCTYPE r [<!ENTITY a "aaaa">]><robot name="&a;"><link name="base"/></robot>'
-    )
+    robot = '<robot name="&a;"><link name="base"/></robot>'
+    path.write_text(f'<!DOCTYPE r [<!ENTITY a "aaaa">]>{robot}')
     assert code_of(path) == "forbidden_doctype"
     path.write_bytes(path.read_text().encode("utf-16"))
     assert code_of(path) == "forbidden_doctype"

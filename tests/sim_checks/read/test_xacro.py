@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -93,9 +95,6 @@ def test_what_reaches_out_is_refused(tmp_path: Path, judge: Judge, inside: str) 
 
 def test_the_interpreter_itself_refuses_what_gets_past_the_expressions(tmp_path: Path) -> None:
     """As though a way round the first wall were known: the second one holds."""
-    import subprocess
-    import sys
-
     path = write_xacro(tmp_path, '<link name="a"/>')
     for act in ("os.system('true')", "open('/etc/passwd')", "open('x', 'w')", "os.fork()"):
         program = (

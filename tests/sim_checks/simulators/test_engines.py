@@ -31,9 +31,11 @@ def judge():
     """Judge a file in an engine, in one child for each engine."""
     with ExitStack() as stack:
         children = defaultdict(lambda: stack.enter_context(WarmChild()))
-        yield lambda path, engine: judge_in_simulator(
-            read_here(path), engine, CheckConfig(), children[engine]
-        )
+
+        def judge(path, engine):
+            return judge_in_simulator(read_here(path), engine, CheckConfig(), children[engine])
+
+        yield judge
 
 
 def of_engines(*names):

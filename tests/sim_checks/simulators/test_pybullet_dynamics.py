@@ -71,9 +71,8 @@ def test_a_heavy_turned_body_is_balanced_though_bullet_refuses_it(opened):
     world = opened(60.0, (4.0, 3.1, 6.0))
     world.place(np.array([0.4, 0.1]))
     world.mass_matrix(), world.balance()
-    assert world._dynamics._refuses, (
-        "Bullet took it: this body no longer shows what the stand-in is for"
-    )
+    said = "Bullet took it: this body no longer shows what the stand-in is for"
+    assert world._dynamics._refuses, said
     for _ in range(120):
         world.step(world.balance())
     assert np.abs(world.positions() - [0.4, 0.1]).max() < 2e-3

@@ -6,6 +6,7 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 from box_world import write_urdf as write_boxes
+from engines import skipped_if_missing
 from small_cabinet import PARTS, codes, write_lid, write_urdf
 
 from asset_factory.sim_checks.checks.motion import check_motion
@@ -13,17 +14,14 @@ from asset_factory.sim_checks.config import CheckConfig, MotionConfig
 from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.report import Severity
-from asset_factory.sim_checks.simulators.catalog import SIMULATORS, installed, simulator
+from asset_factory.sim_checks.simulators.catalog import SIMULATORS, simulator
 from asset_factory.sim_checks.simulators.observe import observe
 from asset_factory.sim_checks.simulators.rest import fall, rest
 
 CONFIG = MotionConfig()
-ENGINES = [
-    pytest.param(
-        name, marks=pytest.mark.skipif(not installed(name), reason=f"{name} is not installed")
-    )
-    for name in SIMULATORS
-]
+ENGINES = skipped_if_missing(*SIMULATORS)
+#: Before the drawer, which it stops.
+STOPPER = (((-0.31, 0.0, 0.6), (0.02, 0.5, 0.3)),)
 PENDULUM = """<robot name="pendulum"><link name="post"><inertial><mass value="1"/>
   <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
   <link name="arm"><inertial><origin xyz="0.5 0 0" rpy="0.3 0.2 0.1"/><mass value="2"/>
@@ -31,6 +29,15 @@ PENDULUM = """<robot name="pendulum"><link name="post"><inertial><mass value="1"
   <joint name="swing" type="revolute"><parent link="post"/><child link="arm"/>
   <origin xyz="0 0 1" rpy="0 0 0.7"/><axis xyz="0 1 0"/>
   <limit lower="0" upper="3.1" effort="1" velocity="9"/></joint></robot>"""
+
+
+def slide(name, axis, upper):
+    """What holds a box of that name on the base."""
+    limits = f'lower="0" upper="{upper}" effort="1" velocity="1"'
+    return (
+        f'<joint name="{name}_slide" type="prismatic"><parent link="base"/><child link="{name}"/>'
+        f'<axis xyz="{axis}"/><limit {limits}/></joint>'
+    )
 
 
 @contextmanager
@@ -44,9 +51,8 @@ def opened(path, engine):
 
 def judged(path, engine):
     """The motion check in this process, where each engine is imported but once."""
-    return check_motion(
-        read_description(path), engine, observe(engine, path, CONFIG, ()), CheckConfig()
-    )
+    seen = observe(engine, path, CONFIG, ())
+    return check_motion(read_description(path), engine, seen, CheckConfig())
 
 
 def moved(result, joint):
@@ -61,9 +67,8 @@ def written(folder, text, name="object.urdf"):
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_what_has_no_limits_turns_on_after_a_whole_turn(tmp_path, engine):
-    spinner = PENDULUM.replace('type="revolute"', 'type="continuous"').replace(
-        'axis xyz="0 1 0"', 'axis xyz="0 0 1"'
-    )
+    spinner = PENDULUM.replace('type="revolute"', 'type="continuous"')
+    spinner = spinner.replace('axis xyz="0 1 0"', 'axis xyz="0 0 1"')
     with opened(written(tmp_path, spinner), engine) as world:
         world.place(np.array([6.2]))
         angles = []
@@ -152,29 +157,23 @@ def test_what_hangs_on_its_stop_does_not_open_by_itself(tmp_path, engine):
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_the_axis_arrives_in_the_child_s_frame_and_friction_with_the_shape(tmp_path, engine):
-    text = PENDULUM.replace('<axis xyz="0 1 0"/>', '<axis xyz="0.6 0 -0.8"/>').replace(
-        "</inertial></link>\n  <joint",
-        (
-            '</inertial><collision><geometry><box size=".1 .1 .1"/></geometry>'
-            "</collision></link>\n  <joint"
-        ),
-    )
+    shape = '<collision><geometry><box size=".1 .1 .1"/></geometry></collision>'
+    text = PENDULUM.replace('<axis xyz="0 1 0"/>', '<axis xyz="0.6 0 -0.8"/>')
+    text = text.replace("</link>\n  <joint", f"{shape}</link>\n  <joint")
     with opened(written(tmp_path, text), engine) as world:
         (joint,) = world.model.joints
         friction = {link.name: link.friction for link in world.model.links}
         carried = world.carried
     assert joint.axis == pytest.approx((0.6, 0.0, -0.8), abs=1e-6)
     assert friction["post"] is None
-    assert friction["arm"] == pytest.approx(
-        {"sapien": 0.3, "mujoco": 1.0, "pybullet": 0.5, "newton": 1.0}[engine]
-    )
+    usual = {"sapien": 0.3, "mujoco": 1.0, "pybullet": 0.5, "newton": 1.0}
+    assert friction["arm"] == pytest.approx(usual[engine])
     assert carried == (frozenset({"arm"}),)
 
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_jam_names_the_stopper(tmp_path, engine):
-    stopper = (((-0.31, 0.0, 0.6), (0.02, 0.5, 0.3)),)
-    result = judged(write_urdf(tmp_path, {**PARTS, "stopper": stopper}), engine)
+    result = judged(write_urdf(tmp_path, {**PARTS, "stopper": STOPPER}), engine)
     motion = moved(result, "slide")
     assert motion["blocked_by"] == ["drawer", "stopper"]
     assert motion["stuck_at"] == pytest.approx(0.1, abs=0.01)
@@ -185,18 +184,9 @@ def test_a_jam_names_the_stopper(tmp_path, engine):
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_siblings_that_lie_in_one_another_push_and_are_named(tmp_path, engine):
-    slides = "".join(
-        f'<joint name="{name}_slide" type="prismatic"><parent link="base"/><child link="{name}"/>'
-        f'<axis xyz="{x} 0 0"/>'
-        '<limit lower="0" upper="0.5" effort="1" velocity="1"/></joint>'
-        for name, x in (("a", -1), ("b", 1))
-    )
     cube = (0.2, 0.2, 0.2)
-    boxes = {
-        "base": ((0.0, 5.0, 0.0), cube),
-        "a": ((0.0, 0.0, 0.0), cube),
-        "b": ((0.12, 0.0, 0.0), cube),
-    }
+    boxes = {"base": ((0, 5, 0), cube), "a": ((0, 0, 0), cube), "b": ((0.12, 0, 0), cube)}
+    slides = slide("a", "-1 0 0", 0.5) + slide("b", "1 0 0", 0.5)
     result = judged(write_boxes(tmp_path, boxes, slides), engine)
     pushed = [f for f in result.findings if f.code == "pushed_at_rest"]
     assert {f.joint for f in pushed} == {"a_slide", "b_slide"}
@@ -208,46 +198,33 @@ def test_siblings_that_lie_in_one_another_push_and_are_named(tmp_path, engine):
 @pytest.mark.parametrize(("depth", "expected"), [(0.02, []), (0.07, ["warning"]), (0.2, ["error"])])
 def test_a_part_shot_out_of_another_made_energy_from_nowhere(tmp_path, engine, depth, expected):
     cube = (0.8, 0.8, 0.8)
-    slide = (
-        '<joint name="slide" type="prismatic"><parent link="base"/>'
-        '<child link="a"/><axis xyz="1 0 0"/>'
-        '<limit lower="0" upper="2" effort="1" velocity="1"/></joint>'
-    )
     boxes = {"base": ((0.0, 0.0, 0.0), cube), "a": ((0.8 - depth, 0.0, 0.0), cube)}
-    result = judged(write_boxes(tmp_path, boxes, slide), engine)
+    result = judged(write_boxes(tmp_path, boxes, slide("a", "1 0 0", 2)), engine)
     shots = [f for f in result.findings if f.code == "energy_grows"]
     assert [str(shot.severity) for shot in shots] == expected
     for shot in shots:
         # 1 kg, and what would lift it by 5 cm.
-        assert (shot.joint, shot.unit, shot.limit) == ("slide", "J", pytest.approx(0.05 * 9.81))
+        assert (shot.joint, shot.unit, shot.limit) == ("a_slide", "J", pytest.approx(0.05 * 9.81))
         assert shot.value > 0.05 * 9.81
 
 
 def flat(seen):
     """Every number of an observation in full."""
     poses = [
-        (dict(s.values), {name: pose.tobytes() for name, pose in s.poses.items()})
-        for s in seen.poses
+        (dict(s.values), {k: pose.tobytes() for k, pose in s.poses.items()}) for s in seen.poses
     ]
-    return (
-        repr(seen.model),
-        repr(poses),
-        repr(seen.rest),
-        repr(seen.fall),
-        repr(seen.motions),
-        seen.warnings,
-    )
+    told = (seen.model, poses, seen.rest, seen.fall, seen.motions)
+    return (*map(repr, told), seen.warnings)
 
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_what_was_looked_at_before_leaves_no_trace(tmp_path, engine):
     # One that jams and pushes, so that contact solvers have much to remember.
     wide = (((-0.015, 0.0, 0.5955), (0.37, 0.574, 0.363)),)
-    stopper = (((-0.31, 0.0, 0.6), (0.02, 0.5, 0.3)),)
     (tmp_path / "one").mkdir()
     (tmp_path / "two").mkdir()
-    first = write_urdf(tmp_path / "one", {**PARTS, "drawer": wide, "stopper": stopper})
-    second = write_urdf(tmp_path / "two", {**PARTS, "stopper": stopper})
+    first = write_urdf(tmp_path / "one", {**PARTS, "drawer": wide, "stopper": STOPPER})
+    second = write_urdf(tmp_path / "two", {**PARTS, "stopper": STOPPER})
     samples = ({"slide": 0.1, "hinge": 0.5},)
     alone = observed_in_turn(engine, (second,), samples)
     in_turn = observed_in_turn(engine, (first, second, first), samples)
@@ -257,9 +234,8 @@ def test_what_was_looked_at_before_leaves_no_trace(tmp_path, engine):
 
 def observed_in_turn(engine, paths, samples):
     """Everything seen of each file by one new process: other tests leave settings in this one."""
-    return run_isolated(
-        observe_in_turn, engine, paths, samples, limits=Limits(wall_s=60.0)
-    ).unwrap()
+    limits = Limits(wall_s=60.0)
+    return run_isolated(observe_in_turn, engine, paths, samples, limits=limits).unwrap()
 
 
 def observe_in_turn(engine, paths, samples):
@@ -290,12 +266,9 @@ STOP = """<collision><origin xyz="0 -1.75 -0.07"/><geometry><box size="0.1 0.4 0
 
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize(("stop", "seen"), [("", False), (STOP, True)], ids=["free", "pressed"])
-def test_a_button_that_rides_on_a_door_is_moved_by_what_presses_it_only(
-    tmp_path, engine, stop, seen
-):
+def test_a_button_on_a_door_is_moved_by_what_presses_it_only(tmp_path, engine, stop, seen):
     text = BUTTON_DOOR.replace("{stop}", stop)
-    result = judged(written(tmp_path, text), engine)
-    hinge = moved(result, "hinge")
+    hinge = moved(judged(written(tmp_path, text), engine), "hinge")
     # What is pressed on the way has to make way first: it is tried pressed in.
     assert hinge["needs_open"] == (["press"] if seen else [])
     assert (hinge["reached"] > 0.99, hinge["others_moved"] < 0.5) == (True, True)

@@ -56,11 +56,8 @@ def test_propose_writes_what_is_asked_and_what_may_be_answered(tmp_path, capsys)
     mesh.write_bytes(head + records.tobytes())
     assert run(["propose", str(mesh), "--to", str(tmp_path / "asked")]) == 0
     assert "fridge.parts.json" in capsys.readouterr().out
-    assert {path.name for path in (tmp_path / "asked").iterdir()} == {
-        "sheet.png",
-        "instruction.txt",
-        "parts.schema.json",
-    }
+    written = {path.name for path in (tmp_path / "asked").iterdir()}
+    assert written == {"sheet.png", "instruction.txt", "parts.schema.json"}
     told = (tmp_path / "asked" / "instruction.txt").read_text()
     assert "'fridge.stl'" in told
     json.loads((tmp_path / "asked" / "parts.schema.json").read_text())

@@ -37,10 +37,8 @@ class Server:
 
         class Handler(BaseHTTPRequestHandler):
             def do_POST(self):
-                length = int(self.headers["Content-Length"])
-                outer.asked.append(
-                    (self.path, dict(self.headers), json.loads(self.rfile.read(length)))
-                )
+                text = self.rfile.read(int(self.headers["Content-Length"]))
+                outer.asked.append((self.path, dict(self.headers), json.loads(text)))
                 time.sleep(outer.wait_s)
                 last = len(outer.answers) - 1
                 status, body = outer.answers[min(len(outer.asked) - 1, last)]

@@ -62,16 +62,15 @@ class Labeller:
             mask_logits=mask, hierarchy_logits=tree, motion_logits=motion,
             revolute_direction=nowhere, revolute_range=np.tile([0.0, 1.5], (QUERIES, 1)),
             prismatic_direction=nowhere, prismatic_range=np.tile([0.0, 0.3], (QUERIES, 1)),
-            closest_points=lambda parts, rows=None: np.zeros(
-                (len(parts if rows is None else rows), 3), np.float32
+            closest_points=lambda parts, rows=None: np.zeros_like(
+                cloud.points if rows is None else cloud.points[rows], np.float32
             ),
         )  # fmt: skip
 
 
 def asked(truth, network=None, trust=BELIEVING, **config):
-    articulator = AutoArticulator(
-        network or Labeller(truth), (), trust, SHOWN, AutoConfig(views=2, **config)
-    )
+    settings = AutoConfig(views=2, **config)
+    articulator = AutoArticulator(network or Labeller(truth), (), trust, SHOWN, settings)
     return articulator.articulate(truth.mesh)
 
 
@@ -109,9 +108,8 @@ def test_what_turns_and_slides_gets_two_joints_with_a_carrier_between():
     turn = Motion.endless(UP, np.zeros(3))
     slide = Motion(JointKind.PRISMATIC, -UP, np.zeros(3), 0.0, 0.1)
     articulator = AutoArticulator(Labeller(truth), (), BELIEVING, SHOWN, AutoConfig())
-    found = articulator.decide(
-        Views(truth.mesh), (Proposal("cap", faces, turn, {"geometric": 1.0}, slide=slide),)
-    )
+    cap = Proposal("cap", faces, turn, {"geometric": 1.0}, slide=slide)
+    found = articulator.decide(Views(truth.mesh), (cap,))
     assert [part.name for part in found.parts] == ["base", "cap_0_carrier", "cap_0"]
     assert [len(part.faces) for part in found.parts] == [(~faces).sum(), 0, faces.sum()]
     assert [(joint.name, joint.parent, joint.child) for joint in found.joints] == [
@@ -121,28 +119,20 @@ def test_what_turns_and_slides_gets_two_joints_with_a_carrier_between():
 
 
 @pytest.mark.parametrize(("sign", "limits"), [(1.0, (-0.1, 0.3)), (-1.0, (-0.3, 0.1))])
-def test_a_drawer_that_rules_find_is_as_open_as_the_evidence_says(sign, limits):
+def test_a_drawer_that_rules_find_is_as_open_as_the_evidence_says(sign, limits, monkeypatch):
     truth = make_object("cabinet", 5)
     joint = next(joint for joint in truth.joints if not joint.turns)
     part = LearnedPart(face_parts(truth) == joint.child, 1.0, 0.9, 0.9, 0.9, Guess(), 0.0, 0.0)
     seen = Motion(JointKind.PRISMATIC, sign * joint.axis, joint.origin, -0.1, 0.3)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(
-            proposals,
-            "_judged",
-            lambda *_: [
-                proposals._Judged(part, MotionEvidence(seen, 0.9), MotionEvidence(None, 0.0))
-            ],
-        )
-        ruled = tuple(
-            Proposal(
-                "drawer",
-                face_parts(truth) == each.child,
-                Motion(each.kind, each.axis, each.origin, each.lower, each.upper),
-            )
-            for each in truth.joints
-        )
-        made = proposals.propose(truth.mesh, face_areas(truth.mesh), ruled, (part,))
+    judged = proposals._Judged(part, MotionEvidence(seen, 0.9), MotionEvidence(None, 0.0))
+    monkeypatch.setattr(proposals, "_judged", lambda *_: [judged])
+
+    def ruled(each):
+        motion = Motion(each.kind, each.axis, each.origin, each.lower, each.upper)
+        return Proposal("drawer", face_parts(truth) == each.child, motion)
+
+    rules = tuple(ruled(each) for each in truth.joints)
+    made = proposals.propose(truth.mesh, face_areas(truth.mesh), rules, (part,))
     found = next(each for each in made if np.array_equal(each.faces, part.faces))
     assert (found.motion.lower, found.motion.upper) == limits
     assert found.motion.axis @ joint.axis == pytest.approx(1.0)
@@ -182,16 +172,13 @@ def test_where_only_the_network_sees_what_moves_one_part_must_be_surer(
         Proposal("part", owner == joint.child, turn, proposer=Proposer.NETWORK if number else sign)
         for number, joint in enumerate(truth.movable_joints[:2])
     ]
-    monkeypatch.setattr(
-        AutoArticulator,
-        "_rated",
-        lambda _, found: [
-            replace(each, probability=sure) for each, sure in zip(found, sures, strict=True)
-        ],
-    )
-    articulator = AutoArticulator(
-        Labeller(truth), (), replace(BELIEVING, least=0.3), SHOWN, AutoConfig(**config)
-    )
+
+    def rated(_, found):
+        return [replace(each, probability=sure) for each, sure in zip(found, sures, strict=True)]
+
+    monkeypatch.setattr(AutoArticulator, "_rated", rated)
+    trust = replace(BELIEVING, least=0.3)
+    articulator = AutoArticulator(Labeller(truth), (), trust, SHOWN, AutoConfig(**config))
     found = articulator.decide(Views(truth.mesh), asked_for)
     assert len(found.movable_joints) == moving
     assert moving or "want 0.45" in found.notes[0]
@@ -202,10 +189,8 @@ def test_views_are_told_in_the_objects_own_frame():
 
     class Upright(Labeller):
         def __call__(self, cloud, context):
-            return replace(
-                super().__call__(cloud, context),
-                revolute_direction=np.tile([1.0, 0.0, 0.0], (QUERIES, 1)),
-            )
+            along = np.tile([1.0, 0.0, 0.0], (QUERIES, 1))
+            return replace(super().__call__(cloud, context), revolute_direction=along)
 
     first, second = look_around(truth.mesh, Upright(truth), SHOWN, 2)
     assert np.array_equal(first.face_part, second.face_part)
@@ -217,26 +202,15 @@ def test_views_are_told_in_the_objects_own_frame():
 def test_every_face_belongs_to_one_part_and_confidences_are_told():
     truth = make_object("cabinet", 5)
     found = asked(truth)
-    assert sorted(np.concatenate([part.faces for part in found.parts])) == list(
-        range(len(truth.mesh.faces))
-    )
+    assert sorted(np.concatenate([p.faces for p in found.parts])) == [*range(len(truth.mesh.faces))]
     assert all(0.5 <= joint.confidence <= 1.0 for joint in found.movable_joints)
     assert found.articulator == "auto"
 
 
 def test_one_piece_without_parts_stays_rigid():
-    tetrahedron = Mesh.from_triangles(
-        np.vstack([np.zeros(3), np.eye(3)]), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
-    )
-
-    def single(cloud, context):
-        return Labeller(make_object("laptop", 0), confused=False).__class__.__call__(
-            whole, cloud, context
-        )
-
+    corners = np.vstack([np.zeros(3), np.eye(3)])
+    tetrahedron = Mesh.from_triangles(corners, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     whole = Labeller(make_object("laptop", 0))
     whole.owner = np.zeros(4, dtype=np.int64)
-    found = AutoArticulator(single, (), BELIEVING, SHOWN, AutoConfig(views=1)).articulate(
-        tetrahedron
-    )
-    assert not found.joints
+    articulator = AutoArticulator(whole, (), BELIEVING, SHOWN, AutoConfig(views=1))
+    assert not articulator.articulate(tetrahedron).joints

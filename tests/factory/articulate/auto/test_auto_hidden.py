@@ -22,10 +22,10 @@ def decided(mesh, *movers):
     """Return what becomes of movers of which the network is sure."""
     settings = BuildConfig().particulate
     nobody = AutoArticulator(None, (), load_trust(), settings, AutoConfig(least_confidence=0))
-    said = [
-        Proposal(PartKind.PART, faces, OUT, SURE, proposer=Proposer.NETWORK) for faces in movers
-    ]
-    return nobody.decide(Views(mesh), said)
+    sure = {"signs": SURE, "proposer": Proposer.NETWORK}
+    return nobody.decide(
+        Views(mesh), [Proposal(PartKind.PART, each, OUT, **sure) for each in movers]
+    )
 
 
 def test_a_knob_goes_with_the_plate_that_it_alone_touches():

@@ -38,27 +38,23 @@ def test_a_part_seen_from_every_side_is_agreed_on_and_its_axis_is_the_majoritys(
 
 
 def test_different_parts_stay_different_and_still_ones_are_left_out():
-    parts = agreed_parts(
-        (view([1, 1] + [0] * 8), view([0] * 8 + [1, 1]), view([0, 1] * 5, moves=0.1)), AREAS
-    )
+    views = (view([1, 1] + [0] * 8), view([0] * 8 + [1, 1]), view([0, 1] * 5, moves=0.1))
+    parts = agreed_parts(views, AREAS)
     assert [part.agreement for part in parts] == [1 / 3, 1 / 3]
     assert {tuple(part.faces) for part in parts} == {tuple(mask(0, 1)), tuple(mask(8, 9))}
 
 
 def test_what_turns_and_slides_must_be_more_probable_than_either_alone():
     here = [1, 1] + [0] * 8
-    slides = [
-        Motion("prismatic", sign * UP, np.zeros(3), 0.0, far)
-        for sign, far in ((1.0, 0.1), (1.0, 0.2), (-1.0, 0.4))
-    ]
+    ways = ((UP, 0.1), (UP, 0.2), (-UP, 0.4))
+    slides = [Motion("prismatic", along, np.zeros(3), 0.0, far) for along, far in ways]
     sure = tuple(view(here, both=0.9, slide=slide) for slide in slides)
     (part,) = agreed_parts(sure, AREAS)
     np.testing.assert_allclose(part.slide.axis, UP)
     assert (part.slide.lower, part.slide.upper) == (0.0, 0.2)
     assert part.guess.turns == 1.0
-    (part,) = agreed_parts(
-        tuple(view(here, both=both, slide=slides[0]) for both in (0.9, 0.2, 0.3)), AREAS
-    )
+    unsure = tuple(view(here, both=both, slide=slides[0]) for both in (0.9, 0.2, 0.3))
+    (part,) = agreed_parts(unsure, AREAS)
     assert part.slide is None
     (part,) = agreed_parts((view(here, both=0.9),), AREAS)
     assert part.slide is None, "nobody says which way"
@@ -98,14 +94,9 @@ def test_trust_is_a_logistic_of_the_signs():
 
 def test_the_shipped_trust_believes_more_where_more_speaks_for_it():
     trust = load_trust()
-    seen = {
-        "agreement": 1.0,
-        "moves": log_odds(0.95),
-        "confidence": log_odds(0.9),
-        "area": -1.0,
-        "rivals": 1.5,
-    }
-    seen |= {"hangs": log_odds(0.95), "evidence": log_odds(0.9), "unguided": log_odds(0.9)}
+    seen = {"agreement": 1.0, "area": -1.0, "rivals": 1.5}
+    seen |= dict.fromkeys(("moves", "hangs"), log_odds(0.95))
+    seen |= dict.fromkeys(("confidence", "evidence", "unguided"), log_odds(0.9))
     doubtful = seen | {"agreement": 0.25, "confidence": log_odds(0.4), "evidence": log_odds(0.3)}
     both = trust.confidence(seen | {"shared": 1.0, "alike": 1.0})
     assert both > trust.confidence(doubtful | {"learned": 1.0})

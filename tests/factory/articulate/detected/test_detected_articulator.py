@@ -9,19 +9,10 @@ from tests.samples.says import Says
 
 pytest.importorskip("torch")
 
-from asset_factory.factory.articulate.detected import (
-    DetectedArticulator,
-    load_agreement,
-)
+from asset_factory.factory.articulate.detected import DetectedArticulator, load_agreement
 from asset_factory.factory.articulate.pruning import keep_parts
 from asset_factory.factory.articulate.rigid import rigid_articulation
-from asset_factory.factory.articulation import (
-    Articulation,
-    Joint,
-    JointKind,
-    Part,
-    Weights,
-)
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, Weights
 from asset_factory.factory.part import PartKind, PartSource, Proposer
 from asset_factory.learn.detector.still import make_still
 from asset_factory.learn.objects import make_object
@@ -61,12 +52,8 @@ def test_doors_that_nobody_proposes_are_added_and_say_who_saw_them():
 
 def test_what_it_does_not_see_stays_fixed_and_what_it_sees_moves():
     truth = make_object("fridge", 4)
-    proposed = Articulation(
-        truth.mesh,
-        tuple(replace(part, confidence=0.6) for part in truth.parts),
-        truth.joints,
-        "auto",
-    )
+    parts = tuple(replace(part, confidence=0.6) for part in truth.parts)
+    proposed = Articulation(truth.mesh, parts, truth.joints, "auto")
     base = proposed.parts[0]
     middles = truth.mesh.vertices[truth.mesh.faces[base.faces]].mean(axis=1)
     rear = base.faces[middles[:, 1] > np.quantile(middles[:, 1], 0.8)]
@@ -127,21 +114,15 @@ def test_a_table_stays_shut_and_says_why():
     (only,) = detected(rigid_articulation(table.mesh, "auto", ()))
     assert not only.articulation.movable_joints
     (looks,) = only.articulation.notes
-    assert re.fullmatch(
-        r"it looks like a [a-z ]+ with probability \d\.\d\d; "
-        r"it has something to open with probability 0\.\d\d",
-        looks,
-    )
+    kind = r"it looks like a [a-z ]+ with probability \d\.\d\d"
+    assert re.fullmatch(kind + r"; it has something to open with probability 0\.\d\d", looks)
 
 
 def test_parts_that_are_fixed_leave_their_faces_and_children_to_what_holds_them():
-    faces = np.arange(4)
     mesh = make_object("chest", 1).mesh
     rest = np.arange(4, len(mesh.faces))
-    parts = (
-        Part("base", rest), Part("door", faces[:2]), Part("knob", faces[2:3]),
-        Part("other", faces[3:]),
-    )  # fmt: skip
+    faces = {"base": rest, "door": [0, 1], "knob": [2], "other": [3]}
+    parts = tuple(Part(name, np.array(own)) for name, own in faces.items())
     axis = np.array([0.0, 0.0, 1.0])
     joints = tuple(
         Joint(f"j{child}", JointKind.REVOLUTE, parent, child, axis, np.zeros(3), 0.0, 1.0)
@@ -169,9 +150,8 @@ def test_agreement_rises_with_what_is_seen():
 
 def test_what_is_seen_and_left_fixed_is_told():
     made = make_object("fridge", 4)
-    articulator = DetectedArticulator(
-        Says(rigid_articulation(made.mesh, "auto", ())), load_agreement(), WEIGHTS, least=0.999
-    )
+    says = Says(rigid_articulation(made.mesh, "auto", ()))
+    articulator = DetectedArticulator(says, load_agreement(), WEIGHTS, least=0.999)
     (only,) = articulator.hypotheses(made.mesh)
     assert not only.articulation.movable_joints
     assert "a door is seen on the front and left fixed" in only.articulation.notes[0]

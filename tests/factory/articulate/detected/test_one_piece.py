@@ -163,13 +163,8 @@ def test_only_what_bends_a_little_everywhere_is_generated():
 
 
 def kept(mesh, faces):
-    return replace(
-        mesh,
-        faces=mesh.faces[faces],
-        corner_uv=None,
-        corner_normals=None,
-        face_material=mesh.face_material[faces],
-    )
+    left = {"faces": mesh.faces[faces], "face_material": mesh.face_material[faces]}
+    return replace(mesh, corner_uv=None, corner_normals=None, **left)
 
 
 def require_sound(found):
@@ -181,10 +176,6 @@ def require_sound(found):
         assert np.isfinite(joint.axis).all()
         assert np.isfinite(joint.origin).all()
     assert found.joints or found.notes
-
-
-def motions(found):
-    return sorted((joint.kind.value, joint.axis.round(3).tolist()) for joint in found.joints)
 
 
 def test_inside_out_is_read_as_the_right_way_round():

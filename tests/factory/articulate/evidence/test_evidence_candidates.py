@@ -40,10 +40,8 @@ def test_a_knob_turns_about_its_middle():
     found = find_candidates(body_of(partition(world), 2), NOTHING)
     round_ones = np.flatnonzero((found.source == ROUND) & (np.abs(found.axis[:, 1]) > 0.999))
     assert len(round_ones) >= 2
-    assert (
-        min(apart(found.origin[k], found.axis[k], world.joints[1].origin) for k in round_ones)
-        < 1e-3
-    )
+    hinge = world.joints[1].origin
+    assert min(apart(found.origin[k], found.axis[k], hinge) for k in round_ones) < 1e-3
 
 
 def test_each_line_comes_both_ways_round():
@@ -56,11 +54,8 @@ def test_a_guess_adds_its_own_line():
     direction = np.array([0.1, 0.2, 1.0])
     point = np.array([0.0, 0.0, 0.3])
     found = find_candidates(body_of(partition(cupboard()), 1), Guess(0.9, direction, point))
-    mine = (
-        (found.source == GUESSED)
-        & ~found.slides
-        & (found.axis @ direction > 0.9999 * np.linalg.norm(direction))
-    )
+    along = found.axis @ direction > 0.9999 * np.linalg.norm(direction)
+    mine = (found.source == GUESSED) & ~found.slides & along
     assert mine.sum() == 1
     assert np.allclose(found.origin[mine], point)
 

@@ -8,10 +8,8 @@ import pytest
 from asset_factory.factory.articulate.evidence.grid import grid_around
 from asset_factory.factory.articulate.evidence.surfels import spread
 
-WALL = np.array(
-    [[[0, 0.507, 0], [1, 0.507, 0], [1, 0.507, 1]], [[0, 0.507, 0], [1, 0.507, 1], [0, 0.507, 1]]],
-    dtype=float,
-)
+CORNERS = np.array([[0, 0.507, 0], [1, 0.507, 0], [1, 0.507, 1], [0, 0.507, 1]])
+WALL = CORNERS[[[0, 1, 2], [0, 2, 3]]]
 
 
 @pytest.fixture(scope="module")
@@ -32,14 +30,10 @@ def wall():
     ids=["through", "back through", "along", "far beyond", "touching at rest", "outside"],
 )
 def test_what_counts_as_a_hit(wall, point, heading, travelled, hit):
-    found = wall.hits(
-        np.array([point], dtype=float), np.array([heading], dtype=float), np.array([travelled])
-    )
+    found = wall.hits(*(np.array([each], dtype=float) for each in (point, heading, travelled)))
     assert found.tolist() == [hit]
 
 
 def test_filled_cells_are_those_of_the_wall(wall):
-    points = np.array(
-        [[[0.3, 0.507, 0.7], [0.3, 0.3, 0.7]], [[-1.0, 0.507, 0.5], [0.9, 0.507, 0.1]]]
-    )
+    points = np.array([[[0.3, 0.507, 0.7], [0.3, 0.3, 0.7]], [[-1, 0.507, 0.5], [0.9, 0.507, 0.1]]])
     assert wall.filled(points).tolist() == [[True, False], [False, True]]

@@ -12,7 +12,7 @@ from asset_factory.factory.articulate.evidence import NOTHING, Guess, Partition,
 from asset_factory.factory.articulate.evidence.numbers import NAMES
 from asset_factory.factory.articulate.evidence.rating import load_rating
 from asset_factory.factory.articulation import JointKind, rotation_about
-from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.mesh import Mesh, concatenate
 
 UP = np.array([0.0, 0.0, 1.0])
 WORLDS = {"left": cupboard("left"), "right": cupboard("right"), "drawer": chest(), "oven": oven()}
@@ -20,9 +20,7 @@ WORLDS = {"left": cupboard("left"), "right": cupboard("right"), "drawer": chest(
 
 def _rough(joint, rotation, turns=0.7):
     """The truth, 12 degrees, 8 cm and a sign off."""
-    off = rotation_about(
-        np.array([1.0, 0.0, 0.0]) if abs(joint.axis[0]) < 0.5 else UP, np.radians(12.0)
-    )
+    off = rotation_about(np.eye(3)[0] if abs(joint.axis[0]) < 0.5 else UP, np.radians(12.0))
     return Guess(
         turns=turns if joint.turns else 1.0 - turns,
         direction=-(rotation @ off @ joint.axis),
@@ -58,9 +56,8 @@ def test_a_knob_turns_without_end():
 
 def test_size_does_not_matter():
     small = partition(WORLDS["drawer"])
-    large = Partition(
-        replace(small.mesh, vertices=small.mesh.vertices * 10.0), small.face_part, small.parents
-    )
+    tenfold = replace(small.mesh, vertices=small.mesh.vertices * 10.0)
+    large = Partition(tenfold, small.face_part, small.parents)
     one = best_motion(small, 1)
     ten = best_motion(large, 1)
     assert np.allclose(one.motion.axis, ten.motion.axis)
@@ -137,10 +134,8 @@ def test_soups_of_triangles_break_nothing(seed):
 def test_a_guessed_limit_is_weighed_against_what_is_usual():
     world = partition(WORLDS["left"])
     joint = WORLDS["left"].joints[0]
-    upper = [
-        best_motion(world, 1, Guess(0.9, joint.axis, joint.origin, said)).motion.upper
-        for said in (1.5, 2.9, 0.7)
-    ]
+    guesses = [Guess(0.9, joint.axis, joint.origin, said) for said in (1.5, 2.9, 0.7)]
+    upper = [best_motion(world, 1, guess).motion.upper for guess in guesses]
     assert upper[0] == pytest.approx(np.pi / 2.0, rel=0.15)
     assert upper[2] < upper[0] < upper[1]
     assert upper[1:] == pytest.approx([2.9, 0.7], rel=0.35)
@@ -155,15 +150,10 @@ def test_a_limit_of_the_other_kind_is_not_believed():
 
 def test_what_is_blocked_by_its_holder_goes_no_further():
     closed = partition(WORLDS["drawer"])
-    wall = np.array(
-        [[-0.4, -0.25, -0.1], [0.4, -0.25, -0.1], [0.4, -0.25, 0.4], [-0.4, -0.25, 0.4]]
-    )
-    count = len(closed.mesh.vertices)
-    mesh = Mesh.from_triangles(
-        np.concatenate([closed.mesh.vertices, wall]),
-        np.concatenate([closed.mesh.faces, np.array([[0, 1, 2], [0, 2, 3]]) + count]),
-    )
-    walled = Partition(mesh, np.concatenate([closed.face_part, [0, 0]]), closed.parents)
+    corners = [[x, -0.25, z] for x, z in ((-0.4, -0.1), (0.4, -0.1), (0.4, 0.4), (-0.4, 0.4))]
+    wall = Mesh.from_triangles(corners, [[0, 1, 2], [0, 2, 3]])
+    labels = np.concatenate([closed.face_part, [0, 0]])
+    walled = Partition(concatenate([closed.mesh, wall]), labels, closed.parents)
     joint = WORLDS["drawer"].joints[0]
     found = best_motion(walled, 1, Guess(0.05, joint.axis, joint.origin), least_confidence=0.0)
     assert found.motion.kind is JointKind.PRISMATIC

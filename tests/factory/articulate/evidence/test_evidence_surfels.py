@@ -6,9 +6,7 @@ import numpy as np
 
 from asset_factory.factory.articulate.evidence.surfels import spread
 
-SQUARE = np.array(
-    [[[0, 0, 0], [2, 0, 0], [2, 1, 0]], [[0, 0, 0], [2, 1, 0], [0, 1, 0]]], dtype=float
-)
+SQUARE = np.array([[[0, 0, 0], [2, 0, 0], [2, 1, 0]], [[0, 0, 0], [2, 1, 0], [0, 1, 0]]], float)
 
 
 def test_surfels_lie_on_the_surface_and_look_across_it():

@@ -17,6 +17,11 @@ from asset_factory.factory.errors import ConfigError, InputRejected
 from asset_factory.factory.intake.stated import Hinge, StatedKind, stated_from
 from asset_factory.factory.part import Proposer
 
+#: The fridge's upper door, and the two of ``doors``.
+DOOR = {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1]}
+LEFT = {"kind": "door", "side": "front", "box": [0.03, 0.03, 0.5, 0.97], "hinge": "left"}
+RIGHT = {"kind": "door", "side": "front", "box": [0.5, 0.03, 0.97, 0.97], "hinge": "right"}
+
 
 @pytest.mark.parametrize("off", [-0.04, 0.0, 0.04])
 def test_a_box_drawn_off_goes_to_the_seam_it_means(off):
@@ -38,9 +43,8 @@ def test_edges_of_something_thin_do_not_meet_at_one_seam():
 
 
 def test_a_door_is_hinged_where_it_is_said():
-    part = {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1]}
     for hinge, x, sign in (("left", 0.0, -1.0), ("right", 0.6, 1.0)):
-        (made, *_) = articulated(fridge(), {**part, "hinge": hinge})
+        (made, *_) = articulated(fridge(), {**DOOR, "hinge": hinge})
         assert made.joints[0].origin[0] == pytest.approx(x, abs=FINE)
         assert made.joints[0].axis == pytest.approx([0.0, 0.0, sign], abs=1e-9)
         assert box_of(made, 1)[0][2] == pytest.approx(1.1, abs=FINE)
@@ -57,15 +61,13 @@ def test_a_door_that_nothing_lies_behind_moves_whole(depth, whole):
 
 
 def test_without_a_hinge_both_are_tried_the_handles_other_side_first():
-    first, second = articulated(fridge(), {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1]})
+    first, second = articulated(fridge(), DOOR)
     assert first.joints[0].origin[0] == pytest.approx(0.6, abs=FINE)
     assert second.joints[0].origin[0] == pytest.approx(0.0, abs=FINE)
 
 
 def test_two_doors_get_their_own_faces():
-    left = {"kind": "door", "side": "front", "box": [0.03, 0.03, 0.5, 0.97], "hinge": "left"}
-    right = {"kind": "door", "side": "front", "box": [0.5, 0.03, 0.97, 0.97], "hinge": "right"}
-    (made,) = articulated(doors(), left, right)
+    (made,) = articulated(doors(), LEFT, RIGHT)
     faces = [set(part.faces.tolist()) for part in made.parts]
     assert len(faces) == 3
     assert set.union(*faces) == set(range(len(made.mesh.faces)))
@@ -81,16 +83,15 @@ def test_a_lid_is_what_is_above_its_box_hinged_across():
 
 
 def test_stated_limits_are_degrees_and_millimetres():
-    door = {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1], "hinge": "left"}
     drawer = {"kind": "drawer", "side": "front", "box": [0.05, 0.38, 0.95, 0.67]}
-    (turned, *_) = articulated(fridge(), {**door, "range": [0, 90]})
+    (turned, *_) = articulated(fridge(), {**DOOR, "hinge": "left", "range": [0, 90]})
     assert turned.joints[0].upper == pytest.approx(np.pi / 2.0)
     (slid, *_) = articulated(drawers(), {**drawer, "range": [0, 250]})
     assert slid.joints[0].upper == pytest.approx(0.25)
 
 
 def test_the_front_may_look_anywhere():
-    door = {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1], "hinge": "left"}
+    door = {**DOOR, "hinge": "left"}
     straight = articulated(fridge(), door)[0].joints[0]
     for front, quarters in (("x", 1), ("y", 2), ("-x", 3)):
         turn = np.round(rotation_about([0.0, 0.0, 1.0], quarters * np.pi / 2.0), 12)
@@ -104,21 +105,16 @@ def test_the_front_may_look_anywhere():
 def test_a_box_beside_the_mesh_says_what_it_shows():
     part = {"kind": "door", "side": "left", "box": [0.0, 0.0, 1.0, 1.0]}
     articulated(fridge(), part)
+    drawer = {"kind": "drawer", "side": "front", "box": [0.0, 0.6, 1.0, 1.0]}
     with pytest.raises(InputRejected) as caught:
-        articulated(
-            fridge(),
-            {"kind": "door", "side": "front", "box": [0.0, 0.68, 1.0, 1.0]},
-            {"kind": "drawer", "side": "front", "box": [0.0, 0.6, 1.0, 1.0]},
-        )
+        articulated(fridge(), DOOR, drawer)
     assert caught.value.code == "stated_part_not_found"
     assert "parts[0] (door) and parts[1] (drawer): share" in str(caught.value)
 
 
 def test_a_hinge_that_a_kind_cannot_have_is_refused():
     with pytest.raises(InputRejected, match=r"parts\[0\] \(door\): is hinged at its back"):
-        articulated(
-            fridge(), {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1], "hinge": "back"}
-        )
+        articulated(fridge(), {**DOOR, "hinge": "back"})
 
 
 def test_nothing_opens_where_that_is_said():
@@ -172,9 +168,9 @@ def test_whatever_is_stated_is_an_articulation_or_a_sentence(parts):
 
 
 def test_a_part_has_the_name_and_carries_what_was_stated():
-    door = {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1], "name": "freezer"}
+    door = {**DOOR, "name": "freezer", "hinge": "right"}
     knob = {"kind": "knob", "side": "front", "box": [0.05, 0.7, 0.15, 0.9], "parent": "freezer"}
-    made = articulated(fridge(), {**door, "hinge": "right"}, {**knob, "name": "grip"})[0]
+    made = articulated(fridge(), door, {**knob, "name": "grip"})[0]
     assert [part.name for part in made.parts] == ["base", "freezer", "grip"]
     assert [joint.name for joint in made.joints] == ["freezer_hinge", "grip_turn"]
     assert made.joints[1].parent == 1
@@ -184,9 +180,7 @@ def test_a_part_has_the_name_and_carries_what_was_stated():
 def test_a_sidecar_of_another_mesh_is_refused():
     with pytest.raises(InputRejected, match=r"sides are 1\.00 : 1\.00 : 1\.00, this one's are"):
         articulated(fridge(), size=[2, 2, 2])
-    articulated(
-        fridge(), {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1]}, size=[6, 6, 16]
-    )
+    articulated(fridge(), DOOR, size=[6, 6, 16])
 
 
 class Guess:
@@ -196,10 +190,9 @@ class Guess:
 
     def articulate(self, mesh):
         rows = ((0.07, 0.36), (0.38, 0.67), (0.69, 0.96))
-        boxes = [[0.05, low, 0.95, high] for low, high in rows]
-        said = stated_from(
-            {"parts": [{"kind": "drawer", "side": "front", "box": box} for box in boxes]}
-        )
+        drawer = {"kind": "drawer", "side": "front"}
+        parts = [{**drawer, "box": [0.05, low, 0.95, high]} for low, high in rows]
+        said = stated_from({"parts": parts})
         return StatedArticulator(said, None, Proposer.SIDES).articulate(mesh)
 
 
@@ -249,9 +242,8 @@ def test_a_part_without_a_place_is_looked_for_beside_placed_ones():
 
 
 def test_alternatives_are_tried_after_what_is_stated():
-    part = {"kind": "door", "side": "front", "box": [0, 0.68, 1, 1], "hinge": "left"}
     others = [{"hinge": "right"}, {"kind": "drawer"}]
-    made = articulated(fridge(), {**part, "alternatives": others})
+    made = articulated(fridge(), {**DOOR, "hinge": "left", "alternatives": others})
     assert [each.parts[1].kind for each in made] == ["door", "door", "drawer"]
     assert made[0].joints[0].origin[0] == pytest.approx(0.0, abs=FINE)
     assert made[1].joints[0].origin[0] == pytest.approx(0.6, abs=FINE)
@@ -288,13 +280,11 @@ def test_a_sloping_lid_is_parallel_to_what_is_seen_of_it():
 
 
 def test_a_wheel_turns_about_its_hub_and_a_lever_about_its_edge():
-    whole = (
-        block([-0.2, 0.1, 0.0], [0.2, 0.5, 1.0])
-        + block([-0.05, -0.05, 0.75], [0.05, 0.15, 0.85])
-        + block([-0.05, -0.07, 0.75], [0.05, -0.03, 1.25])
-        + block([-0.05, -0.07, 0.75], [0.65, -0.03, 0.85])
+    body = block([-0.2, 0.1, 0.0], [0.2, 0.5, 1.0]) + block(
+        [-0.05, -0.05, 0.75], [0.05, 0.15, 0.85]
     )
-    mesh = mesh_of(whole, 0.05)
+    up = block([-0.05, -0.07, 0.75], [0.05, -0.03, 1.25])
+    mesh = mesh_of(body + up + block([-0.05, -0.07, 0.75], [0.65, -0.03, 0.85]), 0.05)
     width, height = 0.2 + 0.65, 1.25
     sail = [0.15 / width, 0.75 / height, 1.0, 1.0]
     made = articulated(mesh, {"kind": "sail", "side": "front", "box": sail})[0]
@@ -308,9 +298,7 @@ def test_a_wheel_turns_about_its_hub_and_a_lever_about_its_edge():
 
 
 def test_a_stated_name_is_no_other_parts():
-    left = {"kind": "door", "side": "front", "box": [0.03, 0.03, 0.5, 0.97], "hinge": "left"}
-    right = {"kind": "door", "side": "front", "box": [0.5, 0.03, 0.97, 0.97], "hinge": "right"}
-    (made,) = articulated(doors(), left, {**right, "name": "door_0"})
+    (made,) = articulated(doors(), LEFT, {**RIGHT, "name": "door_0"})
     assert [part.name for part in made.parts] == ["base", "door_1", "door_0"]
 
 

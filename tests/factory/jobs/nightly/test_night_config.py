@@ -36,19 +36,16 @@ def test_the_shipped_file_states_every_setting_and_its_tables_the_defaults():
 
 def test_paths_start_from_the_file_and_flags_from_here(tmp_path, monkeypatch):
     (tmp_path / "configs").mkdir()
-    path = written(
-        tmp_path / "configs",
-        "inputs = ['../meshes', '/data/more']\noutput = '../out'\npreset = 'own.toml'\n",
-    )
+    text = "inputs = ['../meshes', '/data/more']\noutput = '../out'\npreset = 'own.toml'\n"
+    path = written(tmp_path / "configs", text)
     (tmp_path / "configs" / "own.toml").write_text("[decompose]\nerror_m = 0.002\n")
     monkeypatch.chdir(tmp_path)
     config = night_config(Nightly(path))
     assert config.inputs == (tmp_path / "meshes", Path("/data/more"))
     assert config.output == tmp_path / "out"
     assert config.build.decompose.error_m == 0.002
-    flagged = night_config(
-        Nightly(path, input=(Path("mine"),), output=Path("there"), workers=3, limit=5, sim="mujoco")
-    )
+    flags = {"output": Path("there"), "workers": 3, "limit": 5, "sim": "mujoco"}
+    flagged = night_config(Nightly(path, input=(Path("mine"),), **flags))
     assert flagged.inputs == (tmp_path / "mine",)
     assert flagged.output == tmp_path / "there"
     assert (flagged.workers, flagged.budget.limit, flagged.build.simulators) == (3, 5, ("mujoco",))
@@ -118,12 +115,8 @@ def test_two_lists_of_licenses_are_one_too_many(tmp_path):
 
 
 def test_inputs_with_another_license_are_left_out(tmp_path):
-    sidecars = {
-        "free": "license = 'CC0-1.0'\n",
-        "sold": "license = 'Proprietary'\n",
-        "bare": None,
-        "broken": "license = =",
-    }
+    sidecars = {"free": "license = 'CC0-1.0'\n", "sold": "license = 'Proprietary'\n"}
+    sidecars |= {"bare": None, "broken": "license = ="}
     paths = []
     for name, text in sidecars.items():
         paths.append(tmp_path / f"{name}.glb")

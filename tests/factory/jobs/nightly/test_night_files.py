@@ -41,12 +41,9 @@ with locked(Path(sys.argv[1])) as announce:
 
 
 def test_two_nights_on_one_output_do_not_run_at_once(tmp_path):
-    with subprocess.Popen(
-        [sys.executable, "-c", HOLDER, str(tmp_path)],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    ) as other:
+    command = [sys.executable, "-c", HOLDER, str(tmp_path)]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    with subprocess.Popen(command, **pipes, text=True) as other:
         assert other.stdout.readline() == "held\n"
         sentence = f"another night runs here .night 0007, process {other.pid} on .*wait"
         with pytest.raises(ConfigError, match=sentence), locked(tmp_path):

@@ -7,10 +7,8 @@ from asset_factory.factory.registry.result import Result
 
 def test_the_pace_is_of_the_last_minutes():
     assert progress.pace([(0.0, 0), (60.0, 0)], 100) == "0 of 100"
-    assert (
-        progress.pace([(100.0, 40), (160.0, 50)], 80)
-        == "50 of 80, 10.0 a minute, about 3 min 00 s left"
-    )
+    told = progress.pace([(100.0, 40), (160.0, 50)], 80)
+    assert told == "50 of 80, 10.0 a minute, about 3 min 00 s left"
 
 
 def test_a_night_without_a_terminal_says_how_far_it_is(monkeypatch):

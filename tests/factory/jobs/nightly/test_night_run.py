@@ -72,17 +72,14 @@ class Workshop:
         key = f"{path.stem}-{status}"
         known = self.known.get(path.stem) == key
         self.known[path.stem] = key
-        entry = Entry(
-            f"{path.stem}-00", path.stem, "", status, reason, 0, 0, 0, key=key, message=reason
-        )
+        told = {"key": key, "message": reason}
+        entry = Entry(f"{path.stem}-00", path.stem, "", status, reason, 0, 0, 0, **told)
         result = Result(str(path), entry, seconds=5.0)
         return replace(result, attempts=0, seconds=0.01, reused=("build",)) if known else result
 
     def entries(self):
-        return tuple(
-            Entry(f"{n}-00", n, "", k.split("-")[1], "", 1, 1, 1)
-            for n, k in sorted(self.known.items())
-        )
+        known = [(name, key.split("-")[1]) for name, key in sorted(self.known.items())]
+        return tuple(Entry(f"{name}-00", name, "", status, "", 1, 1, 1) for name, status in known)
 
     def now(self):
         return datetime(2026, 11, 21, 1, tzinfo=UTC) + timedelta(hours=self.hours)
@@ -133,14 +130,8 @@ def test_three_nights_make_a_trend(workshop, config):
     workshop.rejected = {"d", "e"}
     second = run(workshop, config)
     assert (second.night.name, second.night.exit_code, second.night.known) == ("0002", 5, 3)
-    assert second.registry == {
-        "new": 2,
-        "newly passed": 0,
-        "newly failed": 0,
-        "changed": 0,
-        "gone": 0,
-        "same": 3,
-    }
+    unchanged = dict.fromkeys(("newly passed", "newly failed", "changed", "gone"), 0)
+    assert second.registry == {"new": 2, **unchanged, "same": 3}
     workshop.rejected = {"a"}
     third = run(workshop, config)
     assert [c.now.id for c in third.changes.failing] == ["a-00"]
@@ -172,12 +163,8 @@ def test_an_interrupted_night_has_a_page_and_goes_on(workshop, config):
     assert "interrupted" in (config.output / "nights" / "0001" / "index.html").read_text()
     workshop.interrupt_after = None
     again = run(workshop, config)
-    assert (again.night.name, again.night.state, again.night.passed, again.night.exit_code) == (
-        "0001",
-        "finished",
-        3,
-        0,
-    )
+    night = again.night
+    assert (night.name, night.state, night.passed, night.exit_code) == ("0001", "finished", 3, 0)
     assert [attempt.seconds for attempt in again.attempts] == [5.0, 5.0, 5.0]
     assert again.night.known == 0
     assert again.night.started == report.night.started
@@ -259,9 +246,7 @@ def test_nothing_is_tidied_where_that_is_not_wanted(workshop, config):
 def test_an_output_that_cannot_be_written_is_one_sentence(workshop, config):
     config.output.mkdir()
     (config.output / "nights").write_text("in the way")
-    with pytest.raises(
-        RegistryError, match=r"nights: File exists; what was finished is registered"
-    ):
+    with pytest.raises(RegistryError, match="nights: File exists; what was finished is registered"):
         run(workshop, config)
 
 
@@ -282,18 +267,14 @@ def test_what_could_be_mended_is_said_and_does_not_ring(workshop, config):
 
 
 def test_a_source_that_drifts_rings(workshop, config):
-    config = replace(
-        config,
-        inputs=(workshop.folder,),
-        failure=FailureRules(yield_drop=1.0, source=SourceRules(drop=0.1, least=3)),
-    )
+    failure = FailureRules(yield_drop=1.0, source=SourceRules(drop=0.1, least=3))
+    config = replace(config, inputs=(workshop.folder,), failure=failure)
     for _ in range(3):
         assert run(workshop, config).night.exit_code == 0
     workshop.rejected = {"a"}
     report = run(workshop, config)
     assert report.night.exit_code == 5
-    assert report.attention[0].startswith(
-        f"The yield of {workshop.folder} is 66.7 %; 100 % is usual"
-    )
+    told = f"The yield of {workshop.folder} is 66.7 %; 100 % is usual"
+    assert report.attention[0].startswith(told)
     page = (config.output / "nights" / "0004" / "index.html").read_text()
     assert "By source" in page

@@ -39,21 +39,17 @@ def test_a_shared_folder_holds_each_try_apart(tmp_path):
     tries = [made(Exchange("folder"), filling(tmp_path / "staging")) for _ in range(2)]
     folders = {transfer.opened(outcome).unwrap().folder for outcome, transfer in tries}
     assert len(folders) == 2
-    assert all(
-        folder.is_relative_to(tmp_path / "staging") and folder.is_dir() for folder in folders
-    )
+    assert all(each.is_relative_to(tmp_path / "staging") and each.is_dir() for each in folders)
 
 
 def test_a_folder_that_is_sent_arrives_whole_and_leaves_nothing(tmp_path, between):
-    outcome, transfer = made(
-        Exchange("folder", between.as_uri()), filling(tmp_path / "staging", 5000)
-    )
+    exchange = Exchange("folder", between.as_uri())
+    outcome, transfer = made(exchange, filling(tmp_path / "staging", 5000))
     assert not (tmp_path / "staging").exists(), "nothing is written there but by the caller"
     filled = transfer.opened(outcome).unwrap()
     assert filled.folder.is_relative_to(tmp_path / "staging")
-    assert sorted(
-        path.relative_to(filled.folder).as_posix() for path in filled.folder.rglob("*")
-    ) == ["meshes", "meshes/a.bin", "robot.urdf"]
+    found = sorted(path.relative_to(filled.folder).as_posix() for path in filled.folder.rglob("*"))
+    assert found == ["meshes", "meshes/a.bin", "robot.urdf"]
     assert (filled.folder / "meshes" / "a.bin").read_bytes() == bytes(range(256)) * 5000
     assert not list(between.iterdir())
 
@@ -100,9 +96,8 @@ def test_a_store_that_does_not_answer_loses_a_try(tmp_path, between, monkeypatch
         def rm_file(self, path):
             raise LookupError("of its own kind")
 
-    monkeypatch.setattr(
-        "asset_factory.factory.jobs.ray.exchange.located", lambda url: (Silent(), url)
-    )
+    located = "asset_factory.factory.jobs.ray.exchange.located"
+    monkeypatch.setattr(located, lambda url: (Silent(), url))
     with pytest.raises(OSError, match="of its own kind"):
         transfer.opened(outcome)
 
@@ -134,10 +129,8 @@ def test_an_archive_writes_nowhere_else(tmp_path, name, kind):
         archive.addfile(member)
     packed.seek(0)
     (tmp_path / "in").mkdir()
-    with (
-        tarfile.open(fileobj=packed) as archive,
-        pytest.raises(ExchangeError, match="no file or folder below"),
-    ):
+    refused = pytest.raises(ExchangeError, match="no file or folder below")
+    with tarfile.open(fileobj=packed) as archive, refused:
         unpacked(archive, tmp_path / "in")
     assert [path.name for path in tmp_path.rglob("*")] == ["in"]
 

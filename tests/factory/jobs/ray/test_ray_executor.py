@@ -85,14 +85,12 @@ def test_calls_on_a_cluster_of_its_own_are_answered_as_locally(tmp_path):
 
 def test_calls_that_nobody_wants_any_more_never_begin_and_running_ones_end(tmp_path):
     log = str(tmp_path)
-    calls = [
-        Call(
-            str(number),
-            {"number": number, "seconds": 4.0, "log": log},
-            wanted=lambda: not any(tmp_path.iterdir()),
-        )
-        for number in (2, 3)
-    ]
+
+    def wanted():
+        return not any(tmp_path.iterdir())
+
+    asked = {"seconds": 4.0, "log": log}
+    calls = [Call(str(number), {"number": number, **asked}, wanted=wanted) for number in (2, 3)]
     made = RayExecutor(workers=1).run(ray_calls.slow_square, calls, LIMITS)
     outcomes = {call.name: (outcome.value, outcome.failure) for call, outcome in made}
     assert outcomes == {"2": (4, None), "3": (None, None)}
@@ -132,20 +130,12 @@ def test_a_node_that_dies_costs_no_call_and_no_answer_comes_twice(cluster, tmp_p
 
     killer = threading.Thread(target=kill_once_both_work, daemon=True)
     killer.start()
-    calls = [
-        Call(str(number), {"number": number, "seconds": 1.0, "log": str(tmp_path)})
-        for number in range(12)
-    ]
-    answers = [
-        (call.name, outcome.value)
-        for call, outcome in RayExecutor(address=cluster.address).run(
-            ray_calls.slow_square, calls, LIMITS
-        )
-    ]
+    asked = {"seconds": 1.0, "log": str(tmp_path)}
+    calls = [Call(str(number), {"number": number, **asked}) for number in range(12)]
+    ran = RayExecutor(address=cluster.address).run(ray_calls.slow_square, calls, LIMITS)
+    answers = {call.name: outcome.value for call, outcome in ran}
     assert killed.is_set()
-    assert sorted(answers, key=lambda answer: int(answer[0])) == [
-        (str(n), n * n) for n in range(12)
-    ]
+    assert answers == {str(number): number * number for number in range(12)}
     begun = [path.name.split("-")[0] for path in tmp_path.iterdir()]
     assert len(begun) > len(set(begun)), "something was under way on the node that died"
 

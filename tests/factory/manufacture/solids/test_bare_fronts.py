@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from modelled_furniture import board, drawer_chest, fridge
+from plain_solids import carcass
 
 from asset_factory.factory.articulate.locate import located
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
@@ -29,6 +30,14 @@ def moving(mesh, pieces, joint):
     return located(Articulation(mesh, parts, (joint,), "test"))
 
 
+def split(mesh, names, *joints):
+    """A mesh whose pieces are parts by the first number of each name's."""
+    pieces = connected_components(mesh)
+    owner = np.searchsorted([*names.values()], pieces, side="right") - 1
+    parts = tuple(Part(name, np.flatnonzero(owner == i)) for i, name in enumerate(names))
+    return located(Articulation(mesh, parts, joints, "test"))
+
+
 def with_drawer(mesh, *pieces):
     """A mesh of which some pieces slide towards the viewer."""
     return moving(mesh, pieces, SLIDE)
@@ -42,14 +51,7 @@ def with_door(mesh, *pieces):
 
 def hollow_case():
     """Five boards and a front plate."""
-    return [
-        board((0.0, 0.0, 0.0), (0.02, 0.4, 0.6)),
-        board((0.58, 0.0, 0.0), (0.6, 0.4, 0.6)),
-        board((0.02, 0.0, 0.0), (0.58, 0.4, 0.02)),
-        board((0.02, 0.0, 0.58), (0.58, 0.4, 0.6)),
-        board((0.02, 0.38, 0.02), (0.58, 0.4, 0.58)),
-        board((0.0, -0.02, 0.0), (0.6, -0.001, 0.6)),
-    ]
+    return [*carcass(0.6, 0.4, 0.6), board((0.0, -0.02, 0.0), (0.6, -0.001, 0.6))]
 
 
 def test_a_plate_that_slides_is_bare_and_a_box_is_not():
@@ -96,34 +98,22 @@ def test_a_modelled_door_becomes_a_slab_as_thick_as_it_is(thickness):
 
 def test_a_front_gets_no_box_where_a_tray_of_its_own_slides():
     low, high = (0.05, 0.03, 0.2), (0.55, 0.36, 0.4)
-    tray = [
-        board(low, (0.55, 0.36, 0.204)),
-        board(low, (0.054, 0.36, 0.4)),
-        board((0.546, 0.03, 0.2), high),
-        board(low, (0.55, 0.034, 0.4)),
-        board((0.05, 0.356, 0.2), high),
-    ]
+    ends = ((0.55, 0.36, 0.204), (0.054, 0.36, 0.4), (0.55, 0.034, 0.4))
+    begins = ((0.546, 0.03, 0.2), (0.05, 0.356, 0.2))
+    tray = [*(board(low, end) for end in ends), *(board(begin, high) for begin in begins)]
     mesh = concatenate([*hollow_case(), *tray])
-    piece = connected_components(mesh)
-    parts = tuple(
-        Part(name, np.flatnonzero(of))
-        for name, of in (("base", piece < 5), ("drawer", piece == 5), ("tray", piece > 5))
-    )
     joints = (SLIDE, replace(SLIDE, name="tray_slide", child=2))
-    made = solids(located(Articulation(mesh, parts, joints, "test")), SolidsConfig())
+    given = split(mesh, {"base": 0, "drawer": 5, "tray": 6}, *joints)
+    made = solids(given, SolidsConfig())
     assert "drawer box" not in {each.kind for each in made.surfaces}
 
 
 def test_a_handle_taken_for_a_drawer_of_its_own_keeps_its_faces():
     bar = board((0.2, -0.1, 0.3), (0.4, -0.02, 0.34))
-    mesh = concatenate([*hollow_case(), bar])
-    piece = connected_components(mesh)
-    parts = tuple(
-        Part(name, np.flatnonzero(of))
-        for name, of in (("base", piece < 5), ("bar", piece == 6), ("drawer", piece == 5))
-    )
+    *case, front = hollow_case()
     joints = (SLIDE, replace(SLIDE, name="second_slide", child=2))
-    made = solids(located(Articulation(mesh, parts, joints, "test")), SolidsConfig())
+    given = split(concatenate([*case, bar, front]), {"base": 0, "bar": 5, "drawer": 6}, *joints)
+    made = solids(given, SolidsConfig())
     assert all(len(part.faces) for part in made.articulation.parts)
 
 
@@ -148,12 +138,8 @@ def test_a_body_behind_a_front_is_left_to_decomposition():
     wires = [board((x, 0.05, 0.3), (x + 0.006, 0.36, 0.306)) for x in (0.1, 0.2, 0.3, 0.4)]
     rails = [board((0.1, y, 0.3), (0.406, y + 0.006, 0.306)) for y in (0.05, 0.354)]
     mesh = concatenate([*hollow_case(), *wires, *rails])
-    piece = connected_components(mesh)
-    parts = tuple(
-        Part(name, np.flatnonzero(of))
-        for name, of in (("base", piece < 5), ("drawer", piece == 5), ("rack", piece > 5))
-    )
     joints = (SLIDE, replace(SLIDE, name="rack_slide", child=2))
-    made = solids(located(Articulation(mesh, parts, joints, "test")), SolidsConfig())
+    given = split(mesh, {"base": 0, "drawer": 5, "rack": 6}, *joints)
+    made = solids(given, SolidsConfig())
     assert made.pieces[2] is None
-    assert len(made.articulation.parts[2].faces) == len(parts[2].faces)
+    assert len(made.articulation.parts[2].faces) == len(given.parts[2].faces)

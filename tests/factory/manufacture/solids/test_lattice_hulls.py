@@ -31,11 +31,7 @@ def test_cells_below_all_planes_are_found(points, margin, first, second):
 
 
 def test_a_box_of_whole_cells_fills_its_volume():
-    lines = LATTICE.lines
-    box = Box(
-        np.array([lines[axis][2] for axis in range(3)]),
-        np.array([lines[axis][6] for axis in range(3)]),
-    )
+    box = Box(*(np.array([line[cell] for line in LATTICE.lines]) for cell in (2, 6)))
     twice = np.full(LATTICE.shape, 2, dtype=np.uint8)
     hull = box.hull()
     assert hull is not None

@@ -8,6 +8,7 @@ import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 from labelled_skins import SIZE, box_skin, chest, cupboard, labelled
+from plain_solids import box_between
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, rotation_about
 from asset_factory.factory.config import SolidsConfig
@@ -41,10 +42,8 @@ def lattice(planes=((), (), ()), cells=20):
 def test_parts_that_are_patches_of_one_surface_are_told_from_bodies():
     assert skin_parts(cupboard()) == (1,)
     assert skin_parts(chest()) == (1, 2)
-    boxes = []
-    for size, shift in (((0.6, 0.5, 0.8), (0, 0, 0)), ((0.4, 0.02, 0.6), (0, -0.26, 0))):
-        made = trimesh.creation.box(size)
-        boxes.append(Mesh.from_triangles(np.asarray(made.vertices) + shift, made.faces))
+    boxes = [box_between((-0.3, -0.25, -0.4), (0.3, 0.25, 0.4))]
+    boxes += [box_between((-0.2, -0.27, -0.3), (0.2, -0.25, 0.3))]
     hinge = Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
     parts = (Part("body", np.arange(12)), Part("door", np.arange(12, 24)))
     assert skin_parts(Articulation(concatenate(boxes), parts, (hinge,), "test")) == ()
@@ -104,9 +103,8 @@ def test_a_cut_keeps_the_surface_and_leaves_nothing_across_the_plane(axis, offse
     normal = np.eye(3)[axis]
     height = offset + (0.4 if axis == 2 else 0.0)
     halves = cut(skin, normal, height, np.ones(len(faces), dtype=bool))
-    across = np.cross(
-        halves.corners[:, 1] - halves.corners[:, 0], halves.corners[:, 2] - halves.corners[:, 0]
-    )
+    a, b, c = np.moveaxis(halves.corners, 1, 0)
+    across = np.cross(b - a, c - a)
     area = np.linalg.norm(across, axis=1).sum() / 2.0
     want = 2.0 * (SIZE[0] * SIZE[1] + SIZE[1] * SIZE[2] + SIZE[2] * SIZE[0])
     assert area == pytest.approx(want, rel=1e-9)
@@ -129,13 +127,16 @@ def test_a_hollow_is_the_largest_box_in_what_may_be_hollowed(side):
     assert found.size.prod() == pytest.approx(0.8 * 0.8 * 0.79, rel=0.06)
 
 
-def test_a_tapered_room_is_hollowed_in_steps():
+def tapered(depth):
+    """Cells of a room that is wider the deeper it goes, and the column below its mouth."""
     cells = lattice(cells=50)
     x, _, z = np.meshgrid(*cells.middles, indexing="ij")
-    room = (np.abs(x - 0.5) < 0.1 + 0.3 * z) & (z < 0.9)
-    frame = Side.TOP.frame
-    column = Box(np.array([0.0, 0.0, -0.9]), np.array([1.0, 1.0, 0.0]))
-    boxes = hollow(cells, room, column, frame)
+    room = (np.abs(x - 0.5) < 0.1 + 0.3 * z / depth) & (z < depth)
+    return cells, room, Box(np.array([0.0, 0.0, -depth]), np.array([1.0, 1.0, 0.0]))
+
+
+def test_a_tapered_room_is_hollowed_in_steps():
+    boxes = hollow(*tapered(0.9), Side.TOP.frame)
     widths = [box.size[0] for box in boxes]
     assert len(boxes) > 1
     assert widths == sorted(widths, reverse=True)
@@ -143,11 +144,7 @@ def test_a_tapered_room_is_hollowed_in_steps():
 
 @pytest.mark.parametrize("depth", [0.0776, 0.31, 0.9])
 def test_between_the_steps_of_a_hollow_there_is_no_skin(depth):
-    cells = lattice(cells=50)
-    x, _, z = np.meshgrid(*cells.middles, indexing="ij")
-    room = (np.abs(x - 0.5) < 0.1 + 0.3 * z / depth) & (z < depth)
-    column = Box(np.array([0.0, 0.0, -depth]), np.array([1.0, 1.0, 0.0]))
-    boxes = hollow(cells, room, column, Side.TOP.frame)
+    boxes = hollow(*tapered(depth), Side.TOP.frame)
     assert len(boxes) > 1
     corners = inside_of(boxes, boxes[0].low[2])
     areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2] / 2.0
@@ -241,13 +238,9 @@ def test_a_button_keeps_its_height_and_its_host_a_pit_for_it():
     vertices = vertices + np.array([0.0, 0.0, 0.04]) * button[:, None]
     raised = button[faces].any(axis=1)
     joint = Joint("press", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, 0], 0.0, 0.02)
-    articulation = Articulation(
-        Mesh.from_triangles(vertices, faces),
-        (Part("body", np.flatnonzero(~raised)), Part("button", np.flatnonzero(raised))),
-        (joint,),
-        "test",
-    )
-    made = solids(articulation, SolidsConfig())
+    parts = (Part("body", np.flatnonzero(~raised)), Part("button", np.flatnonzero(raised)))
+    mesh = Mesh.from_triangles(vertices, faces)
+    made = solids(Articulation(mesh, parts, (joint,), "test"), SolidsConfig())
     body, pressed = made.pieces
     (hull,) = pressed.hulls
     assert np.ptp(hull.vertices[:, 2]) == pytest.approx(0.04 - CLEAR_M, abs=1e-3)
@@ -268,19 +261,15 @@ def test_half_a_wheel_is_turned_into_a_whole_one():
 
 
 def test_a_lever_that_turns_all_the_way_is_no_wheel():
-    lever = trimesh.creation.box(
-        (0.2, 0.02, 0.02), trimesh.transformations.translation_matrix([0.1, 0, 0])
-    )
+    lever = trimesh.creation.box(bounds=[[0.0, -0.01, -0.01], [0.2, 0.01, 0.01]])
     points = np.asarray(lever.vertices)
     joint = Joint("spin", JointKind.CONTINUOUS, 0, 1, [0, 1, 0], [0, 0, 0], -np.pi, np.pi)
     assert find_bump(points, np.zeros((0, 3)), joint) is None
 
 
 def test_hollows_and_boards_bound_their_volume():
-    boxes = (
-        Box(np.zeros(3), np.ones(3)),
-        Box(np.array([0.2, 0.2, 1.0]), np.array([0.8, 0.8, 2.0])),
-    )
+    above = Box(np.array([0.2, 0.2, 1.0]), np.array([0.8, 0.8, 2.0]))
+    boxes = (Box(np.zeros(3), np.ones(3)), above)
     outside = outside_of(boxes)
     assert len(boundary(outside)) == 0
     inside = inside_of(boxes, 0.0)

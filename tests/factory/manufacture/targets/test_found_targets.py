@@ -34,9 +34,8 @@ def test_a_bar_is_grasped_in_its_middle_across_its_thickness():
     assert target.opening == pytest.approx(0.012, abs=1e-6)
     # About a hinge at (0, -0.02), the point at (0.356, -0.062) goes forwards and a little towards
     # the hinge.
-    np.testing.assert_allclose(
-        target.pull, np.array([-0.042, -0.356, 0.0]) / np.hypot(0.042, 0.356), atol=1e-6
-    )
+    forwards = np.array([-0.042, -0.356, 0.0]) / np.hypot(0.042, 0.356)
+    np.testing.assert_allclose(target.pull, forwards, atol=1e-6)
     assert target.score > 0.9
 
 
@@ -120,9 +119,7 @@ def test_a_button_is_pushed_in():
 
 
 def test_a_window_that_slides_in_its_own_plane_is_held_by_the_handle_on_its_face():
-    sideways = Joint(
-        "j", JointKind.PRISMATIC, 0, 1, np.array([1.0, 0.0, 0.0]), np.zeros(3), 0.0, 0.3
-    )
+    sideways = Joint("j", JointKind.PRISMATIC, 0, 1, [1, 0, 0], np.zeros(3), 0.0, 0.3)
     target = best(world([PANEL, *BAR], sideways))
     assert target.kind == "grasp"
     np.testing.assert_allclose(target.point, [0.356, -0.062, 0.3], atol=1e-6)
@@ -151,10 +148,8 @@ def test_a_turned_or_mirrored_object_has_turned_or_mirrored_targets(kind, joint)
 
 
 def score_at_bar(still):
-    grasps = [
-        t for t in targets_of(world([PANEL, *BAR], HINGE, [BODY, *still])) if t.kind == "grasp"
-    ]
-    return max((t.score for t in grasps), default=0.0)
+    targets = targets_of(world([PANEL, *BAR], HINGE, [BODY, *still]))
+    return max((target.score for target in targets if target.kind == "grasp"), default=0.0)
 
 
 def test_what_stands_before_a_handle_lowers_its_score_and_what_touches_the_fingers_forbids_it():

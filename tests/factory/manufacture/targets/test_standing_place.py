@@ -30,10 +30,8 @@ def place_of(articulation):
 def swept(articulation):
     joint = articulation.joints[0]
     vertices = articulation.part_mesh(1).vertices
-    rows = [
-        vertices @ joint.motion(q)[:3, :3].T + joint.motion(q)[:3, 3]
-        for q in np.linspace(0, joint.upper, 200)
-    ]
+    motions = [joint.motion(value) for value in np.linspace(0, joint.upper, 200)]
+    rows = [vertices @ motion[:3, :3].T + motion[:3, 3] for motion in motions]
     return np.concatenate([articulation.part_mesh(0).vertices, *rows])[:, :2]
 
 
@@ -55,9 +53,7 @@ def test_a_longer_drawer_is_opened_from_farther_away():
 
 def test_a_turned_object_is_opened_from_the_turned_place():
     articulation = world([PANEL, *BAR])
-    turn = np.array(
-        [[0.0, -1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
-    )
+    turn = np.eye(4)[[1, 0, 2, 3]] * [[-1.0], [1.0], [1.0], [1.0]]
     before = place_of(articulation)
     after = place_of(moved(articulation, turn))
     np.testing.assert_allclose(after.position, turn[:2, :2] @ before.position, atol=1e-6)
@@ -72,7 +68,6 @@ def test_without_room_there_is_no_place():
     articulation = world([PANEL, *BAR], SLIDE, walls)
     # Solids of their own, so that the space between them is not taken for one of them.
     hulls = tuple(Hull(w.vertices, w.faces) for w in walls)
-    asset = Asset(
-        "test", articulation, (PartBody(hulls, INERTIAL), asset_of(articulation).bodies[1])
-    )
+    bodies = (PartBody(hulls, INERTIAL), asset_of(articulation).bodies[1])
+    asset = Asset("test", articulation, bodies)
     assert standing_place(asset, SLIDE, best(articulation)) is None

@@ -25,14 +25,8 @@ def asset_of(articulation):
     for part in range(len(articulation.parts)):
         mesh = articulation.part_mesh(part)
         inertial = Inertial(1.0, mesh.bounds.mean(axis=0), np.eye(3) * 0.01)
-        bodies.append(
-            PartBody(
-                (Hull(mesh.vertices, mesh.faces),),
-                inertial,
-                find_handle(articulation, part),
-                "exact",
-            )
-        )
+        hull = Hull(mesh.vertices, mesh.faces)
+        bodies.append(PartBody((hull,), inertial, find_handle(articulation, part), "exact"))
     hulls = [() for _ in articulation.parts]
     return Asset("test", articulation, tuple(bodies), find_targets(articulation, hulls))
 
@@ -44,21 +38,11 @@ def test_the_manifest_holds_targets_in_their_links_frame_and_places_to_stand(tmp
     assert Manifest.from_json(text) == bundle.manifest
     manifest = json.loads(text)
     first = manifest["targets"][0]
-    assert set(first) == {
-        "joint",
-        "part",
-        "kind",
-        "point",
-        "normal",
-        "pull",
-        "fingers",
-        "opening_m",
-        "score",
-    }
+    directions = {"point", "normal", "pull", "fingers"}
+    assert set(first) == {"joint", "part", "kind", "opening_m", "score", *directions}
     assert (first["joint"], first["part"], first["kind"]) == ("j", "front", "grasp")
-    np.testing.assert_allclose(
-        first["point"], np.array([0.356, -0.062, 0.3]) - HINGE.origin, atol=1e-6
-    )
+    middle = np.array([0.356, -0.062, 0.3])
+    np.testing.assert_allclose(first["point"], middle - HINGE.origin, atol=1e-6)
     assert first["opening_m"] == pytest.approx(0.012, abs=1e-6)
     placement = manifest["joints"][0]["placement"]
     assert placement["position"][1] < -0.3
@@ -81,10 +65,9 @@ def test_every_moving_link_shows_a_handle_and_no_face_is_lost(moving, joint, tmp
     # The stock cabinet tasks look for "handle" in the names of the visuals of the links that move.
     assert any("handle" in visual.get("name", "") for visual in links["front"].iter("visual"))
     assert not any("handle" in visual.get("name", "") for visual in links["body"].iter("visual"))
-    written = sum(
-        (tmp_path / mesh.get("filename", "")).read_text().count("\nf ")
-        for mesh in links["front"].findall("visual/geometry/mesh")
-    )
+    meshes = links["front"].findall("visual/geometry/mesh")
+    texts = ((tmp_path / mesh.get("filename", "")).read_text() for mesh in meshes)
+    written = sum(text.count("\nf ") for text in texts)
     assert written == len(asset.articulation.parts[1].faces)
 
 
@@ -94,15 +77,10 @@ def test_a_handle_that_is_a_part_of_its_own_is_called_one_too(tmp_path):
     front = whole.parts[1].faces
     fixed = Joint("f", JointKind.FIXED, 1, 2, np.array([0.0, 0.0, 1.0]), np.zeros(3))
     parts = (whole.parts[0], Part("front", front[:count]), Part("grip", front[count:]))
-    bundle = export_bundle(
-        asset_of(Articulation(whole.mesh, parts, (*whole.joints, fixed), "test")),
-        PROVENANCE,
-        tmp_path,
-    )
-    names = {
-        link.get("name"): [visual.get("name", "") for visual in link.iter("visual")]
-        for link in ElementTree.parse(bundle.urdf).iter("link")
-    }
+    gripped = Articulation(whole.mesh, parts, (*whole.joints, fixed), "test")
+    bundle = export_bundle(asset_of(gripped), PROVENANCE, tmp_path)
+    links = {link.get("name"): link for link in ElementTree.parse(bundle.urdf).iter("link")}
+    names = {name: [each.get("name", "") for each in links[name].iter("visual")] for name in links}
     assert all(name.startswith("handle") for name in names["grip"])
     assert any(name.startswith("handle") for name in names["front"])
 

@@ -14,15 +14,8 @@ from asset_factory.learn.objects.kit import casework
 
 #: A handle under whose material every maker's grips are found again.
 MARK = Material("grip", (1.0, 0.0, 1.0, 1.0))
-OBJECTS = [
-    ("kitchen", 0),
-    ("nightstand", 1),
-    ("wardrobe", 0),
-    ("sideboard", 0),
-    ("desk", 2),
-    ("door", 1),
-    ("window", 3),
-]
+OBJECTS = {"kitchen": 0, "nightstand": 1, "wardrobe": 0, "sideboard": 0}
+OBJECTS |= {"desk": 2, "door": 1, "window": 3}
 #: A plate set flush into a front gives nothing to hold.
 FLUSH = ("recess", "none")
 
@@ -47,11 +40,10 @@ def test_the_best_target_lies_on_the_makers_handle(monkeypatch):
     for module in (casework, openings):
         monkeypatch.setattr(module, "add_pull", partial(marked, module.add_pull))
     on_handle = []
-    for category, seed in OBJECTS:
+    for category, seed in OBJECTS.items():
         articulation = make_object(category, seed)
-        first = {}
-        for target in find_targets(articulation, [()] * len(articulation.parts)):
-            first.setdefault(target.joint, target)
+        targets = find_targets(articulation, [()] * len(articulation.parts))
+        first = {target.joint: target for target in reversed(targets)}
         assert set(first) == {joint.name for joint in articulation.movable_joints}
         for name, triangles in grips(articulation).items():
             point = first[name].point

@@ -38,10 +38,8 @@ def field(shape=TINY):
 def test_the_shape_is_read_back_and_is_the_networks(shape):
     assert read_partfield_shape(expected_tensors(shape)) == shape
     with torch.device("meta"):
-        encoder = PartFieldEncoder(shape)
-    assert {
-        name: tuple(tensor.shape) for name, tensor in encoder.state_dict().items()
-    } == expected_tensors(shape)
+        tensors = PartFieldEncoder(shape).state_dict()
+    assert {name: (*each.shape,) for name, each in tensors.items()} == expected_tensors(shape)
 
 
 @pytest.mark.parametrize(
@@ -65,13 +63,10 @@ def test_channels_that_cannot_be_normed_in_groups_are_refused():
 
 
 def test_what_lacks_layers_is_refused():
-    tensors = {
-        name: size
-        for name, size in expected_tensors(TINY).items()
-        if "transformer.layers" not in name
-    }
+    tensors = expected_tensors(TINY)
+    others = {name: tensors[name] for name in tensors if "transformer.layers" not in name}
     with pytest.raises(ConfigError, match="no PartField"):
-        read_partfield_shape(tensors)
+        read_partfield_shape(others)
 
 
 def test_scattered_means_are_means():
@@ -111,13 +106,10 @@ def test_points_look_their_voxels_up_with_x_and_z_exchanged():
 def test_a_plane_hears_of_its_column_and_row_from_the_others():
     exchange = PlaneExchange(1)
     for conv, kernel in zip(exchange.plane_convs, ([0, 1, 0], [0, 0, 1], [1, 0, 0]), strict=True):
-        conv.weight = torch.nn.Parameter(
-            torch.tensor(kernel, dtype=torch.float32).reshape(1, 3, 1, 1)
-        )
+        weight = torch.tensor(kernel, dtype=torch.float32).reshape(1, 3, 1, 1)
+        conv.weight = torch.nn.Parameter(weight)
         torch.nn.init.zeros_(conv.bias)
-    first, second, third = (
-        torch.tensor(np.random.default_rng(seed).normal(size=(4, 4))) for seed in range(3)
-    )
+    first, second, third = torch.tensor(np.random.default_rng(0).normal(size=(3, 4, 4)))
     with torch.no_grad():
         found = exchange(torch.cat([first, second, third]).float()[None, None])[0, 0].split(4)
     np.testing.assert_allclose(found[0], second.mean(dim=1)[None, :].expand(4, 4), atol=1e-6)
@@ -146,9 +138,8 @@ def test_features_do_not_depend_on_where_the_shape_is_or_how_large():
 
 def test_features_depend_on_the_whole_cloud():
     cloud = np.random.default_rng(3).uniform(-0.5, 0.5, (400, 3))
-    assert not np.allclose(
-        field().features(cloud, cloud[:9]), field().features(cloud[:200], cloud[:9]), atol=1e-3
-    )
+    whole, half = (field().features(each, cloud[:9]) for each in (cloud, cloud[:200]))
+    assert not np.allclose(whole, half, atol=1e-3)
 
 
 def test_a_cloud_without_extent_still_has_features():

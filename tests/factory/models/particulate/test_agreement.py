@@ -27,10 +27,10 @@ def drawer(direction=X):
 
 def reading(labels, *motions):
     """Part 0 is the root and holds the others."""
-    parts = tuple(
-        DecodedPart(i, 1.0, None if i == 0 else 1.0, m) for i, m in enumerate((hinge(), *motions))
-    )
-    return Decoded(np.asarray(labels), parts, tuple((0, i) for i in range(1, len(parts))), UNIT)
+    root = DecodedPart(0, 1.0, None, hinge())
+    movers = [DecodedPart(number, 1.0, 1.0, motion) for number, motion in enumerate(motions, 1)]
+    edges = tuple((0, part.query) for part in movers)
+    return Decoded(np.asarray(labels), (root, *movers), edges, UNIT)
 
 
 HALVES = [0] * 5 + [1] * 5

@@ -32,8 +32,5 @@ def test_numbers_of_components_mean_nothing():
     normals = rng.normal(size=(60, 3))
     components = rng.integers(0, 5, 60)
     renamed = np.array([40, 2, 9, 17, 3])[components]
-    np.testing.assert_allclose(
-        component_features(points, normals, components),
-        component_features(points, normals, renamed),
-        rtol=1e-6,
-    )
+    found = component_features(points, normals, components)
+    np.testing.assert_allclose(found, component_features(points, normals, renamed), rtol=1e-6)

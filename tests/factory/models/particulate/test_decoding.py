@@ -51,18 +51,25 @@ def prediction_of(held):
 
 def seen(faces):
     """A sample of which only the faces matter."""
-    cloud = Cloud(
-        np.zeros((len(faces), 3)),
-        np.zeros((len(faces), 3)),
-        faces,
-        np.zeros(len(faces), dtype=bool),
-        faces,
-    )
+    places = np.zeros((len(faces), 3))
+    cloud = Cloud(places, places, faces, np.zeros(len(faces), dtype=bool), faces)
     return CloudSample(cloud, cloud, UNIT)
 
 
 def decoded(surface, faces, prediction, **rules):
     return decode(surface, Proxy(surface), seen(faces), prediction, DecodeRules(**rules))
+
+
+def assert_moves_as(motion, want, index, atol):
+    """The kind, axis and slide are the released code's for that part."""
+    assert motion.kind.turns == want["is_part_revolute"][index]
+    assert motion.kind.slides == want["is_part_prismatic"][index]
+    if motion.axis is not None:
+        along = motion.axis.direction
+        line = np.concatenate([along, np.cross(along, motion.axis.point)])
+        assert np.allclose(line, want["revolute_plucker"][index], atol=atol)
+    if motion.slide_direction is not None:
+        assert np.allclose(motion.slide_direction, want["prismatic_axis"][index], atol=atol)
 
 
 @pytest.mark.parametrize(
@@ -80,18 +87,11 @@ def test_a_stored_answer_becomes_the_released_codes_prediction(fixtures, case, r
     assert sorted(found.edges) == sorted(map(tuple, want["motion_hierarchy"].tolist()))
     assert [p.query for p in found.parts] == sorted({int(p.query) for p in found.parts})
     for index, part in enumerate(found.parts):
-        motion = part.motion
-        assert motion.kind.turns == want["is_part_revolute"][index]
-        assert motion.kind.slides == want["is_part_prismatic"][index]
-        if motion.axis is not None:
-            line = np.concatenate(
-                [motion.axis.direction, np.cross(motion.axis.direction, motion.axis.point)]
-            )
-            assert np.allclose(line, want["revolute_plucker"][index], atol=1e-6)
-            assert motion.turn == holding_zero(want["revolute_range"][index], "rad", [])
-        if motion.slide_direction is not None:
-            assert np.allclose(motion.slide_direction, want["prismatic_axis"][index], atol=1e-6)
-            assert motion.slide == holding_zero(want["prismatic_range"][index], "", [])
+        assert_moves_as(part.motion, want, index, atol=1e-6)
+        if part.motion.axis is not None:
+            assert part.motion.turn == holding_zero(want["revolute_range"][index], "rad", [])
+        if part.motion.slide_direction is not None:
+            assert part.motion.slide == holding_zero(want["prismatic_range"][index], "", [])
 
 
 def forward_prediction(held):
@@ -114,16 +114,7 @@ def test_axes_types_and_tree_are_those_of_the_release(fixtures, seed):
     prediction = forward_prediction(forward)
     points = assigned(prediction.mask_logits)
     for part in points.present:
-        motion = read_motion(prediction, part, points.parts)
-        assert motion.kind.turns == want["is_part_revolute"][part]
-        assert motion.kind.slides == want["is_part_prismatic"][part]
-        if motion.axis is not None:
-            line = np.concatenate(
-                [motion.axis.direction, np.cross(motion.axis.direction, motion.axis.point)]
-            )
-            assert np.allclose(line, want["revolute_plucker"][part], atol=1e-5)
-        if motion.slide_direction is not None:
-            assert np.allclose(motion.slide_direction, want["prismatic_axis"][part], atol=1e-5)
+        assert_moves_as(read_motion(prediction, part, points.parts), want, part, atol=1e-5)
     # One face per point, so that faces are points and the tree is over the same parts.
     count = len(points.parts)
     vertices = np.random.default_rng(0).normal(size=(3 * count, 3))
@@ -137,12 +128,15 @@ def test_axes_types_and_tree_are_those_of_the_release(fixtures, seed):
 def test_a_pluecker_network_gives_the_same_axes(fixtures):
     held = arrays(fixtures / "geometry" / "plucker.npz")
     for line, axis, point in zip(held["plucker"], held["axis_out"], held["point_out"], strict=True):
-        motion = read_motion(
-            turning(direction=3.0 * line[:3], moment=3.0 * line[3:]), 0, np.zeros(1, dtype=int)
-        )
+        motion = only_motion(turning(direction=3.0 * line[:3], moment=3.0 * line[3:]))
         assert np.allclose(motion.axis.direction, axis, atol=1e-6)
         off = motion.axis.point - point
         assert np.allclose(off - axis * (off @ axis), 0.0, atol=1e-6)
+
+
+def only_motion(prediction, count=1):
+    """Of the one part, to which so many points belong."""
+    return read_motion(prediction, 0, np.zeros(count, dtype=int))
 
 
 def turning(
@@ -202,9 +196,8 @@ def test_parts_move_as_in_the_release(fixtures, case, state, share):
     if held[f"{case}_rev"][root]:
         # Where we leave the release: it moves the root too; relative to the root nothing differs.
         line = held[f"{case}_plucker"][root]
-        own = Joint("own", "revolute", 0, 1, line[:3], np.cross(line[3:], line[:3])).motion(
-            value("t", root)
-        )
+        turn = Joint("own", "revolute", 0, 1, line[:3], np.cross(line[3:], line[:3]))
+        own = turn.motion(value("t", root))
         moved = moved @ own[:3, :3].T + own[:3, 3]
     assert np.allclose(moved, held[f"{case}_{state}_xyz"], atol=1e-6)
 
@@ -230,42 +223,32 @@ def test_limits_hold_the_input_pose(given, want, said):
 
 
 def test_a_motion_without_direction_is_left_out_with_a_note():
-    motion = read_motion(turning(direction=(0.0, 0.0, 0.0)), 0, np.zeros(1, dtype=int))
+    nowhere = (0.0, 0.0, 0.0)
+    motion = only_motion(turning(direction=nowhere))
     assert (motion.kind, motion.axis, len(motion.notes)) == (MotionClass.FIXED, None, 1)
-    both = read_motion(
-        turning(direction=(0.0, 0.0, 0.0), kind=MotionClass.BOTH), 0, np.zeros(1, dtype=int)
-    )
+    both = only_motion(turning(direction=nowhere, kind=MotionClass.BOTH))
     assert both.kind is MotionClass.PRISMATIC
     assert both.slide == pytest.approx((0.0, 0.3))
 
 
 def test_the_margin_is_that_between_the_two_likeliest_kinds():
-    prediction = turning()
-    undecided = replace(
-        prediction, motion_logits=np.array([[0.0, np.log(3.0), np.log(2.0), -50.0]])
-    )
-    assert read_motion(undecided, 0, np.zeros(1, dtype=int)).margin == pytest.approx(
-        1 / 6, abs=1e-6
-    )
+    logits = np.array([[0.0, np.log(3.0), np.log(2.0), -50.0]])
+    undecided = only_motion(replace(turning(), motion_logits=logits))
+    assert undecided.margin == pytest.approx(1 / 6, abs=1e-6)
 
 
 def test_votes_for_an_axis_are_robust_and_their_spread_is_measured():
     """A third of the votes are wild; the median does not move."""
     rng = np.random.default_rng(0)
-    along = rng.uniform(-0.5, 0.5, 300)
-    votes = np.stack(
-        [0.2 + rng.normal(0, 0.01, 300), -0.1 + rng.normal(0, 0.01, 300), along], axis=1
-    )
+    votes = rng.normal([0.2, -0.1, 0.0], [0.01, 0.01, 0.3], (300, 3)).astype(np.float32)
     votes[:90, :2] = rng.uniform(-3, 3, (90, 2))
     held = turning(direction=(0.0, 0.0, 2.0))
-    prediction = replace(
-        held, closest_points=picked(votes.astype(np.float32)), revolute_moment=None
-    )
-    axis = read_motion(prediction, 0, np.zeros(300, dtype=int)).axis
+    prediction = replace(held, closest_points=picked(votes), revolute_moment=None)
+    axis = only_motion(prediction, 300).axis
     assert np.allclose(axis.point[:2], [0.2, -0.1], atol=0.01)
     assert 0.005 < axis.spread < 0.03
     tight = replace(prediction, closest_points=picked(np.full((300, 3), 0.5, dtype=np.float32)))
-    assert read_motion(tight, 0, np.zeros(300, dtype=int)).axis.spread == 0.0
+    assert only_motion(tight, 300).axis.spread == 0.0
 
 
 @pytest.mark.parametrize(
@@ -285,7 +268,7 @@ def test_broken_votes_are_a_reason_too():
     votes = np.full((1, 3), np.inf, dtype=np.float32)
     prediction = replace(turning(), closest_points=picked(votes), revolute_moment=None)
     with pytest.raises(InputRejected, match="votes") as caught:
-        read_motion(prediction, 0, np.zeros(1, dtype=int))
+        only_motion(prediction)
     assert caught.value.code == "prediction_not_finite"
 
 
@@ -319,9 +302,8 @@ def test_one_tree_over_parts_with_faces_also_when_the_root_has_none(over):
     hierarchy = np.full((16, 16), -9.0)
     hierarchy[9, [4, 5, 6]] = 9.0
     hierarchy[5, [4, 6]] = 1.0
-    found = decoded(
-        surface, faces, rows(labels, hierarchy), refinement=Refinement.COMPONENT, tree=over
-    )
+    rules = {"refinement": Refinement.COMPONENT, "tree": over}
+    found = decoded(surface, faces, rows(labels, hierarchy), **rules)
     assert [part.query for part in found.parts] == [4, 5, 6]
     assert sorted(found.edges) == [(1, 0), (1, 2)]
     assert found.root == 1

@@ -21,23 +21,33 @@ from asset_factory.factory.models.particulate.proxy import carried_back, proxy_o
 from asset_factory.factory.models.particulate.surface import Surface
 
 
-def surface_of(mesh):
+def surface_of(*meshes):
+    mesh = trimesh.util.concatenate(meshes)
     return Surface.of(np.array(mesh.vertices, dtype=float), np.array(mesh.faces, dtype=np.int64))
+
+
+def box(*extents, times=2):
+    """A box of which every triangle is divided in four that many times."""
+    made = trimesh.creation.box(extents=extents or None)
+    for _ in range(times):
+        made = made.subdivide()
+    return made
+
+
+def boxes_apart(count):
+    return surface_of(*(box().apply_translation([3.0 * i, 0, 0]) for i in range(count)))
 
 
 @pytest.mark.parametrize("name", ["one_box", "three_cc", "ico"])
 def test_labels_are_those_of_the_release(fixtures, name):
     held = arrays(fixtures / "geometry" / "face_labels.npz")
     surface = Surface.of(held[f"{name}_vertices"], held[f"{name}_faces"])
-    known = held[f"{name}_point_face"] >= 0
-    raw = voted(
-        held[f"{name}_point_face"][known], held[f"{name}_point_part"][known], len(surface.faces)
-    )
+    faces = held[f"{name}_point_face"]
+    raw = voted(faces[faces >= 0], held[f"{name}_point_part"][faces >= 0], len(surface.faces))
     assert np.array_equal(raw, held[f"{name}_raw"])
     assert np.array_equal(by_component(surface, raw), held[f"{name}_strict"])
-    assert np.array_equal(
-        refined(surface, raw, Refinement.PATCH, 0.1)[0], held[f"{name}_nonstrict"]
-    )
+    patches, _ = refined(surface, raw, Refinement.PATCH, 0.1)
+    assert np.array_equal(patches, held[f"{name}_nonstrict"])
 
 
 def test_equal_votes_go_to_the_lowest_label_and_no_vote_is_minus_one():
@@ -46,12 +56,11 @@ def test_equal_votes_go_to_the_lowest_label_and_no_vote_is_minus_one():
 
 
 def test_faces_without_points_take_the_nearest_label():
-    surface = surface_of(trimesh.creation.box(extents=(1.0, 1.0, 10.0)).subdivide().subdivide())
+    surface = surface_of(box(1.0, 1.0, 10.0))
     centers = surface.vertices[surface.faces].mean(axis=1)
     labels = np.full(len(surface.faces), -1)
-    filled = with_gaps_filled(
-        surface, labels, np.array([[0.0, 0, -5], [0, 0, 5]]), np.array([4, 9])
-    )
+    points = np.array([[0.0, 0, -5], [0, 0, 5]])
+    filled = with_gaps_filled(surface, labels, points, np.array([4, 9]))
     assert np.array_equal(filled, np.where(centers[:, 2] < 0, 4, 9))
     assert np.array_equal(with_gaps_filled(surface, filled, centers, filled), filled)
 
@@ -62,11 +71,7 @@ def noisy(labels, share, count, seed=0):
 
 
 def test_a_mesh_of_separate_parts_gets_one_label_each():
-    parts = [
-        trimesh.creation.box().subdivide().subdivide().apply_translation([3.0 * i, 0, 0])
-        for i in range(3)
-    ]
-    surface = surface_of(trimesh.util.concatenate(parts))
+    surface = boxes_apart(3)
     labels, fused = refined(surface, noisy(surface.components, 0.4, 3), Refinement.AUTO, 0.1)
     assert np.array_equal(labels, surface.components)
     assert fused == 0
@@ -74,9 +79,7 @@ def test_a_mesh_of_separate_parts_gets_one_label_each():
 
 def test_a_mesh_of_one_component_keeps_its_parts():
     """Where we leave the release: its default makes one part of every fused mesh."""
-    surface = surface_of(
-        trimesh.creation.box(extents=(3.0, 1.0, 1.0)).subdivide().subdivide().subdivide()
-    )
+    surface = surface_of(box(3.0, 1.0, 1.0, times=3))
     truth = (surface.vertices[surface.faces].mean(axis=1)[:, 0] > 0.7).astype(np.int64)
     labels, fused = refined(surface, noisy(truth, 0.1, 2), Refinement.AUTO, 0.1)
     assert len(np.unique(by_component(surface, noisy(truth, 0.1, 2)))) == 1
@@ -102,14 +105,7 @@ def test_a_stray_face_on_a_fused_mesh_is_no_part_of_its_own():
 
 
 def test_a_fused_body_beside_separate_parts_is_cut_and_they_are_not():
-    body = trimesh.creation.box(extents=(3.0, 1.0, 1.0)).subdivide().subdivide()
-    door = (
-        trimesh.creation.box(extents=(3.0, 0.1, 1.0))
-        .subdivide()
-        .subdivide()
-        .apply_translation([0, 2, 0])
-    )
-    surface = surface_of(trimesh.util.concatenate([body, door]))
+    surface = surface_of(box(3.0, 1.0, 1.0), box(3.0, 0.1, 1.0).apply_translation([0, 2, 0]))
     centers = surface.vertices[surface.faces].mean(axis=1)
     fused_part = (surface.components == 0) & (centers[:, 0] > 0.4)
     labels = np.where(surface.components == 1, 7, np.where(fused_part, 2, 0))
@@ -123,11 +119,7 @@ def test_a_fused_body_beside_separate_parts_is_cut_and_they_are_not():
 
 
 def test_a_small_mistake_in_a_large_mesh_makes_no_component_fused():
-    boxes = [
-        trimesh.creation.box().subdivide().subdivide().apply_translation([3.0 * i, 0, 0])
-        for i in range(4)
-    ]
-    surface = surface_of(trimesh.util.concatenate(boxes))
+    surface = boxes_apart(4)
     labels = surface.components.copy()
     labels[:8] = 9
     assert len(fused_components(surface, labels, 0.1)) == 0
@@ -135,10 +127,8 @@ def test_a_small_mistake_in_a_large_mesh_makes_no_component_fused():
 
 
 def test_a_screw_is_not_cut_in_two_however_torn_the_network_is_about_it():
-    body = trimesh.creation.box(extents=(5.0, 5.0, 5.0)).subdivide()
-    surface = surface_of(
-        trimesh.util.concatenate([body, trimesh.creation.box().apply_translation([9.0, 0, 0])])
-    )
+    body = box(5.0, 5.0, 5.0, times=1)
+    surface = surface_of(body, trimesh.creation.box().apply_translation([9.0, 0, 0]))
     labels = surface.components.copy()
     labels[-6:] = 9
     labels[-7] = 3
@@ -153,11 +143,7 @@ def test_no_refinement_leaves_labels_alone():
 
 @given(st.integers(0, 10**6), st.integers(2, 6))
 def test_afterwards_every_label_is_one_patch_and_none_is_new(seed, count):
-    surface = surface_of(
-        trimesh.util.concatenate(
-            [trimesh.creation.icosphere(2), trimesh.creation.box().subdivide()]
-        )
-    )
+    surface = surface_of(trimesh.creation.icosphere(2), box(times=1))
     labels = np.random.default_rng(seed).integers(0, count, len(surface.faces))
     done, _ = refined(surface, labels, Refinement.PATCH, 0.1)
     same = done[surface.neighbours[:, 0]] == done[surface.neighbours[:, 1]]
@@ -169,13 +155,12 @@ def test_afterwards_every_label_is_one_patch_and_none_is_new(seed, count):
 
 def test_a_dense_mesh_is_seen_lighter_and_labelled_whole():
     spheres = [trimesh.creation.icosphere(4).apply_translation([2.5 * i, 0, 0]) for i in range(3)]
-    surface = surface_of(trimesh.util.concatenate(spheres))
+    surface = surface_of(*spheres)
     proxy = proxy_of(surface, 3000)
     assert len(proxy.surface.faces) <= 3000
     assert proxy.surface.components.max() == 2
-    assert np.array_equal(
-        carried_back(proxy, proxy.surface.components, surface.faces), surface.components
-    )
+    components = carried_back(proxy, proxy.surface.components, surface.faces)
+    assert np.array_equal(components, surface.components)
     # A border across a component stays where it was, to within a proxy's triangle.
     low = proxy.surface.vertices[proxy.surface.faces].mean(axis=1)[:, 2] < 0
     centers = surface.vertices[surface.faces].mean(axis=1)[:, 2]

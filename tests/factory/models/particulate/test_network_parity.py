@@ -54,19 +54,15 @@ def built_field(shape, dtype=torch.float32):
 def case(file, prefix=""):
     """The arrays of one object, without the batch."""
     with np.load(file) as arrays:
-        found = {
-            name.removeprefix(prefix): arrays[name]
-            for name in arrays.files
-            if name.startswith(prefix)
-        }
+        names = [name for name in arrays.files if name.startswith(prefix)]
+        found = {name.removeprefix(prefix): arrays[name] for name in names}
     return found if prefix else {name: array[0] for name, array in found.items()}
 
 
 def assert_same(prediction, wanted):
     for name, original in OUTPUTS.items():
-        np.testing.assert_allclose(
-            getattr(prediction, name), wanted[original], err_msg=name, **CLOSE
-        )
+        found = getattr(prediction, name)
+        np.testing.assert_allclose(found, wanted[original], err_msg=name, **CLOSE)
     closest = prediction.closest_points(wanted["part_ids_argmax"])
     np.testing.assert_allclose(closest, wanted["closest_point_on_axis"], **CLOSE)
 
@@ -88,9 +84,8 @@ def test_the_features_are_the_originals():
 
 def test_features_in_bfloat16_stay_within_two_percent():
     wanted = case(KEPT, "partfield_")
-    features = built_field(TINY_FIELD, torch.bfloat16).features(
-        wanted["points_enc"], wanted["points_dec"]
-    )
+    field = built_field(TINY_FIELD, torch.bfloat16)
+    features = field.features(wanted["points_enc"], wanted["points_dec"])
     error = np.linalg.norm(features - wanted["point_feat"]) / np.linalg.norm(wanted["point_feat"])
     assert 1e-5 < error < 0.02
 
@@ -126,9 +121,8 @@ def test_training_sees_the_originals_logits_and_losses(fixtures, seed):
     kinds = wanted["gt_part_motion_class"].gather(1, wanted["part_ids"])
     turning = (kinds == 1) | (kinds == 3)
     loss = (closest - wanted["gt_closest_point_on_axis"])[turning].abs().mean()
-    np.testing.assert_allclose(
-        loss, wanted["loss_unmatched_point_closest_point_on_axis_loss"], rtol=1e-4
-    )
+    theirs = wanted["loss_unmatched_point_closest_point_on_axis_loss"]
+    np.testing.assert_allclose(loss, theirs, rtol=1e-4)
 
 
 def test_the_released_size_says_what_the_original_said(fixtures):
@@ -147,17 +141,14 @@ def test_stored_tiny_field_is_the_originals(fixtures):
     encoder = field._encoder
     with torch.no_grad():
         points = torch.tensor(wanted["points_enc_norm"])
-        np.testing.assert_allclose(
-            encoder.pvcnn.pc_encoder.encoder[0](points)[0], wanted["pts0"], **CLOSE
-        )
+        first = encoder.pvcnn.pc_encoder.encoder[0](points)
         planes = encoder.pvcnn(points)
-        np.testing.assert_allclose(planes[0], wanted["pvcnn_out"], **CLOSE)
-        np.testing.assert_allclose(
-            encoder.triplane_transformer(planes)[0], wanted["planes"], **CLOSE
-        )
-    np.testing.assert_allclose(
-        field.features(wanted["points_enc"], wanted["points_dec"]), wanted["point_feat"], **CLOSE
-    )
+        last = encoder.triplane_transformer(planes)
+    np.testing.assert_allclose(first[0], wanted["pts0"], **CLOSE)
+    np.testing.assert_allclose(planes[0], wanted["pvcnn_out"], **CLOSE)
+    np.testing.assert_allclose(last[0], wanted["planes"], **CLOSE)
+    features = field.features(wanted["points_enc"], wanted["points_dec"])
+    np.testing.assert_allclose(features, wanted["point_feat"], **CLOSE)
 
 
 @pytest.mark.full

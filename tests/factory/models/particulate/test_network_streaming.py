@@ -21,14 +21,8 @@ from asset_factory.factory.models.particulate.model import Particulate, PointClo
 from asset_factory.factory.models.particulate.sampling import Cloud
 
 CLOSE = {"rtol": 1e-4, "atol": 1e-4}
-PART_FIELDS = (
-    "hierarchy_logits",
-    "motion_logits",
-    "revolute_direction",
-    "revolute_range",
-    "prismatic_direction",
-    "prismatic_range",
-)
+PART_FIELDS = ("hierarchy_logits", "motion_logits")
+PART_FIELDS += ("revolute_direction", "revolute_range", "prismatic_direction", "prismatic_range")
 
 
 @pytest.mark.parametrize(
@@ -49,14 +43,12 @@ def test_streamed_is_plain(shape):
     prediction = model.predict(cloud)
     np.testing.assert_allclose(prediction.mask_logits, masks, **CLOSE)
     for name in PART_FIELDS:
-        np.testing.assert_allclose(
-            getattr(prediction, name), getattr(parts, name)[0].numpy(), err_msg=name, **CLOSE
-        )
+        wanted = getattr(parts, name)[0].numpy()
+        np.testing.assert_allclose(getattr(prediction, name), wanted, err_msg=name, **CLOSE)
     if shape.axis_form is AxisForm.PLUCKER:
         assert prediction.closest_points is None
-        np.testing.assert_allclose(
-            prediction.revolute_moment, parts.revolute_moment[0].numpy(), **CLOSE
-        )
+        moment = parts.revolute_moment[0].numpy()
+        np.testing.assert_allclose(prediction.revolute_moment, moment, **CLOSE)
     else:
         assert prediction.revolute_moment is None
         np.testing.assert_allclose(prediction.closest_points(masks.argmax(1)), closest, **CLOSE)
@@ -80,22 +72,18 @@ def test_chunks_do_not_matter(count, chunk, seed):
     model = tiny_model()
     cloud = random_cloud(count, seed=seed)
     inputs = (cloud.points, cloud.normals, cloud.features)
-    whole, parts = (embed_chunks(model._network, *inputs, size) for size in (count, chunk))
-    queries = [
-        drive(model._network, hidden, torch.float32, size).queries
-        for hidden, size in ((whole, count), (parts, chunk))
-    ]
-    np.testing.assert_allclose(queries[0].numpy(), queries[1].numpy(), **CLOSE)
+    embedded = [embed_chunks(model._network, *inputs, size) for size in (count, chunk)]
+    whole = drive(model._network, embedded[0], torch.float32, count).queries
+    parts = drive(model._network, embedded[1], torch.float32, chunk).queries
     np.testing.assert_allclose(whole.numpy(), parts.numpy(), **CLOSE)
+    np.testing.assert_allclose(embedded[0].numpy(), embedded[1].numpy(), **CLOSE)
 
 
 def test_a_batch_is_its_clouds_one_by_one():
     model = tiny_model()
     clouds = [random_cloud(60, seed=seed) for seed in range(3)]
-    stacked = [
-        torch.tensor(np.stack([getattr(cloud, name) for cloud in clouds]))
-        for name in ("points", "normals", "features")
-    ]
+    rows = zip(*((each.points, each.normals, each.features) for each in clouds), strict=True)
+    stacked = [torch.tensor(np.stack(row)) for row in rows]
     with torch.no_grad():
         hidden, queries = model._network(*stacked)
         masks = model._network.mask_logits(hidden, queries)
@@ -111,11 +99,8 @@ def test_the_order_of_points_does_not_matter():
     model = tiny_model()
     cloud = random_cloud(300)
     order = np.random.default_rng(1).permutation(300)
-    np.testing.assert_allclose(
-        model.predict(cloud.take(order)).mask_logits,
-        model.predict(cloud).mask_logits[order],
-        **CLOSE,
-    )
+    shuffled = model.predict(cloud.take(order)).mask_logits
+    np.testing.assert_allclose(shuffled, model.predict(cloud).mask_logits[order], **CLOSE)
 
 
 def test_every_point_twice_changes_nothing():
@@ -144,9 +129,8 @@ def test_points_that_do_not_drive_are_answered_for_alone():
     driven = model.encode(random_cloud(100, seed=9))
     everything = model.decode(driven, cloud)
     some = np.array([5, 600, 17])
-    np.testing.assert_allclose(
-        model.decode(driven, cloud.take(some)).mask_logits, everything.mask_logits[some], **CLOSE
-    )
+    alone = model.decode(driven, cloud.take(some))
+    np.testing.assert_allclose(alone.mask_logits, everything.mask_logits[some], **CLOSE)
 
 
 def test_few_driving_points_always_give_the_same_answer_for_all():
@@ -158,10 +142,8 @@ def test_few_driving_points_always_give_the_same_answer_for_all():
     assert not np.array_equal(few.mask_logits, model.predict(cloud).mask_logits)
     # They are a fair sample: the more of them, the closer to what all would tell.
     wanted = model.predict(cloud).motion_logits
-    errors = [
-        np.abs(model.predict(cloud, driving=count).motion_logits - wanted).max()
-        for count in (10, 80, 640)
-    ]
+    driven = [model.predict(cloud, driving=count).motion_logits for count in (10, 80, 640)]
+    errors = [np.abs(each - wanted).max() for each in driven]
     assert errors[0] > errors[1] > errors[2] > 0.0
 
 
@@ -169,23 +151,19 @@ def test_closest_points_of_some_rows_are_those_of_all():
     prediction = tiny_model().predict(random_cloud(90))
     part_ids = prediction.mask_logits.argmax(1)
     rows = np.array([3, 3, 88, 0])
-    np.testing.assert_allclose(
-        prediction.closest_points(part_ids, rows),
-        prediction.closest_points(part_ids)[rows],
-        **CLOSE,
-    )
+    closest = prediction.closest_points(part_ids)
+    np.testing.assert_allclose(prediction.closest_points(part_ids, rows), closest[rows], **CLOSE)
     assert prediction.closest_points(part_ids, np.zeros(0, dtype=int)).shape == (0, 3)
     other = prediction.closest_points((part_ids + 1) % 16)
-    assert np.abs(other - prediction.closest_points(part_ids)).min(axis=0).max() > 0.0
+    assert np.abs(other - closest).min(axis=0).max() > 0.0
     with pytest.raises(ValueError, match=r"want \[90\]"):
         prediction.closest_points(part_ids[:5])
 
 
 def test_bfloat16_stays_within_two_percent_of_the_largest_logit():
     cloud = random_cloud(500)
-    exact, rough = (
-        tiny_model(dtype=dtype).predict(cloud) for dtype in (torch.float32, torch.bfloat16)
-    )
+    exact = tiny_model(dtype=torch.float32).predict(cloud)
+    rough = tiny_model(dtype=torch.bfloat16).predict(cloud)
     for name in ("mask_logits", *PART_FIELDS):
         wanted = getattr(exact, name)
         got = getattr(rough, name)
@@ -202,42 +180,32 @@ def test_logits_of_any_size_do_not_overflow_the_sums():
     streamed = QueryPass(attention, asking, torch.float32)
     for chunk in asked.split(7):
         streamed.see(chunk)
-    np.testing.assert_allclose(
-        streamed.found().numpy(), attention(asking, asked).numpy(), atol=1e-3
-    )
+    wanted = attention(asking, asked).numpy()
+    np.testing.assert_allclose(streamed.found().numpy(), wanted, atol=1e-3)
 
 
 def test_pairs_are_what_concatenation_gives():
     head = tiny_model()._network.part_hierarchy_decoder
     rows = torch.randn(1, 5, 32)
     columns = torch.randn(1, 4, 32)
-    pairs = torch.cat(
-        [rows[:, :, None].expand(-1, -1, 4, -1), columns[:, None].expand(-1, 5, -1, -1)], dim=-1
-    )
-    np.testing.assert_allclose(
-        pair_logits(head, rows, columns).numpy(), head(pairs)[..., 0].numpy(), atol=1e-5
-    )
+    both = [rows[:, :, None].expand(-1, -1, 4, -1), columns[:, None].expand(-1, 5, -1, -1)]
+    wanted = head(torch.cat(both, dim=-1))[..., 0]
+    np.testing.assert_allclose(pair_logits(head, rows, columns).numpy(), wanted.numpy(), atol=1e-5)
 
 
 def test_gradients_reach_every_weight():
     shape = replace(TINY, blocks=1)
     network = deepcopy(tiny_model(shape)._network).requires_grad_(True)
     cloud = random_cloud(20, shape)
-    hidden, queries = network(
-        *(torch.tensor(each)[None] for each in (cloud.points, cloud.normals, cloud.features))
-    )
+    inputs = (cloud.points, cloud.normals, cloud.features)
+    hidden, queries = network(*(torch.tensor(each)[None] for each in inputs))
     parts = network.part_outputs(queries)
-    outputs = [
-        network.mask_logits(hidden, queries),
-        network.closest_points(hidden, queries, torch.zeros(1, 20).long()),
-    ]
-    outputs += [getattr(parts, name) for name in PART_FIELDS]
+    outputs = [getattr(parts, name) for name in PART_FIELDS]
+    outputs += [network.closest_points(hidden, queries, torch.zeros(1, 20).long())]
+    outputs += [network.mask_logits(hidden, queries)]
     sum(output.square().sum() for output in outputs).backward()
-    assert not [
-        name
-        for name, weight in network.named_parameters()
-        if weight.grad is None or not weight.grad.any()
-    ]
+    gradients = {name: weight.grad for name, weight in network.named_parameters()}
+    assert not [name for name, grad in gradients.items() if grad is None or not grad.any()]
 
 
 def test_sinusoids_are_sines_then_cosines_per_coordinate():

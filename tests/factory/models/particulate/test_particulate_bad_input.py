@@ -26,10 +26,8 @@ def of(mesh):
 
 
 def boxes(count):
-    each = [
-        trimesh.creation.box().apply_translation([1.5 * (i % 25), 1.5 * (i // 25), 0])
-        for i in range(count)
-    ]
+    places = [[1.5 * (number % 25), 1.5 * (number // 25), 0] for number in range(count)]
+    each = [trimesh.creation.box().apply_translation(place) for place in places]
     return of(trimesh.util.concatenate(each))
 
 
@@ -47,10 +45,7 @@ def flat_sheet():
 
 def with_slivers():
     vertices, faces = of(trimesh.creation.box().subdivide())
-    edge = faces[:, [0, 1]]
-    return vertices, np.vstack(
-        [faces, np.column_stack([edge, edge[:, 0]]), np.column_stack([edge[:, [0, 0]], edge[:, 1]])]
-    )
+    return vertices, np.vstack([faces, faces[:, [0, 1, 0]], faces[:, [0, 0, 1]]])
 
 
 def on_one_edge(count):
@@ -58,9 +53,7 @@ def on_one_edge(count):
     angle = np.linspace(0, np.pi, count)
     tips = np.stack([np.cos(angle), np.sin(angle), np.full(count, 0.5)], axis=1)
     vertices = np.vstack([[[0, 0, 0], [0, 0, 1]], tips])
-    return vertices, np.column_stack(
-        [np.zeros(count), np.ones(count), np.arange(count) + 2]
-    ).astype(int)
+    return vertices, np.array([[0, 1, number + 2] for number in range(count)])
 
 
 MESHES = {
@@ -72,10 +65,7 @@ MESHES = {
     "no sharp edge": lambda: of(trimesh.creation.icosphere(3)),
     "2,000 faces on one edge": lambda: on_one_edge(2000),
     "a mesh denser than is shown": lambda: of(trimesh.creation.icosphere(6)),
-    "both sides of a sheet": lambda: (
-        np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0]]),
-        [[0, 1, 2], [2, 1, 0]],
-    ),
+    "both sides of a sheet": lambda: (np.tri(3, k=-1), [[0, 1, 2], [2, 1, 0]]),
     "very small": lambda: (np.eye(3) * 1e-9, [[0, 1, 2]]),
     "very far": lambda: (np.eye(3) + 1e6, [[0, 1, 2]]),
 }
@@ -114,10 +104,9 @@ def test_points_and_memory_are_bounded_however_many_faces_there_are():
         asked_for.append((len(cloud.points), len(context.points)))
         return random_network(cloud, context)
 
+    articulator = ParticulateArticulator(counting, (), CONFIG)
     for vertices, faces in (triangles_apart(30_000), of(trimesh.creation.icosphere(6))):
-        ParticulateArticulator(counting, (), CONFIG).articulate(
-            Mesh.from_triangles(vertices, faces)
-        )
+        articulator.articulate(Mesh.from_triangles(vertices, faces))
     most = CONFIG.points // 2 + CONFIG.max_faces
     assert all(points <= most and context == CONFIG.context_points for points, context in asked_for)
 

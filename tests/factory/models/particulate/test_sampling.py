@@ -23,18 +23,14 @@ def surface_of(mesh):
 
 def soup(surface):
     """The same triangles, no two of them sharing a vertex index."""
-    return surface.vertices[surface.faces].reshape(-1, 3), np.arange(
-        3 * len(surface.faces)
-    ).reshape(-1, 3)
+    corners = surface.vertices[surface.faces].reshape(-1, 3)
+    return corners, np.arange(len(corners)).reshape(-1, 3)
 
 
 def by_place(ends, values):
     """Edges with a value each, in an order that depends on their places alone."""
-    rows = [
-        (*sorted(map(tuple, np.round(pair, 9).tolist())), *np.round(v, 6))
-        for pair, v in zip(ends, values, strict=True)
-    ]
-    return sorted(rows)
+    places = [sorted(map(tuple, np.round(pair, 9).tolist())) for pair in ends]
+    return sorted((*pair, *np.round(v, 6)) for pair, v in zip(places, values, strict=True))
 
 
 @pytest.mark.parametrize("name", SHARP_MESHES)
@@ -77,10 +73,8 @@ def test_half_the_points_are_sharp_and_every_face_has_one(fixtures, name, count)
 def test_points_lie_on_their_faces_and_are_spread_by_area():
     surface = surface_of(trimesh.creation.box(extents=(1.0, 2.0, 4.0)))
     cloud = draw(surface, sharp_edges(surface), 40_000, np.random.default_rng(1), most_covered=0)
-    normals = surface.normals[cloud.faces]
-    off = np.einsum(
-        "ij,ij->i", cloud.points - surface.vertices[surface.faces[cloud.faces, 0]], normals
-    )
+    across = cloud.points - surface.vertices[surface.faces[cloud.faces, 0]]
+    off = np.einsum("ij,ij->i", across, surface.normals[cloud.faces])
     assert np.abs(off).max() < 1e-12
     flat = ~cloud.sharp
     share = np.bincount(cloud.faces[flat], minlength=12) / flat.sum()
@@ -141,11 +135,8 @@ def test_faces_without_area_get_no_point_and_make_no_edge_sharp():
 
 def test_the_network_sees_the_box_of_the_points_and_the_way_back_is_exact():
     """Where we leave the release: it scales twice, undoes neither; a cone is 0.46 percent off."""
-    surface = surface_of(
-        trimesh.creation.cone(radius=3.0, height=5.0, sections=32).apply_translation(
-            [70.0, -2.0, 9.0]
-        )
-    )
+    cone = trimesh.creation.cone(radius=3.0, height=5.0, sections=32)
+    surface = surface_of(cone.apply_translation([70.0, -2.0, 9.0]))
     seen = sample(surface, 2000, 1000, 10**6, np.random.default_rng(0))
     both = np.concatenate([seen.context.points, seen.cloud.points])
     inside = seen.box.inside(both)
@@ -154,11 +145,8 @@ def test_the_network_sees_the_box_of_the_points_and_the_way_back_is_exact():
     out = seen.box.outwards
     assert np.allclose(inside @ out[:3, :3].T + out[:3, 3], both, atol=1e-12)
     mesh_box = UnitBox.around(surface.vertices)
-    once = mesh_box.inside(both)
-    wrong = inside - once
-    assert np.abs(wrong).max() > 1e-3, (
-        "for a cone the two boxes differ, so undoing only one would show"
-    )
+    # For a cone the two boxes differ, so that undoing only one would show.
+    assert np.abs(inside - mesh_box.inside(both)).max() > 1e-3
 
 
 @given(st.integers(0, 10**6))
@@ -167,9 +155,8 @@ def test_two_boxes_are_one(seed):
     points = rng.normal(size=(20, 3)) * 10.0 ** rng.uniform(-3, 3) + rng.normal(size=3) * 5
     outer = UnitBox.around(points)
     inner = UnitBox.around(outer.inside(points[:7]))
-    assert np.allclose(
-        outer.then(inner).inside(points), inner.inside(outer.inside(points)), atol=1e-9
-    )
+    nested = inner.inside(outer.inside(points))
+    assert np.allclose(outer.then(inner).inside(points), nested, atol=1e-9)
 
 
 def test_components_survive_sheets_and_boxes_that_touch():

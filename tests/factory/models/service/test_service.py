@@ -32,12 +32,9 @@ def cloud_of(count, seed=0):
 
 
 def equal(one, other):
-    for each in fields(Prediction):
-        a = getattr(one, each.name)
-        b = getattr(other, each.name)
-        if each.name != "closest_points" and not (a is b is None or np.array_equal(a, b)):
-            return False
-    return True
+    names = [each.name for each in fields(Prediction) if each.name != "closest_points"]
+    pairs = [(getattr(one, name), getattr(other, name)) for name in names]
+    return all(a is b is None or np.array_equal(a, b) for a, b in pairs)
 
 
 def not_at_home():
@@ -69,10 +66,8 @@ def serving(tmp_path):
     def serve(network, identity="it", **settings):
         listening = listening_socket(str(tmp_path / "socket"))
         opened.append(listening)
-        answering = Answering(network, identity, 2)
-        threading.Thread(
-            target=answer_all, args=(listening, answering), kwargs=settings, daemon=True
-        ).start()
+        call = {"args": (listening, Answering(network, identity, 2)), "kwargs": settings}
+        threading.Thread(target=answer_all, **call, daemon=True).start()
         return Address(str(tmp_path / "socket"), start_s=0.2, answer_s=20.0)
 
     yield serve
@@ -129,9 +124,8 @@ def test_where_the_service_is_no_help_the_network_at_home_answers(serving, tmp_p
         address = serving(own, most_askers=0)
     elif wrong == "it says nonsense":
         listening = listening_socket(str(tmp_path / "nonsense"))
-        threading.Thread(
-            target=answer_all, args=(listening, lambda _: b"\xff" * 100), daemon=True
-        ).start()
+        call = (listening, lambda _: b"\xff" * 100)
+        threading.Thread(target=answer_all, args=call, daemon=True).start()
         address = Address(str(tmp_path / "nonsense"))
     asked_at_home = []
 
@@ -164,11 +158,7 @@ def test_closest_points_that_are_held_no_more_come_from_home(serving):
 
 
 def test_messages_come_back_as_they_were():
-    arrays = {
-        "a": np.arange(6, dtype=np.float32).reshape(2, 3),
-        "b": np.zeros((0, 4), np.int64),
-        "c": np.array(3),
-    }
+    arrays = {"a": np.ones((2, 3), np.float32), "b": np.zeros((0, 4), np.int64), "c": np.array(3)}
     message = unpack(pack(Message("kind", {"x": "y"}, arrays)))
     assert (message.kind, dict(message.texts)) == ("kind", {"x": "y"})
     assert all(np.array_equal(message.arrays[name], array) for name, array in arrays.items())
@@ -176,6 +166,10 @@ def test_messages_come_back_as_they_were():
 
 def header(text, body=b""):
     return wire._LENGTHS.pack(len(text), len(body)) + text + body
+
+
+def array(described, body):
+    return header(b'{"kind": "x", "texts": {}, "arrays": [["a", ' + described + b"]]}", body)
 
 
 @pytest.mark.parametrize(
@@ -188,13 +182,10 @@ def header(text, body=b""):
         header(b"not json"),
         header(b"[" * 50000),
         header(b'{"kind": 1, "texts": {}}'),
-        header(b'{"kind": "x", "texts": {}, "arrays": [["a", "|O", [1]]]}', b"12345678"),
-        header(b'{"kind": "x", "texts": {}, "arrays": [["a", "<f4", [-1]]]}', b"1234"),
-        header(
-            b'{"kind": "x", "texts": {}, "arrays": [["a", "<f4", [9999999999, 9999999999]]]}',
-            b"1234",
-        ),
-        header(b'{"kind": "x", "texts": {}, "arrays": [["a", "<f4", [1]]]}', b"12345678"),
+        array(b'"|O", [1]', b"12345678"),
+        array(b'"<f4", [-1]', b"1234"),
+        array(b'"<f4", [9999999999, 9999999999]', b"1234"),
+        array(b'"<f4", [1]', b"12345678"),
     ],
 )
 def test_what_is_no_message_is_refused(data):
@@ -237,9 +228,7 @@ def test_a_service_that_nobody_asks_loads_nothing(config):
 
 
 def test_a_service_whose_weights_cannot_be_read_is_given_up(tmp_path):
-    with (
-        ModelService(ParticulateConfig(checkpoint=str(tmp_path / "none.safetensors"))) as service,
-        asking(service.address),
-    ):
+    nowhere = ParticulateConfig(checkpoint=str(tmp_path / "none.safetensors"))
+    with ModelService(nowhere) as service, asking(service.address):
         served = network_for("it", lambda: random_network)
         assert served(cloud_of(20), cloud_of(20)).part_count > 0

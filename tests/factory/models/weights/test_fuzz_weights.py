@@ -35,9 +35,8 @@ def tensor(storage=b"ctorch\nFloatStorage\n", key=KEY, size=1):
     stored = b"(" + pickled_text("storage") + storage + key + pickled_text("cpu") + b"K\1tQ"
     sizes = b"(" + pickled_number(size) + b"t(K\1t"
     hooks = b"ccollections\nOrderedDict\n)R"
-    return (
-        b"ctorch._utils\n_rebuild_tensor_v2\n(" + stored + b"K\0" + sizes + b"\x89" + hooks + b"tR"
-    )
+    rebuild = b"ctorch._utils\n_rebuild_tensor_v2\n("
+    return rebuild + stored + b"K\0" + sizes + b"\x89" + hooks + b"tR"
 
 
 def one_tensor(**changes):

@@ -28,11 +28,8 @@ def test_an_input_belongs_to_the_innermost_root_above_it():
     given = [attempt("a"), attempt("inner/b"), attempt("inner/c", "rejected")]
     given += [replace(attempt("d"), input="/single.glb")]
     found = source_yields(given, ROOTS, (), SourceRules())
-    assert [(s.source, s.passed, s.tried) for s in found] == [
-        ("/", 1, 1),
-        ("meshes", 1, 1),
-        ("meshes/inner", 1, 2),
-    ]
+    counted = [(each.source, each.passed, each.tried) for each in found]
+    assert counted == [("/", 1, 1), ("meshes", 1, 1), ("meshes/inner", 1, 2)]
 
 
 @pytest.mark.parametrize(

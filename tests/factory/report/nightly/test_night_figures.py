@@ -79,31 +79,19 @@ def test_a_night_that_goes_on_keeps_the_true_times():
 
 
 def test_changes_against_the_night_before():
-    before = [
-        attempt("same"),
-        attempt("broke"),
-        attempt("mended", "rejected"),
-        attempt("gone"),
-        attempt("edited"),
-    ]
+    before = [attempt(name) for name in ("same", "broke", "gone", "edited")]
+    before += [attempt("mended", "rejected")]
     before += [attempt("worse", "rejected"), attempt("crashed")]
-    now = [
-        attempt("same"),
-        attempt("broke", "rejected"),
-        attempt("mended"),
-        attempt("new", "rejected"),
-    ]
+    now = [attempt("same"), attempt("broke", "rejected")]
+    now += [attempt("mended"), attempt("new", "rejected")]
     now += [
         attempt("edited", "rejected", digest="bbbbbbbbbb"),
         attempt("worse", "rejected", reason="too_large"),
     ]
     now += [attempt("crashed", "unjudged")]
     changes = compare(before, now)
-    assert [c.now.input for c in changes.failing] == [
-        "meshes/broke.glb",
-        "meshes/edited.glb",
-        "meshes/crashed.glb",
-    ]
+    failing = [f"meshes/{name}.glb" for name in ("broke", "edited", "crashed")]
+    assert [change.now.input for change in changes.failing] == failing
     assert [c.same_content for c in changes.failing] == [True, False, True]
     assert [c.now.input for c in changes.passing] == ["meshes/mended.glb"]
     assert [c.now.reason for c in changes.other] == ["too_large"]
@@ -171,28 +159,18 @@ def test_a_fall_of_exactly_what_is_allowed_is_allowed(drop):
     fallen = round(100 * drop)
     now = [attempt(f"a{i}", "rejected" if i < fallen else "passed") for i in range(100)]
     changes = compare(before, now)
-    assert (
-        exit_code(night("2", now), night("1", before), changes, FailureRules(yield_drop=drop)) == 0
-    )
+    rules = FailureRules(yield_drop=drop)
+    assert exit_code(night("2", now), night("1", before), changes, rules) == 0
     one_more = [attempt(f"a{i}", "rejected" if i <= fallen else "passed") for i in range(100)]
-    assert (
-        exit_code(night("2", one_more), night("1", before), changes, FailureRules(yield_drop=drop))
-        == 5
-    )
+    assert exit_code(night("2", one_more), night("1", before), changes, rules) == 5
 
 
 def test_reasons_are_counted_with_an_example_that_has_a_sentence():
-    attempts = [
-        attempt("a", "rejected", message=""),
-        attempt("b", "rejected"),
-        attempt("c", "unjudged"),
-        attempt("d"),
-    ]
+    attempts = [attempt("a", "rejected", message=""), attempt("b", "rejected")]
+    attempts += [attempt("c", "unjudged"), attempt("d")]
     found = reasons(attempts)
-    assert [(r.code, r.status, r.count) for r in found] == [
-        ("jammed", "rejected", 2),
-        ("build_crashed", "unjudged", 1),
-    ]
+    told = [(each.code, each.status, each.count) for each in found]
+    assert told == [("jammed", "rejected", 2), ("build_crashed", "unjudged", 1)]
     assert found[0].message == "b is jammed"
 
 
@@ -204,23 +182,17 @@ def test_stages_and_the_slowest_leave_out_what_was_known():
         attempt("d", "rejected", seconds=1.0, stages={"load": 1.0}),
     ]
     stages = stage_times(attempts)
-    assert [(s.stage, s.seconds, s.median, s.inputs) for s in stages] == [
-        ("validate", 7.0, 3.5, 2),
-        ("load", 6.0, 1.0, 3),
-    ]
+    told = [(each.stage, each.seconds, each.median, each.inputs) for each in stages]
+    assert told == [("validate", 7.0, 3.5, 2), ("load", 6.0, 1.0, 3)]
     assert stages[0].slowest == "b-aaaaaaaaaa"
     assert [a.id for a in slowest(attempts, 2)] == ["b-aaaaaaaaaa", "a-aaaaaaaaaa"]
 
 
 def test_licenses_are_counted_by_verdict():
-    attempts = [
-        attempt("a", license="CC0-1.0"),
-        attempt("b", "rejected", license="CC0-1.0"),
-        attempt("c", "unjudged"),
-    ]
-    counted = [
-        (item.license, item.passed, item.rejected, item.unjudged) for item in licenses(attempts)
-    ]
+    free = {"license": "CC0-1.0"}
+    attempts = [attempt("a", **free), attempt("b", "rejected", **free), attempt("c", "unjudged")]
+    found = licenses(attempts)
+    counted = [(each.license, each.passed, each.rejected, each.unjudged) for each in found]
     assert counted == [("CC0-1.0", 1, 1, 0), ("", 0, 0, 1)]
 
 
@@ -232,10 +204,8 @@ def test_the_message_is_one_line():
         "Night 2: 8 of 10 inputs passed (80.0 %, −20.0 points), "
         "1 rejected, 1 unjudged, 1 DAMAGED; 4 h 12 min."
     )
-    assert (
-        message(NightlyReport(night("3", state="interrupted")))
-        == "Night 3 [interrupted]: 0 of 0 inputs passed; 0 s."
-    )
+    interrupted = NightlyReport(night("3", state="interrupted"))
+    assert message(interrupted) == "Night 3 [interrupted]: 0 of 0 inputs passed; 0 s."
 
 
 def test_the_summary_holds_what_the_page_shows():
@@ -243,20 +213,11 @@ def test_the_summary_holds_what_the_page_shows():
     data = summary(NightlyReport(night("2", OF_TEN), night("1", WELL), tuple(OF_TEN), changes))
     assert data["night"]["yield"] == 0.8
     assert data["against"]["night"] == "1"
-    assert [(r["code"], r["count"]) for r in data["reasons"]] == [
-        ("build_crashed", 1),
-        ("jammed", 1),
-    ]
-    assert summary(NightlyReport(night("1")))["against"] == {
-        "night": None,
-        "shared": 0,
-        "yield_before": None,
-        "yield_now": None,
-        "fresh": 0,
-        "gone": 0,
-        "newly_failing": [],
-        "newly_passed": [],
-    }
+    counted = [(each["code"], each["count"]) for each in data["reasons"]]
+    assert counted == [("build_crashed", 1), ("jammed", 1)]
+    nothing = dict.fromkeys(("night", "yield_before", "yield_now"))
+    nothing |= {"shared": 0, "fresh": 0, "gone": 0, "newly_failing": [], "newly_passed": []}
+    assert summary(NightlyReport(night("1")))["against"] == nothing
     assert changes != Changes()
 
 

@@ -47,10 +47,8 @@ def test_the_table_has_a_row_per_attempt_and_says_which_counts(tmp_path):
     assert columns["status"] == ["unjudged", "unjudged", "unjudged", "passed", "passed"]
     assert columns["reason"] == ["build_crashed", "tried_again", "tried_again", "", ""]
     assert columns["seconds"] == [0.0, None, None, 2.0, 0.0]
-    assert [row.input for row in read_table(tmp_path / "attempts.parquet")] == [
-        "meshes/a.glb",
-        "meshes/b.glb",
-    ]
+    inputs = [row.input for row in read_table(tmp_path / "attempts.parquet")]
+    assert inputs == ["meshes/a.glb", "meshes/b.glb"]
 
 
 def test_a_table_that_is_damaged_is_none(tmp_path):
@@ -86,10 +84,8 @@ def test_a_night_that_was_interrupted_goes_on(tmp_path):
 def test_summaries_are_read_in_the_order_of_the_nights(tmp_path):
     for name, started in (("later", "2026-11-20T01:00:00Z"), ("sooner", "2026-11-19T01:00:00Z")):
         (tmp_path / name).mkdir()
-        write_json(
-            tmp_path / name / SUMMARY,
-            summary(NightlyReport(night(name, [attempt("a")], started=started))),
-        )
+        report = NightlyReport(night(name, [attempt("a")], started=started))
+        write_json(tmp_path / name / SUMMARY, summary(report))
     for name, text in (
         ("broken", "{"),
         ("strange", '{"night": {"name": "x", "passed": "many"}}'),

@@ -76,17 +76,8 @@ def report(count=12, evil=EVIL):
         attempt(f"a{i}", ("passed", "rejected", "unjudged")[i % 3], seconds=i, stages={"load": i})
         for i in range(count)
     ]
-    now.append(
-        attempt(
-            evil,
-            "rejected",
-            reason=evil,
-            message=evil,
-            license=evil,
-            stages={evil: 1.0},
-            seconds=1.0,
-        )
-    )
+    told = dict.fromkeys(("reason", "message", "license"), evil)
+    now.append(attempt(evil, "rejected", **told, stages={evil: 1.0}, seconds=1.0))
     trend_of = tuple(Night(f"{n}", passed=n, rejected=2) for n in range(1, 5))
     return NightlyReport(
         night("5", now, damaged=1, verified=9),
@@ -105,11 +96,8 @@ def report(count=12, evil=EVIL):
 def test_the_page_is_whole_and_needs_nothing_else():
     tags = parsed(night_page(report()))
     assert {"script", "img", "iframe", "object", "link"}.isdisjoint(tags.seen)
-    assert not [
-        target
-        for target in tags.links
-        if "://" in target or target.startswith(("//", "javascript:", "data:"))
-    ]
+    away = ("//", "javascript:", "data:")
+    assert not [each for each in tags.links if "://" in each or each.startswith(away)]
 
 
 def test_names_of_inputs_are_text_and_nothing_else():
@@ -170,9 +158,8 @@ def test_the_page_of_ten_thousand_inputs_stays_readable():
 
 
 def charts(page):
-    return [
-        ElementTree.fromstring(found) for found in re.findall(r"<svg.*?</svg>", page, re.DOTALL)
-    ]
+    drawn = re.findall(r"<svg.*?</svg>", page, re.DOTALL)
+    return [ElementTree.fromstring(each) for each in drawn]
 
 
 def test_bars_are_as_long_as_their_values():
@@ -184,12 +171,8 @@ def test_bars_are_as_long_as_their_values():
 
 
 def test_the_trend_is_drawn_to_scale():
-    nights = [
-        Night("1", passed=9, rejected=1),
-        Night("2", passed=8, rejected=2),
-        Night("3"),
-        Night("4", passed=10),
-    ]
+    nights = [Night("1", passed=9, rejected=1), Night("2", passed=8, rejected=2)]
+    nights += [Night("3"), Night("4", passed=10)]
     (chart,) = charts(trend(nights))
     heights = [float(dot.get("cy")) for dot in chart.iter("circle")]
     assert len(heights) == 3
@@ -199,13 +182,10 @@ def test_the_trend_is_drawn_to_scale():
         for y in (bottom, top)
     )
     assert (least, most) == ("70 %", "100 %")
-    assert heights == pytest.approx(
-        [top + (bottom - top) * short / 0.3 for short in (0.1, 0.2, 0.0)], abs=0.1
-    )
-    assert (
-        next(dot.find("title").text for dot in chart.iter("circle"))
-        == "1: 90.0 %; 9 passed, 1 rejected, 0 unjudged"
-    )
+    wanted = [top + (bottom - top) * short / 0.3 for short in (0.1, 0.2, 0.0)]
+    assert heights == pytest.approx(wanted, abs=0.1)
+    title = next(dot.find("title").text for dot in chart.iter("circle"))
+    assert title == "1: 90.0 %; 9 passed, 1 rejected, 0 unjudged"
     bar = [float(rect.get("height")) for rect in chart.iter("rect")]
     assert bar[0] == pytest.approx(9 * bar[1], abs=0.1)
 
@@ -218,13 +198,10 @@ def test_one_night_is_no_trend_and_many_are_cut():
 
 
 def test_all_nights_are_listed_the_last_first():
-    page = nights_page(
-        (night("1", [attempt("a")]), night("2", [attempt("a", "rejected")], state="out_of_time"))
-    )
+    second = night("2", [attempt("a", "rejected")], state="out_of_time")
+    page = nights_page((night("1", [attempt("a")]), second))
     tags = parsed(page)
-    assert [target for target in tags.links if "index.html" in target] == [
-        "2/index.html",
-        "1/index.html",
-    ]
+    pages = [target for target in tags.links if "index.html" in target]
+    assert pages == ["2/index.html", "1/index.html"]
     assert "−100.0 points" in page
     assert "out of time" in page

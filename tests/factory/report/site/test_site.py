@@ -111,9 +111,8 @@ def test_a_verdict_leads_back_to_the_proposals_of_its_parts(registry):
 
 def test_the_data_of_a_page_cannot_end_its_script(registry):
     text = (registry.root / "report/a/hitting-2/index.html").read_text()
-    (data,) = re.findall(
-        r'<script id="told" type="application/json">(.*?)</script>', text, re.DOTALL
-    )
+    tag = r'<script id="told" type="application/json">(.*?)</script>'
+    (data,) = re.findall(tag, text, re.DOTALL)
     told = json.loads(data)
     assert told["places"] == [{"values": {"hinge": 0.8}, "point": list(POINT)}]
     assert told["start"] == told["places"][0]
@@ -131,10 +130,8 @@ def test_what_was_rejected_has_its_place_and_its_picture(registry):
 
 def test_findings_are_told_once_in_groups_the_gravest_first(registry):
     page = asset_page(registry.root, registry.entry("hitting-2"))
-    assert [(group.severity, group.code, len(group.findings)) for group in page.groups] == [
-        ("error", "sweep_penetration", 1),
-        ("warning", "articulation_note", 1),
-    ]
+    groups = [(group.severity, group.code, len(group.findings)) for group in page.groups]
+    assert groups == [("error", "sweep_penetration", 1), ("warning", "articulation_note", 1)]
     text = (registry.root / "report/a/hitting-2/index.html").read_text()
     assert re.findall(r"<h3>(\w+)</h3>", text) == ["Errors", "Warnings"]
 
@@ -158,10 +155,8 @@ def test_without_a_model_the_page_still_says_why(registry):
 def test_the_grid_knows_what_filters_ask_for(registry):
     text = (registry.root / "report/assets.js").read_text()
     table = json.loads(text.removeprefix("factoryAssets=").rstrip(";\n"))
-    rows = {
-        row[table["fields"].index("id")]: dict(zip(table["fields"], row, strict=True))
-        for row in table["rows"]
-    }
+    told = [dict(zip(table["fields"], row, strict=True)) for row in table["rows"]]
+    rows = {row["id"]: row for row in told}
     assert rows["cabinet-1"]["kinds"] == ["prismatic", "revolute"]
     assert rows["cabinet-1"]["repairs"] == ["hulls cut apart"]
     assert rows["hitting-2"]["picture"] == "fault"
@@ -175,11 +170,8 @@ def test_only_what_changed_is_drawn_again(registry):
     assert [entry.id for entry in stale(registry)] == ["cabinet-1"]
     registry.note("cabinet-1", tags=())
     assert list(stale(registry)) == []
-    before = {
-        file: file.read_bytes()
-        for file in index_of(registry.root).parent.rglob("*")
-        if file.is_file()
-    }
+    files = [each for each in index_of(registry.root).parent.rglob("*") if each.is_file()]
+    before = {each: each.read_bytes() for each in files}
     for entry in registry.entries():
         write_asset(registry.root, entry)
     write_index(registry)
