@@ -18,7 +18,6 @@ from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import FloatArray
 from asset_factory.factory.models.perceptron import Perceptron
 from asset_factory.factory.models.shipped import Arrays
-from asset_factory.factory.views.view import Views
 
 from ..datasets.objects import described
 from ..evaluate.physical import physical
@@ -123,7 +122,7 @@ def best_threshold(
         trusting = replace(articulator, trust=Trust(network, float(least)))
         near = []
         for trial in trials:
-            answer = trusting.decide(Views(trial.truth.mesh), trial.proposals)
+            answer = trusting.decide(trial.truth.mesh, trial.proposals)
             values = physical(trial.truth, answer).values
             near.append(values["part_miou"] + values["articulated_iou"])
         scores.append(np.mean(near))

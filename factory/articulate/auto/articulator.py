@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from ...articulation import Articulation, Weights
 from ...config import AutoConfig, BuildConfig, ParticulateConfig
 from ...errors import ConfigError
@@ -17,7 +15,6 @@ from ...mesh import FloatArray, IntArray, Mesh
 from ...models.particulate.inference import Network
 from ...models.weights.sources import SHIPPED
 from ...part import Proposer
-from ...views.view import Views
 from ..annotated import annotated_articulator, annotation_of
 from ..articulator import Articulator
 from ..assembly import assembled
@@ -28,8 +25,7 @@ from ..rigid import rigid_articulation
 from ..seams.movers import knobs_of
 from ..stated import StatedArticulator
 from .contacts import contacts_of, settled
-from .hidden import without_hidden
-from .partition import Sharing, share_out, shells
+from .partition import share_out
 from .parts import agreed_parts
 from .proposals import propose
 from .trust import Trust, load_trust
@@ -75,8 +71,7 @@ class AutoArticulator:
         """
         if MeshOrigin.of(mesh).is_generated:
             return knobs_of(mesh, self.name)
-        views = Views(mesh, connected_components(mesh))
-        decided = self.decide(views, self.proposals(mesh, face_areas(mesh)))
+        decided = self.decide(mesh, self.proposals(mesh, face_areas(mesh)))
         return replace(decided, weights=self.weights)
 
     def _least(self, rated: Sequence[Proposal]) -> float:
@@ -96,17 +91,15 @@ class AutoArticulator:
             for each, chance in zip(proposals, chances, strict=True)
         ]
 
-    def decide(self, views: Views, proposals: Sequence[Proposal]) -> Articulation:
+    def decide(self, mesh: Mesh, proposals: Sequence[Proposal]) -> Articulation:
         """Return the articulation of the proposals that can be trusted and be there together.
 
         Args:
-            views: of the mesh.
+            mesh: metres, z up.
             proposals: about its faces.
         """
-        mesh = views.mesh
         rated = self._rated(proposals)
         rated.sort(key=lambda proposal: -proposal.rated)
-        rated = without_hidden(views, rated)
         least = self._least(rated)
         sure = [proposal for proposal in rated if proposal.rated >= least]
         left = [proposal for proposal in rated if proposal.rated < least]
@@ -124,7 +117,7 @@ class AutoArticulator:
                     f"want {least:.2f}"
                 ),
             )
-        sure, sharing = _shared_out(mesh, sure)
+        sharing = share_out([proposal.faces for proposal in sure], face_areas(mesh))
         if not sharing.chosen:
             return rigid_articulation(
                 mesh, self.name, notes or ("nothing in this mesh looks as if it moved",)
@@ -202,19 +195,6 @@ def load_auto(
     return AutoArticulator(
         learned.network, learned.weights, trust or load_trust(), settings, config
     )
-
-
-def _shared_out(mesh: Mesh, sure: list[Proposal]) -> tuple[list[Proposal], Sharing]:
-    """Return the faces shared out among proposals, without those of the network that are bodies."""
-    areas = face_areas(mesh)
-    sharing = share_out([proposal.faces for proposal in sure], areas)
-    boxes = [mesh.submesh(np.flatnonzero(proposal.faces)).bounds for proposal in sure]
-    doubted = [proposal.proposer is Proposer.NETWORK for proposal in sure]
-    bodies = shells(sharing, boxes, doubted, areas)
-    if not bodies:
-        return sure, sharing
-    left = [proposal for index, proposal in enumerate(sure) if index not in bodies]
-    return left, share_out([proposal.faces for proposal in left], areas)
 
 
 def _with_loose(mesh: Mesh, face_part: IntArray) -> IntArray:

@@ -16,10 +16,6 @@ SMALLER = 0.5
 #: A part that shares more of its area with others already there cannot be there too; less goes to
 #: the others.
 SHARED = 0.3
-#: A body has this share of a mesh's area; what it surrounds, give or take, has this share of its.
-BODY = 0.25
-AROUND_SHARE = 0.02
-AROUND_MARGIN = 0.05
 
 
 @dataclass(frozen=True)
@@ -74,41 +70,3 @@ def share_out(parts: Sequence[BoolArray], areas: FloatArray) -> Sharing:
         hosts.append(host)
         owner[wanted] = len(chosen)
     return Sharing(owner, tuple(chosen), tuple(hosts))
-
-
-def shells(
-    sharing: Sharing, boxes: Sequence[FloatArray], doubted: Sequence[bool], areas: FloatArray
-) -> set[int]:
-    """Return parts that surround a large other one which does not hang on them: bodies.
-
-    Args:
-        sharing: of the parts.
-        boxes: of each part asked for, low and high [m], shape [2, 3] each.
-        doubted: of each part asked for, whether it may turn out to be one.
-        areas: of the faces, shape [face_count].
-
-    Returns:
-        Indices of parts asked for.
-    """
-    size = np.bincount(sharing.face_part, weights=areas, minlength=len(sharing.chosen) + 1)
-    found = set()
-    for number, index in enumerate(sharing.chosen, start=1):
-        for inner, other in enumerate(sharing.chosen[: number - 1], start=1):
-            hangs = sharing.hosts[inner - 1] == number or sharing.hosts[number - 1] == inner
-            large = size[number] >= BODY * size.sum()
-            large = large and size[inner] >= AROUND_SHARE * size[number]
-            if doubted[index] and large and not hangs and _within(boxes[other], boxes[index]):
-                found.add(index)
-    return found
-
-
-def _within(inner: FloatArray, outer: FloatArray) -> bool:
-    """Return whether a box lies in another, or in front of it as a door does.
-
-    Give or take a margin in proportion to the other's size, it ends where that ends, but for one
-    level direction in which they at least touch.
-    """
-    margin = AROUND_MARGIN * (outer[1] - outer[0])
-    held = (inner[0] >= outer[0] - margin) & (inner[1] <= outer[1] + margin)
-    touching = (inner[0] <= outer[1] + margin) & (inner[1] >= outer[0] - margin)
-    return bool(touching.all() and held[2] and held[:2].any())

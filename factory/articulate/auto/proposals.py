@@ -20,8 +20,6 @@ SAME_PART = 0.5
 SAME_AXIS = 0.98
 #: A slide that agrees with the axis of its turn to this cosine goes along it.
 ALONG = 0.9
-#: The pose seen is taken for an open one if the network sees so much of the range behind it.
-OPEN = 0.2
 
 
 @dataclass(frozen=True)
@@ -70,14 +68,13 @@ def propose(
     for each in left:
         if each.motion is not None:
             signs = _signs(each.part.faces, areas, each, len(judged)) | {"learned": 1.0}
-            motion = _reopened(each.motion, each.part)
             found.append(
                 Proposal(
                     PartKind.PART,
                     each.part.faces,
-                    motion,
+                    each.motion,
                     signs,
-                    slide=_slide_with(motion, each.part),
+                    slide=_slide_with(each.motion, each.part),
                     proposer=Proposer.NETWORK,
                 )
             )
@@ -141,19 +138,3 @@ def _slide_with(motion: Motion, part: LearnedPart) -> Motion | None:
     return (
         part.slide if abs(along) < ALONG else replace(part.slide, axis=np.sign(along) * motion.axis)
     )
-
-
-def _reopened(motion: Motion, part: LearnedPart) -> Motion:
-    """Return the slide of a part that may stand open: back as far as the network says.
-
-    Not so for turns: a network that cannot tell a left door from a right one says of either that it
-        is half open.
-    """
-    direction = part.guess.direction
-    slides = part.guess.point is None and motion.kind == "prismatic"
-    behind = -part.lower / max(part.upper - part.lower, 1e-9)
-    if direction is None or not slides or motion.lower < 0.0 or not OPEN < behind < 1.0 - OPEN:
-        return motion
-    if float(direction @ motion.axis) >= 0.0:
-        return replace(motion, lower=part.lower, upper=part.upper)
-    return replace(motion, lower=-part.upper, upper=-part.lower)

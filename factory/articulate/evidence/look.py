@@ -23,7 +23,6 @@ class Look:
 
     Attributes:
         front: unit direction of its largest open side, shape [3].
-        openness: how free that side is, 0 to 1.
         facing: share of the surface that looks along ``front`` (either way), 0 to 1.
         center: of the part's box, level frame, in object coordinates [m], shape [3].
         extents: of the part along the level frame's axes [m], shape [3].
@@ -35,7 +34,6 @@ class Look:
     """
 
     front: FloatArray
-    openness: float
     facing: float
     center: FloatArray
     extents: FloatArray
@@ -66,7 +64,6 @@ def look_at(body: Body) -> Look:
     )
     return Look(
         front=front,
-        openness=float(free[best]),
         facing=float(facing[best]),
         center=(low + high) / 2.0 @ body.partition.level,
         extents=high - low,

@@ -18,7 +18,6 @@ from ..rigid import rigid_articulation
 from .fronts import find_fronts
 from .house_doors import find_house_doors
 from .knobs import find_top_knobs
-from .lids import find_lid
 from .movers import Mover
 from .racks import find_racks
 from .rounds import FROM_ABOVE, find_cap, find_turntables, find_wheels
@@ -30,8 +29,7 @@ MOST_PIECES = 5000
 class GeometricArticulator:
     """Finds what opens, turns and slides among the separate pieces of a closed, upright object.
 
-    Doors with the baskets behind them, drawers, lids and screens; knobs, caps, levers, turntables
-    and wheels.
+    Doors with the baskets behind them, drawers; knobs, caps, levers, turntables and wheels.
 
     It prefers to leave something fixed over moving what does not move; notes say what it assumed.
     """
@@ -71,13 +69,11 @@ def _found(mesh: Mesh) -> tuple[tuple[Proposal, ...], str]:
     scene = _level_scene(mesh, labels)
     if float(scene.size.min()) <= 1e-6 * float(scene.size.max()):
         return (), "the mesh is flat: kept rigid"
-    movers = _best_view(scene) or tuple(m.seen_from(scene.rotation) for m in _top(scene))
+    movers = _best_view(scene) or tuple(m.seen_from(scene.rotation) for m in find_cap(scene))
     movers += tuple(_small_ones(scene, movers))
     moving = {int(piece) for mover in movers for piece in mover.pieces}
     if not movers or len(moving) == pieces:
-        return (), (
-            f"none of the {pieces} separate pieces looks like a door, drawer or lid: kept rigid"
-        )
+        return (), (f"none of the {pieces} separate pieces looks like a door or drawer: kept rigid")
     return _proposals(labels, movers), ""
 
 
@@ -112,11 +108,6 @@ def _pieces_of(movers: tuple[Mover, ...]) -> IntArray:
     return np.array(
         sorted(int(piece) for mover in movers for piece in mover.pieces), dtype=np.int64
     )
-
-
-def _top(scene: Scene) -> tuple[Mover, ...]:
-    """Return what opens upwards, in the scene's frame."""
-    return find_cap(scene) or find_lid(scene)
 
 
 def _small_ones(scene: Scene, movers: tuple[Mover, ...]) -> Iterator[Mover]:

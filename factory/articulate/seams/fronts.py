@@ -89,13 +89,8 @@ class Front:
 
 def fronts_of(reliefs: Mapping[Side, Relief]) -> dict[Side, Front]:
     """Return the four sides of an object."""
-    faces = {side: cleared(reliefs[side]) for side in AROUND}
     return {
-        side: Front(
-            reliefs[side],
-            faces[side].without_mirrored(faces[OPPOSITE[side]]),
-            reliefs[OPPOSITE[side]],
-        )
+        side: Front(reliefs[side], cleared(reliefs[side]), reliefs[OPPOSITE[side]])
         for side in AROUND
     }
 

@@ -44,9 +44,7 @@ FEWEST = 3
 FEWEST_LONG = 4
 SPACING_LONG = 2.5
 LONGEST = 0.08
-#: Twins on opposite sides differ by less than that share of the picture.
-TWIN = 0.03
-#: What stands off less than that share of the highest handle of a side is none.
+#: What stands off less than this share of the highest handle of a side is none.
 OF_HIGHEST = 0.35
 #: So many that hardly stand off, by less than so many times the least, are bumps of the surface.
 FEWEST_BUMPS = 5
@@ -70,7 +68,6 @@ class Protrusion:
         height: by how much it stands off [pixels].
         fill: share of its box that it covers.
         control: one of three or more alike in a row: turned or pressed, not pulled.
-        carries: there is one like it on the opposite side.
     """
 
     low: IntArray
@@ -78,7 +75,6 @@ class Protrusion:
     height: float
     fill: float
     control: bool = False
-    carries: bool = False
 
     @property
     def center(self) -> FloatArray:
@@ -116,26 +112,6 @@ class Face:
     height: FloatArray
     covered: BoolArray
     handles: tuple[Protrusion, ...]
-
-    def without_mirrored(self, behind: Face) -> Face:
-        """Return the face with those handles marked that have a twin on the opposite side.
-
-        A box is carried by such a pair; nothing opens there.
-        """
-        columns = self.height.shape[1]
-        longest = float(max(self.height.shape))
-
-        def twin(one: Protrusion, other: Protrusion) -> bool:
-            place = np.array([other.center[0], columns - 1.0 - other.center[1]])
-            near = np.abs(one.center - place).max() <= TWIN * longest
-            alike = np.abs(one.size - other.size).max() <= max(TWIN * longest, 3.0)
-            return bool(near and alike)
-
-        marked = tuple(
-            replace(handle, carries=any(twin(handle, other) for other in behind.handles))
-            for handle in self.handles
-        )
-        return replace(self, handles=marked)
 
     @property
     def pulls(self) -> tuple[Protrusion, ...]:

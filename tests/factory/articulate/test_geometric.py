@@ -148,10 +148,7 @@ def generated(category):
     return truth, GeometricArticulator().articulate(truth.mesh)
 
 
-@pytest.mark.parametrize(
-    "category",
-    ["cabinet", "fridge", "oven", "microwave", "dishwasher", "laptop", "chest", "trash_can"],
-)
+@pytest.mark.parametrize("category", ["cabinet", "fridge", "oven", "microwave", "dishwasher"])
 def test_generated_furniture_opens_as_it_was_made(category):
     truth, found = generated(category)
     for joint in truth.movable_joints:

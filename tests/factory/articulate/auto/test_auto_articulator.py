@@ -20,7 +20,6 @@ from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.models.particulate.prediction import MotionClass, Prediction
 from asset_factory.factory.models.perceptron import linear
 from asset_factory.factory.part import Proposer
-from asset_factory.factory.views.view import Views
 from asset_factory.learn.evaluate.bodies import bodies_of
 from asset_factory.learn.objects import make_object
 
@@ -109,7 +108,7 @@ def test_what_turns_and_slides_gets_two_joints_with_a_carrier_between():
     slide = Motion(JointKind.PRISMATIC, -UP, np.zeros(3), 0.0, 0.1)
     articulator = AutoArticulator(Labeller(truth), (), BELIEVING, SHOWN, AutoConfig())
     cap = Proposal("cap", faces, turn, {"geometric": 1.0}, slide=slide)
-    found = articulator.decide(Views(truth.mesh), (cap,))
+    found = articulator.decide(truth.mesh, (cap,))
     assert [part.name for part in found.parts] == ["base", "cap_0_carrier", "cap_0"]
     assert [len(part.faces) for part in found.parts] == [(~faces).sum(), 0, faces.sum()]
     assert [(joint.name, joint.parent, joint.child) for joint in found.joints] == [
@@ -179,7 +178,7 @@ def test_where_only_the_network_sees_what_moves_one_part_must_be_surer(
     monkeypatch.setattr(AutoArticulator, "_rated", rated)
     trust = replace(BELIEVING, least=0.3)
     articulator = AutoArticulator(Labeller(truth), (), trust, SHOWN, AutoConfig(**config))
-    found = articulator.decide(Views(truth.mesh), asked_for)
+    found = articulator.decide(truth.mesh, asked_for)
     assert len(found.movable_joints) == moving
     assert moving or "want 0.45" in found.notes[0]
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from asset_factory.factory.articulate.auto.partition import share_out, shells
+from asset_factory.factory.articulate.auto.partition import share_out
 from asset_factory.factory.articulate.auto.parts import agreed_parts, shared
 from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, load_trust, log_odds, signs_of
 from asset_factory.factory.articulate.auto.views import NetworkView, SeenPart
@@ -102,43 +102,3 @@ def test_the_shipped_trust_believes_more_where_more_speaks_for_it():
     assert both > trust.confidence(doubtful | {"learned": 1.0})
     assert trust.confidence(seen | {"learned": 1.0}) > trust.confidence(doubtful | {"learned": 1.0})
     assert 0.05 < trust.least < 0.9
-
-
-def box(low, high):
-    return np.array([[low] * 3, [high] * 3])
-
-
-def test_a_part_that_surrounds_another_which_does_not_hang_on_it_is_a_body():
-    areas = np.ones(100)
-    door = np.arange(100) < 10
-    shell = (np.arange(100) >= 10) & (np.arange(100) < 60)
-    sharing = share_out([door, shell], areas)
-    boxes = [box(0.2, 0.5), box(0.0, 1.0)]
-    assert shells(sharing, boxes, [False, True], areas) == {1}
-    assert not shells(sharing, boxes, [True, False], areas)
-    assert not shells(sharing, [box(0.9, 1.4), boxes[1]], [False, True], areas)
-
-
-def test_what_carries_a_door_in_front_of_it_is_a_body_and_what_has_a_lid_on_top_may_move():
-    areas = np.ones(100)
-    door = np.arange(100) < 10
-    behind = (np.arange(100) >= 10) & (np.arange(100) < 60)
-    sharing = share_out([door, behind], areas)
-    body = np.array([[0.0, 0.0, 0.0], [1.0, 0.5, 1.0]])
-    in_front = np.array([[0.2, -0.1, 0.2], [0.5, 0.02, 0.8]])
-    on_top = np.array([[0.2, 0.1, 0.98], [0.5, 0.4, 1.2]])
-    away = in_front - [0.0, 0.5, 0.0]
-    assert shells(sharing, [in_front, body], [False, True], areas) == {1}
-    assert not shells(sharing, [on_top, body], [False, True], areas)
-    assert not shells(sharing, [away, body], [False, True], areas)
-
-
-def test_a_small_part_beside_a_small_one_or_on_its_host_makes_no_body():
-    areas = np.ones(100)
-    knob = np.arange(100) < 2
-    door = (np.arange(100) >= 2) & (np.arange(100) < 20)
-    boxes = [box(0.2, 0.5), box(0.0, 1.0)]
-    assert not shells(share_out([knob, door], areas), boxes, [False, True], areas)
-    lid = np.arange(100) < 60
-    nested = share_out([lid, knob], areas)
-    assert not shells(nested, boxes[::-1], [True, True], areas)
