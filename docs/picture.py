@@ -2,7 +2,8 @@
 
 make demo
 factory solve cabinet --joint door_1_hinge --robot panda --video
-python docs/picture.py out/            writes docs/pictures/made.png and robot.webp
+factory build --input examples/generated --output generated/
+python docs/picture.py generated/ out/     writes docs/pictures/made.png and robot.webp
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ INK = (60, 62, 66)
 
 def main() -> int:
     """Draw it; returns the exit code."""
-    (registry,) = sys.argv[1:]
+    generated, demo = sys.argv[1:]
     width = CELL[0] * len(CAPTIONS)
     sheet = Image.new("RGB", (width, CAPTION + CELL[1] * len(OBJECTS)), GROUND)
     draw = ImageDraw.Draw(sheet)
@@ -46,7 +47,7 @@ def main() -> int:
         middle = (CELL[0] * (column + 0.5), CAPTION / 2)
         draw.text(middle, words, fill=INK, anchor="mm", font=ImageFont.load_default(15))
     for row, name in enumerate(OBJECTS):
-        (made,) = Path(registry, "assets").glob(f"{name}-*/view.glb")
+        (made,) = Path(generated, "assets").glob(f"{name}-*/view.glb")
         mesh = scene_of_file(DOCS.parent / "examples" / "generated" / f"{name}.glb")
         for column, pixels in enumerate(stages(mesh, scene_from(read_model(made)))):
             picture = Image.fromarray(pixels)
@@ -55,7 +56,7 @@ def main() -> int:
     sheet.quantize(192, dither=Image.Dither.NONE).save(
         DOCS / "pictures" / "made.png", optimize=True
     )
-    (film,) = Path(registry, "solving").glob(FILM)
+    (film,) = Path(demo, "solving").glob(FILM)
     pictures = [Image.fromarray(each).resize(FILM_SIZE) for each in imageio.get_reader(film)]
     write_film(pictures[::KEPT])
     return 0
