@@ -19,12 +19,7 @@ _MAX_BYTES = 64_000_000
 
 
 def write_baseline(path: Path, checked: Sequence[tuple[str, Report]]) -> None:
-    """Write every error and warning as known, without figures: those vary between versions.
-
-    Args:
-        path: of the baseline.
-        checked: reports by their file's path.
-    """
+    """Write every error and warning as known, without figures: those vary between versions."""
     known = {
         _place(file, finding): _plain(file, finding)
         for file, report in checked

@@ -25,13 +25,7 @@ from ..runtime.terminal import complain, printable, say
 from . import console
 from .baseline import read_baseline, without_known, write_baseline
 from .check_formats import FORMATS, PAGE, total
-from .flags import (
-    DEFAULT_SIMULATORS,
-    RootFlags,
-    require_files,
-    simulators_named,
-    workers_fitting,
-)
+from .flags import DEFAULT_SIMULATORS, RootFlags, require_files, simulators_named, workers_fitting
 
 if TYPE_CHECKING:
     from asset_factory.sim_checks.config import CheckConfig

@@ -60,12 +60,7 @@ def follow(
     What was known from before is counted, not told one by one; rate and time left are those of the
     rest.
 
-    Args:
-        results: as a job gives them.
-        collected: is given each, so that an interruption loses none.
-        total: how many there will be.
-        under_way: says what workers are at.
-        quiet: show nothing.
+    ``collected`` is given each, so that an interruption loses none.
     """
     console = Terminal(stderr=True, quiet=quiet)
     if console.is_terminal:
@@ -237,10 +232,7 @@ def print_report(
 ) -> None:
     """Print one checked file: its verdict and findings, all of them or the worst of each code.
 
-    Args:
-        report: of the file.
-        findings: those to tell, where others were told of the same asset; all of them by default.
-        verbose: whether to print each.
+    ``findings`` are those to tell where others were told of the same asset; all by default.
     """
     console = terminal()
     verdict = report.status

@@ -153,9 +153,5 @@ def _wanted(command: Demos) -> list[RegisteredAsset]:
             raise ConfigError(f"--where: none of these assets has {command.where}")
     assets = named(assets, ids, command.output)
     task = getattr(envs, next(task.class_name for task in TASKS if task.id == command.task))
-    wanted = Wanted(
-        joint=command.joint,
-        joint_types=task.joint_types,
-        min_lever=task.min_lever,
-    )
+    wanted = Wanted(joint=command.joint, joint_types=task.joint_types, min_lever=task.min_lever)
     return list(select(assets, wanted).values())

@@ -14,12 +14,7 @@ import tyro
 from asset_factory.sim_checks import Status
 from asset_factory.sim_checks.read.roots import ReadOptions, ros_package_path
 from asset_factory.sim_checks.read.xacro import parse_arguments
-from asset_factory.sim_checks.simulators.catalog import (
-    SIMULATORS,
-    USUAL,
-    install_line,
-    installed,
-)
+from asset_factory.sim_checks.simulators.catalog import SIMULATORS, USUAL, install_line, installed
 
 from ..articulate.catalog import ARTICULATORS
 from ..config import REPAIR_KINDS, BuildConfig, ParticulateConfig
@@ -259,9 +254,7 @@ def formats_asked(names: str) -> tuple[str, ...]:
 def workers_fitting(asked: int | None, each: int) -> int:
     """Return how many workers to start: ``--workers``, or fewer (said) if memory is short.
 
-    Args:
-        asked: ``None``: as many as there are processors.
-        each: what one may need [bytes].
+    As many as there are processors are asked for by default; one may need ``each`` [bytes].
 
     Raises:
         ConfigError: fewer than one is asked for.

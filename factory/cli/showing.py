@@ -23,14 +23,7 @@ if TYPE_CHECKING:
 
 
 def print_entry(entry: Entry, root: Path, told: BuildReport, manifest: Manifest | None) -> None:
-    """Print one asset: what it is, its joints and files, its findings, and how to load it.
-
-    Args:
-        entry: its row.
-        root: of its registry.
-        told: its report.
-        manifest: of the asset; ``None`` where there is none.
-    """
+    """Print one asset: what it is, its joints and files, its findings, and how to load it."""
     passed = entry.status is Status.PASSED
     folder = root / (ASSETS if passed else REJECTED) / entry.id
     terminal = console.terminal()

@@ -76,9 +76,6 @@ def box_corners(surfaces: Sequence[SceneSurface]) -> FloatArray:
 class Viewpoint:
     """In front of what opens, to the side from which its inside is seen, and above.
 
-    Args:
-        scene: to look at.
-
     Attributes:
         axes: right, up and backward directions of every camera there, as rows, shape [3, 3].
     """

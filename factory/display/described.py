@@ -32,9 +32,8 @@ PLAIN = ((0.62, 0.61, 0.58, 1.0), (0.30, 0.42, 0.55, 1.0), (0.55, 0.36, 0.28, 1.
 def scene_of_file(path: Path) -> SceneGraph:
     """Return what a file shows.
 
-    Args:
-        path: a URDF, an MJCF, or a mesh in any format that is read; what it refers to lies in its
-            folder or below.
+    It is a URDF, an MJCF, or a mesh in any format that is read; what it refers to lies in its
+    folder or below.
 
     Raises:
         InputRejected: it cannot be shown, with a reason code.
@@ -97,12 +96,7 @@ class _FileColors:
         self._images: dict[Texture, bytes | None] = {}
 
     def surfaces(
-        self,
-        file: str | None,
-        vertices: FloatArray,
-        faces: IntArray,
-        link: int,
-        plain: Color,
+        self, file: str | None, vertices: FloatArray, faces: IntArray, link: int, plain: Color
     ) -> list[SceneSurface]:
         """Return a shape's triangles, by the materials that its file gives them."""
         visual = self._visual(file)

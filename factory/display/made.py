@@ -20,9 +20,7 @@ MAX_TEXTURE = 1024
 def scene_of(asset: Asset, before: Asset | None = None) -> SceneGraph:
     """Return an asset's scene: links in the order of parts, frames as in its URDF.
 
-    Args:
-        asset: what became of an input.
-        before: what it was before repairs, whose other hulls are shown too.
+    ``before`` is what it was before repairs, whose other hulls are shown too.
     """
     articulation = asset.articulation
     hulls = [

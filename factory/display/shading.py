@@ -76,13 +76,8 @@ def shaded(
 ) -> npt.NDArray[np.uint8]:
     """Return the picture, sRGB with alpha, shape [height, width, 4].
 
-    Args:
-        look: the ray hits, and their colours.
-        camera: which picture.
-        values: the pose.
-        hits: of the middles of all pixels.
-        under: the same picture without the links that move.
-        rays: per pixel where shapes end.
+    ``hits`` are of the middles of all pixels, and ``under`` is the same picture without the links
+    that move; so many ``rays`` are cast per pixel where shapes end.
     """
     painted = paint(look, camera, values, hits, under, rays)
     factor = _corners(hits, (camera.height, camera.width)).reshape(-1)

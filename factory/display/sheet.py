@@ -36,10 +36,7 @@ def contact_sheet(cells: Sequence[SheetCell]) -> bytes:
     shown = cells[:MOST]
     columns = max(1, min(COLUMNS, len(shown)))
     rows = max(1, -(-len(shown) // columns))
-    size = (
-        GAP + columns * (CELL_WIDTH + GAP),
-        GAP + rows * (CELL_HEIGHT + CAPTION + GAP),
-    )
+    size = (GAP + columns * (CELL_WIDTH + GAP), GAP + rows * (CELL_HEIGHT + CAPTION + GAP))
     sheet = Image.new("RGB", size, GROUND)
     draw = ImageDraw.Draw(sheet)
     for number, cell in enumerate(shown):

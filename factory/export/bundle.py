@@ -45,13 +45,8 @@ def export_bundle(
     Link frames have the object frame's axes and their origin at the joint's; joint value 0 is the
     input pose and ``lower`` is closed.
 
-    Args:
-        asset: what to write.
-        provenance: where it came from.
-        folder: made if need be; an earlier bundle in it is replaced.
-        excluded_pairs: names of parts that MuJoCo must not collide, because they overlap on
-            purpose.
-        formats: names of further ones, see :data:`.formats.FORMATS`.
+    An earlier bundle in the folder is replaced. MuJoCo collides no ``excluded_pairs`` of parts,
+    which overlap on purpose. ``formats`` are names of further ones in :data:`.formats.FORMATS`.
 
     Raises:
         ConfigError: a format that is not there, or that cannot be written here.
@@ -70,13 +65,7 @@ def export_bundle(
 
 
 def with_manifest_of(bundle: Bundle, asset: Asset, provenance: Provenance) -> Bundle:
-    """Return a bundle whose ``asset.json`` is written anew, of the same asset with other targets.
-
-    Args:
-        bundle: all that descriptions and meshes say stays.
-        asset: the bundle's, but for its targets.
-        provenance: where it came from.
-    """
+    """Return a bundle with a new ``asset.json``, of the same asset with other targets."""
     layout = replace(bundle.layout, asset=asset)
     manifest = manifest_of(layout, provenance)
     _write_manifest(manifest, bundle.folder)

@@ -28,12 +28,7 @@ KEY_STEP = np.pi / 8.0
 
 
 def write_glb_asset(layout: Layout, file: Path) -> None:
-    """Write the whole asset as one GLB; textures of the bundle are embedded.
-
-    Args:
-        layout: its textures lie below the file's folder.
-        file: to write.
-    """
+    """Write the whole asset as one GLB; textures of the bundle are embedded."""
     buffer = Buffer()
     pieces = [piece for link in layout.links for piece in link.visuals]
     number = {piece.name: index for index, piece in enumerate(pieces)}

@@ -21,9 +21,6 @@ def write_input(mesh: Mesh, folder: Path) -> Path:
 def write_model(asset: Asset, folder: Path, before: Asset | None = None) -> None:
     """Write ``view.glb`` into a bundle's folder: the same bytes for the same asset.
 
-    Args:
-        asset: that the bundle holds.
-        folder: the bundle's.
-        before: what it was before repairs, if there were any.
+    ``before`` is what the asset was before repairs, if there were any.
     """
     (folder / MODEL).write_bytes(glb_of(scene_of(asset, before)))

@@ -31,12 +31,7 @@ ROUGHNESS = 0.7
 
 
 def write_usd(layout: Layout, file: Path) -> None:
-    """Write the whole asset as one binary layer; textures stay beside it in the bundle.
-
-    Args:
-        layout: of the asset.
-        file: ends in ``.usd``; textures are named relative to it.
-    """
+    """Write the whole asset as one binary layer; textures stay beside it in the bundle."""
     from pxr import Kind, Tf, Usd, UsdGeom, UsdPhysics
 
     stage = Usd.Stage.CreateInMemory()

@@ -130,13 +130,7 @@ def _taken(reference: str, subfolders: frozenset[str]) -> tuple[str, str]:
 
 
 def _taken_elsewhere(reference: str, here: Path, package: Path | None) -> set[Path]:
-    """Return what lies beside a description's folder and belongs to it: a folder, or a file's stem.
-
-    Args:
-        reference: of a file.
-        here: the description's folder.
-        package: the root of its package, links followed.
-    """
+    """Return what belongs to a description beside its folder: a folder, or a file's stem."""
     scheme, _, rest = reference.replace("\\", "/").rpartition("://")
     words = [word for word in rest.split("/") if word not in ("", ".")]
     up = words.count("..")

@@ -32,9 +32,8 @@ def is_allowed(license: str | None, allowed: Sequence[str]) -> bool:
 def combined(license: str | None, others: Iterable[str]) -> str | None:
     """Return the terms of several licenses at once, ``;`` between them.
 
-    Args:
-        license: of an input; ``None`` where nobody says.
-        others: that come in addition; none: the first one stays as it is.
+    Without ``others`` the first one stays as it is; ``None`` is that of an input of which nobody
+    says.
     """
     stated = [part.strip() for part in (license or UNKNOWN).split(";")]
     added = sorted(set(others) - set(stated))

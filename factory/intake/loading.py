@@ -64,11 +64,8 @@ def load_visual(path: Path, root: Path, limits: IntakeConfig, log: ReadLog | Non
     The file's own face order is: glTF by node, depth first, then primitive; everything else as in
     the file, polygons fanned.
 
-    Args:
-        path: in one of ``FORMATS``, below ``root``.
-        root: nothing outside this folder is read.
-        limits: ``max_bytes``, ``max_faces`` and ``max_texture_pixels`` are obeyed.
-        log: of the files that are read.
+    It is in one of ``FORMATS``, and nothing outside ``root`` is read; ``max_bytes``, ``max_faces``
+    and ``max_texture_pixels`` of the limits are obeyed.
 
     Raises:
         InputRejected: ``unreadable``, ``unsupported``, ``empty``, ``too_large``, ``not_finite``,
@@ -87,11 +84,8 @@ def load_mesh(
 ) -> Intake:
     """Read one mesh file with its sidecar; turn it z up and bring it to metres. Its origin stays.
 
-    Args:
-        path: as in :func:`load_visual`; what it refers to lies in its folder or below.
-        config: up axis, height and limits.
-        log: of the files that are read.
-        stated: whether the parts that are stated beside it are read.
+    What it refers to lies in its folder or below. ``stated`` says whether the parts that are stated
+    beside it are read.
 
     Raises:
         InputRejected: as :func:`load_visual`, or ``bad_sidecar``, ``absurd_size``,

@@ -32,9 +32,8 @@ def local_inputs(places: Sequence[Path | str], output: Path) -> tuple[Path, ...]
     A copy that was cut off goes on with the missing files. Each file is put in place whole; files
     gone from the URL go here too.
 
-    Args:
-        places: files and folders, by path or by a URL that fsspec understands.
-        output: the registry's folder; copies lie in it.
+    Places are paths or URLs that fsspec understands; copies lie in the registry's folder,
+    ``output``.
 
     Raises:
         ConfigError: a URL cannot be read; the sentence names no secret.

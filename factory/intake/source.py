@@ -28,8 +28,6 @@ class Source:
     """A mesh, URDF or MJCF file, and what it refers to.
 
     Args:
-        path: of the file.
-        config: how it is read.
         place: where it lies for whoever registers it, if that is elsewhere; folder and file are
             called the same.
 
@@ -131,13 +129,7 @@ def _unjudged(error: OSError) -> Unjudged:
 
 
 def loaded_key(path: Path, reads: Reads, config: BuildConfig) -> str:
-    """Return the key of what loading gives: an input's files, its name, and how it is read.
-
-    Args:
-        path: the input.
-        reads: every file it was made of.
-        config: of intake.
-    """
+    """Return the key of what loading gives: an input's files, its name, and how it is read."""
     # The same files are another input under another name, for that becomes the asset's; their
     # folder only matters as far as it tells the category.
     names = [safe_name(path), path.suffix.lower(), _category(path.stem, path.parent.name)]

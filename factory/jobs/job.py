@@ -79,9 +79,6 @@ class Job:
     Args:
         inputs: files, as :func:`~..mesh.find_inputs` lists them; each once.
         output: the registry's folder; made if it is not there.
-        config: of every stage.
-        executor: who makes the calls.
-        budget: how much is done.
         one_network: whether all workers ask one network, which takes an executor on this machine.
 
     Attributes:

@@ -22,9 +22,7 @@ PROC = Path("/proc")
 def workers_for(asked: int | None, each: int) -> tuple[int, str | None]:
     """Return how many workers to start, and a sentence where they are fewer than was asked for.
 
-    Args:
-        asked: by whoever started the command; ``None``: as many as there are processors.
-        each: what one worker may need [bytes].
+    As many as there are processors are wanted unless ``asked`` says; one may need ``each`` [bytes].
     """
     wanted = asked or processors()
     free = free_memory()

@@ -60,7 +60,6 @@ class KnownReads:
 
     Args:
         folder: losing it costs time only.
-        config: with which inputs are built.
     """
 
     def __init__(self, folder: Path, config: BuildConfig) -> None:

@@ -52,12 +52,7 @@ class Perceptron:
 
     @classmethod
     def read(cls, stored: Arrays, name: str, inputs: Sequence[str]) -> Perceptron:
-        """Return one of the networks of a file.
-
-        Args:
-            stored: the file.
-            name: of the network in it.
-            inputs: names of the numbers that it will be given, in order.
+        """Return a network of a file, which is given the numbers called ``inputs``, in their order.
 
         Raises:
             ConfigError: it was fitted to other numbers.

@@ -33,9 +33,7 @@ class Claim:
 def claim(folder: Path, name: str) -> Claim | None:
     """Return the right to do the work of that name; ``None`` while somebody else has it.
 
-    Args:
-        folder: that all jobs share; made if need be.
-        name: of the work; a file name.
+    ``folder`` is shared by all jobs, and made if need be.
     """
     folder.mkdir(parents=True, exist_ok=True)
     # Not by the mere existence of a file, which would outlive a killed process.

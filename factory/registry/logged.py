@@ -27,12 +27,7 @@ class LoggedBuild:
 
 
 def logged_build(output: Path, asset_id: str) -> LoggedBuild | None:
-    """Return what the log says of an asset's last build; ``None`` where it says nothing.
-
-    Args:
-        output: the registry's folder.
-        asset_id: of the asset.
-    """
+    """Return what the log says of an asset's last build; ``None`` where it says nothing."""
     found = None
     with suppress(OSError), (output / LOG_NAME).open(encoding="utf-8", errors="replace") as lines:
         for line in lines:

@@ -22,9 +22,7 @@ _NO_EXCHANGE = frozenset({errno.ENOSYS, errno.EINVAL, errno.EOPNOTSUPP})
 def place(content: Path, folder: Path) -> None:
     """Put ``content`` at ``folder``; a folder that was there ends up at ``content``.
 
-    Args:
-        content: a folder on the same file system.
-        folder: need not exist.
+    Both are on one file system; ``folder`` need not exist.
     """
     try:
         if os.path.lexists(folder):

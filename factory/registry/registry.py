@@ -39,7 +39,6 @@ class Registry:
     """A folder of validated assets, which several processes may read and write at once.
 
     Args:
-        root: the output directory.
         create: make it if it is not there; otherwise a missing one raises RegistryError.
 
     Raises:
@@ -105,10 +104,7 @@ class Registry:
     def reject(self, entry: Entry, told: BuildReport, shown: Path | None = None) -> Path:
         """Keep the report of an input that did not pass, and list it. Returns the folder.
 
-        Args:
-            entry: its row.
-            told: its report.
-            shown: a folder as for :meth:`publish`, with what else is kept of it.
+        ``shown`` is a folder as for :meth:`publish`, with what else is kept of it.
         """
         if entry.status is Status.PASSED:
             raise RegistryError(
@@ -192,10 +188,8 @@ class Registry:
     ) -> tuple[Entry, ...]:
         """Return the rows that pass every filter, by id; all of them by default.
 
-        Args:
-            limit: rows at most.
-            after: only those whose id comes after this one: with ``limit``, page by page.
-            wanted: see :class:`~.rows.Filters`.
+        ``wanted`` are fields of :class:`~.rows.Filters`; with ``limit``, and the last id as
+        ``after``, rows come page by page.
         """
         named: dict[str, Any] = {**wanted}
         return self.select(Filters(**named), limit=limit, after=after)

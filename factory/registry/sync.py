@@ -49,10 +49,6 @@ def sync(files: Iterable[tuple[str, bytes]], url: str) -> Synced:
     what it does not name any more goes after that. A synchronisation that was cut off, at whatever
     moment, leaves the old index or the new one; the next goes on with missing files.
 
-    Args:
-        files: paths and contents, as :func:`.export.contents.contents` gives them.
-        url: of a folder, as fsspec understands it.
-
     Raises:
         RegistryError: it cannot be read or written, or holds something else; names no secret.
         ConfigError: what fsspec needs is not installed.

@@ -65,8 +65,7 @@ class Ability:
 def abilities(output: Path) -> Iterator[Ability]:
     """Yield everything that a build may need, each tried when it is asked for.
 
-    Args:
-        output: where assets are to go; it or a folder above it is there.
+    ``output``, where assets are to go, is there, or a folder above it.
     """
     yield _processors()
     yield _disk(output)

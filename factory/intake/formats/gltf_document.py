@@ -40,9 +40,7 @@ class GltfDocument:
     """A parsed glTF JSON with access to its binary data.
 
     Args:
-        data: content of the ``.glb`` or ``.gltf`` file.
         path: where it came from; references are relative to its folder.
-        files: reads what it refers to.
 
     Raises:
         InputRejected: ``unreadable``, ``unsupported``, ``too_large`` or ``external_reference``.

@@ -46,11 +46,7 @@ class _Maps:
 def read_mtl(data: bytes, folder: Path, files: InputFiles, notes: list[str]) -> dict[str, Material]:
     """Return materials by name; a diffuse map replaces the diffuse colour, as in modelling tools.
 
-    Args:
-        data: the library.
-        folder: where it lies; maps are relative to it.
-        files: reads the maps.
-        notes: sentences about maps that are missing or broken are added here.
+    Maps are relative to ``folder``; sentences about missing and broken ones are added to ``notes``.
 
     Raises:
         InputRejected: ``external_reference`` or ``too_large`` for a map.

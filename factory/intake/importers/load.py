@@ -44,10 +44,7 @@ def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = Non
     frame, metres and z up by both specifications; ``transform`` leads from there to the object
     frame, which differs only where an option or a sidecar says so.
 
-    Args:
-        path: a URDF or MJCF file; what it refers to lies in its folder, its package or a root.
-        config: up axis, height and limits.
-        log: of the files that are read.
+    What the file refers to lies in its folder, its package or a root.
 
     Returns:
         An intake whose ``annotation`` is set; ``source_faces`` counts the faces of the

@@ -48,11 +48,7 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig, log: ReadLog
     Several joints of one body become a chain through empty parts, in their order. A free joint is
     dropped.
 
-    Args:
-        root: the ``<mujoco>`` element.
-        path: the file it came from; what it refers to lies in or below that file's folder.
-        config: limits on the files it refers to.
-        log: of the files that are read.
+    What ``path`` refers to lies in or below its folder.
 
     Raises:
         InputRejected: ``unsupported_joint``, ``too_large``.
@@ -239,12 +235,7 @@ def _is_mimic(equality: CompiledEquality) -> bool:
 
 
 def _mimics(model: CompiledModel, labels: Mapping[int, str]) -> dict[str, Mimic]:
-    """Return follower -> what it follows, constant and linear part; values count from references.
-
-    Args:
-        model: with joint equalities.
-        labels: names of its moving joints by index.
-    """
+    """Return follower -> what it follows; ``labels`` are names of moving joints by index."""
     found: dict[str, Mimic] = {}
     for equality in model.equalities:
         if _is_mimic(equality) and set(equality.joints) <= set(labels):

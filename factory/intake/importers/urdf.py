@@ -35,11 +35,7 @@ MAX_SHAPES = 10_000
 def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
     """Return every link's visuals and every joint of a URDF, in the root link's frame.
 
-    Args:
-        robot: the ``<robot>`` element.
-        path: the file it came from; what it refers to lies in or below that file's folder.
-        config: limits on the files it refers to.
-        log: of the files that are read.
+    What ``path`` refers to lies in or below its folder.
 
     Raises:
         InputRejected: ``not_a_tree``, ``unsupported_joint``, ``missing_file``,

@@ -34,13 +34,7 @@ _PRIMITIVES: dict[str, Callable[..., Mesh]] = {
 
 
 class GeometryReader:
-    """Reads shapes of one description, every mesh file once.
-
-    Args:
-        folder: everything lies in or below it.
-        config: limits.
-        log: of the files that are read.
-    """
+    """Reads shapes of one description, every mesh file in or below its folder once."""
 
     def __init__(self, folder: Path, config: IntakeConfig, log: ReadLog) -> None:
         self._folder = folder

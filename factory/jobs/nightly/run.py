@@ -46,12 +46,8 @@ def run_night(
     An interruption (KeyboardInterrupt) ends it early with a page of its own, and the next run goes
     on with it; so it does after the process was killed, with all that was finished.
 
-    Args:
-        config: what to do.
-        work: what it is done with.
-        name: of the night; by default the one that goes on, else the next number.
-        fresh: begin a new one; interrupted ones stay as they are.
-        now: tells the time.
+    ``name`` is by default that of the night that goes on, else the next number; ``fresh`` begins a
+    new one, and interrupted ones stay as they are.
 
     Raises:
         ConfigError: another night runs on this output, or the name cannot be.

@@ -171,12 +171,7 @@ def make_and_send(
 ) -> Sent[T]:
     """Let the function fill a local folder, and send what its value names of it; on a node.
 
-    Args:
-        target: URL of the file to send.
-        argument: the function's, that is the folder.
-        function: to call.
-        arguments: of it, as the caller knows them.
-        here: those that are others on this node.
+    ``argument`` names the one that is the folder; those in ``here`` are others on this node.
     """
     with tempfile.TemporaryDirectory(prefix="made-") as folder:
         value = function(**{**arguments, **(here or {}), argument: Path(folder)})

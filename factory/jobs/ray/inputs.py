@@ -86,11 +86,7 @@ class PackedInput:
     names: frozenset[str]
 
     def lacking(self, reads: Reads) -> frozenset[str]:
-        """Return the files that its reader missed on a node, and that are here.
-
-        Args:
-            reads: what it read, and what it did not find.
-        """
+        """Return the files that its reader missed on a node, and that are here."""
         return frozenset(
             name
             for name, digest in reads.items()
@@ -117,11 +113,7 @@ class Inputs:
         return {**arguments, self.place: arguments[self.argument]}
 
     def packed(self, arguments: Mapping[str, Any], more: frozenset[str]) -> PackedInput:
-        """Return an input with what it seems to refer to.
-
-        Args:
-            arguments: of the call.
-            more: names of files that are known to belong to it.
+        """Return an input with what it seems to refer to, and ``more`` that belongs to it.
 
         Raises:
             ValueError: it has too many bytes.

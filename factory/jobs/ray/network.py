@@ -45,13 +45,7 @@ class Asked:
 
 
 class Networks:
-    """The networks of one run on a cluster.
-
-    Args:
-        ray: connected.
-        asked: which network.
-        weights: checkpoints that nodes are sent.
-    """
+    """The networks of one run on a cluster."""
 
     def __init__(self, ray: Any, asked: Asked, weights: SentWeights) -> None:
         self._ray = ray

@@ -52,12 +52,7 @@ class Detection:
 
 
 def detect(mesh: Mesh, weights: Path = SHIPPED) -> Detection:
-    """Return the detections on a mesh, z up.
-
-    Args:
-        mesh: with at least one triangle.
-        weights: safetensors file; the shipped one by default.
-    """
+    """Return the detections on a mesh, z up, of at least one triangle."""
     network = _loaded(weights)
     canvases = look_at(mesh)
     with torch.no_grad():

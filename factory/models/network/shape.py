@@ -76,9 +76,7 @@ SIZES = {
 def read_shape(tensors: Mapping[str, Shape], max_parts: int = 16) -> NetworkShape:
     """Return the network that a checkpoint was saved from.
 
-    Args:
-        tensors: name to shape of every tensor.
-        max_parts: part queries, which no tensor tells.
+    ``tensors`` are shapes by name; none tells ``max_parts``, how many part queries there are.
 
     Raises:
         ConfigError: a tensor that every such network has is missing, or of an impossible shape.

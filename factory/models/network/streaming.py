@@ -211,7 +211,6 @@ class PairHead:
     """A head on pairs of a point and a query, for one cloud's queries.
 
     Args:
-        head: the perceptron.
         queries: shape [parts, width].
         dtype: of the product over points.
     """

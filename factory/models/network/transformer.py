@@ -36,12 +36,7 @@ class PartOutputs:
 
 
 class PartArticulationTransformer(nn.Module):  # type: ignore[misc]
-    """Points and part queries through the blocks, then the heads.
-
-    Args:
-        shape: sizes and variant.
-        dropout: in training.
-    """
+    """Points and part queries through the blocks, then the heads."""
 
     def __init__(self, shape: NetworkShape, dropout: float = 0.0) -> None:
         super().__init__()

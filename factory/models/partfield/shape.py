@@ -63,10 +63,7 @@ def read_partfield_shape(
 ) -> PartFieldShape:
     """Return the encoder that a checkpoint was saved from.
 
-    Args:
-        tensors: name to shape of every tensor.
-        heads: of the transformer, which no tensor tells.
-        sdf_channels: of the planes, which no tensor tells.
+    ``tensors`` are shapes by name; none tells the transformer's ``heads`` and ``sdf_channels``.
 
     Raises:
         ConfigError: a tensor is missing, unknown, or of an impossible shape.

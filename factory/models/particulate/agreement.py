@@ -32,9 +32,7 @@ class Consensus:
 def consensus(readings: tuple[Decoded, ...], areas: npt.ArrayLike) -> Consensus:
     """Return the answer that agrees most with the others on average, the first of equals.
 
-    Args:
-        readings: of one mesh, at least one.
-        areas: of its faces, shape [face_count].
+    ``areas`` are those of the mesh's faces, shape [face_count].
     """
     if len(readings) == 1:
         return Consensus(readings[0], 1, None)

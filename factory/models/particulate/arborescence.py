@@ -38,10 +38,6 @@ def induced(edges: tuple[Edge, ...], parts: IntArray) -> tuple[Edge, ...]:
     """Return the tree's edges among ``parts``, by child; orphans go to the nearest kept ancestor.
 
     Where the root is lost this may be several trees.
-
-    Args:
-        edges: one tree.
-        parts: those that survive.
     """
     alive = {int(part) for part in parts}
     parent = {child: above for above, child in edges}

@@ -75,11 +75,8 @@ def load_field(
 ) -> FeatureField:
     """Return PartField's encoder. The published weights are for non-commercial use only.
 
-    Args:
-        checkpoint: a safetensors, ``.pt`` or ``.ckpt`` file, or ``hf:owner/repository/file``.
-        precision: of the products.
-        device: as torch names it.
-        heads: of its transformer, which no tensor tells; the published weights have 8.
+    ``checkpoint`` is a safetensors, ``.pt`` or ``.ckpt`` file, or ``hf:owner/repository/file``. No
+    tensor tells how many heads its transformer has; the published weights have 8.
 
     Raises:
         ConfigError: no such checkpoint, or not one of this network.

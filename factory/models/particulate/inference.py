@@ -25,9 +25,7 @@ class Network(Protocol):
     def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
         """Return the answer for one cloud, all in the network's frame.
 
-        Args:
-            cloud: to label.
-            context: more of the same surface, from which features are computed.
+        ``cloud`` is to label; features are computed from ``context``, more of the same surface.
         """
         ...
 

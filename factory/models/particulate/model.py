@@ -211,12 +211,7 @@ class Particulate:
             )
 
     def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
-        """Return the answer for one cloud, all in the network's frame.
-
-        Args:
-            cloud: to label.
-            context: more of the same surface, from which features are computed.
-        """
+        """Return the answer for one cloud, see :class:`.inference.Network`."""
         points = np.asarray(cloud.points, np.float32)
         normals = np.asarray(cloud.normals, np.float32)
         return self.model.predict(
@@ -245,11 +240,8 @@ def load_model(
 ) -> Model:
     """Return a Part Articulation Transformer from a checkpoint; its tensors tell sizes and variant.
 
-    Args:
-        checkpoint: a safetensors, ``.pt`` or ``.ckpt`` file, or ``hf:owner/repository/file``.
-        precision: of the products over points.
-        device: as torch names it.
-        max_parts: part queries, which no tensor tells; the published weights have 16.
+    ``checkpoint`` is a safetensors, ``.pt`` or ``.ckpt`` file, or ``hf:owner/repository/file``. No
+    tensor tells how many part queries there are; the published weights have 16.
 
     Raises:
         ConfigError: no such checkpoint, or not one of this network.

@@ -99,10 +99,5 @@ def _cloud(asked: Message, name: str) -> Cloud:
 
 
 def identity_of(config: ParticulateConfig, digests: tuple[str, ...]) -> str:
-    """Return what tells a network's answers: the same identity, the same bits.
-
-    Args:
-        config: how the network is run.
-        digests: of the files of weights.
-    """
+    """Return what tells a network's answers: the same identity, the same bits."""
     return "/".join((*digests, config.precision, device_for(config.device), str(config.driving)))

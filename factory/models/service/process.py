@@ -35,7 +35,6 @@ class ModelService:
     given up.
 
     Args:
-        config: which network, and how it is run.
         at_once: clouds worked on at the same time; by default as many as there are processors, on
             another device one.
     """

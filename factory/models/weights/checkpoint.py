@@ -71,12 +71,7 @@ def open_checkpoint(file: Path) -> Checkpoint:
 
 
 def load_tensors(checkpoint: Checkpoint, leave: tuple[str, ...] = ()) -> dict[str, Tensor]:
-    """Return every tensor, as float32 where it is any kind of float.
-
-    Args:
-        checkpoint: to read.
-        leave: beginnings of the names that are not wanted.
-    """
+    """Return tensors, floats as float32, but those whose names begin with one of ``leave``."""
     loaded = {}
     for name, stored in checkpoint.tensors.items():
         if leave and name.startswith(leave):
@@ -87,14 +82,7 @@ def load_tensors(checkpoint: Checkpoint, leave: tuple[str, ...] = ()) -> dict[st
 
 
 def filled(kind: Any, shape: Any, tensors: dict[str, Tensor], device: str) -> Any:
-    """Return a network with its weights, ready to answer.
-
-    Args:
-        kind: makes it of its shape.
-        shape: its sizes.
-        tensors: all of its weights, by name.
-        device: as torch names it.
-    """
+    """Return a network with its weights, ready to answer."""
     import torch
 
     with torch.device("meta"):

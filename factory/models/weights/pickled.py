@@ -103,10 +103,7 @@ def _unpacked(file: Path, _inode: int, _size: int, _changed_ns: int) -> Path:
 def unpack(file: Path, target: Path, most_s: int) -> None:
     """Write an archive's tensors as safetensors; called in the child.
 
-    Args:
-        file: the archive, by its real path.
-        target: to be written.
-        most_s: processor time that the description may take [s].
+    ``file`` is its real path; its description may take ``most_s`` of processor time [s].
 
     Raises:
         ConfigError: as :func:`read_pickled`.

@@ -76,11 +76,6 @@ def write_safetensors(
 ) -> None:
     """Write tensors, the whole file or none; the same tensors give the same bytes.
 
-    Args:
-        file: where; replaced if it is there.
-        tensors: torch tensors by name.
-        metadata: about the file.
-
     Raises:
         ConfigError: the format has no name for a tensor's type.
     """

@@ -118,9 +118,6 @@ def fetch(checkpoint: str) -> Path:
     Within :func:`weights_at`, the file that it names. A download is what its address says before
     anybody reads it; where that says no commit or no digest, this is told once, with both.
 
-    Args:
-        checkpoint: a path, ``shipped``, or :data:`ADDRESS`.
-
     Raises:
         ConfigError: no such file, a malformed address, a download that failed, or one with another
             digest.

@@ -46,11 +46,8 @@ def contents(
 ) -> Iterator[tuple[str, bytes]]:
     """Yield an export's files, path and content; the last, ``SHA256SUMS``, has all digests.
 
-    Args:
-        registry: others may use it meanwhile; assets no longer in it, or no longer passing, are
-            left out.
-        entries: what to export.
-        layout: one of :data:`LAYOUTS`.
+    Others may use the registry meanwhile; assets no longer in it, or no longer passing, are left
+    out.
 
     Raises:
         RegistryError: a file differs from the published one.

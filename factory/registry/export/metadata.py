@@ -19,13 +19,7 @@ _COLUMNS = (
 
 
 def described(entry: Entry, folder: str, manifest: bytes | None) -> dict[str, Any]:
-    """Return one row: the entry, where its files are in the export, and its manifest's physics.
-
-    Args:
-        entry: of the asset.
-        folder: within the export.
-        manifest: the content of asset.json; ``None`` if there is none.
-    """
+    """Return one row: the entry, where its files are in the export, and its manifest's physics."""
     data: dict[str, Any] = json.loads(manifest) if manifest is not None else {}
     lower, upper = data.get("closed_bounds") or ([0.0] * 3, [0.0] * 3)
     moving = [joint["kind"] for joint in data.get("joints", ()) if joint["kind"] != "fixed"]

@@ -75,10 +75,7 @@ class Tally:
 def unpack(source: Path, target: Path, limits: ImportLimits) -> None:
     """Copy an export's files.
 
-    Args:
-        source: a folder, or a .tar or .tar.gz file.
-        target: an empty folder.
-        limits: on the content.
+    ``source`` is a folder, or a .tar or .tar.gz file; ``target`` an empty folder.
 
     Raises:
         RegistryError: it is no export, too large, or has something that no export has: links,

@@ -57,11 +57,7 @@ def source_yields(
 ) -> tuple[SourceYield, ...]:
     """Return the yield of every source, by name.
 
-    Args:
-        attempts: of this night, one per input.
-        roots: files and folders that inputs are taken from.
-        earlier: of each earlier night, in their order: source -> how many passed, of how many.
-        rules: over how many nights, and how large a fall counts.
+    ``earlier`` says of each earlier night, in their order: source -> how many passed, of how many.
     """
     groups: dict[str, list[bool]] = defaultdict(list)
     for attempt in attempts:

@@ -21,9 +21,7 @@ from .told import AssetPage, with_model
 def page_of_file(path: Path, live: bool = False) -> str:
     """Return one HTML file that shows a URDF, an MJCF, a mesh or an asset's folder.
 
-    Args:
-        path: of it.
-        live: it is served, and other files may be dropped on it.
+    If ``live``, it is served, and other files may be dropped on it.
 
     Raises:
         InputRejected: it cannot be shown, with a reason code.

@@ -149,10 +149,6 @@ def about(entry: Entry) -> str:
 def asset_page(root: Path, entry: Entry) -> AssetPage:
     """Return what the page of a registered asset says.
 
-    Args:
-        root: of the registry.
-        entry: its row.
-
     Raises:
         RegistryError: its report cannot be read.
     """
@@ -180,9 +176,7 @@ def asset_page(root: Path, entry: Entry) -> AssetPage:
 def with_model(page: AssetPage, model: bytes) -> AssetPage:
     """Return a page with a model: findings lead to poses, and the script has its data.
 
-    Args:
-        page: without one.
-        model: GLB of ours. Raises ValueError for another.
+    ``model`` is a GLB of ours. Raises ValueError for another.
     """
     scene = scene_from(model)
     places = Places(scene, page.report.measurements)
