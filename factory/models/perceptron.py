@@ -60,9 +60,8 @@ class Perceptron:
         known = json.loads(stored.metadata.get(f"{name}.inputs", "[]"))
         if known != list(inputs):
             wrong = sorted(set(known) ^ set(inputs)) or "another order"
-            raise ConfigError(
-                f"{stored.file.name}: {name} was fitted to other numbers: {wrong}; fit it again"
-            )
+            fitted = f"{name} was fitted to other numbers: {wrong}; fit it again"
+            raise ConfigError(f"{stored.file.name}: {fitted}")
         given = {each.name: stored.arrays.get(f"{name}.{each.name}") for each in fields(cls)}
         return cls(**given)  # type: ignore[arg-type]
 

@@ -19,8 +19,7 @@ from ...config import ParticulateConfig
 from ...models.particulate.device import device_for
 from ...models.service import Address
 from ...models.service.answering import refusal
-from ...models.service.listening import answer_all, listening_socket
-from ...models.service.process import load_answering
+from ...models.service.process import answer_all, listening_socket, load_answering
 from ...models.weights.sources import weights_at
 from .weights import SentWeights, arrived
 

@@ -14,9 +14,8 @@ from scipy.special import expit, softmax
 from ...articulation import Weights
 from ...mesh import FloatArray, IntArray, Mesh
 from ...runtime.store import digest_file
-from .canvas import look_at
+from .canvas import KINDS, look_at
 from .decode import Dense, Found, found_parts
-from .kinds import KINDS
 from .network import DenseAnswers, Detector, cues_of
 
 FILE = "detector.safetensors"

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...mesh import Float32Array
-from ..network.precision import Precision, product_dtype
+from ..network.shape import Precision, product_dtype
 from ..partfield.shape import UNUSED, PartFieldShape, read_partfield_shape
 from ..weights.checkpoint import filled, load_tensors, naming, open_checkpoint
 from ..weights.sources import fetch
