@@ -26,14 +26,9 @@ _BESIDE = (
 )
 #: These name no files.
 _LEAVES = frozenset({".stl", ".off", *_BESIDE}) - {".mtl", ".json", ".toml", ".xml", ".urdf"}
-_SUFFIX = re.compile(
-    "|".join(
-        re.escape(each)
-        for each in sorted({*_BESIDE, *(form.suffix for form in FORMATS)}, key=len, reverse=True)
-    ).encode()
-    + rb"(?![A-Za-z0-9_])",
-    re.IGNORECASE,
-)
+_LONGEST_FIRST = sorted({*_BESIDE, *(form.suffix for form in FORMATS)}, key=len, reverse=True)
+_ENDS = "|".join(map(re.escape, _LONGEST_FIRST)) + r"(?![A-Za-z0-9_])"
+_SUFFIX = re.compile(_ENDS.encode(), re.IGNORECASE)
 #: Before a name, unless a file is called strangely.
 _BEFORE = re.compile(rb"[\x00-\x1f\"'<>@|=]")
 _SCHEME = re.compile(r"^.*(://|file:)")

@@ -75,11 +75,9 @@ class Source:
                 return intake
         self.digest = ""
         self.keyed = False
-        message = (
-            f"{self.path.name}: somebody wrote its files each of the {MOST_READINGS} times that "
-            "they were read; "
-            "build it again when they are at rest"
-        )
+        when = f"each of the {MOST_READINGS} times that they were read"
+        advice = "build it again when they are at rest"
+        message = f"{self.path.name}: somebody wrote its files {when}; {advice}"
         raise InputRejected("input_changed", message, value=float(MOST_READINGS), unit="readings")
 
     def with_up(self, up: str) -> Source:

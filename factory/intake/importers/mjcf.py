@@ -61,7 +61,7 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig, log: ReadLog
     refuse_multiplied(path, root)
     # Before they are compiled: whoever changes them after this is found out by the digest.
     digests = tuple(log.digest(file) for file in (path, *files))
-    model = _compiled(path)
+    model = read_apart(partial(compile_model, lenient=True), path)
     visuals = _visuals(model)
     faces = sum(len(model.meshes[geom.mesh].faces) for geom in visuals if geom.mesh >= 0)
     require_at_most(path.name, faces, config.max_faces, "faces")
@@ -88,10 +88,6 @@ def _referenced_files(root: ET.Element, path: Path, max_bytes: int, log: ReadLog
             raise DescriptionError("missing_file", message, named.places)
         found |= dict.fromkeys(named.files)
     return list(found)
-
-
-def _compiled(path: Path) -> CompiledModel:
-    return read_apart(partial(compile_model, lenient=True), path)
 
 
 def _world_poses(model: CompiledModel) -> list[FloatArray]:
@@ -181,12 +177,8 @@ def _images(model: CompiledModel, files: InputFiles, folder: Path) -> dict[int, 
     images = {}
     for index, texture in enumerate(model.textures):
         path = folder / texture.file
-        if (
-            texture.flat
-            and texture.file
-            and path.is_file()
-            and path.resolve().is_relative_to(folder.resolve())
-        ):
+        there = texture.flat and texture.file and path.is_file()
+        if there and path.resolve().is_relative_to(folder.resolve()):
             image = load_texture(files.read(path), path.name, files)
             if image is not None:
                 images[index] = image
@@ -206,11 +198,9 @@ def _jointed(
         moving = [index for index in own if model.joints[index].kind in KINDS]
         for joint in (model.joints[index] for index in own):
             if joint.kind == "ball":
-                raise InputRejected(
-                    "unsupported_joint",
-                    f"joint {joint.name!r} of body {names[body]!r}: is a ball joint; "
-                    "want hinge or slide joints",
-                )
+                where = f"joint {joint.name!r} of body {names[body]!r}"
+                why = "is a ball joint; want hinge or slide joints"
+                raise InputRejected("unsupported_joint", f"{where}: {why}")
             if joint.kind == "free":
                 notes.append(f"body {names[body]!r} floats freely in the file; it is held fixed")
         if not moving:
@@ -248,9 +238,8 @@ def _annotated(
     joint: CompiledJoint, name: str, parent: int, child: int, pose: FloatArray
 ) -> AnnotatedJoint:
     """Return a joint of a body that the file poses so; limits count from there."""
-    lower, upper = (
-        None if limit is None else limit - joint.reference for limit in (joint.lower, joint.upper)
-    )
+    limits = (joint.lower, joint.upper)
+    lower, upper = (None if each is None else each - joint.reference for each in limits)
     return AnnotatedJoint(
         name=name,
         kind=KINDS[joint.kind],

@@ -34,7 +34,7 @@ from ..rejecting import rejecting
 from ..sidecar import read_sidecar
 from .usd_tree import annotation_of
 
-_COLLIDER_WORDS = ("collision", "collider", "collisions", "colliders")
+_COLLIDER_WORDS = frozenset({"collision", "collider", "collisions", "colliders"})
 
 
 def load_usd(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> Intake:
@@ -134,11 +134,8 @@ def _pieces(stage: PhysicsStage, name: str, max_faces: int) -> list[tuple[str, M
 
 def _is_collider(surface: PhysicsSurface) -> bool:
     """Return whether a surface lies in a group called after collisions, or is called so itself."""
-    return any(
-        word in _COLLIDER_WORDS
-        for name in surface.path.lower().split("/")
-        for word in name.split("_")
-    )
+    words = surface.path.lower().replace("/", "_").split("_")
+    return not _COLLIDER_WORDS.isdisjoint(words)
 
 
 def _intake(
