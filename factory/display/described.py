@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -60,21 +61,15 @@ def scene_of_description(description: Description, tree: Tree) -> SceneGraph:
         limits = sweep_range(joint) if joint.kind != "continuous" else None
         low, high = limits or (0.0, UNLIMITED.get(joint.kind, 0.0))
         mimic = tree.mimics.get(joint.name)
-        joints.append(
-            SceneJoint(
-                joint.name,
-                joint.kind if moves else "fixed",
-                place[joint.parent],
-                place[joint.child],
-                joint.origin,
-                unit_axis(joint),
-                low if moves else 0.0,
-                high if moves else 0.0,
-                mimic.leader if mimic else "",
-                mimic.multiplier if mimic else 1.0,
-                mimic.offset if mimic else 0.0,
-            )
-        )
+        kind = joint.kind if moves else "fixed"
+        ends = (place[joint.parent], place[joint.child])
+        frame = (joint.origin, unit_axis(joint))
+        span = (low, high) if moves else (0.0, 0.0)
+        made = SceneJoint(joint.name, kind, *ends, *frame, *span)
+        if mimic:
+            made = replace(made, leader=mimic.leader, multiplier=mimic.multiplier)
+            made = replace(made, offset=mimic.offset)
+        joints.append(made)
     looks = _FileColors(description.path.parent)
     visuals = []
     hulls = []

@@ -48,18 +48,9 @@ def scene_of_articulation(name: str, articulation: Articulation) -> SceneGraph:
         endless = joint.kind is JointKind.CONTINUOUS
         lower = 0.0 if endless else joint.lower
         upper = UNLIMITED["continuous"] if endless else joint.upper
-        joints.append(
-            SceneJoint(
-                joint.name,
-                str(joint.kind),
-                joint.parent,
-                joint.child,
-                origin,
-                joint.axis,
-                lower,
-                upper,
-            )
-        )
+        ends = (joint.parent, joint.child)
+        kind = str(joint.kind)
+        joints.append(SceneJoint(joint.name, kind, *ends, origin, joint.axis, lower, upper))
     names = tuple(part.name for part in articulation.parts)
     return SceneGraph(name, names, tuple(joints), tuple(visuals))
 

@@ -55,11 +55,9 @@ def _draw(
         with Image.open(io.BytesIO(cell.picture), formats=("WEBP",)) as opened:
             picture = opened.convert("RGBA")
         picture.thumbnail((CELL_WIDTH, CELL_HEIGHT), Image.Resampling.BOX)
-        place = (
-            left + (CELL_WIDTH - picture.width) // 2,
-            top + (CELL_HEIGHT - picture.height) // 2,
-        )
-        sheet.paste(picture, place, picture)
+        across = left + (CELL_WIDTH - picture.width) // 2
+        down = top + (CELL_HEIGHT - picture.height) // 2
+        sheet.paste(picture, (across, down), picture)
     color = VERDICTS.get(cell.verdict, DIM)
     middle = top + CELL_HEIGHT + 9
     draw.ellipse((left + 2, middle - 4, left + 10, middle + 4), fill=color)

@@ -1,4 +1,4 @@
-"""Asset -> Bundle: one folder of URDF, MJCF, meshes, manifest; same bytes for the same asset."""
+"""Asset -> Bundle: one folder of URDF, MJCF, meshes, manifest, and its model for pages."""
 
 from __future__ import annotations
 
@@ -7,12 +7,16 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..asset import Asset
+from ..display.glb import glb_of
+from ..display.made import scene_of, scene_of_mesh
 from ..intake.intake import Provenance
-from ..runtime.layout import MANIFEST, MESHES, MJCF, URDF
+from ..mesh import Mesh
+from ..runtime.layout import MANIFEST, MESHES, MJCF, MODEL, URDF
 from .described import manifest_of
 from .formats import formats_named
 from .links import Layout, lay_out
 from .manifest import Manifest
+from .text import write_text
 
 
 @dataclass(frozen=True)
@@ -60,7 +64,7 @@ def export_bundle(
     manifest = manifest_of(layout, provenance)
     for each in chosen:
         each.write(layout, folder / each.file)
-    _write_manifest(manifest, folder)
+    write_text(folder / MANIFEST, manifest.to_json())
     return Bundle(folder, folder / URDF, folder / MJCF, manifest, layout)
 
 
@@ -68,9 +72,20 @@ def with_manifest_of(bundle: Bundle, asset: Asset, provenance: Provenance) -> Bu
     """Return a bundle with a new ``asset.json``, of the same asset with other targets."""
     layout = replace(bundle.layout, asset=asset)
     manifest = manifest_of(layout, provenance)
-    _write_manifest(manifest, bundle.folder)
+    write_text(bundle.folder / MANIFEST, manifest.to_json())
     return replace(bundle, manifest=manifest, layout=layout)
 
 
-def _write_manifest(manifest: Manifest, folder: Path) -> None:
-    (folder / MANIFEST).write_text(manifest.to_json(), encoding="utf-8", newline="\n")
+def write_input(mesh: Mesh, folder: Path) -> Path:
+    """Write ``view.glb`` of an input that became no asset; returns its new folder."""
+    folder.mkdir()
+    (folder / MODEL).write_bytes(glb_of(scene_of_mesh("input", mesh)))
+    return folder
+
+
+def write_model(asset: Asset, folder: Path, before: Asset | None = None) -> None:
+    """Write ``view.glb`` into a bundle's folder: the same bytes for the same asset.
+
+    ``before`` is what the asset was before repairs, if there were any.
+    """
+    (folder / MODEL).write_bytes(glb_of(scene_of(asset, before)))

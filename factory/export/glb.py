@@ -46,10 +46,8 @@ def write_glb_asset(layout: Layout, file: Path) -> None:
             node["mesh"] = len(meshes)
             meshes.append({"primitives": primitives})
         nodes.append(node)
-    images = tuple(
-        None if piece.texture is None else (file.parent / piece.texture).read_bytes()
-        for piece in pieces
-    )
+    files = (None if piece.texture is None else file.parent / piece.texture for piece in pieces)
+    images = tuple(each if each is None else each.read_bytes() for each in files)
     document = {
         "scene": 0,
         "scenes": [{"nodes": [0]}],
