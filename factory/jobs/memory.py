@@ -29,11 +29,8 @@ def workers_for(asked: int | None, each: int) -> tuple[int, str | None]:
     room = wanted if free is None else max(1, free // each)
     if room >= wanted:
         return wanted, None
-    sentence = (
-        f"{room} of {wanted} workers start: {_gib(free or 0)} of memory are free, "
-        f"and one may need {_gib(each)}"
-    )
-    return room, sentence
+    short = f"{_gib(free or 0)} of memory are free, and one may need {_gib(each)}"
+    return room, f"{room} of {wanted} workers start: {short}"
 
 
 def free_memory(proc: Path = PROC, groups: Path = GROUPS) -> int | None:

@@ -45,9 +45,8 @@ def _from_archive(path: Path) -> tuple[Entry, ...]:
             if content is not None:
                 with content:
                     return _parsed(path, content)
-    raise RegistryError(
-        f"{path}: no {ENTRIES_NAME} in it; want an export as `factory registry export` writes it"
-    )
+    want = "want an export as `factory registry export` writes it"
+    raise RegistryError(f"{path}: no {ENTRIES_NAME} in it; {want}")
 
 
 def _parsed(path: Path, stream: IO[bytes]) -> tuple[Entry, ...]:

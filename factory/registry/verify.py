@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from enum import StrEnum
+from itertools import chain
 from pathlib import Path
 
 from ..errors import RegistryError
@@ -85,9 +86,8 @@ def verify(registry: Registry, ids: Iterable[str] | None = None) -> tuple[Proble
         Faults, by id. ``factory registry rebuild`` mends rows; a file that is not as
         published is built again.
     """
-    return tuple(
-        problem for asset_id in _ids(registry, ids) for problem in _confirmed(registry, asset_id)
-    )
+    found = (_confirmed(registry, asset_id) for asset_id in _ids(registry, ids))
+    return tuple(chain.from_iterable(found))
 
 
 def _ids(registry: Registry, ids: Iterable[str] | None) -> list[str]:

@@ -18,17 +18,15 @@ from ...registry.diff import diff
 from ...registry.result import Result
 from ...registry.verify import Problem, Settled
 from ...report.nightly import files
-from ...report.nightly.drift import source_yields
-from ...report.nightly.figures import compare
+from ...report.nightly.figures import compare, source_yields
 from ...report.nightly.formats import counted, stamp
 from ...report.nightly.night import Night, NightResult, attempt_of, latest, tally
 from ...report.nightly.outcome import concerns, exit_code
 from ...report.nightly.report import NightlyReport
 from ...report.nightly.table import read_table
 from ...report.summary import JobState
-from .journal import journal, log, read_journal, utc_now
+from .journal import journal, locked, log, read_journal, utc_now
 from .licenses import sort_out
-from .lock import locked
 from .settings import NightConfig
 from .work import Work
 

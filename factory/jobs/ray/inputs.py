@@ -87,11 +87,8 @@ class PackedInput:
 
     def lacking(self, reads: Reads) -> frozenset[str]:
         """Return the files that its reader missed on a node, and that are here."""
-        return frozenset(
-            name
-            for name, digest in reads.items()
-            if name not in self.names and digest_now(self.source, name) != digest
-        )
+        other = {name: digest for name, digest in reads.items() if name not in self.names}
+        return frozenset(n for n, digest in other.items() if digest_now(self.source, n) != digest)
 
 
 @dataclass(frozen=True)
