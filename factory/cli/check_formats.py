@@ -24,7 +24,7 @@ from ..runtime.terminal import one_line, printable
 PAGE = "docs/reasons.md"
 SARIF = "https://json.schemastore.org/sarif-2.1.0.json"
 Checked = Sequence[tuple[str, Report]]
-#: Of the file's form.
+#: Of the form of a baseline, and the most that is read of one [bytes].
 VERSION = 1
 _MAX_BYTES = 64_000_000
 

@@ -33,7 +33,7 @@ VISUALS = 0
 HULLS = 1
 REPLACED = 2
 MAX_BYTES = 512 * 2**20
-#: What a file of at most so many bytes may hold; it refers to no other files.
+#: What a stored model of at most so many bytes may hold; it refers to no other files.
 _LIMITS = replace(IntakeConfig(), max_bytes=MAX_BYTES, max_faces=MAX_BYTES)
 _NO_FOLDER = Path(os.devnull)
 

@@ -14,6 +14,7 @@ from .unet import PlaneUNet
 Tensor = Any
 _CHUNK = 8192
 _EPS = 1e-6
+#: Voxels along each edge of the cube, and the axes of the planes that they are seen on.
 GRID = 32
 PLANES = ((0, 1), (1, 2), (0, 2))
 _VOXEL_EPS = 1e-4

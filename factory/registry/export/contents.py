@@ -31,6 +31,7 @@ _LISTS = (ENTRIES_NAME, SUMS_NAME, LICENSES_NAME, CARD_NAME)
 #: Everything that an export may begin with.
 TOP_NAMES = (ASSETS, REJECTED, NOTES, "metadata", *_LISTS)
 _TRIES = 3
+#: Longest name of a file or folder in an export, and longest path.
 MAX_NAME = 255
 MAX_PATH = 1024
 #: What a row has of its entry.
