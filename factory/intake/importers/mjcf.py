@@ -61,7 +61,7 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig, log: ReadLog
     refuse_multiplied(path, root)
     # Before they are compiled: whoever changes them after this is found out by the digest.
     digests = tuple(log.digest(file) for file in (path, *files))
-    model = read_apart(partial(compile_model, lenient=True), path)
+    model = _compiled(path)
     visuals = _visuals(model)
     faces = sum(len(model.meshes[geom.mesh].faces) for geom in visuals if geom.mesh >= 0)
     require_at_most(path.name, faces, config.max_faces, "faces")
@@ -88,6 +88,10 @@ def _referenced_files(root: ET.Element, path: Path, max_bytes: int, log: ReadLog
             raise DescriptionError("missing_file", message, named.places)
         found |= dict.fromkeys(named.files)
     return list(found)
+
+
+def _compiled(path: Path) -> CompiledModel:
+    return read_apart(partial(compile_model, lenient=True), path)
 
 
 def _world_poses(model: CompiledModel) -> list[FloatArray]:
@@ -225,7 +229,10 @@ def _is_mimic(equality: CompiledEquality) -> bool:
 
 
 def _mimics(model: CompiledModel, labels: Mapping[int, str]) -> dict[str, Mimic]:
-    """Return follower -> what it follows; ``labels`` are names of moving joints by index."""
+    """Return follower -> what it follows, constant and linear part; values count from references.
+
+    ``labels`` are names of moving joints by index.
+    """
     found: dict[str, Mimic] = {}
     for equality in model.equalities:
         if _is_mimic(equality) and set(equality.joints) <= set(labels):
